@@ -1,0 +1,48 @@
+// The quantised coefficients of a slice from its coefficient units. Spec 8.7.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "attributes/coefficient_layout.h"
+#include "attributes/independent_coefficients.h"
+#include "attributes/vector_coefficients.h"
+#include "slf/error.h"
+
+namespace slf {
+
+/// Functions of every group, ascending.
+using PlaneGroups = std::vector<std::vector<std::uint16_t>>;
+
+/// The entropy coding state of every group of a slice; it lives on from level range to level range.
+class CoefficientModels {
+ public:
+  CoefficientModels(const PlaneGroups& groups, std::size_t num_points, std::size_t planes, bool vector);
+
+  /// Codes rows order[begin .. end) of a group; see VectorCoefficients::code.
+  template <class Coder>
+  bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin, std::size_t end) {
+    if (!vector_.empty())
+      return vector_[group].code(coder, rows, group > 0 ? &vector_[group - 1] : nullptr, begin, end);
+    return independent_[group].code(coder, rows, begin, end);
+  }
+
+ private:
+  std::vector<VectorCoefficients> vector_;  // one of the two is empty
+  std::vector<IndependentCoefficients> independent_;
+};
+
+/// Decodes one unit: rows order[begin .. end) of `group` into rows.values. cut: the rows are fewer
+/// than the unit holds, so its end is not reached.
+Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, CoefficientModels& models,
+                                 const CoefficientRows& rows, std::size_t group, std::size_t begin,
+                                 std::size_t end, bool cut);
+
+/// Multiplies every value by the step of its plane. Spec 8.7.4.
+/// @param steps  [planes]
+/// @errors kOutOfRange: a product of 2^27 or more.
+Result<Done> dequantise(std::span<std::int32_t> values, std::span<const std::uint32_t> steps);
+
+}  // namespace slf

@@ -1,0 +1,29 @@
+// What the coefficient coders know of the arrays they work on. Spec 8.7.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "attributes/raht_tree.h"
+
+namespace slf {
+
+/// The quantised coefficients of a slice: [P][3 * K], row-major; function k, channel c at 3 k + c.
+struct CoefficientRows {
+  const RahtTree& tree;
+  std::span<std::int32_t> values;
+  std::size_t planes;
+
+  std::int32_t* row(std::size_t r) const { return values.data() + r * planes; }
+};
+
+/// The levels a row's difference belongs to, finest 0; the mean of all has a class of its own.
+inline constexpr std::uint32_t kLevelClasses = 13;
+inline std::uint32_t level_class(const RahtTree& tree, std::uint32_t row) {
+  if (row == 0) return kLevelClasses - 1;
+  const std::uint32_t level = tree.split[row] / 3u;
+  return level < kLevelClasses - 2 ? level : kLevelClasses - 2;
+}
+
+}  // namespace slf

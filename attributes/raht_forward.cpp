@@ -1,0 +1,36 @@
+#include "attributes/raht_forward.h"
+
+#include "attributes/raht_arithmetic.h"
+#include "bitstream/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kLanes = 48;
+
+SLF_MULTIVERSION
+void forward_lanes(const Merge* merges, std::size_t count, std::int32_t* values, std::size_t stride,
+                   std::size_t lanes) {
+  for (std::size_t i = count; i-- > 0;) {
+    const Merge& m = merges[i];
+    std::int32_t* __restrict left = values + m.left * stride;
+    std::int32_t* __restrict right = values + m.right * stride;
+    const std::int64_t c = m.cos_q30, s = m.sin_q30;
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const std::int64_t a = left[j], b = right[j];
+      left[j] = round_q30(c * a + s * b);
+      right[j] = round_q30(c * b - s * a);
+    }
+  }
+}
+
+}  // namespace
+
+void raht_forward(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads) {
+  const auto stride = static_cast<std::size_t>(planes);
+  parallel_ranges(stride, kLanes, threads, [&](std::size_t begin, std::size_t end) {
+    forward_lanes(tree.merges.data(), tree.merges.size(), values.data() + begin, stride, end - begin);
+  });
+}
+
+}  // namespace slf

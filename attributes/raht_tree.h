@@ -1,0 +1,44 @@
+// The transform tree over the points of a slice; every plane uses the same. Spec 8.6.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slf {
+
+/// One merge of two nodes. Rows are points in Morton order; a node's mean lives in the row of its
+/// first point, the difference of a merge in the row of the right node's first point. So every row
+/// but 0 holds exactly one difference when the transform is done, and row 0 the mean of all.
+struct Merge {
+  std::uint32_t left, right;    ///< rows
+  std::int32_t cos_q30, sin_q30;  ///< sqrt of the left and right share of the weight (spec 8.6.2)
+};
+
+struct RahtTree {
+  std::vector<Merge> merges;          ///< [P - 1] parents before children, depth first
+  std::vector<std::uint8_t> split;    ///< [P] Morton bit that row's merge joins; 255 for row 0
+  std::vector<std::uint32_t> parent;  ///< [P] row whose merge is next above row's; 0 at the top
+  std::vector<std::uint32_t> order;   ///< [P] rows in coding order: row 0, then by split descending,
+                                      ///< rows ascending within a split
+  std::size_t size() const { return split.size(); }
+};
+
+/// morton: distinct, ascending, at least one, at most 2^22. O(P).
+RahtTree build_raht_tree(std::span<const std::uint64_t> morton);
+
+/// The top of a tree: only merges of split >= lowest_split, rows renumbered to those that remain.
+struct RahtTop {
+  RahtTree tree;
+  std::vector<std::uint32_t> first;  ///< [rows + 1] first point of each row's node, and P
+};
+RahtTop cut_raht_tree(const RahtTree& tree, int lowest_split);
+
+/// floor(sqrt(n)).
+std::uint64_t isqrt(std::uint64_t n);
+
+/// Position in tree.order of the first row whose split is below `bit`.
+std::size_t order_end(const RahtTree& tree, int bit);
+
+}  // namespace slf

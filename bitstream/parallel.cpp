@@ -1,0 +1,36 @@
+#include "bitstream/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace slf {
+
+int thread_count(int threads, std::size_t items) {
+  if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return static_cast<int>(std::clamp<std::size_t>(items, 1, static_cast<std::size_t>(threads)));
+}
+
+void parallel_ranges(std::size_t items, std::size_t grain, int threads,
+                     const std::function<void(std::size_t, std::size_t)>& body,
+                     const std::function<void(std::size_t)>& tick) {
+  if (items == 0) return;
+  grain = std::max<std::size_t>(grain, 1);
+  const std::size_t ranges = (items + grain - 1) / grain;
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&](bool reports) {
+    for (std::size_t i; (i = next.fetch_add(1)) < ranges;) {
+      const std::size_t end = std::min(items, (i + 1) * grain);
+      body(i * grain, end);
+      done.fetch_add(end - i * grain);
+      if (reports && tick) tick(done.load());
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = thread_count(threads, ranges) - 1; t > 0; --t) pool.emplace_back(work, false);
+  work(true);
+  for (auto& thread : pool) thread.join();
+}
+
+}  // namespace slf

@@ -1,0 +1,182 @@
+// The headers of the format, each written once: visited to parse and to write. Spec 7.2 - 7.9.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "slf/error.h"
+
+namespace slf {
+
+inline constexpr int kVersionMajor = 0, kVersionMinor = 1;
+
+/// Functions k .. k + length - 1 share group, shift and steps.
+struct PlaneRun {
+  std::uint32_t sps_run_length_minus1 = 0;
+  std::uint32_t sps_plane_group = 0;
+  std::uint32_t sps_plane_shift = 0;
+  std::uint32_t sps_equal_steps_flag = 1;
+  std::array<std::uint32_t, 3> sps_plane_step{1, 1, 1};
+};
+
+/// Spec 7.2. Defaults are what is inferred where an element is not present.
+struct SequenceParameterSet {
+  std::uint32_t sps_version_major = kVersionMajor, sps_version_minor = kVersionMinor;
+  std::uint32_t sps_profile = 0, sps_level = 0;
+  std::uint32_t sps_grid_bits_minus1 = 0;
+  std::uint32_t sps_unit_grid_flag = 1;
+  std::array<double, 3> sps_origin{0, 0, 0};
+  double sps_step = 1;
+  std::uint32_t sps_up_axis = 6, sps_left_handed_flag = 0, sps_metres_flag = 0;
+  double sps_metres_per_unit = 0;
+  std::uint32_t sps_geometry_coder = 0;
+  std::uint32_t sps_normal_bits = 0;
+  std::uint32_t sps_num_functions = 0;
+  std::uint32_t sps_basis_flag = 0;
+  std::uint32_t sps_basis_idc = 0, sps_order_minus1 = 1, sps_scales_theta = 0, sps_scales_gamma = 0;
+  std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
+  std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
+  std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
+  std::vector<PlaneRun> runs;
+  std::uint32_t sps_num_stages_minus1 = 0;
+  std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
+  std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
+
+  std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
+  std::uint32_t num_groups() const { return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1; }
+};
+
+template <class V, class Run>
+void plane_run(V& v, Run& r, std::uint32_t functions_left, std::uint32_t num_groups) {
+  v.ue("sps_run_length_minus1", r.sps_run_length_minus1, Range{0, std::int64_t{functions_left} - 1});
+  v.ue("sps_plane_group", r.sps_plane_group, Range{0, std::int64_t{num_groups} - 1});
+  v.u(4, "sps_plane_shift", r.sps_plane_shift, Range{0, 15});
+  v.u(1, "sps_equal_steps_flag", r.sps_equal_steps_flag, Range{0, 1});
+  for (std::size_t c = 0; c < (r.sps_equal_steps_flag ? 1u : 3u); ++c)
+    v.ue("sps_plane_step", r.sps_plane_step[c], Range{1, (1 << 27) - 1});
+}
+
+/// Level ranges: ends ascending, the last is grid_bits and is not coded.
+template <class V, class Count, class Ends>
+void level_ranges(V& v, const char* count_name, const char* end_name, Count& count_minus1, Ends& ends,
+                  std::uint32_t grid_bits) {
+  v.ue(count_name, count_minus1, Range{0, std::int64_t{grid_bits} - 1});
+  v.resize(end_name, ends, count_minus1);
+  std::int64_t least = 1;
+  for (auto& end : ends) {
+    v.u(5, end_name, end, Range{least, std::int64_t{grid_bits} - 1});
+    least = std::int64_t{end} + 1;
+  }
+}
+
+/// Runs until sps_num_functions functions are described.
+template <class V, class Set>
+void plane_table(V& v, Set& s) {
+  std::uint32_t described = 0;
+  for (std::size_t i = 0; v.ok() && described < s.sps_num_functions; ++i) {
+    if constexpr (requires { s.runs.emplace_back(); })
+      if (i == s.runs.size()) s.runs.emplace_back();
+    plane_run(v, s.runs[i], s.sps_num_functions - described, s.num_groups());
+    described += s.runs[i].sps_run_length_minus1 + 1;
+  }
+}
+
+// Spec 7.2  sequence_parameter_set( )
+template <class V, class Set>
+void sequence_parameter_set(V& v, Set& s) {
+  v.u(8, "sps_version_major", s.sps_version_major, Range{0, 255});
+  v.u(8, "sps_version_minor", s.sps_version_minor, Range{0, 255});
+  // Before 1.0 every minor version may differ in anything that follows.
+  v.require(s.sps_version_major == kVersionMajor, Errc::kUnsupported, "sps_version_major");
+  v.require(s.sps_version_minor == kVersionMinor, Errc::kUnsupported, "sps_version_minor");
+  v.u(4, "sps_profile", s.sps_profile, Range{0, 15});
+  v.require(s.sps_profile <= 1, Errc::kUnsupported, "sps_profile");
+  v.u(4, "sps_level", s.sps_level, Range{0, 15});
+  v.require(s.sps_level == 0, Errc::kUnsupported, "sps_level");
+  v.u(5, "sps_grid_bits_minus1", s.sps_grid_bits_minus1, Range{0, 20});
+  v.u(1, "sps_unit_grid_flag", s.sps_unit_grid_flag, Range{0, 1});
+  if (!s.sps_unit_grid_flag) {
+    for (auto& coordinate : s.sps_origin) v.f64("sps_origin", coordinate, false);
+    v.f64("sps_step", s.sps_step, true);
+  }
+  v.u(3, "sps_up_axis", s.sps_up_axis, Range{0, 6});
+  v.u(1, "sps_left_handed_flag", s.sps_left_handed_flag, Range{0, 1});
+  v.u(1, "sps_metres_flag", s.sps_metres_flag, Range{0, 1});
+  if (s.sps_metres_flag) v.f64("sps_metres_per_unit", s.sps_metres_per_unit, true);
+  v.u(2, "sps_geometry_coder", s.sps_geometry_coder, Range{0, 1});
+  v.require(s.sps_geometry_coder == s.sps_profile, Errc::kOutOfRange, "sps_geometry_coder");
+  v.u(4, "sps_normal_bits", s.sps_normal_bits, Range{0, 12});
+  v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kReserved, "sps_normal_bits");
+  level_ranges(v, "sps_num_geometry_ranges_minus1", "sps_geometry_range_end",
+               s.sps_num_geometry_ranges_minus1, s.sps_geometry_range_end, s.grid_bits());
+  v.require(s.sps_geometry_coder == 0 || s.sps_num_geometry_ranges_minus1 == 0, Errc::kOutOfRange,
+            "sps_num_geometry_ranges_minus1");
+  v.ue("sps_num_functions", s.sps_num_functions, Range{0, 4096});
+  if (s.sps_num_functions == 0) return;
+  v.u(1, "sps_basis_flag", s.sps_basis_flag, Range{0, 1});
+  if (s.sps_basis_flag) {
+    v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 0});
+    v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
+    v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
+    v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
+    v.require(s.sps_num_functions == 1u << (s.sps_scales_theta + s.sps_scales_gamma), Errc::kOutOfRange,
+              "sps_num_functions");
+    v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 0});
+    v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
+    v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
+    v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
+    v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
+  }
+  v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, 1});
+  v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
+  v.u(3, "sps_num_stages_minus1", s.sps_num_stages_minus1, Range{0, 0});
+  level_ranges(v, "sps_num_coefficient_ranges_minus1", "sps_coefficient_range_end",
+               s.sps_num_coefficient_ranges_minus1, s.sps_coefficient_range_end, s.grid_bits());
+  plane_table(v, s);
+}
+
+/// Spec 7.3. The slice's cube is cell slice_cell of side 2^slice_depth.
+struct SliceHeader {
+  std::uint32_t slice_id = 0;
+  std::uint32_t slice_num_points_minus1 = 0;
+  std::uint32_t slice_depth = 0;
+  std::array<std::uint32_t, 3> slice_cell{0, 0, 0};
+};
+
+inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
+inline constexpr std::uint32_t kMaxSlices = 1u << 20;
+
+// Spec 7.3  slice_header( )
+template <class V, class Header>
+void slice_header(V& v, Header& h, std::uint32_t grid_bits) {
+  v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
+  v.ue("slice_num_points_minus1", h.slice_num_points_minus1, Range{0, kMaxSlicePoints - 1});
+  v.u(5, "slice_depth", h.slice_depth, Range{0, std::int64_t{grid_bits}});
+  const int cell_bits = static_cast<int>(grid_bits - (v.ok() ? h.slice_depth : grid_bits));
+  for (auto& cell : h.slice_cell) v.u(cell_bits, "slice_cell", cell, Range{0, (1 << cell_bits) - 1});
+}
+
+/// Spec 7.4 - 7.6, 7.9: what stands before the payload of a unit that belongs to a slice.
+struct SliceUnitHeader {
+  std::uint32_t slice_id = 0;
+  std::uint32_t range = 0;  ///< geometry and coefficient units
+  std::uint32_t group = 0;  ///< coefficient units
+};
+
+// Spec 7.4  geometry_unit( ), 7.5 normals_unit( ), 7.6 coefficient_unit( ), 7.9 digest_unit( )
+template <class V, class Header>
+void slice_unit_header(V& v, Header& h, bool has_range, bool has_group) {
+  v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
+  if (has_range) v.ue("level_range", h.range, Range{0, 20});
+  if (has_group) v.ue("plane_group", h.group, Range{0, 15});
+}
+
+Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);
+std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set);
+Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload, std::uint32_t grid_bits);
+std::vector<std::uint8_t> write_slice_header(const SliceHeader& header, std::uint32_t grid_bits);
+
+}  // namespace slf

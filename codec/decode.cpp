@@ -1,0 +1,107 @@
+// The decoder's main path. Spec clause 8; steps and names are mirrored in codec/pack.cpp.
+#include "slf/decoder.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "bitstream/index.h"
+#include "bitstream/parallel.h"
+#include "codec/sequence.h"
+#include "codec/slice_units.h"
+
+namespace slf {
+namespace {
+
+Result<SequencePlan> plan_sequence(const SequenceParameterSet& set, const DecodeOptions& options) {
+  SequencePlan plan{set, {}, {}, static_cast<int>(set.grid_bits()), true};
+  if (options.levels < 0 || options.levels > plan.levels) return Error{Errc::kInvalidArgument, "levels", 0};
+  if (options.groups < 0 || options.groups > static_cast<int>(set.num_groups()))
+    return Error{Errc::kInvalidArgument, "groups", 0};
+  if (plan.planes() > options.limits.max_planes) return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
+  if (options.levels > 0) plan.levels = options.levels;
+  plan.groups.resize(options.groups > 0 ? static_cast<std::size_t>(options.groups) : set.num_groups());
+  plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups();
+  const auto groups = function_groups(set);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (const auto g = static_cast<std::size_t>(groups[k]); g < plan.groups.size())
+      plan.groups[g].push_back(static_cast<std::uint16_t>(k));
+  for (const auto& step : function_steps(set)) plan.steps.insert(plan.steps.end(), step.begin(), step.end());
+  return plan;
+}
+
+/// The sum of what the slices say they hold, checked before any of it is decoded.
+Result<Done> check_limits(const std::vector<SliceDecoder>& slices, const SequencePlan& plan,
+                          const DecodeLimits& limits) {
+  std::uint64_t points = 0;
+  for (const SliceDecoder& slice : slices) {
+    points += std::uint64_t{slice.header.slice_num_points_minus1} + 1;
+    if (static_cast<int>(plan.set.grid_bits() - slice.header.slice_depth) >= plan.levels && slices.size() > 1)
+      return Error{Errc::kInvalidArgument, "levels", 0};  // coarser than the slices are
+  }
+  const std::uint64_t bytes_per_point = sizeof(Voxel) + plan.planes() * sizeof(std::int32_t) + 4;
+  if (points > limits.max_points) return Error{Errc::kLimitExceeded, "slice_num_points_minus1", 0};
+  if (points > limits.max_output_bytes / bytes_per_point)
+    return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
+  return Done{};
+}
+
+/// Runs step(i) for every slice, on several threads where there are several slices; the error of the
+/// first slice in stream order that has one.
+template <class Step>
+Result<Done> for_each_slice(std::size_t count, int threads, Step step) {
+  std::vector<std::optional<Error>> errors(count);
+  parallel_ranges(count, 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (auto done = step(i); !done) errors[i] = done.error();
+  });
+  for (const auto& error : errors)
+    if (error) return *error;
+  return Done{};
+}
+
+}  // namespace
+
+Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
+  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream", 0};
+  SLF_TRY(const Units units, split_units(stream, options.max_bytes));                      // 7.1
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));                           // 7.2
+  SLF_CHECK(check_index(units));                                                           // 7.7
+  SLF_TRY(const SequencePlan plan, plan_sequence(set, options));                           // 8.2
+  SLF_TRY(auto slices, collect_slices(units, set));                                        // 7.3
+  SLF_CHECK(check_limits(slices, plan, options.limits));  // 9
+  const int slice_threads = thread_count(options.threads, slices.size());
+  const int plane_threads = slices.size() > 1 ? 1 : options.threads;
+
+  SLF_CHECK(for_each_slice(slices.size(), slice_threads, [&](std::size_t i) {
+            return slices[i].decode_geometry(plan);                                        // 8.4 - 8.6
+          }));
+  LightField field;
+  field.header = header_of(set);
+  field.header.grid = coarser_grid(field.header.grid, plan.levels);
+  field.normals.bits = static_cast<int>(set.sps_normal_bits);
+  std::vector<std::size_t> first{0};
+  for (const SliceDecoder& slice : slices) {
+    field.positions.insert(field.positions.end(), slice.positions.begin(), slice.positions.end());
+    first.push_back(field.positions.size());
+  }
+  field.components.assign(field.num_points() * plan.planes(), 0);
+  field.normals.octahedral.assign(field.normals.bits > 0 ? field.num_points() : 0, {});
+
+  SLF_CHECK(for_each_slice(slices.size(), slice_threads, [&](std::size_t i) -> Result<Done> {
+            const std::size_t points = first[i + 1] - first[i];
+            const auto components = std::span(field.components).subspan(first[i] * plan.planes(), points * plan.planes());
+            const auto normals = field.normals.bits > 0 ? std::span(field.normals.octahedral).subspan(first[i], points)
+                                                        : std::span<std::array<std::uint16_t, 2>>{};
+            SLF_CHECK(slices[i].decode_components(plan, components, plane_threads));  // 8.7 - 8.9
+            if (field.normals.bits > 0) {
+              SLF_CHECK(slices[i].decode_normals(plan, normals));  // 8.10
+            }
+            if (slices[i].partial || !plan.whole) return Done{};
+            return slices[i].check_digest(components, normals);                            // 7.9
+          }));
+  field.partial = !units.complete || !plan.whole;
+  for (const SliceDecoder& slice : slices) field.partial = field.partial || slice.partial;
+  return field;
+}
+
+}  // namespace slf

@@ -1,0 +1,19 @@
+// Between the coded sequence parameters and the header people see. Spec 7.2.
+#pragma once
+
+#include "bitstream/parameter_sets.h"
+#include "codec/slice_decoder.h"
+#include "slf/types.h"
+
+namespace slf {
+
+LightFieldHeader header_of(const SequenceParameterSet& set);
+
+/// group and steps of every function, from the runs of the plane table.
+std::vector<int> function_groups(const SequenceParameterSet& set);
+std::vector<std::array<std::uint32_t, 3>> function_steps(const SequenceParameterSet& set);
+
+/// The grid of the coarser voxels that `levels` of a grid's levels give: their centres.
+Grid coarser_grid(const Grid& grid, int levels);
+
+}  // namespace slf

@@ -1,0 +1,169 @@
+#include "codec/slice_decoder.h"
+
+#include <algorithm>
+
+#include "attributes/normal_model.h"
+#include "attributes/raht_inverse.h"
+#include "codec/slice_digest.h"
+#include "entropy/range_decoder.h"
+#include "geometry/draco_decoder.h"
+#include "geometry/morton.h"
+#include "geometry/octree_decoder.h"
+
+namespace slf {
+
+std::uint32_t range_end(const std::vector<std::uint32_t>& coded_ends, std::uint32_t range,
+                        std::uint32_t grid_bits) {
+  return range < coded_ends.size() ? coded_ends[range] : grid_bits;
+}
+
+int slice_level(std::uint32_t end, std::uint32_t grid_bits, std::uint32_t slice_depth) {
+  const std::uint32_t above = grid_bits - slice_depth;  // levels above the slice's cube
+  return end > above ? static_cast<int>(end - above) : 0;
+}
+
+Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePlan& plan, int& depth) {
+  OctreeDecoder octree(static_cast<int>(header.slice_depth), std::uint64_t{header.slice_num_points_minus1} + 1);
+  std::uint32_t range = 0;
+  for (const SliceUnit& unit : units) {
+    if (unit.type != UnitType::kGeometry) continue;
+    if (unit.header.range != range || range > plan.set.sps_num_geometry_ranges_minus1)
+      return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
+    const std::uint32_t end = range_end(plan.set.sps_geometry_range_end, range, plan.set.grid_bits());
+    SLF_CHECK(octree.decode(unit.payload, slice_level(end, plan.set.grid_bits(), header.slice_depth)));
+    ++range;
+  }
+  depth = octree.level();
+  if (range <= plan.set.sps_num_geometry_ranges_minus1) partial = true;
+  if (range == 0) return std::vector<std::uint64_t>{};
+  return octree.morton();
+}
+
+Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const SequencePlan& plan) {
+  std::vector<std::uint64_t> codes;
+  const auto unit = std::find_if(units.begin(), units.end(),
+                                 [](const SliceUnit& u) { return u.type == UnitType::kGeometry; });
+  partial = unit == units.end();
+  if (partial) return codes;
+  SLF_TRY(const auto voxels, decode_draco(unit->payload, static_cast<int>(header.slice_depth),
+                                          std::uint64_t{header.slice_num_points_minus1} + 1));
+  (void)plan;
+  for (const Voxel& v : voxels) codes.push_back(morton(v));
+  std::sort(codes.begin(), codes.end());
+  if (std::adjacent_find(codes.begin(), codes.end()) != codes.end())
+    return Error{Errc::kOutOfRange, "gu_draco", unit->offset * 8};
+  return codes;
+}
+
+Result<Done> SliceDecoder::decode_geometry(const SequencePlan& plan) {
+  int depth = static_cast<int>(header.slice_depth);
+  SLF_TRY(auto codes, plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit(plan));
+  if (!partial && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
+    return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
+  keep(std::move(codes), depth, plan);
+  return Done{};
+}
+
+/// Cuts the points to plan.levels and puts them on that grid. Where the geometry is incomplete, cells
+/// of the deepest level known stand for their points, which are in the middle of them.
+void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const SequencePlan& plan) {
+  if (codes.empty()) return;
+  const int bits = static_cast<int>(plan.set.grid_bits());
+  const int dropped = bits - plan.levels;                                 // grid levels below those kept
+  const int unknown = static_cast<int>(header.slice_depth) - depth;       // slice levels not decoded
+  if (!partial) {
+    RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
+    tree_ = std::move(top.tree);
+    first_ = std::move(top.first);
+  }
+  std::uint64_t last = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const Voxel cell = from_morton(codes[i]);
+    Voxel v;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t middle = unknown > 0 ? 1 << (unknown - 1) : 0;
+      const auto corner = static_cast<std::int32_t>(header.slice_cell[axis] << header.slice_depth);
+      v[axis] = (corner + (cell[axis] << unknown) + middle) >> dropped;
+    }
+    const std::uint64_t code = morton(v);
+    if (positions.empty() || code != last) positions.push_back(v);
+    last = code;
+  }
+}
+
+Result<Done> SliceDecoder::decode_components(const SequencePlan& plan, std::span<std::int32_t> components,
+                                             int threads) {
+  const std::size_t planes = plan.planes();
+  if (planes == 0) return Done{};
+  const SequenceParameterSet& set = plan.set;
+  const std::uint32_t ranges = set.sps_num_coefficient_ranges_minus1 + 1;
+  const std::uint32_t groups = set.num_groups();
+  std::uint32_t expected = 0;  // units come by range, then group
+  if (tree_.size() > 0) {
+    CoefficientModels models(plan.groups, tree_.size(), planes, set.sps_coefficient_coder == 0);
+    const CoefficientRows rows{tree_, components, planes};
+    for (const SliceUnit& unit : units) {
+      if (unit.type != UnitType::kCoefficients) continue;
+      if (unit.header.range * groups + unit.header.group != expected || unit.header.group >= groups ||
+          unit.header.range >= ranges)
+        return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
+      ++expected;
+      if (unit.header.group >= plan.groups.size()) continue;
+      // Level l of the slice is joined by splits 3 (depth - 1 - l) .. + 2.
+      const auto order_at = [&](std::uint32_t grid_level) {
+        const int level = slice_level(grid_level, set.grid_bits(), header.slice_depth);
+        return order_end(tree_, 3 * (static_cast<int>(header.slice_depth) - level));
+      };
+      const std::size_t begin =
+          unit.header.range == 0
+              ? 0
+              : order_at(range_end(set.sps_coefficient_range_end, unit.header.range - 1, set.grid_bits()));
+      const std::uint32_t end_level = range_end(set.sps_coefficient_range_end, unit.header.range, set.grid_bits());
+      const bool cut = static_cast<int>(end_level) > plan.levels;
+      SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin, order_at(end_level), cut));
+    }
+    SLF_CHECK(dequantise(components, plan.steps));
+    raht_inverse(tree_, static_cast<int>(planes), components, threads);
+    if (plan.kept_levels_only())
+      for (std::size_t row = 0; row + 1 < first_.size(); ++row)
+        for (std::size_t j = 0; j < planes; ++j) {
+          std::int32_t& value = components[row * planes + j];
+          value = node_mean(value, first_[row + 1] - first_[row]);
+        }
+  }
+  partial = partial || expected < ranges * groups;
+  return Done{};
+}
+
+Result<Done> SliceDecoder::decode_normals(const SequencePlan& plan,
+                                          std::span<std::array<std::uint16_t, 2>> normals) {
+  const auto unit = std::find_if(units.begin(), units.end(),
+                                 [](const SliceUnit& u) { return u.type == UnitType::kNormals; });
+  if (unit == units.end() || tree_.size() == 0) {
+    partial = true;
+    return Done{};
+  }
+  RangeDecoder decoder(unit->payload);
+  NormalModel model(static_cast<int>(plan.set.sps_normal_bits));
+  for (std::size_t i = 0, kept = 0; i < first_.back(); ++i) {
+    std::array<std::uint16_t, 2> normal{};
+    if (!model.code(decoder, normal)) return Error{Errc::kOutOfRange, "nu_magnitude", unit->offset * 8};
+    if (i == first_[kept]) normals[kept++] = normal;  // a coarser node has the normal of its first point
+  }
+  return decoder.finish("nu_normals");
+}
+
+Result<Done> SliceDecoder::check_digest(std::span<const std::int32_t> components,
+                                        std::span<const std::array<std::uint16_t, 2>> normals) const {
+  for (const SliceUnit& unit : units) {
+    if (unit.type != UnitType::kDigest) continue;
+    const auto digest = slice_digest(positions, components, normals);
+    if (unit.payload.size() != digest.size())
+      return Error{Errc::kOutOfRange, "digest_sha256", unit.offset * 8};
+    if (!std::equal(digest.begin(), digest.end(), unit.payload.begin()))
+      return Error{Errc::kChecksum, "digest_sha256", unit.offset * 8};
+  }
+  return Done{};
+}
+
+}  // namespace slf

@@ -1,0 +1,77 @@
+// Mixing of several predictions of one decision in the logistic domain, in integers. Spec 8.3.3.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace slf {
+
+/// Logistic values are ln(p / (1 - p)) in 1/256, within -2815 .. 2815.
+inline constexpr int kLogisticLimit = 2815;
+
+/// round(65536 / (1 + exp(-i / 4))). Spec table 8-2.
+inline constexpr std::array<int, 45> kSquashQuarters = {
+    32768, 36843, 40793, 44511, 47911, 50941, 53581, 55834, 57724, 59287, 60565, 61598,
+    62428, 63090, 63615, 64030, 64357, 64614, 64816, 64974, 65097, 65194, 65269, 65328,
+    65374, 65410, 65438, 65459, 65476, 65489, 65500, 65508, 65514, 65519, 65523, 65526,
+    65528, 65530, 65531, 65532, 65533, 65534, 65534, 65535, 65535};
+
+/// Probability of 65536 of a logistic value: linear between the entries of table 8-2.
+constexpr int squash(int logistic) {
+  const int x = std::clamp(logistic, -kLogisticLimit, kLogisticLimit);
+  const int a = x < 0 ? -x : x;
+  const std::size_t i = static_cast<std::size_t>(a) / 64;
+  const int p = kSquashQuarters[i] + ((kSquashQuarters[i + 1] - kSquashQuarters[i]) * (a % 64) >> 6);
+  return x < 0 ? 65536 - p : p;
+}
+
+/// The inverse of squash on the upper 12 bits of a probability: the smallest logistic value whose
+/// probability is at least the middle of the interval.
+inline constexpr std::array<std::int16_t, 4096> kStretch = [] {
+  std::array<std::int16_t, 4096> table{};
+  int x = -kLogisticLimit;
+  for (int i = 0; i < 4096; ++i) {
+    while (x < kLogisticLimit && squash(x) < 16 * i + 8) ++x;
+    table[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(x);
+  }
+  return table;
+}();
+
+inline int stretch(std::uint32_t p1) { return kStretch[p1 >> 4]; }  // p1 < 65536
+
+/// A set of weight vectors of which a context selects one; the weighted sum of logistic predictions.
+template <std::size_t kInputs, std::size_t kSets>
+class Mixer {
+ public:
+  explicit Mixer(int first_weight_q16) { weights_.fill(first_weight_q16); }
+
+  /// Logistic value of the mixed prediction; keeps what update needs.
+  int mix(const std::array<int, kInputs>& inputs, std::size_t set) {
+    selected_ = &weights_[set * kInputs];
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < kInputs; ++i) sum += std::int64_t{selected_[i]} * inputs[i];
+    mixed_ = static_cast<int>(
+        std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit));
+    return mixed_;
+  }
+
+  /// Moves the selected weights along the gradient of the code length. rate: 1 .. 64.
+  void update(const std::array<int, kInputs>& inputs, unsigned bit, int rate) {
+    const int error = (bit ? 65536 : 0) - squash(mixed_);
+    for (std::size_t i = 0; i < kInputs; ++i) {
+      const std::int64_t step = std::int64_t{inputs[i]} * error * rate + (1 << 19);
+      selected_[i] = static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(selected_[i] + (step >> 20), -kWeightLimit, kWeightLimit));
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kWeightLimit = 1 << 22;
+  std::array<std::int32_t, kInputs * kSets> weights_;
+  std::int32_t* selected_ = weights_.data();
+  int mixed_ = 0;
+};
+
+}  // namespace slf

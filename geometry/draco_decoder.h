@@ -1,0 +1,19 @@
+// The one place, with draco_encoder, that includes Draco: optional geometry coder. Spec 8.5.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slf/error.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// Positions in Draco's own order.
+/// @errors kOutOfRange: not a point cloud of at most max_points unsigned integer positions below
+///         2^bits. kUnsupported: this build has no Draco.
+Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, int bits,
+                                        std::uint64_t max_points);
+
+}  // namespace slf

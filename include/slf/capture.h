@@ -1,0 +1,126 @@
+// A capture: a point cloud and calibrated photographs, however they were stored.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slf/error.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// 8-bit image, rows top to bottom, channels interleaved, no padding.
+struct Image {
+  int width = 0, height = 0;
+  int channels = 3;                ///< 3 (RGB) or 4 (RGBA, alpha not premultiplied)
+  std::vector<std::uint8_t> data;  ///< [height][width][channels]
+};
+
+/// A pinhole camera with OpenCV axes (x right, y down, z forward): x_cam = R x_world + t.
+/// Image coordinates have the corner convention: the centre of the top left pixel is (0.5, 0.5).
+struct Camera {
+  std::string name;  ///< the image's name within its capture; unique
+  int width = 0, height = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  /// Brown distortion k1, k2, p1, p2, undistorted -> distorted, as COLMAP's OPENCV model has it.
+  std::array<double, 4> distortion{0, 0, 0, 0};
+  std::array<std::array<double, 3>, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Vec3 translation{0, 0, 0};
+
+  Vec3 centre() const;  ///< -R^T t
+  /// Image point of a world point, with distortion; nothing if it is not in front of the camera.
+  /// z receives the depth along the optical axis.
+  std::optional<std::array<double, 2>> project(const Vec3& world, double* z = nullptr) const;
+};
+
+/// Float point cloud.
+struct PointCloud {
+  std::vector<std::array<float, 3>> positions;      ///< [P]
+  std::vector<std::array<float, 3>> normals;        ///< [P] unit, outward; or empty
+  std::vector<std::array<std::uint8_t, 3>> colours;  ///< [P]; or empty
+};
+
+/// Cameras and cloud are in memory; images are read when they are needed (load_image).
+struct Capture {
+  std::filesystem::path root;
+  PointCloud cloud;
+  std::vector<Camera> cameras;                     ///< in the capture's order
+  std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
+  std::vector<std::filesystem::path> mask_files;   ///< [cameras] or empty: 8-bit, 0 = not the object
+  std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
+  UpAxis up = UpAxis::kPlusZ;
+  std::vector<std::string> warnings;               ///< one line each, for the person to read
+};
+
+/// What load_capture looks for, all optional.
+struct CaptureOptions {
+  std::filesystem::path points;  ///< the cloud, where it is not the capture's own
+  bool check_images = true;      ///< open every image and compare its size with the calibration
+};
+
+/// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
+/// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0 or sparse), or
+/// transforms.json; or one of those files; or a lone .ply (a cloud without cameras).
+/// Every value is checked as `docs/captures.md` lists; what is suspicious but usable becomes a warning.
+/// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
+Result<Capture, InputError> load_capture(const std::filesystem::path& path,
+                                         const CaptureOptions& options = {});
+
+/// The image of camera i with three channels, or four where the file has alpha or a mask exists
+/// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an error.
+/// Thread-safe on a const capture.
+Result<Image, InputError> load_image(const Capture& capture, int camera);
+
+/// Camera indices of a split. "" means `dense` where the capture names splits, else all but every
+/// fourth; "all" is every camera; "evaluation" is the named split, else every fourth.
+/// @errors kInvalidArgument: no such split.
+Result<std::vector<int>, InputError> split_cameras(const Capture& capture, const std::string& name);
+
+/// PNG (8 and 16 bit; grey, RGB, palette, alpha) or JPEG, by content.
+Result<Image, InputError> read_image(const std::filesystem::path& file);
+/// Written to a temporary name beside `file` and renamed. "-" is standard output.
+Result<Done, InputError> write_png(const std::filesystem::path& file, const Image& image);
+
+/// PLY, ascii or binary of either endianness, properties by name. Extra properties are skipped with
+/// one warning appended to `warnings`.
+Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
+                                        std::vector<std::string>* warnings = nullptr);
+/// Binary little endian. Atomic like write_png; "-" is standard output.
+Result<Done, InputError> write_ply(const std::filesystem::path& file, const PointCloud& cloud);
+
+/// All bytes to a temporary file beside `file`, flushed, renamed over it. "-" is standard output.
+Result<Done, InputError> write_file(const std::filesystem::path& file, const void* data,
+                                    std::size_t size);
+/// All bytes of a file; "-" is standard input. Refuses more than max_bytes.
+Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
+                                                        std::uint64_t max_bytes = std::uint64_t{1} << 32);
+
+/// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (the sum of
+/// directions to those in front decides; none: away from the centroid). Unit length.
+/// The same for any thread count. O(P log P).
+std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
+                                                   const std::vector<Vec3>& viewpoints, int k = 16,
+                                                   int threads = 0);
+
+/// A cloud on the grid: Morton order, duplicates merged.
+struct VoxelCloud {
+  Grid grid;
+  std::vector<Voxel> positions;                 ///< [P] Morton order, x least significant
+  std::vector<std::array<float, 3>> normals;    ///< [P] mean of the merged, renormalised; or empty
+  std::vector<std::array<float, 3>> colours;    ///< [P] mean of the merged, 0 .. 255; or empty
+  std::size_t merged = 0;                       ///< points that fell into an occupied voxel
+};
+
+/// voxel = floor((x - min) / step + 1/2), step = largest extent / (2^bits - 1), or `voxel_size`
+/// where > 0 (then bits is what it takes). DESIGN section 3, spec 6.1 (informative there).
+/// @param bits  1 .. 21; ignored where voxel_size > 0
+/// @errors kInvalidInput: no points; NaN or Inf; all points in one voxel (a cloud of two or more);
+///         voxel_size so small that more than 21 bits are needed.
+Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size = 0);
+
+}  // namespace slf

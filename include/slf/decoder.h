@@ -1,0 +1,62 @@
+// Decoding: bytes to the integer light field. Links without the encoder (target slf::decoder).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slf/error.h"
+#include "slf/limits.h"
+#include "slf/types.h"
+
+namespace slf {
+
+struct DecodeOptions {
+  DecodeLimits limits;
+  int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid, each
+                   ///< node with the mean of its points
+  int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
+  std::uint64_t max_bytes = 0;  ///< use only units that end within the first max_bytes; 0: all
+  int threads = 1;              ///< 0: all cores. The result does not depend on it
+};
+
+/// Decodes one SLF sequence held in memory.
+///
+/// @param stream  the whole sequence; not kept after the call.
+/// @return the light field, bit exact on every platform. A stream cut at a unit boundary gives a
+///         light field marked partial; any other damage gives nothing.
+/// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kReserved: damaged or foreign.
+///         kUnsupported: newer major version, unknown profile. kLimitExceeded: larger than the limits.
+///         kInvalidArgument: levels or groups beyond what the stream has.
+/// @throws std::bad_alloc only. Thread-safe: no shared state. O(P * K) time and memory.
+/// Source: spec clause 8.
+Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options = {});
+
+/// One unit, as `slf info` lists it.
+struct UnitInfo {
+  std::string type;          ///< "sequence", "geometry", ...
+  std::uint64_t offset = 0;  ///< of its first byte in the stream
+  std::uint64_t bytes = 0;   ///< with its header and CRC
+  int slice = -1, group = -1, level_first = -1, level_last = -1;  ///< -1: does not apply
+};
+
+struct StreamInfo {
+  int version_major = 0, version_minor = 0, profile = 0, level = 0;
+  LightFieldHeader header;
+  std::uint64_t num_points = 0;  ///< as the slice units say
+  std::uint64_t num_slices = 0;
+  int num_groups = 0;
+  std::vector<int> group;                      ///< [K]
+  std::vector<std::array<std::uint32_t, 3>> step;  ///< [K][3] quantiser steps, integer component units
+  std::string geometry_coder;                  ///< "octree" or "draco"
+  std::string coefficient_coder;               ///< "vector" or "independent"
+  Metadata metadata;
+  std::vector<UnitInfo> units;
+  bool complete = false;  ///< the end unit is there
+};
+
+/// Reads headers and walks the units without decoding geometry or coefficients. Errors as decode.
+Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeLimits& limits = {});
+
+}  // namespace slf

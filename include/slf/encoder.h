@@ -1,0 +1,84 @@
+// Encoding: a capture, or given integers, to bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slf/capture.h"
+#include "slf/error.h"
+#include "slf/fit.h"
+#include "slf/types.h"
+
+namespace slf {
+
+enum class GeometryCoder : std::uint8_t { kOctree = 0, kDraco = 1 };
+
+/// How planes are entropy coded. Spec 7.6.
+enum class CoefficientCoder : std::uint8_t {
+  kVector = 0,       ///< per node over the planes of a group, with shared significance
+  kIndependent = 1,  ///< each plane alone, one context set per plane: the paper's way
+};
+
+/// How given integers become bytes. Same integers and parameters give the same bytes everywhere.
+struct CodingParameters {
+  GeometryCoder geometry = GeometryCoder::kOctree;
+  CoefficientCoder coefficients = CoefficientCoder::kVector;
+  std::vector<int> group;                          ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
+  std::vector<std::array<std::uint32_t, 3>> step;  ///< [K][3] >= 1, integer component units; empty: all 1
+  std::vector<int> coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
+                                            ///< the last is the grid's bits. Empty: one unit per group
+  std::vector<int> geometry_level_ends;     ///< the same for geometry units
+  std::uint32_t max_slice_points = 1u << 20;
+  bool digest = true;
+  bool index = true;
+  Metadata metadata;
+  int threads = 0;
+};
+
+/// Codes an integer light field (`slf pack`, and the last step of encode).
+/// Positions may come in any order; they are sorted, components and normals with them.
+/// @errors kInvalidArgument: duplicate or out-of-grid positions, sizes that do not fit together, a
+///         component too large for its slice (|c| * sqrt(points) must stay below 2^27), a parameter
+///         out of range. kUnsupported: Draco was left out of this build.
+Result<std::vector<std::uint8_t>, InputError> pack(const LightField& light_field,
+                                                   const CodingParameters& parameters = {});
+
+enum class Preset { kDefault, kPaper };
+
+struct EncoderSettings {
+  Preset preset = Preset::kDefault;
+  int grid_bits = 9;         ///< 1 .. 21
+  double voxel_size = 0;     ///< > 0: instead of grid_bits
+  ObserveSettings observe;
+  FitSettings fit;
+  double q = 16;             ///< quantiser step Q, grey levels, 0.05 .. 4096
+  bool steps_by_norm = true; ///< step_k = Q / ||b_k||; false: Q for every plane
+  ColourTransform colour = ColourTransform::kOpponent;
+  GeometryCoder geometry = GeometryCoder::kOctree;
+  CoefficientCoder coefficients = CoefficientCoder::kVector;
+  int normal_bits = 0;       ///< 0: normals are not coded; 4 .. 12
+  std::uint32_t max_slice_points = 1u << 20;
+  Metadata metadata;         ///< added to what the encoder itself records
+  int threads = 0;
+};
+
+/// The settings of a preset. kPaper is the configuration of the paper as written (spec annex C).
+EncoderSettings settings_of(Preset preset);
+
+struct Encoded {
+  std::vector<std::uint8_t> stream;
+  std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
+  double seconds_voxelise = 0, seconds_observe = 0, seconds_fit = 0, seconds_code = 0;
+  std::vector<std::string> warnings;
+};
+
+/// From a capture to an .slf stream. With no cameras (a coloured cloud) the colours are coded as a
+/// light field of one component.
+/// @param cameras  the input cameras (split_cameras); empty only where the capture has none.
+/// @errors those of the steps: voxelise, observe, fit_view_maps, pack.
+/// Deterministic for any thread count of one binary.
+Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
+                                   const EncoderSettings& settings, const Progress& progress = {});
+
+}  // namespace slf

@@ -1,0 +1,90 @@
+// Errors and results. Nothing in this library throws an exception of its own.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace slf {
+
+/// What went wrong. One value per kind of remedy, not per site; the site is in the message.
+enum class Errc : std::uint8_t {
+  kNotSlf,           ///< the signature is missing: another kind of file
+  kTruncated,        ///< the stream ends inside a unit
+  kChecksum,         ///< a CRC-32 or a digest does not match
+  kOutOfRange,       ///< a syntax element is outside the range of its clause
+  kReserved,         ///< a reserved bit or value is in use
+  kUnsupported,      ///< newer major version, unknown profile, or a component left out of this build
+  kLimitExceeded,    ///< sound, but larger than the caller's DecodeLimits
+  kInvalidArgument,  ///< a setting or an argument outside its documented range
+  kUnreadable,       ///< a file is missing or cannot be read
+  kInvalidInput,     ///< a file was read and its content cannot be used
+  kUnwritable,       ///< an output could not be written; what was there before is untouched
+};
+
+/// The spelling of the code, as conformance manifests have it ("kOutOfRange").
+const char* to_string(Errc code);
+
+/// An error of a bitstream. `element` is the name in the specification's syntax table; it always
+/// points at a literal, so an Error copies freely and never allocates.
+struct Error {
+  Errc code{};
+  const char* element = "";
+  std::uint64_t bit_offset = 0;  ///< from the first byte of the stream (units), or of the unit (syntax)
+};
+
+/// An error of anything else a person hands in: a file, a capture, a setting.
+struct InputError {
+  Errc code{};
+  std::string message;  ///< one line, names the file (or the setting) and the cause, no full stop
+};
+
+/// "kOutOfRange: sps_grid_bits, bit 37"
+std::string to_string(const Error& error);
+
+/// A value or an error. Reading the value of a failed Result is a mistake of the caller.
+template <class T, class E = Error>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(E error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  explicit operator bool() const { return state_.index() == 0; }
+  T& operator*() & { return *value(state_); }
+  const T& operator*() const& { return *value(state_); }
+  T&& operator*() && { return std::move(*value(state_)); }
+  T* operator->() { return value(state_); }
+  const T* operator->() const { return value(state_); }
+  const E& error() const {
+    assert(state_.index() == 1);
+    return *std::get_if<1>(&state_);
+  }
+
+ private:
+  template <class State>
+  static auto* value(State& state) {
+    assert(state.index() == 0);
+    return std::get_if<0>(&state);
+  }
+  std::variant<T, E> state_;
+};
+
+/// What a step that yields nothing returns on success.
+struct Done {};
+
+}  // namespace slf
+
+#define SLF_CONCAT_(a, b) a##b
+#define SLF_CONCAT(a, b) SLF_CONCAT_(a, b)
+/// SLF_TRY(const auto x, f()); declares x, or returns f()'s error from the function around it.
+#define SLF_TRY(declaration, expression) SLF_TRY_(declaration, expression, SLF_CONCAT(slf_try_, __LINE__))
+/// SLF_CHECK(f()); returns f()'s error from the function around it, if there is one.
+#define SLF_CHECK(expression) SLF_CHECK_(expression, SLF_CONCAT(slf_check_, __LINE__))
+#define SLF_CHECK_(expression, result) \
+  if (auto result = (expression); !result) return result.error()
+#define SLF_TRY_(declaration, expression, result) \
+  auto result = (expression);                     \
+  if (!result) return result.error();             \
+  declaration = *std::move(result)

@@ -1,0 +1,50 @@
+// Images from a light field, on the CPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "slf/capture.h"
+#include "slf/view_map.h"
+
+namespace slf {
+
+struct RenderSettings {
+  std::array<std::uint8_t, 3> background{128, 128, 128};
+  double radius = 0;        ///< of a surfel in voxels; 0: from the cloud's own spacing
+  bool view_dependent = true;  ///< false: the mean colour (function 0 alone)
+  int threads = 0;
+};
+
+struct Rendering {
+  Image image;                    ///< RGB, display values
+  std::vector<std::uint8_t> coverage;  ///< [height][width] 0 .. 255: share of the pixel covered
+  std::vector<float> depth;       ///< [height][width] along the optical axis; +inf where nothing
+};
+
+/// Surfel splatting: each point is a disc in the plane of its normal (coded, else estimated from the
+/// voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what lies
+/// within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has no
+/// holes. Distortion of the camera is honoured at surfel centres.
+/// Deterministic for any thread count.
+class Renderer {
+ public:
+  /// Precomputes normals and surfel radii; keeps a reference to `maps`.
+  Renderer(const ViewMaps& maps, const RenderSettings& settings = {});
+  Rendering render(const Camera& camera) const;
+
+  /// A camera on a circle around the cloud, looking at its centre. turn: 0 .. 1; elevation in
+  /// degrees above the plane across the up axis; the whole cloud fits into the image.
+  Camera orbit(double turn, double elevation_degrees, int width, int height,
+               double fov_degrees = 30) const;
+
+ private:
+  const ViewMaps& maps_;
+  RenderSettings settings_;
+  std::vector<std::array<float, 3>> centres_;  // [P] of the discs, from grid.origin, world units
+  std::vector<std::array<float, 3>> normals_;  // [P]
+  std::vector<float> radii_;                   // [P] world units
+};
+
+}  // namespace slf

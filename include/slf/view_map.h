@@ -1,0 +1,54 @@
+// The radiance conformance point: colour of a point along a direction.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "slf/types.h"
+
+namespace slf {
+
+/// (θ, γ) of a direction given as a vector, any length > 0. Spec 6.4.
+std::array<float, 2> direction_of(const Vec3& v);
+
+/// Value of basis function k at (θ, γ), in double. Spec 6.3, the plain definition.
+double basis_value(const Basis& basis, int k, double theta, double gamma);
+/// Norm of function k over the sphere with mean square 1 for the constant: sqrt(mean of b_k^2).
+/// [K]. Spec 6.3; quantiser steps of the default preset are proportional to its inverse.
+std::vector<double> basis_norms(const Basis& basis);
+
+/// The 3 x 3 matrix that takes coded channels to R, G, B. Spec 6.5. Its transpose goes back.
+std::array<std::array<double, 3>, 3> colour_matrix(ColourTransform transform);
+
+/// View maps ready to be looked at: for order o the coefficients of periodic B-splines of order o
+/// on a 2^s0 x 2^s1 grid, in R, G, B, so that one radiance takes o * o fetches whatever K.
+class ViewMaps {
+ public:
+  /// Converts once; O(P K). The light field must have a basis (header.has_basis).
+  explicit ViewMaps(const LightField& light_field, int threads = 0);
+
+  /// R, G, B of point p seen along (θ, γ) (from the point to the eye), of the header's transfer.
+  /// γ is first clamped to the header's range; the result to 0 .. 255. Agrees with the sum over the
+  /// basis functions within 1/256 grey level (header.shift aside).
+  std::array<float, 3> radiance(std::size_t p, float theta, float gamma) const;
+  /// The same without any clamp.
+  std::array<float, 3> radiance_unclamped(std::size_t p, float theta, float gamma) const;
+  /// The mean over all directions (the DC), 0 .. 255.
+  std::array<float, 3> mean(std::size_t p) const;
+
+  const LightFieldHeader& header() const { return header_; }
+  std::span<const Voxel> positions() const { return positions_; }
+  const CodedNormals& normals() const { return normals_; }
+  std::size_t num_points() const { return positions_.size(); }
+
+ private:
+  LightFieldHeader header_;
+  std::vector<Voxel> positions_;
+  CodedNormals normals_;
+  std::vector<float> nodes_;  // [P][2^s0][2^s1][3]
+  std::vector<std::array<float, 3>> mean_;
+};
+
+}  // namespace slf

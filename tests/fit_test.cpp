@@ -1,0 +1,323 @@
+// The fit against naive dense solves written from the paper's equations.
+#include "slf/fit.h"
+
+#define EIGEN_MPL2_ONLY
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <thread>
+
+#include "lightfield/fit_neighbours.h"
+#include "slf/view_map.h"
+
+namespace slf {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+/// Voxels on a line with growing gaps (no ties but one), `counts[p]` random observations each.
+struct Scene {
+  std::vector<Voxel> positions;
+  Observations seen;
+};
+
+Scene random_scene(const std::vector<int>& counts, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> theta(-3.14f, 3.14f), gamma(-0.99f, 0.99f), grey(0, 255);
+  Scene scene;
+  scene.seen.first.push_back(0);
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    const auto at = static_cast<std::int32_t>(p * (p + 3));
+    scene.positions.push_back({at, 0, 0});
+    for (int n = 0; n < counts[p]; ++n) {
+      scene.seen.direction.push_back({theta(random), gamma(random)});
+      scene.seen.colour.push_back({grey(random), grey(random), 200});
+      scene.seen.camera.push_back(static_cast<std::uint16_t>(n));
+    }
+    scene.seen.first.push_back(scene.seen.direction.size());
+  }
+  return scene;
+}
+
+Matrix design(const Basis& basis, const Observations& seen, std::size_t p) {
+  const auto rows = static_cast<Eigen::Index>(seen.first[p + 1] - seen.first[p]);
+  Matrix g(rows, basis.num_functions());
+  for (Eigen::Index j = 0; j < rows; ++j)
+    for (Eigen::Index k = 0; k < g.cols(); ++k) {
+      const auto& direction = seen.direction[seen.first[p] + static_cast<std::size_t>(j)];
+      g(j, k) = basis_value(basis, static_cast<int>(k), static_cast<double>(direction[0]),
+                            static_cast<double>(direction[1]));
+    }
+  return g;
+}
+
+Matrix colours(const Observations& seen, std::size_t p) {
+  const auto rows = static_cast<Eigen::Index>(seen.first[p + 1] - seen.first[p]);
+  Matrix c(rows, 3);
+  for (Eigen::Index j = 0; j < rows; ++j)
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      c(j, channel) = static_cast<double>(seen.colour[seen.first[p] + static_cast<std::size_t>(j)]
+                                                     [static_cast<std::size_t>(channel)]);
+  return c;
+}
+
+/// (G^T G + lambda I + beta I)^-1 (G^T c + beta mean), the paper's Eq. 3; Eq. 2 with beta = 0. Where
+/// function 0 is not penalised its diagonal elements are zero.
+Matrix dense_solve(const Matrix& g, const Matrix& c, double lambda, double beta, bool penalise_dc,
+                   const Matrix& mean) {
+  Matrix ridge = (lambda + beta) * Matrix::Identity(g.cols(), g.cols());
+  Matrix pull = beta * mean;
+  if (!penalise_dc) {
+    ridge(0, 0) = 0;
+    pull.row(0).setZero();
+  }
+  return (g.transpose() * g + ridge).fullPivLu().solve(g.transpose() * c + pull);
+}
+
+/// The k nearest of points on the x axis, ties by index.
+std::vector<std::size_t> nearest(const std::vector<Voxel>& positions, std::size_t p, std::size_t k) {
+  std::vector<std::pair<int, std::size_t>> order;
+  for (std::size_t q = 0; q < positions.size(); ++q)
+    if (q != p) order.push_back({std::abs(positions[q][0] - positions[p][0]), q});
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < std::min(k, order.size()); ++i) found.push_back(order[i].second);
+  return found;
+}
+
+std::vector<Matrix> reference_fit(const Scene& scene, const FitSettings& settings) {
+  const std::size_t points = scene.positions.size();
+  const auto k = static_cast<std::size_t>(settings.neighbours);
+  const Matrix zero = Matrix::Zero(settings.basis.num_functions(), 3);
+  std::vector<Matrix> now(points, zero);
+  const auto observed = [&](std::size_t p) { return scene.seen.first[p] != scene.seen.first[p + 1]; };
+  const auto solve_all = [&](double beta, const std::vector<Matrix>& before) {
+    std::vector<Matrix> after(points, zero);
+    for (std::size_t p = 0; p < points; ++p) {
+      if (!observed(p)) continue;
+      Matrix mean = zero;
+      const auto around = nearest(scene.positions, p, k);
+      if (beta > 0)
+        for (const std::size_t q : around) mean += before[q] / static_cast<double>(around.size());
+      after[p] = dense_solve(design(settings.basis, scene.seen, p), colours(scene.seen, p),
+                             settings.lambda, beta, settings.penalise_dc, mean);
+    }
+    for (std::size_t p = 0; p < points; ++p) {
+      if (observed(p)) continue;
+      std::vector<std::size_t> donors;
+      for (const std::size_t q : nearest(scene.positions, p, k))
+        if (observed(q)) donors.push_back(q);
+      for (const std::size_t q : nearest(scene.positions, p, points))
+        if (donors.empty() && observed(q)) donors.push_back(q);
+      for (const std::size_t q : donors) after[p] += after[q] / static_cast<double>(donors.size());
+    }
+    return after;
+  };
+  now = solve_all(0, now);
+  for (int t = 0; t < settings.iterations; ++t) now = solve_all(settings.beta, now);
+  return now;
+}
+
+/// Largest difference of the fitted colours over directions, grey levels.
+double largest_difference(const Basis& basis, const Matrix& a, std::span<const float> b) {
+  double largest = 0;
+  for (double theta = -3; theta < 3.2; theta += 0.37)
+    for (double gamma = -1; gamma < 1; gamma += 0.17)
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        double difference = 0;
+        for (Eigen::Index k = 0; k < a.rows(); ++k)
+          difference += (a(k, c) - static_cast<double>(b[static_cast<std::size_t>(3 * k + c)])) *
+                        basis_value(basis, static_cast<int>(k), theta, gamma);
+        largest = std::max(largest, std::abs(difference));
+      }
+  return largest;
+}
+
+struct Case {
+  const char* name;
+  Basis basis;
+  double lambda, beta;
+  int iterations;
+  bool penalise_dc;
+  std::vector<int> counts;  // observations of each point
+  double tolerance = 1e-3;  // grey levels: what 8-bit colour and steps >= 0.05 cannot see
+};
+
+class FitTest : public testing::TestWithParam<Case> {};
+
+TEST_P(FitTest, AgreesWithTheDenseSolveOfTheEquations) {
+  const Case& test = GetParam();
+  const Scene scene = random_scene(test.counts);
+  FitSettings settings{test.basis, test.lambda, test.beta, test.iterations, 3, test.penalise_dc, 2};
+  const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
+  ASSERT_TRUE(fitted) << fitted.error().message;
+  const auto expected = reference_fit(scene, settings);
+  const std::size_t size = 3 * static_cast<std::size_t>(test.basis.num_functions());
+  ASSERT_EQ(fitted->size(), size * scene.positions.size());
+  for (std::size_t p = 0; p < expected.size(); ++p)
+    EXPECT_LT(largest_difference(test.basis, expected[p], std::span(*fitted).subspan(p * size, size)),
+              test.tolerance)
+        << "point " << p << " with " << test.counts[p] << " observations";
+}
+
+const Basis kPaper{};                            // o = 2, 128 functions
+const Basis kSmall{BasisId::kBspline, 2, 2, 1};  // 8 functions
+const std::vector<int> kFew{47, 1, 60, 2, 127}, kMany{128, 300, 200}, kMixed{20, 5, 8, 7, 1, 60};
+const std::vector<int> kGaps{20, 0, 9, 0, 0, 0, 0, 0, 0, 30};
+
+INSTANTIATE_TEST_SUITE_P(
+    Eq2And3, FitTest,
+    testing::Values(Case{"paper_dual_initialisation", kPaper, 0.8, 1.3, 0, true, kFew},
+                    Case{"paper_dual_sweeps", kPaper, 0.8, 1.3, 3, true, kFew},
+                    Case{"paper_primal_initialisation", kPaper, 0.8, 1.3, 0, true, kMany},
+                    Case{"paper_primal_sweeps", kPaper, 0.8, 1.3, 3, true, kMany},
+                    Case{"dc_free_dual_initialisation", kPaper, 0.8, 1.3, 0, false, kFew},
+                    Case{"dc_free_dual_sweeps", kPaper, 0.8, 1.3, 3, false, kFew},
+                    Case{"dc_free_primal_sweeps", kPaper, 0.8, 1.3, 3, false, kMany},
+                    Case{"dual_and_primal_points", kSmall, 0.8, 1.3, 3, true, kMixed},
+                    Case{"dc_free_dual_and_primal_points", kSmall, 0.8, 1.3, 3, false, kMixed},
+                    Case{"points_without_observations", kSmall, 0.8, 1.3, 2, true, kGaps},
+                    Case{"dc_free_without_observations", kSmall, 0.8, 1.3, 2, false, kGaps},
+                    Case{"order_1", {BasisId::kBspline, 1, 4, 3}, 0.8, 1.3, 2, false, kFew},
+                    Case{"order_3", {BasisId::kBspline, 3, 4, 3}, 0.8, 1.3, 2, false, kFew},
+                    Case{"order_4", {BasisId::kBspline, 4, 3, 3}, 0.8, 1.3, 2, true, kFew},
+                    Case{"one_function", {BasisId::kBspline, 2, 0, 0}, 0.8, 1.3, 2, true, kMixed},
+                    Case{"dc_free_one_function", {BasisId::kBspline, 2, 0, 0}, 0.8, 1.3, 2, false, kMixed},
+                    Case{"no_beta", kPaper, 0.8, 0, 3, true, kFew},
+                    Case{"float_at_its_smallest_penalty", kPaper, 0.05, 0, 0, true, kFew},
+                    Case{"dc_free_float_at_its_smallest_penalty", kPaper, 0.05, 0, 0, false, kFew},
+                    Case{"primal_at_its_smallest_penalty", kPaper, 0.05, 0, 0, false, kMany},
+                    Case{"small_penalty_in_double", kPaper, 1e-4, 1e-3, 2, true, kFew},
+                    Case{"dc_free_small_penalty_in_double", kPaper, 1e-4, 1e-3, 2, false, kFew}),
+    [](const auto& info) { return info.param.name; });
+
+class LeastNormTest : public testing::TestWithParam<bool> {};  // penalise_dc
+
+TEST_P(LeastNormTest, LambdaZeroInterpolatesWithTheSmallestCoefficients) {
+  const Scene scene = random_scene({10});
+  FitSettings settings;
+  settings.lambda = settings.beta = 0;
+  settings.penalise_dc = GetParam();
+  const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
+  ASSERT_TRUE(fitted);
+  // The limit of the ridge as lambda goes to zero; at 1e-9 it is that within 1e-4.
+  const Matrix expected =
+      dense_solve(design(settings.basis, scene.seen, 0), colours(scene.seen, 0), 1e-9, 0,
+                  settings.penalise_dc, Matrix::Zero(128, 3));
+  EXPECT_LT(largest_difference(settings.basis, expected, *fitted), 1e-2);
+}
+
+TEST_P(LeastNormTest, LambdaZeroWithManyObservationsIsLeastSquares) {
+  const Scene scene = random_scene({60});
+  FitSettings settings{kSmall, 0, 0, 3, 8, GetParam(), 1};
+  const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
+  ASSERT_TRUE(fitted);
+  const Matrix expected =
+      design(kSmall, scene.seen, 0).colPivHouseholderQr().solve(colours(scene.seen, 0));
+  EXPECT_LT(largest_difference(kSmall, expected, *fitted), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(PenaliseDc, LeastNormTest, testing::Bool());
+
+TEST(FitViewMaps, AConstantColourIsKeptExactlyWhereTheDcIsFreeAndShrunkWhereItIsNot) {
+  const Scene scene = random_scene({40, 3});
+  FitSettings settings;
+  settings.penalise_dc = false;
+  const auto free = fit_view_maps(scene.seen, scene.positions, settings);
+  settings.penalise_dc = true;
+  const auto paper = fit_view_maps(scene.seen, scene.positions, settings);
+  ASSERT_TRUE(free && paper);
+  // The third channel of the scene is 200 everywhere.
+  EXPECT_NEAR((*free)[2], 200, 1e-3);
+  EXPECT_NEAR((*free)[3 * 128 + 2], 200, 1e-3);
+  for (std::size_t k = 1; k < 128; ++k) EXPECT_NEAR((*free)[3 * k + 2], 0, 1e-3);
+  EXPECT_LT((*paper)[3 * 128 + 2], 190);
+}
+
+TEST(FitViewMaps, DoesNotDependOnTheNumberOfThreads) {
+  std::vector<int> counts(700, 0);
+  for (std::size_t p = 0; p < counts.size(); ++p) counts[p] = static_cast<int>(p * 7 % 23);
+  const Scene scene = random_scene(counts);
+  FitSettings settings{{BasisId::kBspline, 2, 2, 2}, 0.8, 1.3, 3, 8, false, 1};
+  const auto one = fit_view_maps(scene.seen, scene.positions, settings);
+  ASSERT_TRUE(one);
+  for (const int threads : {2, 7}) {
+    settings.threads = threads;
+    const auto many = fit_view_maps(scene.seen, scene.positions, settings);
+    ASSERT_TRUE(many);
+    EXPECT_EQ(*one, *many) << threads << " threads";
+  }
+}
+
+TEST(FitViewMaps, ReportsProgressOnTheCallingThreadUpToOne) {
+  const Scene scene = random_scene(std::vector<int>(600, 3));
+  const auto caller = std::this_thread::get_id();
+  double last = 0;
+  const auto fitted = fit_view_maps(scene.seen, scene.positions, {}, [&](const char* stage, double f) {
+    EXPECT_STREQ(stage, "fit");
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_GE(f, last);
+    EXPECT_LE(f, 1);
+    last = f;
+  });
+  ASSERT_TRUE(fitted);
+  EXPECT_GT(last, 0.5);
+}
+
+TEST(FitViewMaps, RefusesSettingsAndObservationsThatCannotBe) {
+  const Scene scene = random_scene({3, 0});
+  const auto code = [&](const FitSettings& settings) {
+    const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
+    return fitted ? Errc::kNotSlf : fitted.error().code;
+  };
+  FitSettings good;
+  for (const auto& change : std::vector<std::function<void(FitSettings&)>>{
+           [](FitSettings& s) { s.lambda = -1; }, [](FitSettings& s) { s.lambda = NAN; },
+           [](FitSettings& s) { s.beta = INFINITY; }, [](FitSettings& s) { s.iterations = -1; },
+           [](FitSettings& s) { s.neighbours = 0; }, [](FitSettings& s) { s.neighbours = 65; },
+           [](FitSettings& s) { s.basis.order = 5; }, [](FitSettings& s) { s.basis.scales_theta = 7; }}) {
+    FitSettings bad = good;
+    change(bad);
+    EXPECT_EQ(code(bad), Errc::kInvalidArgument);
+  }
+  Scene wrong = scene;
+  wrong.positions.pop_back();
+  EXPECT_EQ(fit_view_maps(wrong.seen, wrong.positions, good).error().code, Errc::kInvalidArgument);
+  const Scene dark = random_scene({0, 0});
+  EXPECT_EQ(fit_view_maps(dark.seen, dark.positions, good).error().code, Errc::kInvalidInput);
+}
+
+TEST(NearestNeighbours, BreakTiesByIndexAndLeaveOutThePointItself) {
+  std::vector<Voxel> grid;
+  for (std::int32_t z = 0; z < 6; ++z)
+    for (std::int32_t y = 0; y < 6; ++y)
+      for (std::int32_t x = 0; x < 6; ++x) grid.push_back({x, y, z});
+  const Neighbours found = nearest_neighbours(grid, 8, 2);
+  ASSERT_EQ(found.count, 8u);
+  for (std::uint32_t p = 0; p < grid.size(); ++p) {
+    std::vector<std::pair<int, std::uint32_t>> order;
+    for (std::uint32_t q = 0; q < grid.size(); ++q) {
+      int squared = 0;
+      for (std::size_t a = 0; a < 3; ++a)
+        squared += (grid[p][a] - grid[q][a]) * (grid[p][a] - grid[q][a]);
+      if (q != p) order.push_back({squared, q});
+    }
+    std::sort(order.begin(), order.end());
+    for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(found.of(p)[n], order[n].second) << p;
+  }
+}
+
+TEST(NearestNeighbours, AreFewerWhereThereAreFewerPoints) {
+  const std::vector<Voxel> three{{0, 0, 0}, {1, 0, 0}, {2097151, 2097151, 2097151}};
+  const Neighbours found = nearest_neighbours(three, 8, 1);
+  ASSERT_EQ(found.count, 2u);
+  EXPECT_EQ(found.of(2)[0], 1u);
+  EXPECT_EQ(nearest_neighbours(std::span(three).first(1), 8, 1).count, 0u);
+}
+
+}  // namespace
+}  // namespace slf
