@@ -37,10 +37,8 @@ class BitReader {
 
   /// Fewer than 8 bits may follow, all zero. Spec 3.3.
   void trailing_bits(const char* element) {
-    if (failed_) return;
-    if (bits_left() >= 8) fail(Errc::kOutOfRange, element);
-    const int rest = static_cast<int>(bits_left());
-    if (u(rest, element) != 0) fail(Errc::kReserved, element);
+    if (!failed_ && bits_left() >= 8) fail(Errc::kOutOfRange, element);
+    if (!failed_ && u(static_cast<int>(bits_left()), element) != 0) fail(Errc::kReserved, element);
   }
 
   /// Skips zero bits to the next byte and returns the bytes that follow.

@@ -10,8 +10,9 @@ constexpr int kFirstWeight = 8000;  // of 65536; found on the clouds of docs/rat
 constexpr int kMixerRate = 32;
 constexpr std::uint32_t kCountLimit = 255;
 
-/// log2 of the number of contexts of each prediction. Spec table 8-3.
+/// log2 of the number of contexts of each prediction; where hashed, the most. Spec table 8-3.
 constexpr std::array<int, 11> kContextBits = {11, 15, 20, 20, 15, 14, 18, 12, 12, 12, 20};
+constexpr std::array<bool, 11> kHashed = {false, false, true, true, false, false, true, false, false, false, true};
 
 constexpr std::uint64_t bit_at(int x, int y, int z) { return std::uint64_t{1} << (x + 4 * y + 16 * z); }
 
@@ -74,10 +75,13 @@ std::uint32_t hash(std::uint64_t a, std::uint64_t b, int bits) {
 
 }  // namespace
 
-OccupancyModel::OccupancyModel()
+OccupancyModel::OccupancyModel(std::uint64_t points)
     : by_siblings_(kFirstWeight), by_density_(kFirstWeight), by_faces_(kFirstWeight) {
-  for (std::size_t i = 0; i < kContexts; ++i)
-    contexts_[i].resize(std::size_t{1} << kContextBits[i]);
+  const int useful = std::max(static_cast<int>(std::bit_width(points)) + 4, 10);
+  for (std::size_t i = 0; i < kContexts; ++i) {
+    context_bits_[i] = kHashed[i] ? std::min(kContextBits[i], useful) : kContextBits[i];
+    contexts_[i].resize(std::size_t{1} << context_bits_[i]);
+  }
 }
 
 NodeContext OccupancyModel::node_context(const OctreeLevel& nodes, std::size_t n, int level) {
@@ -142,15 +146,15 @@ std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, u
   const std::array<std::uint32_t, kContexts> index = {  // spec table 8-3
       faces * 8 + child,
       siblings << 7 | corner,
-      hash(node.neighbours, siblings, kContextBits[2]),
-      hash(occupied & kFacesAndEdges, (unknown & kFacesAndEdges) << 3 | child, kContextBits[3]),
+      hash(node.neighbours, siblings, context_bits_[2]),
+      hash(occupied & kFacesAndEdges, (unknown & kFacesAndEdges) << 3 | child, context_bits_[3]),
       ((num_occupied * 27 + num_unknown) * 8 + child) * 4 + num_siblings,
       node.halves << 8 | siblings,
-      hash(column[0] << 8 | column[1] << 4 | column[2], siblings, kContextBits[6]),
+      hash(column[0] << 8 | column[1] << 4 | column[2], siblings, context_bits_[6]),
       column[0] << 8 | siblings,
       column[1] << 8 | siblings,
       column[2] << 8 | siblings,
-      hash(occupied, unknown << 3 | child, kContextBits[10])};
+      hash(occupied, unknown << 3 | child, context_bits_[10])};
   for (std::size_t i = 0; i < kContexts; ++i) {
     selected_[i] = &contexts_[i][index[i]];
     inputs_[i] = selected_[i]->count() == 0 ? 0 : stretch(selected_[i]->p1());

@@ -26,7 +26,8 @@ struct NodeContext {
 
 class OccupancyModel {
  public:
-  OccupancyModel();
+  /// points: of the slice; hashed contexts are as many as they can fill.
+  explicit OccupancyModel(std::uint64_t points);
 
   void start_level(int level) { history_.start_level(level); }
 
@@ -60,6 +61,7 @@ class OccupancyModel {
   void update(unsigned bit);
 
   OccupancyHistory history_;
+  std::array<int, kContexts> context_bits_;  // log2 of the number of contexts of each prediction
   std::array<std::vector<AdaptiveBit>, kContexts> contexts_;
   std::array<AdaptiveBit*, kContexts> selected_{};
   std::array<int, kInputs> inputs_{};

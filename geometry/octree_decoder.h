@@ -15,7 +15,8 @@ namespace slf {
 class OctreeDecoder {
  public:
   /// depth: of the slice, 0 .. 21. max_nodes: what no level may exceed (the slice's point count).
-  OctreeDecoder(int depth, std::uint64_t max_nodes) : depth_(depth), max_nodes_(max_nodes) {}
+  OctreeDecoder(int depth, std::uint64_t max_nodes)
+      : depth_(depth), max_nodes_(max_nodes), model_(max_nodes) {}
 
   /// Decodes the occupancies of levels level() .. end - 1.
   /// @errors kOutOfRange: more nodes than max_nodes; the codeword does not end where the unit does.

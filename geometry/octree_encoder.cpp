@@ -23,7 +23,7 @@ std::vector<std::uint8_t> occupancies(std::span<const std::uint64_t> morton, std
 std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64_t> morton, int depth,
                                                      std::span<const int> level_ends) {
   std::vector<std::vector<std::uint8_t>> payloads;
-  OccupancyModel model;
+  OccupancyModel model(morton.size());
   OctreeLevel nodes = octree_root();
   int level = 0;
   for (const int end : level_ends) {

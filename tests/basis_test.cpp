@@ -37,7 +37,8 @@ TEST(WaveletTaps, AreHaarForOrderOneAndChuiWangForOrderTwo) {
   EXPECT_EQ(linear[5], 0);
   // Order 3, Chui and Wang 1992: 1/480 [1, -29, 147, -303, 303, -147, 29, -1].
   const std::array<double, 8> quadratic{1, -29, 147, -303, 303, -147, 29, -1};
-  for (std::size_t n = 0; n < 8; ++n) EXPECT_NEAR(wavelet_taps(3)[n], quadratic[n] / 480, 1e-15) << n;
+  for (std::size_t n = 0; n < 8; ++n)
+    EXPECT_NEAR(wavelet_taps(3)[n], quadratic[n] / 480, 1e-15) << n;
 }
 
 TEST(WaveletValue, OfOrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
@@ -76,7 +77,7 @@ TEST(DirectionOf, IsAzimuthAndSineOfElevation) {
 TEST(BasisValue, IsTheProductOfTheAxesWithThetaFastest) {
   const Basis basis;  // o = 2, 16 x 8
   EXPECT_EQ(basis_value(basis, 0, 1.0, 0.5), 1);
-  const int k = 4 * 16 + 8;  // i1 = 4 (scale 2), i0 = 8 (scale 3)
+  const int k = 4 * 16 + 8;                                    // i1 = 4 (scale 2), i0 = 8 (scale 3)
   const double theta = 2 * kPi * 3 / 16, gamma = 2 * 3.0 / 8;  // the peaks of both
   EXPECT_NEAR(basis_value(basis, k, theta, gamma), 100.0 / 144, 1e-14);
   EXPECT_NEAR(basis_value(basis, k, theta - 2 * kPi, gamma), 100.0 / 144, 1e-14);
@@ -146,8 +147,9 @@ double largest_correlation_within_a_scale(int order) {
   for (int i = 1; i < table.size(); ++i)
     for (int j = 1; j < i; ++j)
       if (wavelet_scale(i) == wavelet_scale(j))
-        largest = std::max(largest, std::abs(table.inner_product(i, j)) /
-                                        std::sqrt(table.inner_product(i, i) * table.inner_product(j, j)));
+        largest =
+            std::max(largest, std::abs(table.inner_product(i, j)) /
+                                  std::sqrt(table.inner_product(i, i) * table.inner_product(j, j)));
   return largest;
 }
 

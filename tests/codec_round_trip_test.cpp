@@ -80,7 +80,7 @@ TEST_P(CodecRoundTrip, PointsMayComeInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Spec_8, CodecRoundTrip, testing::ValuesIn(test::clouds_of_every_shape()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& cloud) { return cloud.param.name; });
 
 TEST(Spec_8_10_Normals, AreLossless) {
   LightField field = test::make_field(test::sphere_cloud(5), 5, 1);

@@ -65,8 +65,8 @@ struct FitSettings {
 /// @return [P][K][3] float, K = basis.num_functions(); RGB in the units of the observations.
 ///         Points without observations take the mean of their neighbours that have some (and, where
 ///         those have none either, of the nearest that has).
-/// The same for any thread count of one binary. Each point is factorised once, in the M x M dual
-/// form where it has fewer observations than functions.
+/// The same for any thread count of one binary. Each point is factorised once for λ and once for
+/// λ + β, which all sweeps share, in the M x M dual form where it has fewer observations than functions.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,
                                                      std::span<const Voxel> positions,
                                                      const FitSettings& settings,

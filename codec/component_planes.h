@@ -1,0 +1,31 @@
+// From fitted coefficients to integer components: units, steps and groups. Spec 6.3, 6.5; annex C.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "slf/encoder.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// Turns R, G, B coefficients [P][K][3] into the channels of `transform`, in place.
+void to_coded_channels(std::span<float> coefficients, ColourTransform transform, int threads);
+
+/// [K] The largest shift up to 6 for which no component of a function is too large for a slice of
+/// slice_points. Six bits below a grey level are far below any useful step.
+std::vector<int> component_shifts(std::span<const float> coefficients, std::size_t functions,
+                                  std::size_t slice_points);
+
+/// round(coefficient * 2^shift).
+std::vector<std::int32_t> to_components(std::span<const float> coefficients, const std::vector<int>& shifts,
+                                        int threads);
+
+/// [K][3] Q (or Q / ||b_k||) in component units, at least 1.
+std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis, const std::vector<int>& shifts,
+                                                          double q, bool by_norm);
+
+/// [K] The mean alone, then rectangles of scales: N = 1, 8, 32, 128, ... functions for s0 = s1 + 1.
+std::vector<int> scale_groups(const Basis& basis);
+
+}  // namespace slf

@@ -1,0 +1,45 @@
+#include "codec/encode_metadata.h"
+
+#include <charconv>
+
+namespace slf {
+namespace {
+
+/// The shortest form that reads back as the same number, whatever the locale.
+std::string text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+}  // namespace
+
+Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std::size_t cameras) {
+  Metadata metadata = {
+      {"encoder", "slf " SLF_VERSION},
+      {"preset", s.preset == Preset::kPaper ? "paper" : "default"},
+      {"cameras", std::to_string(cameras)},
+      {"observations", std::to_string(encoded.observations)},
+      {"merged_points", std::to_string(encoded.merged)},
+      {"q", text(s.q)},
+      {"steps", s.steps_by_norm ? "by-norm" : "uniform"},
+  };
+  if (cameras > 0) {
+    metadata.insert(metadata.end(), {
+        {"delta", text(s.observe.delta_degrees)},
+        {"occlusion_resolution", text(s.observe.occlusion_resolution)},
+        {"depth_tolerance", text(s.observe.depth_tolerance)},
+        {"order", std::to_string(s.fit.basis.order)},
+        {"functions", std::to_string(s.fit.basis.num_functions())},
+        {"lambda", text(s.fit.lambda)},
+        {"beta", text(s.fit.beta)},
+        {"iterations", std::to_string(s.fit.iterations)},
+        {"neighbours", std::to_string(s.fit.neighbours)},
+        {"penalise_dc", s.fit.penalise_dc ? "yes" : "no"},
+    });
+  }
+  metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
+  return metadata;
+}
+
+}  // namespace slf

@@ -1,0 +1,11 @@
+// What the encoder records of itself in the metadata unit.
+#pragma once
+
+#include "slf/encoder.h"
+
+namespace slf {
+
+/// The resolved settings, then settings.metadata. No time, no path, no machine.
+Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encoded, std::size_t cameras);
+
+}  // namespace slf

@@ -1,0 +1,18 @@
+// Named configurations. Spec annex C.
+#include "slf/encoder.h"
+
+namespace slf {
+
+EncoderSettings settings_of(Preset preset) {
+  EncoderSettings settings;  // the defaults of the members are the default preset
+  if (preset == Preset::kPaper) {
+    settings.preset = Preset::kPaper;
+    settings.fit.penalise_dc = true;
+    settings.steps_by_norm = false;
+    settings.colour = ColourTransform::kNone;
+    settings.coefficients = CoefficientCoder::kIndependent;
+  }
+  return settings;
+}
+
+}  // namespace slf

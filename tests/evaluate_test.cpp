@@ -1,0 +1,156 @@
+#include "slf/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/render_support.h"
+
+namespace slf {
+namespace {
+
+namespace fs = std::filesystem;
+using test::constant_light_field;
+using test::frontal_camera;
+
+constexpr int kSize = 32;
+
+/// A grey plate in front of cameras whose photographs have one grey level each.
+class EvaluateTest : public testing::Test {
+ protected:
+  EvaluateTest() {
+    std::string name = (fs::temp_directory_path() / "slf_evaluate_XXXXXX").string();
+    root_ = mkdtemp(name.data());
+    capture_.root = root_;
+    for (const Voxel& v : test::plane(32, 0)) {
+      capture_.cloud.positions.push_back({float(v[0]), float(v[1]), float(v[2])});
+      capture_.cloud.normals.push_back({0, 0, -1});
+    }
+  }
+  ~EvaluateTest() override { fs::remove_all(root_); }
+
+  /// @param channels  4: an alpha of 255 in the left half, 0 in the right
+  void add_photograph(std::array<int, 3> colour, int channels = 3) {
+    Image image;
+    image.width = image.height = kSize;
+    image.channels = channels;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        for (const int c : colour) image.data.push_back(static_cast<std::uint8_t>(c));
+        if (channels == 4) image.data.push_back(x < kSize / 2 ? 255 : 0);
+      }
+    const std::string number = std::to_string(capture_.cameras.size());
+    // One pixel per voxel; the plate of 32 voxels just fills the image.
+    Camera camera = frontal_camera(15.5, 15.5, 500, kSize, 1.0);
+    camera.name = number + ".png";
+    capture_.image_files.push_back(root_ / camera.name);
+    capture_.cameras.push_back(camera);
+    ASSERT_TRUE(write_png(capture_.image_files.back(), image));
+  }
+
+  fs::path root_;
+  Capture capture_;
+};
+
+TEST_F(EvaluateTest, BothPsnrsAreThoseOfAKnownDifference) {
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{100, 110, 120}}, 5));
+  add_photograph({103, 110, 116});
+  add_photograph({100, 112, 120});
+  const std::vector<int> cameras{0, 1};
+  const auto quality = evaluate(maps, capture_, cameras, {});
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_EQ(quality->observations, 2u * 32 * 32);
+  // Errors 3, 0, 4 and 0, 2, 0: mean square over two cameras and three channels 29 / 6.
+  EXPECT_NEAR(quality->point_psnr, 10 * std::log10(255.0 * 255 * 6 / 29), 1e-9);
+  EXPECT_NEAR(quality->channel_psnr[0], 10 * std::log10(255.0 * 255 * 2 / 9), 1e-9);
+  EXPECT_NEAR(quality->channel_psnr[1], 10 * std::log10(255.0 * 255 * 2 / 4), 1e-9);
+  EXPECT_NEAR(quality->channel_psnr[2], 10 * std::log10(255.0 * 255 * 2 / 16), 1e-9);
+  // The plate covers the image, so the pictures differ by the same everywhere.
+  EXPECT_NEAR(quality->image_psnr, quality->point_psnr, 0.3);
+  ASSERT_EQ(quality->image_psnr_each.size(), 2u);
+  EXPECT_NEAR(quality->image_psnr_each[0], 10 * std::log10(255.0 * 255 * 3 / 25), 0.3);
+  EXPECT_GT(quality->coverage, 0.99);
+}
+
+TEST_F(EvaluateTest, RadianceIsClampedAndRoundedBeforeItIsCompared) {
+  LightField field = constant_light_field(test::plane(32, 0), {{0, 0, 0}}, 5);
+  for (std::size_t i = 0; i < field.components.size(); i += 3) {
+    field.components[i] = 100 * 16 + 7;  // 100.4375 -> 100
+    field.components[i + 1] = 300 * 16;  // -> 255
+    field.components[i + 2] = -50 * 16;  // -> 0
+  }
+  const ViewMaps maps(field);
+  add_photograph({101, 255, 0});
+  const std::vector<int> cameras{0};
+  EvaluateSettings settings;
+  settings.images = false;
+  const auto quality = evaluate(maps, capture_, cameras, settings);
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_NEAR(quality->channel_psnr[0], 20 * std::log10(255.0), 1e-9);
+  EXPECT_TRUE(std::isinf(quality->channel_psnr[1]));
+  EXPECT_TRUE(std::isinf(quality->channel_psnr[2]));
+  EXPECT_TRUE(quality->image_psnr_each.empty());
+}
+
+TEST_F(EvaluateTest, CoverageIsTheShareOfTheObjectThatIsDrawn) {
+  // Only the lower half of the plate was decoded.
+  std::vector<Voxel> half;
+  for (const Voxel& v : test::plane(32, 0))
+    if (v[1] >= 16) half.push_back(v);
+  const ViewMaps maps(constant_light_field(half, {{100, 100, 100}}, 5));
+  add_photograph({100, 100, 100});
+  const std::vector<int> cameras{0};
+  const auto quality = evaluate(maps, capture_, cameras, {});
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_NEAR(quality->coverage, 0.5, 0.05);
+}
+
+TEST_F(EvaluateTest, AlphaOfAPhotographIsItsMask) {
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{100, 100, 100}}, 5));
+  add_photograph({110, 110, 110}, 4);
+  const std::vector<int> cameras{0};
+  const auto quality = evaluate(maps, capture_, cameras, {});
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_NEAR(double(quality->observations), 32 * 16, 33);  // one column at the mask's edge
+  EXPECT_NEAR(quality->image_psnr, 20 * std::log10(25.5), 0.2);
+  EXPECT_GT(quality->coverage, 0.99);
+}
+
+TEST_F(EvaluateTest, TheSameForAnyThreadCount) {
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{90, 1, 7}, {50, 60, 250}}, 5));
+  for (int i = 0; i < 5; ++i) add_photograph({30 * i, 255 - 40 * i, 100});
+  const std::vector<int> cameras{0, 1, 2, 3, 4};
+  std::vector<Quality> qualities;
+  for (const int threads : {1, 2, 7}) {
+    EvaluateSettings settings;
+    settings.threads = threads;
+    const auto quality = evaluate(maps, capture_, cameras, settings);
+    ASSERT_TRUE(quality) << quality.error().message;
+    qualities.push_back(*quality);
+  }
+  for (const Quality& other : qualities) {
+    EXPECT_EQ(other.point_psnr, qualities[0].point_psnr);
+    EXPECT_EQ(other.image_psnr, qualities[0].image_psnr);
+    EXPECT_EQ(other.image_psnr_each, qualities[0].image_psnr_each);
+    EXPECT_EQ(other.coverage, qualities[0].coverage);
+  }
+}
+
+TEST_F(EvaluateTest, WhatCannotBeEvaluatedIsRefused) {
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{90, 90, 90}}, 5));
+  add_photograph({90, 90, 90});
+  EXPECT_FALSE(evaluate(maps, capture_, {}, {}));
+  const std::vector<int> beyond{1}, first{0};
+  EXPECT_FALSE(evaluate(maps, capture_, beyond, {}));
+  const ViewMaps none(constant_light_field({}, {{0, 0, 0}}, 5));
+  EXPECT_FALSE(evaluate(none, capture_, first, {}));
+  fs::remove(capture_.image_files[0]);
+  EXPECT_FALSE(evaluate(maps, capture_, first, {}));
+  capture_.cloud = {};
+  EXPECT_FALSE(evaluate(maps, capture_, first, {}));
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "entropy/binarisation.h"
+#include "entropy/logistic.h"
+#include "entropy/range_decoder.h"
+#include "entropy/range_encoder.h"
+
+namespace slf {
+namespace {
+
+TEST(Spec_8_3_1_RangeCoder, GivesBackEveryDecisionAtEveryProbability) {
+  std::mt19937 random(1);
+  for (const std::uint32_t p1 : {1u, 2u, 255u, 256u, 30000u, 32768u, 65279u, 65534u, 65535u}) {
+    std::vector<unsigned> bits;
+    RangeEncoder encoder;
+    for (int i = 0; i < 5000; ++i) {
+      bits.push_back((random() & 0xFFFF) < p1);
+      encoder.bit(p1, bits.back());
+    }
+    const auto bytes = encoder.finish();
+    RangeDecoder decoder(bytes);
+    for (const unsigned bit : bits) ASSERT_EQ(decoder.bit(p1), bit);
+    EXPECT_TRUE(decoder.finish("test"));
+  }
+}
+
+TEST(Spec_8_3_1_RangeCoder, CodesTheLeastLikelySymbolManyTimesInARow) {
+  for (const unsigned bit : {0u, 1u}) {  // carries and long runs of 0xFF
+    RangeEncoder encoder;
+    for (int i = 0; i < 3000; ++i) encoder.bit(bit ? 1 : 65535, bit);
+    const auto bytes = encoder.finish();
+    EXPECT_NEAR(static_cast<double>(bytes.size()), 3000 * 16 / 8, 40);
+    RangeDecoder decoder(bytes);
+    for (int i = 0; i < 3000; ++i) ASSERT_EQ(decoder.bit(bit ? 1 : 65535), bit);
+  }
+}
+
+TEST(Spec_8_3_1_RangeCoder, CodeLengthIsTheEntropyOfItsModel) {
+  std::mt19937 random(2);
+  double information = 0;
+  RangeEncoder encoder;
+  for (int i = 0; i < 100000; ++i) {
+    const auto p1 = static_cast<std::uint32_t>(1 + random() % 65535);
+    const unsigned bit = (random() & 0xFFFF) < p1;
+    information -= std::log2((bit ? p1 : 65536 - p1) / 65536.0);
+    encoder.bit(p1, bit);
+  }
+  const double bytes = static_cast<double>(encoder.finish().size());
+  EXPECT_GE(bytes, information / 8 - 1);
+  EXPECT_LE(bytes, information / 8 * 1.002 + 5);
+}
+
+TEST(Spec_8_3_1_RangeCoder, ALostOrAddedByteIsNoticedAtTheEnd) {
+  RangeEncoder encoder;
+  for (int i = 0; i < 800; ++i) encoder.raw(1, static_cast<std::uint32_t>(i * i >> 3 & 1));
+  auto bytes = encoder.finish();
+  const auto ends_well = [](const std::vector<std::uint8_t>& stream) {
+    RangeDecoder decoder(stream);
+    for (int i = 0; i < 800; ++i) decoder.raw(1);
+    return static_cast<bool>(decoder.finish("test"));
+  };
+  ASSERT_TRUE(ends_well(bytes));
+  bytes.push_back(1);
+  EXPECT_FALSE(ends_well(std::vector<std::uint8_t>(bytes.size() + 4, 1)));
+  EXPECT_FALSE(ends_well(std::vector<std::uint8_t>(bytes.begin(), bytes.end() - 7)));
+}
+
+TEST(Spec_8_3_1_RangeCoder, DecodesGarbageWithoutReadingOutside) {
+  std::mt19937 random(3);
+  for (std::size_t size = 0; size < 40; ++size) {
+    std::vector<std::uint8_t> garbage(size);
+    for (auto& byte : garbage) byte = static_cast<std::uint8_t>(random());
+    RangeDecoder decoder(garbage);
+    AdaptiveBit context;
+    for (int i = 0; i < 2000; ++i) ASSERT_LE(decoder.bit(context, 255), 1u);
+  }
+}
+
+TEST(Spec_8_3_2_AdaptiveBit, FollowsTheShareOfOnes) {
+  std::mt19937 random(4);
+  AdaptiveBit context;
+  for (int i = 0; i < 20000; ++i) context.update(random() % 10 == 0, 1023);
+  EXPECT_NEAR(context.p1() / 65536.0, 0.1, 0.02);
+}
+
+TEST(Spec_8_3_2_AdaptiveBit, StaysWithinItsRange) {
+  AdaptiveBit zeros, ones;
+  EXPECT_EQ(zeros.p1(), 32768u);
+  for (int i = 0; i < 100000; ++i) {
+    zeros.update(0, 1023);
+    ones.update(1, 1023);
+    ASSERT_GE(zeros.p1(), 1u);
+    ASSERT_LE(ones.p1(), 65535u);
+  }
+  EXPECT_LT(zeros.p1(), 100u);
+  EXPECT_GT(ones.p1(), 65436u);
+}
+
+TEST(Spec_8_3_3_Logistic, StretchInvertsSquash) {
+  for (int x = -2300; x <= 2300; x += 7) {
+    const double p = squash(x) / 65536.0;
+    EXPECT_NEAR(p, 1 / (1 + std::exp(-x / 256.0)), 0.004) << x;  // linear between table entries
+  }
+  // One logistic unit is 64 of 65536 at p = 1/2, and p is known to 16.
+  for (std::uint32_t p = 8; p < 65536; p += 16) EXPECT_NEAR(squash(stretch(p)), static_cast<int>(p), 72) << p;
+}
+
+TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
+  std::mt19937 random(5);
+  Mixer<2, 1> mixer(20000);
+  double cost = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const unsigned bit = random() % 2;
+    const std::array<int, 2> inputs = {bit ? 1000 : -1000, random() % 2 ? 1000 : -1000};  // truth, noise
+    const double p1 = squash(mixer.mix(inputs, 0)) / 65536.0;
+    if (i >= 2000) cost -= std::log2(bit ? p1 : 1 - p1);
+    mixer.update(inputs, bit, 16);
+  }
+  EXPECT_LT(cost / 2000, 0.02);
+}
+
+TEST(Spec_8_3_4_Magnitude, RoundTripsFromOneToTheLargest) {
+  std::vector<std::uint32_t> values = {1, 2, 3, 13, 14, 15, 16, 17, 18, 100, 65535, 1u << 20, (1u << 27) - 1};
+  RangeEncoder encoder;
+  MagnitudeContexts written;
+  for (const std::uint32_t v : values) EXPECT_EQ(code_magnitude(encoder, written, 255, v), v);
+  const auto bytes = encoder.finish();
+  RangeDecoder decoder(bytes);
+  MagnitudeContexts read;
+  for (const std::uint32_t v : values) EXPECT_EQ(code_magnitude(decoder, read, 255, 0), v);
+  EXPECT_TRUE(decoder.finish("test"));
+}
+
+TEST(Spec_8_3_4_Magnitude, AnEndlessPrefixIsRefusedNotFollowed) {
+  const std::vector<std::uint8_t> zeros(64, 0);  // the decoder takes every decision as 1
+  RangeDecoder decoder(zeros);
+  MagnitudeContexts contexts;
+  EXPECT_EQ(code_magnitude(decoder, contexts, 255, 0), 0u);
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,168 @@
+// What a damaged, foreign or hostile stream may do: give an error that names its place. Nothing else.
+#include <gtest/gtest.h>
+
+#include "bitstream/parameter_sets.h"
+#include "bitstream/units.h"
+#include "bitstream/zlib_adapter.h"
+#include "slf/decoder.h"
+#include "slf/encoder.h"
+#include "tests/field_support.h"
+
+namespace slf {
+namespace {
+
+std::vector<std::uint8_t> small_stream(bool index = true) {
+  LightField field = test::make_field(test::sphere_cloud(4), 4, 4, 300);
+  field.header.has_basis = true;
+  field.header.basis = {BasisId::kBspline, 2, 1, 1};
+  field.header.grid = {{0.5, -2, 1e6}, 0.125, 4};
+  field.normals.bits = 5;
+  field.normals.octahedral.assign(field.num_points(), {3, 30});
+  CodingParameters parameters;
+  parameters.step.assign(4, {16, 20, 24});
+  parameters.group = {0, 1, 1, 2};
+  parameters.geometry_level_ends = {2, 4};
+  parameters.coefficient_level_ends = {3, 4};
+  parameters.index = index;
+  parameters.metadata = {{"source", "test"}, {"empty", ""}};
+  return *pack(field, parameters);
+}
+
+/// The same stream with every CRC made right again, so that damage reaches the parsers.
+std::vector<std::uint8_t> with_sound_crcs(std::vector<std::uint8_t> stream) {
+  std::size_t at = 8;
+  while (at + 6 <= stream.size()) {
+    std::size_t length = 0, p = at + 1;
+    for (int shift = 0; p < stream.size(); shift += 7) {
+      length |= std::size_t{stream[p] & 0x7Fu} << std::min(shift, 56);
+      if (!(stream[p++] & 0x80)) break;
+    }
+    if (length > stream.size() || p + length + 4 > stream.size()) return stream;
+    const std::uint32_t crc = crc32(std::span(stream).subspan(at, p + length - at));
+    for (std::size_t i = 0; i < 4; ++i) stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+    at = p + length + 4;
+  }
+  return stream;
+}
+
+DecodeOptions small_limits() {
+  DecodeOptions options;
+  options.limits.max_points = 5000;
+  options.limits.max_output_bytes = 1 << 20;
+  return options;
+}
+
+TEST(Spec_7_1_Hazards, EveryTruncationIsReportedOrIsAPartialLightField) {
+  const auto whole = small_stream();
+  ASSERT_TRUE(decode(whole));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    // A fresh exact-size buffer, so AddressSanitizer sees a read one byte too far.
+    const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto decoded = decode(cut);
+    if (decoded) {
+      EXPECT_TRUE(decoded->partial) << size;
+    } else {
+      EXPECT_EQ(decoded.error().code, size == 0 ? Errc::kNotSlf : Errc::kTruncated) << size;
+      EXPECT_LE(decoded.error().bit_offset, 8 * std::max<std::size_t>(size, 8));
+    }
+    (void)read_info(cut);
+  }
+}
+
+TEST(Spec_7_1_Hazards, EveryFlippedByteIsNoticed) {
+  const auto whole = small_stream();
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const unsigned mask : {0x01u, 0x80u, 0xFFu}) {
+      auto damaged = whole;
+      damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ mask);
+      EXPECT_FALSE(decode(damaged, small_limits())) << "byte " << at << " mask " << mask;
+    }
+}
+
+TEST(Spec_7_1_Hazards, EveryFlippedByteBehindASoundCrcIsAnErrorOrALightField) {
+  const auto whole = small_stream();
+  for (std::size_t at = 8; at < whole.size(); ++at)
+    for (int bit = 0; bit < 8; ++bit) {
+      auto damaged = whole;
+      damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ 1 << bit);
+      damaged = with_sound_crcs(damaged);
+      const auto decoded = decode(damaged, small_limits());
+      if (!decoded) {
+        EXPECT_STRNE(decoded.error().element, "") << at;
+      }
+      (void)read_info(damaged);
+    }
+}
+
+TEST(Spec_7_1_Hazards, ForeignFilesAreNotSlf) {
+  for (const char* text : {"", "ply\nformat ascii 1.0\n", "\x89PNG\r\n\x1a\n....", "SLF"}) {
+    const std::string s = text;
+    const std::vector<std::uint8_t> bytes(s.begin(), s.end());
+    const auto decoded = decode(bytes);
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, Errc::kNotSlf);
+  }
+}
+
+TEST(Spec_7_2_Versions, NewerOnesAreUnsupportedNotDamaged) {
+  for (const std::size_t byte : {0u, 1u}) {  // major, minor
+    auto stream = small_stream();
+    stream[8 + 2 + byte] = 9;  // signature, type, length
+    const auto decoded = decode(with_sound_crcs(stream));
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, Errc::kUnsupported);
+  }
+}
+
+TEST(Spec_7_1_UnknownUnits, AreSkipped) {
+  const auto whole = small_stream(false);
+  const auto units = split_units(whole);
+  ASSERT_TRUE(units);
+  const Unit& sequence = units->units.front();
+  const auto at = static_cast<std::ptrdiff_t>(sequence.offset + sequence.bytes);
+  std::vector<std::uint8_t> extended(whole.begin(), whole.begin() + at);
+  const std::vector<std::uint8_t> payload = {1, 2, 3};
+  append_unit(extended, static_cast<UnitType>(99), payload);
+  // Everything but the end unit, which must count one more.
+  extended.insert(extended.end(), whole.begin() + at, whole.begin() + static_cast<std::ptrdiff_t>(units->units.back().offset));
+  BitWriter end;
+  end.ue(units->units.size());
+  append_unit(extended, UnitType::kEnd, end.take());
+  const auto decoded = decode(extended), plain = decode(whole);
+  ASSERT_TRUE(plain);
+  ASSERT_TRUE(decoded) << to_string(decoded.error());
+  EXPECT_EQ(decoded->components, plain->components);
+}
+
+TEST(Spec_7_1_Hazards, BytesAfterTheEndAreRefused) {
+  auto stream = small_stream();
+  stream.push_back(0);
+  EXPECT_FALSE(decode(stream));
+}
+
+TEST(Spec_9_Limits, AreCheckedBeforeAnythingIsDecoded) {
+  const auto stream = small_stream();
+  const auto code_with = [&](auto change) {
+    DecodeOptions options;
+    change(options.limits);
+    const auto decoded = decode(stream, options);
+    return decoded ? Errc::kInvalidArgument : decoded.error().code;
+  };
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_points = 10; }), Errc::kLimitExceeded);
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_planes = 11; }), Errc::kLimitExceeded);
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_output_bytes = 100; }), Errc::kLimitExceeded);
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_stream_bytes = 100; }), Errc::kLimitExceeded);
+}
+
+TEST(Spec_7_8_Metadata, ComesBack) {
+  const auto info = read_info(small_stream());
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->metadata, (Metadata{{"source", "test"}, {"empty", ""}}));
+  EXPECT_TRUE(info->complete);
+  EXPECT_EQ(info->header.grid.origin, (Vec3{0.5, -2, 1e6}));
+  EXPECT_EQ(info->step[2], (std::array<std::uint32_t, 3>{16, 20, 24}));
+  EXPECT_EQ(info->group, (std::vector<int>{0, 1, 1, 2}));
+}
+
+}  // namespace
+}  // namespace slf

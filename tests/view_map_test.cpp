@@ -1,0 +1,183 @@
+// Node form against the plain sum over the basis functions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "lightfield/nodes.h"
+#include "slf/view_map.h"
+
+namespace slf {
+namespace {
+
+/// Components such as an encoder makes: large DC, the rest within +- 60 grey levels, many zero.
+LightField random_field(const Basis& basis, ColourTransform colour, std::size_t points) {
+  std::mt19937 random(3);
+  LightField field;
+  field.header.basis = basis;
+  field.header.colour = colour;
+  field.header.num_functions = basis.num_functions();
+  for (int k = 0; k < basis.num_functions(); ++k) field.header.shift.push_back(k % 3 + 4);
+  for (std::size_t p = 0; p < points; ++p) {
+    field.positions.push_back({static_cast<std::int32_t>(p), 0, 0});
+    for (int i = 0; i < 3 * basis.num_functions(); ++i) {
+      const auto value = static_cast<std::int32_t>(random() % 2000) - 1000;
+      const bool zero = i >= 3 && random() % 4 == 0;
+      field.components.push_back(i < 3 ? 128 * 16 + value : zero ? 0 : value);
+    }
+  }
+  return field;
+}
+
+std::array<double, 3> plain_sum(const LightField& field, std::size_t p, double theta,
+                                double gamma) {
+  const auto matrix = colour_matrix(field.header.colour);
+  const auto functions = static_cast<std::size_t>(field.header.num_functions);
+  std::array<double, 3> rgb{0, 0, 0};
+  for (std::size_t k = 0; k < functions; ++k)
+    for (std::size_t to = 0; to < 3; ++to)
+      for (std::size_t from = 0; from < 3; ++from)
+        rgb[to] +=
+            matrix[to][from] *
+            std::ldexp(field.components[(p * functions + k) * 3 + from], -field.header.shift[k]) *
+            basis_value(field.header.basis, static_cast<int>(k), theta, gamma);
+  return rgb;
+}
+
+struct Shape {
+  int order, scales_theta, scales_gamma;
+};
+
+class ViewMapsTest : public testing::TestWithParam<Shape> {
+ protected:
+  Basis basis() const {
+    return {BasisId::kBspline, GetParam().order, GetParam().scales_theta, GetParam().scales_gamma};
+  }
+};
+
+TEST_P(ViewMapsTest, NodesGiveTheSumOverTheFunctions) {
+  for (const auto colour : {ColourTransform::kNone, ColourTransform::kOpponent}) {
+    const LightField field = random_field(basis(), colour, 3);
+    const ViewMaps maps(field, 2);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> theta(-3.1415926f, 3.1415926f), gamma(-1, 1);
+    for (int n = 0; n < 60; ++n) {
+      const float t = n == 0 ? std::numbers::pi_v<float> : n == 1 ? 0 : theta(random);
+      const float g = n == 0 ? 1.0f : n == 1 ? -1.0f : gamma(random);
+      const std::size_t p = static_cast<std::size_t>(n) % 3;
+      const auto nodes = maps.radiance_unclamped(p, t, g);
+      const auto sum = plain_sum(field, p, static_cast<double>(t), static_cast<double>(g));
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(static_cast<double>(nodes[c]), sum[c], 1.0 / 256)
+            << "theta " << t << ", gamma " << g;
+    }
+  }
+}
+
+TEST_P(ViewMapsTest, TheFunctionsSpanEverySplineOnTheGrid) {
+  // The map between coefficients and nodes is square; it is onto when no pivot of it vanishes.
+  for (const int scales : {GetParam().scales_theta, GetParam().scales_gamma}) {
+    const AxisTable table(GetParam().order, scales);
+    const auto n = static_cast<std::size_t>(table.size());
+    std::vector<std::vector<double>> rows(n, std::vector<double>(n));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        rows[i][j] = table.coefficient(static_cast<int>(i), static_cast<int>(j));
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto pivot = std::max_element(
+          rows.begin() + static_cast<std::ptrdiff_t>(i), rows.end(),
+          [i](const auto& a, const auto& b) { return std::abs(a[i]) < std::abs(b[i]); });
+      ASSERT_GT(std::abs((*pivot)[i]), 1e-3) << "scales " << scales << ", column " << i;
+      std::swap(rows[i], *pivot);
+      for (std::size_t r = i + 1; r < n; ++r) {
+        const double factor = rows[r][i] / rows[i][i];
+        for (std::size_t j = i; j < n; ++j) rows[r][j] -= factor * rows[i][j];
+      }
+    }
+  }
+}
+
+TEST_P(ViewMapsTest, TheTransposedMapIsTheTranspose) {
+  const NodeMap<double> map(basis());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> x(map.size()), y(map.size()), cx(map.size()), cty(map.size()),
+      scratch(map.size());
+  for (double& v : x) v = uniform(random);
+  for (double& v : y) v = uniform(random);
+  map.to_nodes(x.data(), cx.data(), scratch.data());
+  map.transposed(y.data(), cty.data(), scratch.data());
+  double forward = 0, backward = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    forward += cx[i] * y[i];
+    backward += x[i] * cty[i];
+  }
+  EXPECT_NEAR(forward, backward, 1e-10 * (1 + std::abs(forward)));
+}
+
+INSTANTIATE_TEST_SUITE_P(OrdersAndScales, ViewMapsTest,
+                         testing::Values(Shape{1, 0, 0}, Shape{2, 0, 0}, Shape{3, 0, 0},
+                                         Shape{4, 0, 0}, Shape{1, 4, 3}, Shape{2, 4, 3},
+                                         Shape{3, 4, 3}, Shape{4, 4, 3}, Shape{1, 0, 3},
+                                         Shape{2, 0, 3}, Shape{3, 0, 3}, Shape{4, 0, 3},
+                                         Shape{2, 1, 1}, Shape{4, 1, 2}, Shape{2, 6, 2},
+                                         Shape{3, 2, 5}),
+                         [](const auto& shape) {
+                           return "o" + std::to_string(shape.param.order) + "_" +
+                                  std::to_string(shape.param.scales_theta) + "_" +
+                                  std::to_string(shape.param.scales_gamma);
+                         });
+
+/// One point, order 2, 2 nodes of gamma: red is 100 + 80 w_1(gamma / 2), a triangle wave, so 20 at
+/// gamma = 0 and 180 at gamma = +-1.
+LightField triangle_in_gamma() {
+  LightField field;
+  field.header.basis = {BasisId::kBspline, 2, 0, 1};
+  field.header.num_functions = 2;
+  field.header.shift = {1, 2};
+  field.positions = {{0, 0, 0}};
+  field.components = {200, 0, -20, 320, 0, 0};
+  return field;
+}
+
+TEST(Radiance, OfATriangleWaveIsHandComputable) {
+  const ViewMaps maps(triangle_in_gamma(), 1);
+  EXPECT_NEAR(maps.radiance(0, 0.3f, 0.0f)[0], 20, 1e-4);
+  EXPECT_NEAR(maps.radiance(0, -2.0f, 0.5f)[0], 100, 1e-4);
+  EXPECT_NEAR(maps.radiance(0, 2.0f, -0.75f)[0], 140, 1e-4);
+  EXPECT_NEAR(maps.radiance(0, 2.0f, 1.0f)[0], 180, 1e-4);
+}
+
+TEST(Radiance, BeyondTheGammaThatCamerasSawRepeatsTheLimit) {
+  LightField field = triangle_in_gamma();
+  field.header.gamma_min_q7 = 0;
+  field.header.gamma_max_q7 = 64;
+  const ViewMaps maps(field, 1);
+  const float limit = 64.0f / 127;
+  EXPECT_EQ(maps.radiance(0, 0, -0.9f), maps.radiance(0, 0, 0));
+  EXPECT_EQ(maps.radiance(0, 0, 1.0f), maps.radiance(0, 0, limit));
+  EXPECT_NE(maps.radiance_unclamped(0, 0, 1.0f), maps.radiance_unclamped(0, 0, limit));
+}
+
+TEST(Radiance, IsClampedToDisplayRangeAndTheMeanIsTheDc) {
+  LightField field = triangle_in_gamma();
+  field.components = {500, 100, -20, 320, 0, 0};
+  const ViewMaps maps(field, 1);
+  EXPECT_EQ(maps.radiance(0, 0, 1.0f)[0], 255);
+  EXPECT_EQ(maps.radiance(0, 0, 1.0f)[2], 0);
+  EXPECT_NEAR(maps.radiance_unclamped(0, 0, 1.0f)[0], 330, 1e-4);
+  EXPECT_NEAR(maps.radiance_unclamped(0, 0, 1.0f)[2], -10, 1e-4);
+  EXPECT_EQ(maps.mean(0), (std::array<float, 3>{250, 50, 0}));
+}
+
+TEST(ViewMaps, DoNotDependOnTheNumberOfThreads) {
+  const LightField field = random_field(Basis{}, ColourTransform::kOpponent, 1500);
+  const ViewMaps one(field, 1), seven(field, 7);
+  for (std::size_t p = 0; p < field.num_points(); ++p)
+    ASSERT_EQ(one.radiance_unclamped(p, 1.1f, 0.3f), seven.radiance_unclamped(p, 1.1f, 0.3f));
+}
+
+}  // namespace
+}  // namespace slf
