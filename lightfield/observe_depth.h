@@ -1,0 +1,40 @@
+// Occlusion by a depth buffer of splatted points. Paper III-A.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+struct DepthSettings {
+  double resolution = 1;  ///< buffer pixels per image pixel
+  double spacing = 0;     ///< of the occluders, world units
+  double tolerance = 0;   ///< in spacings; 0: nearest point per pixel, each occluder one pixel
+};
+
+/// What one camera's nearest surface is, per pixel. With a tolerance each occluder covers a square
+/// that reaches the next occluders, so that a surface has no holes through which points behind it
+/// would be seen.
+class DepthBuffer {
+ public:
+  DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
+              const DepthSettings& settings);
+
+  /// @param image  where the point is in the image, inside it
+  /// @param depth  along the optical axis
+  /// @param cosine  of the angle between the point's normal and the ray to the camera
+  bool hides(const std::array<double, 2>& image, double depth, double cosine) const;
+
+ private:
+  void splat(const std::array<double, 2>& image, double depth);
+
+  DepthSettings settings_;
+  double focal_;  // buffer pixels
+  int width_, height_;
+  std::vector<float> depth_;  // [height][width], +inf where nothing is
+};
+
+}  // namespace slf

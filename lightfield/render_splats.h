@@ -1,0 +1,53 @@
+// Surfels as a camera sees them, and their rasterisation. Botsch, Hornung, Zwicker, Kobbelt,
+// "High-quality surface splatting on today's GPUs" (2005), with the screen-space filter of
+// Zwicker et al., "EWA splatting" (2002), on the CPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+/// A disc in world space.
+struct Disc {
+  Vec3 centre;
+  Vec3 normal;  ///< unit, of either sign; 0: faces the camera
+  double radius;
+};
+
+/// A disc in the image: an ellipse  a x^2 + 2 b x y + c y^2 < 1  around (u, v), filtered to the
+/// pixel grid, with the plane's inverse depth, which is linear in the image.
+struct Splat {
+  float u, v;                     ///< pixels, centre of the top left pixel at (0.5, 0.5)
+  float a, b, c;                  ///< 1 / pixel^2
+  float half_width, half_height;  ///< of the ellipse's box, pixels
+  float inverse_depth, inverse_depth_du, inverse_depth_dv;
+  float nearest, farthest;  ///< inverse depths that the disc's own extent allows
+  float thickness;          ///< depth, world units: what lies so far behind is the same surface
+  float weight;             ///< at the centre; the sum over a closed layer of discs is about 1
+  float edge;               ///< ellipse radius at which the disc ends, < 1: the rest is filter
+  std::uint32_t point;
+};
+
+/// Nothing where the disc is behind the camera, or its ellipse outside the image.
+std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::uint32_t point);
+
+/// Weighted means per pixel.
+struct SplatImage {
+  std::vector<std::array<float, 3>> colour;  ///< [height][width] 0 where nothing is
+  std::vector<float> coverage;               ///< [height][width] 0 .. 1
+  std::vector<float> depth;                  ///< [height][width] +inf where nothing is
+};
+
+/// Two passes: depth of the nearest discs, then the mean of all that lies within a splat's
+/// thickness of it. `colour` is called from several threads, once per band of rows that shows the
+/// point. The same for any thread count.
+SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+                     const std::function<std::array<float, 3>(std::uint32_t point)>& colour);
+
+}  // namespace slf
