@@ -1,0 +1,31 @@
+// The light fields behind the golden streams. Everything is made from integers and fixed seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slf/encoder.h"
+
+namespace slf::conformance {
+
+/// A stream that must decode to what its manifest says.
+struct Case {
+  std::string id, purpose;
+  std::vector<std::string> clauses;
+  LightField field;
+  CodingParameters parameters;
+  std::vector<int> levels, groups;  ///< reduced decodes to pin as well
+  std::size_t keep_units = 0;       ///< > 0: the stream is cut after so many units
+  bool unknown_unit = false;        ///< a unit of type 99 is inserted
+};
+std::vector<Case> valid_cases();
+
+/// A stream that must be refused, with the error this project's decoder gives.
+struct RefusedCase {
+  std::string id, purpose;
+  std::vector<std::string> clauses;
+  std::vector<std::uint8_t> stream;
+};
+std::vector<RefusedCase> refused_cases();
+
+}  // namespace slf::conformance

@@ -1,0 +1,77 @@
+// Deterministic light fields of integers.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/morton.h"
+#include "slf/types.h"
+
+namespace slf::conformance {
+
+/// xorshift64*: the same on every platform, unlike the distributions of <random>.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint32_t below(std::uint32_t n) {
+    state_ ^= state_ >> 12;
+    state_ ^= state_ << 25;
+    state_ ^= state_ >> 27;
+    return static_cast<std::uint32_t>((state_ * 2685821657736338717u >> 32) % n);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+inline std::vector<Voxel> sorted(std::vector<Voxel> voxels) {
+  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  return voxels;
+}
+
+/// Surface voxels of a sphere; every `thin`-th dropped at random.
+inline std::vector<Voxel> sphere(int bits, std::uint32_t thin = 0) {
+  Random random(11);
+  const std::int32_t side = 1 << bits, r = side / 2 - 1;
+  std::vector<Voxel> voxels;
+  for (std::int32_t z = 0; z < side; ++z)
+    for (std::int32_t y = 0; y < side; ++y)
+      for (std::int32_t x = 0; x < side; ++x) {
+        const std::int32_t d = (x - r) * (x - r) + (y - r) * (y - r) + (z - r) * (z - r);
+        if (d <= r * r && d > (r - 1) * (r - 1) && (thin == 0 || random.below(thin) != 0)) voxels.push_back({x, y, z});
+      }
+  return sorted(voxels);
+}
+
+inline std::vector<Voxel> scattered(std::size_t count, int bits, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Voxel> voxels;
+  for (std::size_t i = 0; i < count; ++i) {
+    Voxel v;
+    for (auto& c : v) c = static_cast<std::int32_t>(random.below(1u << bits));
+    voxels.push_back(v);
+  }
+  return sorted(voxels);
+}
+
+/// A mean that varies over the surface, functions that fade, and some noise.
+inline LightField field(std::vector<Voxel> voxels, int bits, int functions, std::int32_t size = 8000) {
+  Random random(5);
+  LightField f;
+  f.header.grid = {{0, 0, 0}, 1, bits};
+  f.header.has_basis = false;
+  f.header.num_functions = functions;
+  f.positions = std::move(voxels);
+  for (const Voxel& v : f.positions)
+    for (int k = 0; k < functions; ++k)
+      for (int c = 0; c < 3; ++c) {
+        const std::int32_t wave = (v[0] * (k + 3) * 7 + v[1] * (c + 2) * 5 + v[2] * 3) % 64 - 32;
+        const auto noise = static_cast<std::int32_t>(random.below(65)) - 32;
+        f.components.push_back(k == 0 ? size * wave / 32 + noise : (size / 8 * wave / 32 + noise) / (k + c));
+      }
+  return f;
+}
+
+}  // namespace slf::conformance

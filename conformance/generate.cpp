@@ -1,0 +1,149 @@
+// Writes the golden streams and their manifests: slf_conformance_generate DIRECTORY
+//
+// The same bytes for every compiler and optimisation level; conformance/compilers.sh proves it.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "bitstream/sha256.h"
+#include "bitstream/units.h"
+#include "conformance/cases.h"
+#include "bitstream/bit_writer.h"
+#include "slf/decoder.h"
+
+namespace slf::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sha256(std::span<const std::uint8_t> bytes) {
+  Sha256 sha;
+  sha.update(bytes);
+  std::string text;
+  char hex[3];
+  for (const std::uint8_t byte : sha.finish()) {
+    std::snprintf(hex, sizeof hex, "%02x", byte);
+    text += hex;
+  }
+  return text;
+}
+
+template <class Integer>
+std::string sha256_of(const std::vector<Integer>& values) {  // little-endian hosts only, as the goldens
+  return sha256({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(Integer)});
+}
+
+std::string quoted(const std::string& s) { return '"' + s + '"'; }
+
+std::string list(const std::vector<std::string>& items) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) text += (i ? ", " : "") + quoted(items[i]);
+  return text + "]";
+}
+
+std::string description(const std::string& id, const std::vector<std::string>& clauses, const std::string& purpose,
+                        std::span<const std::uint8_t> stream) {
+  return "{\n  \"id\": " + quoted(id) + ",\n  \"format_version\": \"0.1\",\n  \"clauses\": " + list(clauses) + ",\n  \"purpose\": " +
+         quoted(purpose) + ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
+         ", \"sha256\": " + quoted(sha256(stream)) + "},\n";
+}
+
+std::string expectation(const LightField& field, int levels, int groups) {
+  std::string text = "    {\"levels\": " + std::to_string(levels) + ", \"groups\": " + std::to_string(groups) +
+                     ", \"partial\": " + (field.partial ? "true" : "false") + ", \"points\": " + std::to_string(field.num_points()) +
+                     ", \"functions\": " + std::to_string(field.header.num_functions) +
+                     ",\n     \"positions_sha256\": " + quoted(sha256_of(field.positions)) +
+                     ",\n     \"components_sha256\": " + quoted(sha256_of(field.components));
+  if (field.normals.bits > 0) text += ",\n     \"normals_sha256\": " + quoted(sha256_of(field.normals.octahedral));
+  return text + "}";
+}
+
+/// Cuts after some units, or slips in one of an unknown type before the last.
+std::vector<std::uint8_t> altered(const std::vector<std::uint8_t>& stream, const Case& c) {
+  if (c.keep_units == 0 && !c.unknown_unit) return stream;
+  const Units units = *split_units(stream);
+  std::vector<std::uint8_t> out(kSignature.begin(), kSignature.end());
+  for (std::size_t i = 0; i < units.units.size() && (c.keep_units == 0 || i < c.keep_units); ++i) {
+    const Unit& unit = units.units[i];
+    if (unit.type == UnitType::kEnd) {
+      const std::vector<std::uint8_t> payload = {1, 2, 3};
+      append_unit(out, static_cast<UnitType>(99), payload);
+      BitWriter end;
+      end.ue(units.units.size());
+      append_unit(out, UnitType::kEnd, end.take());
+    } else {
+      append_unit(out, unit.type, unit.payload);
+    }
+  }
+  return out;
+}
+
+void write(const fs::path& directory, const std::vector<std::uint8_t>& stream, const std::string& manifest) {
+  fs::create_directories(directory);
+  std::ofstream(directory / "stream.slf", std::ios::binary)
+      .write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
+  std::ofstream(directory / "case.json", std::ios::binary) << manifest;
+}
+
+bool write_case(const fs::path& root, const Case& c) {
+  const auto packed = pack(c.field, c.parameters);
+  if (!packed) {
+    std::fprintf(stderr, "%s: %s\n", c.id.c_str(), packed.error().message.c_str());
+    return packed.error().code == Errc::kUnsupported;  // a build without Draco leaves that case out
+  }
+  const auto stream = altered(*packed, c);
+  std::string text = description(c.id, c.clauses, c.purpose, stream) + "  \"expect\": [\n";
+  std::vector<std::pair<int, int>> decodes = {{0, 0}};
+  for (const int levels : c.levels) decodes.push_back({levels, 0});
+  for (const int groups : c.groups) decodes.push_back({0, groups});
+  for (std::size_t i = 0; i < decodes.size(); ++i) {
+    DecodeOptions options;
+    options.levels = decodes[i].first;
+    options.groups = decodes[i].second;
+    const auto field = decode(stream, options);
+    if (!field) {
+      std::fprintf(stderr, "%s: %s\n", c.id.c_str(), to_string(field.error()).c_str());
+      return false;
+    }
+    text += (i ? ",\n" : "") + expectation(*field, options.levels, options.groups);
+  }
+  text += "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 [points][functions][3]; "
+          "normals: uint16 pairs; decoded order\",\n  \"source\": {\"made_by\": \"conformance/generate.cpp\", \"licence\": \"CC0-1.0\"}\n}\n";
+  write(root / "streams" / c.id, stream, text);
+  return true;
+}
+
+bool write_refused(const fs::path& root, const RefusedCase& c) {
+  const auto field = decode(c.stream);
+  if (field) {
+    // Metadata is read by read_info alone.
+    const auto info = read_info(c.stream);
+    if (info) {
+      std::fprintf(stderr, "%s: was not refused\n", c.id.c_str());
+      return false;
+    }
+    const std::string text = description(c.id, c.clauses, c.purpose, c.stream) + "  \"refuse\": {\"by\": \"info\", \"code\": " +
+                             quoted(to_string(info.error().code)) + ", \"element\": " + quoted(info.error().element) + "}\n}\n";
+    write(root / "refused" / c.id, c.stream, text);
+    return true;
+  }
+  const std::string text = description(c.id, c.clauses, c.purpose, c.stream) + "  \"refuse\": {\"by\": \"decode\", \"code\": " +
+                           quoted(to_string(field.error().code)) + ", \"element\": " + quoted(field.error().element) + "}\n}\n";
+  write(root / "refused" / c.id, c.stream, text);
+  return true;
+}
+
+}  // namespace
+}  // namespace slf::conformance
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: slf_conformance_generate DIRECTORY\n");
+    return 2;
+  }
+  bool good = true;
+  for (const auto& c : slf::conformance::valid_cases()) good = slf::conformance::write_case(argv[1], c) && good;
+  for (const auto& c : slf::conformance::refused_cases()) good = slf::conformance::write_refused(argv[1], c) && good;
+  return good ? 0 : 1;
+}

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include "geometry/octree_decoder.h"
+#include "geometry/octree_encoder.h"
+#include "tests/field_support.h"
+
+namespace slf {
+namespace {
+
+std::vector<std::uint64_t> codes(const std::vector<Voxel>& voxels) {
+  std::vector<std::uint64_t> morton_codes;
+  for (const Voxel& v : voxels) morton_codes.push_back(morton(v));
+  return morton_codes;
+}
+
+TEST(Spec_6_2_Morton, InterleavesWithXLeastSignificant) {
+  EXPECT_EQ(morton({1, 0, 0}), 1u);
+  EXPECT_EQ(morton({0, 1, 0}), 2u);
+  EXPECT_EQ(morton({0, 0, 1}), 4u);
+  EXPECT_EQ(morton({3, 0, 0}), 9u);
+  const Voxel far = {(1 << 21) - 1, 0x155555, 0x0AAAAA};
+  EXPECT_EQ(from_morton(morton(far)), far);
+  EXPECT_EQ(morton({(1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1}), (std::uint64_t{1} << 63) - 1);
+}
+
+TEST(Spec_8_4_1_Neighbours, AreThoseOfTheGrid) {
+  // The levels of a random cloud against a search by coordinates.
+  const auto voxels = test::random_cloud(700, 4, 3);
+  OctreeLevel nodes = octree_root();
+  for (int level = 0; level < 4; ++level) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      nodes.occupancy[n] = 0;
+      for (const Voxel& v : voxels)
+        if (morton(v) >> (3 * (4 - level)) == nodes.morton[n])
+          nodes.occupancy[n] = static_cast<std::uint8_t>(nodes.occupancy[n] | 1u << (morton(v) >> (3 * (3 - level)) & 7));
+    }
+    nodes = octree_children(nodes, true);
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const Voxel at = from_morton(nodes.morton[n]);
+      for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            const Voxel to = {at[0] + dx, at[1] + dy, at[2] + dz};
+            std::int32_t expected = -1;
+            for (std::size_t m = 0; m < nodes.size(); ++m)
+              if (from_morton(nodes.morton[m]) == to) expected = static_cast<std::int32_t>(m);
+            ASSERT_EQ(nodes.neighbours[n][static_cast<std::size_t>(direction_index(dx, dy, dz))], expected);
+          }
+    }
+  }
+}
+
+class OctreeTest : public testing::TestWithParam<test::NamedCloud> {};
+
+TEST_P(OctreeTest, EveryRangeOfLevelsDecodesToItsNodes) {
+  const auto& [name, bits, voxels] = GetParam();
+  const auto morton_codes = codes(voxels);
+  for (const std::vector<int>& ends : {std::vector<int>{bits}, std::vector<int>{(bits + 1) / 2, bits}}) {
+    const auto payloads = encode_octree(morton_codes, bits, ends);
+    ASSERT_EQ(payloads.size(), ends.size());
+    OctreeDecoder decoder(bits, voxels.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      ASSERT_TRUE(decoder.decode(payloads[i], ends[i]));
+      std::vector<std::uint64_t> nodes;
+      for (const std::uint64_t code : morton_codes)
+        if (nodes.empty() || nodes.back() != code >> (3 * (bits - ends[i]))) nodes.push_back(code >> (3 * (bits - ends[i])));
+      EXPECT_EQ(decoder.morton(), nodes);
+    }
+  }
+}
+
+TEST_P(OctreeTest, MoreNodesThanAllowedAreRefused) {
+  const auto& [name, bits, voxels] = GetParam();
+  const std::vector<int> ends = {bits};
+  const auto payloads = encode_octree(codes(voxels), bits, ends);
+  OctreeDecoder decoder(bits, voxels.size() - 1);
+  EXPECT_FALSE(decoder.decode(payloads[0], bits));
+}
+
+INSTANTIATE_TEST_SUITE_P(Spec_8_4, OctreeTest, testing::ValuesIn(test::clouds_of_every_shape()),
+                         [](const auto& cloud) { return cloud.param.name; });
+
+TEST(Spec_8_4_Rate, AClosedSurfaceTakesLessThanABitAPoint) {
+  const auto voxels = test::sphere_cloud(7);
+  const std::vector<int> ends = {7};
+  EXPECT_LT(8.0 * static_cast<double>(encode_octree(codes(voxels), 7, ends)[0].size()), 1.0 * static_cast<double>(voxels.size()));
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include "bitstream/index.h"
+#include "bitstream/metadata.h"
+#include "bitstream/parameter_sets.h"
+#include "bitstream/sha256.h"
+#include "bitstream/zlib_adapter.h"
+
+namespace slf {
+namespace {
+
+struct SetCase {
+  const char* name;
+  SequenceParameterSet set;
+};
+
+SequenceParameterSet full_set() {
+  SequenceParameterSet s;
+  s.sps_grid_bits_minus1 = 20;
+  s.sps_unit_grid_flag = 0;
+  s.sps_origin = {-1, 2.5, 1e300};
+  s.sps_step = 1e-9;
+  s.sps_up_axis = 3;
+  s.sps_left_handed_flag = s.sps_metres_flag = 1;
+  s.sps_metres_per_unit = 0.001;
+  s.sps_normal_bits = 12;
+  s.sps_num_geometry_ranges_minus1 = 2;
+  s.sps_geometry_range_end = {5, 20};
+  s.sps_num_functions = 128;
+  s.sps_basis_flag = 1;
+  s.sps_order_minus1 = 3;
+  s.sps_scales_theta = 4;
+  s.sps_scales_gamma = 3;
+  s.sps_colour_idc = s.sps_transfer_idc = s.sps_coefficient_coder = 1;
+  s.sps_gamma_min = -90;
+  s.sps_gamma_max = 127;
+  s.sps_num_groups_minus1 = 2;
+  s.sps_num_coefficient_ranges_minus1 = 1;
+  s.sps_coefficient_range_end = {19};
+  s.runs = {{0, 0, 6, 1, {1, 1, 1}}, {99, 1, 15, 0, {1, 2, (1u << 27) - 1}}, {26, 2, 0, 1, {77, 1, 1}}};
+  return s;
+}
+
+class SequenceParameterSetTest : public testing::TestWithParam<SetCase> {};
+
+TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
+  const auto bytes = write_sequence_parameter_set(GetParam().set);
+  const auto parsed = parse_sequence_parameter_set(bytes);
+  ASSERT_TRUE(parsed) << to_string(parsed.error());
+  EXPECT_EQ(write_sequence_parameter_set(*parsed), bytes);
+  EXPECT_EQ(parsed->sps_origin, GetParam().set.sps_origin);
+  EXPECT_EQ(parsed->runs.size(), GetParam().set.runs.size());
+  EXPECT_EQ(parsed->sps_gamma_min, GetParam().set.sps_gamma_min);
+}
+
+TEST_P(SequenceParameterSetTest, EveryTruncationIsReportedAndNothingIsReadPastTheEnd) {
+  const auto whole = write_sequence_parameter_set(GetParam().set);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto parsed = parse_sequence_parameter_set(cut);
+    ASSERT_FALSE(parsed) << size << " of " << whole.size() << " bytes";
+    EXPECT_EQ(parsed.error().code, Errc::kTruncated);
+    EXPECT_LE(parsed.error().bit_offset, size * 8);
+  }
+}
+
+TEST_P(SequenceParameterSetTest, EveryFlippedBitGivesAValueOrAnError) {
+  const auto whole = write_sequence_parameter_set(GetParam().set);
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    auto damaged = whole;
+    damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ 1 << bit % 8);
+    const auto parsed = parse_sequence_parameter_set(damaged);
+    if (parsed) {
+      EXPECT_EQ(write_sequence_parameter_set(*parsed), damaged);
+    } else {
+      EXPECT_STRNE(parsed.error().element, "");
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
+                         testing::Values(SetCase{"geometry_alone", {}}, SetCase{"everything", full_set()}),
+                         [](const auto& set) { return set.param.name; });
+
+TEST(Spec_3_3_BitReader, ExpGolombCodesAreThoseOfTheTable) {
+  // 1, 010, 011, 00100, 00101: 0 .. 4
+  const std::vector<std::uint8_t> bytes = {0b10100110, 0b01000010, 0b10000000};
+  BitReader in(bytes);
+  for (std::uint64_t expected = 0; expected <= 4; ++expected) EXPECT_EQ(in.ue("test"), expected);
+  in.trailing_bits("test");
+  EXPECT_TRUE(in.ok());
+}
+
+TEST(Spec_3_3_BitReader, ARunOfZerosFailsAndDoesNotSpin) {
+  const std::vector<std::uint8_t> zeros(100, 0);
+  BitReader in(zeros);
+  in.ue("test");
+  EXPECT_EQ(in.error().code, Errc::kOutOfRange);
+  EXPECT_LE(in.bit_position(), 33u);
+}
+
+TEST(Spec_3_3_BitReader, TheFirstErrorSticks) {
+  const std::vector<std::uint8_t> one = {0xFF};
+  BitReader in(one);
+  in.u(9, "first");
+  in.u(1, "second");
+  EXPECT_STREQ(in.error().element, "first");
+}
+
+TEST(Spec_3_3_BitReader, WhatFollowsAHeaderIsRefused) {
+  const std::vector<std::uint8_t> zeros = {0, 0};
+  BitReader longer(zeros);
+  longer.u(4, "a");
+  longer.trailing_bits("tail");
+  EXPECT_EQ(longer.error().code, Errc::kOutOfRange);
+  const std::vector<std::uint8_t> set = {0x01};
+  BitReader nonzero(set);
+  nonzero.u(4, "a");
+  nonzero.trailing_bits("tail");
+  EXPECT_EQ(nonzero.error().code, Errc::kReserved);
+}
+
+TEST(Spec_7_7_Index, CountsAreBelievedOnlyIfTheBitsAreThere) {
+  BitWriter out;
+  out.ue(4000000000u);
+  const auto entries = parse_index(out.take());
+  ASSERT_FALSE(entries);
+  EXPECT_EQ(entries.error().code, Errc::kTruncated);
+}
+
+TEST(Spec_7_8_Metadata, RoundTripsAndRefusesEveryTruncation) {
+  const Metadata metadata = {{"a", ""}, {"key", "value"}, {"übung", "größe"}};
+  const auto bytes = write_metadata(metadata);
+  ASSERT_TRUE(parse_metadata(bytes));
+  EXPECT_EQ(*parse_metadata(bytes), metadata);
+  EXPECT_TRUE(parse_metadata(write_metadata({})));
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(parse_metadata(std::span(bytes).first(size))) << size;
+}
+
+TEST(Spec_7_8_Metadata, ABombIsNotInflated) {
+  BitWriter out;
+  out.ue(100u << 20);
+  out.append(deflate(std::vector<std::uint8_t>(100u << 20, 0)));
+  EXPECT_FALSE(parse_metadata(out.take()));
+}
+
+TEST(Sha256, MatchesFips180_4) {
+  const auto hex = [](std::string_view text) {
+    Sha256 sha;
+    for (const char c : text) {  // byte by byte: every block boundary
+      const auto byte = static_cast<std::uint8_t>(c);
+      sha.update({&byte, 1});
+    }
+    std::string digits;
+    for (const std::uint8_t byte : sha.finish()) digits += "0123456789abcdef"[byte >> 4], digits += "0123456789abcdef"[byte & 15];
+    return digits;
+  };
+  EXPECT_EQ(hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hex("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+}  // namespace
+}  // namespace slf
