@@ -5,17 +5,11 @@
 
 namespace slf {
 
-/// x / 2^30 rounded to nearest, ties away from zero. |x| < 2^62.
+/// x / 2^30 rounded to nearest, ties away from zero. |x| < 2^61, so the result has 32 bits and the
+/// sign bits that a logical shift loses are not part of it; AVX2 has no other for 64 bits.
 constexpr std::int32_t round_q30(std::int64_t x) {
-  constexpr std::int64_t kHalf = std::int64_t{1} << 29;
-  return static_cast<std::int32_t>((x + kHalf - (x < 0 ? 1 : 0)) >> 30);
+  const auto bits = static_cast<std::uint64_t>(x);
+  return static_cast<std::int32_t>((bits + (1u << 29) - (bits >> 63)) >> 30);
 }
-
-// The butterflies run on AVX2 where there is: integers, so the result is the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define SLF_MULTIVERSION __attribute__((target_clones("avx2", "default")))
-#else
-#define SLF_MULTIVERSION
-#endif
 
 }  // namespace slf

@@ -1,6 +1,7 @@
 #include "attributes/raht_forward.h"
 
 #include "attributes/raht_arithmetic.h"
+#include "bitstream/multiversion.h"
 #include "bitstream/parallel.h"
 
 namespace slf {
@@ -15,11 +16,10 @@ void forward_lanes(const Merge* merges, std::size_t count, std::int32_t* values,
     const Merge& m = merges[i];
     std::int32_t* __restrict left = values + m.left * stride;
     std::int32_t* __restrict right = values + m.right * stride;
-    const std::int64_t c = m.cos_q30, s = m.sin_q30;
     for (std::size_t j = 0; j < lanes; ++j) {
-      const std::int64_t a = left[j], b = right[j];
-      left[j] = round_q30(c * a + s * b);
-      right[j] = round_q30(c * b - s * a);
+      const std::int32_t a = left[j], b = right[j];
+      left[j] = round_q30(std::int64_t{m.cos_q30} * a + std::int64_t{m.sin_q30} * b);
+      right[j] = round_q30(std::int64_t{m.cos_q30} * b - std::int64_t{m.sin_q30} * a);
     }
   }
 }

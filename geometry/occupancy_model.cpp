@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "bitstream/multiversion.h"
+
 namespace slf {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr int kMixerRate = 32;
 constexpr std::uint32_t kCountLimit = 255;
 
 /// log2 of the number of contexts of each prediction; where hashed, the most. Spec table 8-3.
-constexpr std::array<int, 11> kContextBits = {11, 15, 20, 20, 15, 14, 18, 12, 12, 12, 20};
+constexpr std::array<int, 11> kContextBits = {11, 15, 18, 18, 15, 14, 18, 12, 12, 12, 18};
 constexpr std::array<bool, 11> kHashed = {false, false, true, true, false, false, true, false, false, false, true};
 
 constexpr std::uint64_t bit_at(int x, int y, int z) { return std::uint64_t{1} << (x + 4 * y + 16 * z); }
@@ -108,6 +110,7 @@ NodeContext OccupancyModel::node_context(const OctreeLevel& nodes, std::size_t n
   return context;
 }
 
+SLF_MULTIVERSION
 std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, unsigned coded) {
   const unsigned siblings = 1u << child | coded;  // 1 .. 255: which child, and the ones before it
   const int cx = child & 1, cy = child >> 1 & 1, cz = child >> 2 & 1;
@@ -167,6 +170,7 @@ std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, u
   return static_cast<std::uint32_t>(std::clamp(squash(sum / 3), 1, 65535));
 }
 
+SLF_MULTIVERSION
 void OccupancyModel::update(unsigned bit) {
   by_siblings_.update(inputs_, bit, kMixerRate);
   by_density_.update(inputs_, bit, kMixerRate);

@@ -17,6 +17,8 @@ constexpr double kFlattest = 0.15;  // cosine to the view; flatter discs are til
                                     // as voxels have a thickness
 constexpr double kFilter = 1.0;     // pixels: radius added (in squares) to every ellipse
 constexpr float kCore = 0.8f;       // squared ellipse radius that fixes depth in the first pass
+constexpr double kSoftest = 0.5;  // share of the wide kernel in discs of 3 pixels and more: narrow
+                                  // kernels are sharper, but show each disc of a close-up
 constexpr float kEdgeCoverage = 0.8f;  // on a disc's edge; above a half, since discs overlap and
                                        // the greatest share counts
 constexpr double kThickness = 1.5;     // depth tolerance in disc radii, over the cosine
@@ -103,6 +105,8 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.weight = static_cast<float>(std::sqrt(std::max(disc_spread.determinant() * inverse, 1e-9)));
   // Half a pixel within the ellipse, so that its antialiased edge is inside the box.
   const double minor = (s.uu + s.vv) / 2 - std::hypot((s.uu - s.vv) / 2, s.uv);
+  const double major = s.uu + s.vv - minor;
+  splat.softness = static_cast<float>(kSoftest * std::clamp(std::sqrt(major) / 1.5 - 1, 0.0, 1.0));
   splat.edge = static_cast<float>(std::min(0.85, 1 - 0.5 / std::sqrt(minor)));
   splat.point = point;
   return splat;
@@ -140,7 +144,7 @@ class Band {
       if (!shown) colour = colour_of(s.point);
       shown = true;
       const float square = (1 - r2) * (1 - r2);
-      const float weight = s.weight * square * square * square;  // close to exp(-6 r^2)
+      const float weight = s.weight * square * (s.softness + (1 - s.softness) * square * square);
       for (std::size_t k = 0; k < 3; ++k) colour_[pixel][k] += weight * colour[k];
       weight_[pixel] += weight;
       depth_[pixel] += weight * depth;

@@ -29,7 +29,8 @@ struct Splat {
   float inverse_depth, inverse_depth_du, inverse_depth_dv;
   float nearest, farthest;  ///< inverse depths that the disc's own extent allows
   float thickness;          ///< depth, world units: what lies so far behind is the same surface
-  float weight;             ///< at the centre; the sum over a closed layer of discs is about 1
+  float weight;             ///< at the centre, 1 for discs much larger than the filter
+  float softness;           ///< kernel (1 - r^2)^2 at 1, (1 - r^2)^6 at 0
   float edge;               ///< ellipse radius at which the disc ends, < 1: the rest is filter
   std::uint32_t point;
 };

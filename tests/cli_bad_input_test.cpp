@@ -1,0 +1,187 @@
+// Bad input of every kind through the program: one line that names file and cause, the documented
+// exit code, no output file, and what was there before survives.
+#include <cmath>
+
+#include "bitstream/units.h"
+#include "cli_support.h"
+
+namespace slf {
+namespace {
+
+using nlohmann::json;
+
+/// The tiny capture, to be spoilt; a small settings string to keep runs short.
+class BadCaptureTest : public TinyCaptureTest {
+ protected:
+  json cameras() { return CliTest::json(read("tiny/cameras.json")); }
+  void set_cameras(const json& content) { write("tiny/cameras.json", content.dump()); }
+  void set_points(
+      const std::string& body, const std::string& count,
+      const char* properties = "property float x\nproperty float y\nproperty float z\n") {
+    write("tiny/points.ply", "ply\nformat ascii 1.0\nelement vertex " + count + "\n" + properties +
+                                 "end_header\n" + body);
+  }
+  void expect_refused(int code, const std::string& file, const std::string& cause) {
+    write("old.slf", "what was there");
+    const Ran ran = slf("encode tiny -o old.slf --grid-bits 5 --functions 8 --quiet");
+    expect_failure(ran, code, file, cause);
+    EXPECT_EQ(read("old.slf"), "what was there");
+    EXPECT_TRUE(leftovers().empty());
+  }
+};
+
+TEST_F(BadCaptureTest, MissingCapture) {
+  expect_failure(slf("encode nowhere -o a.slf"), 3, "nowhere", "");
+  EXPECT_FALSE(exists("a.slf"));
+}
+
+TEST_F(BadCaptureTest, MissingOrUnreadableImage) {
+  const std::string image = cameras()["cameras"][0]["image"];
+  const std::string good = read("tiny/" + image);
+  std::filesystem::remove(path("tiny/" + image));
+  expect_refused(3, image, "");
+  write("tiny/" + image, good.substr(0, good.size() / 2));
+  expect_refused(4, image, "");
+  write("tiny/" + image, "not an image at all");
+  expect_refused(4, image, "");
+}
+
+TEST_F(BadCaptureTest, ImageOfAnotherSizeThanCalibrated) {
+  json changed = cameras();
+  const std::string image = changed["cameras"][0]["image"];
+  changed["cameras"][0]["width"] = 49;
+  set_cameras(changed);
+  expect_refused(4, image, "4");
+}
+
+TEST_F(BadCaptureTest, CamerasThatAreNone) {
+  const json good = cameras();
+  json changed = good;
+  for (auto& number : changed["cameras"][1]["R"][0]) number = -number.get<double>();
+  set_cameras(changed);
+  expect_refused(4, "tiny", "");  // mirrored
+  changed = good;
+  changed["cameras"][1]["R"][0][0] = changed["cameras"][1]["R"][0][0].get<double>() + 0.5;
+  set_cameras(changed);
+  expect_refused(4, "tiny", "");  // not orthonormal
+  for (const double focal : {0.0, -50.0}) {
+    changed = good;
+    changed["cameras"][1]["K"][0][0] = focal;
+    set_cameras(changed);
+    expect_refused(4, "tiny", "");
+  }
+  write("tiny/cameras.json", "{\"cameras\": [");
+  expect_refused(4, "cameras.json", "");
+}
+
+TEST_F(BadCaptureTest, NanAndInfinityAnywhere) {
+  const json good = cameras();
+  std::string text = good.dump();
+  const std::size_t t = text.find("\"t\":[");
+  ASSERT_NE(t, std::string::npos);
+  for (const char* number : {"NaN", "1e999", "null"}) {
+    std::string changed = text;
+    changed.replace(t + 5, changed.find(',', t) - t - 5, number);
+    write("tiny/cameras.json", changed);
+    expect_refused(4, "cameras.json", "");
+  }
+  set_cameras(good);
+  set_points("0 0 0\n1 nan 1\n", "2");
+  expect_refused(4, "points.ply", "");
+  set_points("0 0 0\n1 inf 1\n", "2");
+  expect_refused(4, "points.ply", "");
+}
+
+TEST_F(BadCaptureTest, CloudsThatCannotBeUsed) {
+  set_points("0 0 0\n1 1 1\n", "3");
+  expect_refused(4, "points.ply", "");
+  set_points("0 0 0\n1 1 1\n", "999999999999");
+  expect_refused(4, "points.ply", "");
+  set_points("", "0");
+  expect_refused(4, "tiny", "");
+  set_points("1 1 1\n1 1 1\n", "2");
+  expect_refused(4, "tiny", "voxel");
+  set_points("1000 1000 1000\n1001 1000 1000\n1000 1001 1000\n1000 1000 1001\n", "4");
+  expect_refused(4, "tiny", "");  // outside every frustum
+}
+
+TEST_F(BadCaptureTest, UnknownSplit) {
+  expect_failure(slf("encode tiny -o a.slf --split nonsense --quiet"), 2, "nonsense", "");
+}
+
+TEST_F(BadCaptureTest, OutputThatCannotBeWritten) {
+  const std::string options = " --grid-bits 5 --functions 8 --quiet";
+  expect_failure(slf("encode tiny -o none/a.slf" + options), 7, "none/a.slf", "does not exist");
+  expect_failure(slf("encode tiny -o tiny" + options), 7, "tiny", "directory");
+  expect_failure(slf("encode tiny -o /dev/full" + options), 7, "/dev/full", "No space left");
+  expect_failure(slf("encode tiny -o - >/dev/full" + options), 7, "standard output",
+                 "No space left");
+}
+
+TEST_F(BadCaptureTest, AFullDiskLeavesTheOldFile) {
+  write("a.slf", "what was there");
+  // A limit on the size of files stands for the disk: write() fails in the middle.
+  const Ran ran = slf("encode tiny -o a.slf --grid-bits 5 --functions 8 --quiet", "ulimit -f 1;");
+  expect_failure(ran, 7, "a.slf", "cannot be written");
+  EXPECT_EQ(read("a.slf"), "what was there");
+  EXPECT_TRUE(leftovers().empty());
+}
+
+TEST_F(CliTest, AnInterruptLeavesNoTemporaryFile) {
+  const Ran ran = shell("timeout --preserve-status -s INT 0.4 '" SLF_PROGRAM
+                        "' synth can -o big --size 512x512 --points 20000");
+  EXPECT_EQ(ran.code, 130) << ran.err;
+  EXPECT_TRUE(leftovers().empty());
+}
+
+class BadStreamTest : public TinyCaptureTest {
+ protected:
+  void SetUp() override {
+    TinyCaptureTest::SetUp();
+    ASSERT_EQ(slf("encode tiny -o good.slf --grid-bits 5 --functions 8").code, 0);
+    good_ = read("good.slf");
+  }
+  void expect_refused(const std::string& stream, int code, const std::string& cause) {
+    write("bad.slf", stream);
+    for (const char* verb :
+         {"info bad.slf", "decode bad.slf -o out.ply", "decode bad.slf --dump out",
+          "render bad.slf -o out.png", "eval bad.slf tiny"}) {
+      expect_failure(slf(verb), code, "bad.slf", cause);
+      EXPECT_FALSE(exists("out.ply") || exists("out.png") || exists("out/light_field.json"))
+          << verb;
+    }
+  }
+  std::string good_;
+};
+
+TEST_F(BadStreamTest, TruncatedCorruptedForeignAndEmpty) {
+  expect_refused(good_.substr(0, good_.size() - 1), 4, "truncated");
+  expect_refused(good_.substr(0, good_.size() / 2), 4, "truncated");
+  std::string changed = good_;
+  changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 0x10);
+  expect_refused(changed, 4, "damaged");
+  expect_refused(good_ + "more", 4, "");
+  expect_refused(read("tiny/points.ply"), 4, "not an .slf file");
+  expect_refused("", 4, "");
+}
+
+TEST_F(BadStreamTest, NewerMajorVersion) {
+  const std::vector<std::uint8_t> stream(good_.begin(), good_.end());
+  const auto units = split_units(stream);
+  ASSERT_TRUE(units);
+  std::vector<std::uint8_t> newer(kSignature.begin(), kSignature.end());
+  for (const Unit& unit : units->units) {
+    std::vector<std::uint8_t> payload(unit.payload.begin(), unit.payload.end());
+    if (unit.type == UnitType::kSequence) payload[0] = 9;  // sps_version_major
+    append_unit(newer, unit.type, payload);
+  }
+  expect_refused({newer.begin(), newer.end()}, 6, "not supported");
+}
+
+TEST_F(CliTest, MissingStream) {
+  expect_failure(slf("info none.slf"), 3, "none.slf", "No such file");
+  expect_failure(slf("decode . -o a.ply"), 3, ".", "directory");
+}
+
+}  // namespace
+}  // namespace slf
