@@ -29,7 +29,7 @@ class IndependentCoefficients {
   }
 
  private:
-  static constexpr std::uint32_t kLimit = 1023;  // stationary: forget slowly
+  static constexpr std::uint32_t kLimit = 30;  // coarse to fine: forget quickly
 
   struct Plane {
     AdaptiveBit nonzero;

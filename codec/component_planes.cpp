@@ -69,7 +69,7 @@ std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis, co
   const std::vector<double> norms = basis_norms(basis);
   std::vector<std::array<std::uint32_t, 3>> steps;
   for (std::size_t k = 0; k < shifts.size(); ++k) {
-    const double step = std::ldexp(by_norm ? q / norms[k] : q, shifts[k]);
+    const double step = std::ldexp(by_norm ? q / (2 * norms[k]) : q, shifts[k]);
     const auto rounded = static_cast<std::uint32_t>(std::lround(std::clamp(step, 1.0, kMostStep)));
     steps.push_back({rounded, rounded, rounded});
   }

@@ -58,10 +58,10 @@ class CliTest : public testing::Test {
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
-  nlohmann::json json(const std::string& text) const {
-    auto parsed = nlohmann::json::parse(text, nullptr, false);
-    EXPECT_FALSE(parsed.is_discarded()) << text;
-    return parsed;
+  nlohmann::json parsed(const std::string& text) const {
+    auto value = nlohmann::json::parse(text, nullptr, false);
+    EXPECT_FALSE(value.is_discarded()) << text;
+    return value;
   }
 
   /// Names in the directory (and below) that look like a temporary file.
@@ -88,13 +88,13 @@ class CliTest : public testing::Test {
   std::filesystem::path directory_;
 };
 
-/// A directory `tiny` with a synthetic capture: 24 images of 48 x 48, some 1500 points.
+/// A directory `tiny` with a synthetic capture: 100 images of 48 x 48, 20 of them dense, some 1500 points.
 class TinyCaptureTest : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
     const Ran ran =
-        slf("synth can -o tiny --size 48x48 --points 1500 --circles 3 --per-circle 8 "
+        slf("synth can -o tiny --size 48x48 --points 1500 --circles 5 --per-circle 20 "
             "--supersampling 1");
     ASSERT_EQ(ran.code, 0) << ran.err;
   }

@@ -100,8 +100,9 @@ Result<Done, InputError> write_file(const std::filesystem::path& file, const voi
 Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
                                                         std::uint64_t max_bytes = std::uint64_t{1} << 32);
 
-/// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (the sum of
-/// directions to those in front decides; none: away from the centroid). Unit length.
+/// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (those that see
+/// a point decide, found with a coarse depth map; where they do not say, its neighbours do; no
+/// viewpoints: away from the centroid). Unit length.
 /// The same for any thread count. O(P log P).
 std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
                                                    const std::vector<Vec3>& viewpoints, int k = 16,

@@ -53,7 +53,7 @@ struct EncoderSettings {
   ObserveSettings observe;
   FitSettings fit;
   double q = 16;             ///< quantiser step Q, grey levels, 0.05 .. 4096
-  bool steps_by_norm = true; ///< step_k = Q / ||b_k||; false: Q for every plane
+  bool steps_by_norm = true; ///< step_k = Q / (2 ||b_k||); false: Q for every plane
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;

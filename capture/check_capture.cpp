@@ -1,0 +1,207 @@
+#include "capture/check_capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "capture/image_formats.h"
+
+namespace slf {
+
+namespace {
+
+constexpr double kMaxRotationError = 1e-3;    // of an entry of R R^T - I
+constexpr double kMaxPrincipalOffset = 0.1;   // of the image's size; more is suspicious
+constexpr std::size_t kSampledPoints = 4096;  // for warnings; an error looks at all points
+
+InputError invalid(const std::string& where, const std::string& cause) {
+  return {Errc::kInvalidInput, where + ": " + cause};
+}
+
+bool all_finite(const Camera& camera) {
+  bool finite = std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) &&
+                std::isfinite(camera.cy);
+  for (const double d : camera.distortion) finite = finite && std::isfinite(d);
+  for (const auto& row : camera.rotation)
+    for (const double r : row) finite = finite && std::isfinite(r);
+  for (const double t : camera.translation) finite = finite && std::isfinite(t);
+  return finite;
+}
+
+double determinant(const std::array<std::array<double, 3>, 3>& r) {
+  return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+         r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+         r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
+}
+
+Result<Done, InputError> check_rotation(const std::array<std::array<double, 3>, 3>& r,
+                                        const std::string& label) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double product = r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2];
+      if (!(std::abs(product - (i == j ? 1 : 0)) <= kMaxRotationError))
+        return invalid(label, "the rotation is not orthonormal");
+    }
+  if (determinant(r) < 0) return invalid(label, "the rotation mirrors (determinant -1)");
+  return Done{};
+}
+
+Result<Done, InputError> check_camera(const Camera& camera, const std::string& label) {
+  if (!all_finite(camera)) return invalid(label, "a calibration value is not finite");
+  const auto size = std::to_string(camera.width) + " x " + std::to_string(camera.height);
+  if (camera.width < 1 || camera.height < 1 || camera.width > 65535 || camera.height > 65535)
+    return invalid(label, "image size " + size + " is out of range");
+  if (!(camera.fx > 0 && camera.fy > 0)) return invalid(label, "the focal length is not positive");
+  return check_rotation(camera.rotation, label);
+}
+
+bool principal_point_is_far_off(const Camera& camera) {
+  return std::abs(camera.cx - 0.5 * camera.width) > kMaxPrincipalOffset * camera.width ||
+         std::abs(camera.cy - 0.5 * camera.height) > kMaxPrincipalOffset * camera.height;
+}
+
+Result<Done, InputError> check_size(const std::filesystem::path& file, const Camera& camera) {
+  SLF_TRY(const ImageSize size, read_image_size(file));
+  if (size.width == static_cast<std::uint32_t>(camera.width) &&
+      size.height == static_cast<std::uint32_t>(camera.height))
+    return Done{};
+  return invalid(file.string(), "image of " + std::to_string(size.width) + " x " +
+                                    std::to_string(size.height) + " pixels, calibrated as " +
+                                    std::to_string(camera.width) + " x " +
+                                    std::to_string(camera.height));
+}
+
+Vec3 to_double(const std::array<float, 3>& p) { return {double{p[0]}, double{p[1]}, double{p[2]}}; }
+
+// What a set of points looks like to the cameras.
+struct Survey {
+  std::size_t in_front = 0, in_view = 0, facing = 0, points = 0;  // by or to any camera
+  std::vector<bool> camera_sees;
+};
+
+Survey survey(const Capture& capture, std::size_t stride) {
+  Survey result;
+  result.camera_sees.resize(capture.cameras.size());
+  std::vector<Vec3> centres;
+  for (const auto& camera : capture.cameras) centres.push_back(camera.centre());
+  for (std::size_t p = 0; p < capture.cloud.positions.size(); p += stride) {
+    const Vec3 point = to_double(capture.cloud.positions[p]);
+    bool in_front = false, in_view = false, facing = false;
+    for (std::size_t c = 0; c < capture.cameras.size(); ++c) {
+      const auto& camera = capture.cameras[c];
+      double z = 0;
+      const auto image = camera.project(point, &z);
+      in_front = in_front || z > 0;
+      if (!image || (*image)[0] < 0 || (*image)[1] < 0 || (*image)[0] > camera.width ||
+          (*image)[1] > camera.height)
+        continue;
+      in_view = true;
+      result.camera_sees[c] = true;
+      if (facing || capture.cloud.normals.empty()) continue;
+      const Vec3 normal = to_double(capture.cloud.normals[p]);
+      double cosine = 0;
+      for (std::size_t k = 0; k < 3; ++k) cosine += normal[k] * (centres[c][k] - point[k]);
+      facing = cosine > 0;
+    }
+    result.in_front += in_front;
+    result.in_view += in_view;
+    result.facing += facing;
+    ++result.points;
+  }
+  return result;
+}
+
+InputError outside_error(const Survey& all, const std::string& cloud_name) {
+  if (all.in_front == 0)
+    return invalid(cloud_name,
+                   "every point is behind every camera; are the camera axes those of the format?");
+  return invalid(
+      cloud_name,
+      "no point is inside the frustum of any camera; are cloud and cameras in one world?");
+}
+
+// A float has 24 bits: fewer than 11 of them may be left for the extent of the cloud.
+bool far_from_origin(const PointCloud& cloud) {
+  float magnitude = 0, extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    float low = cloud.positions[0][k], high = low;
+    for (const auto& p : cloud.positions) {
+      low = std::min(low, p[k]);
+      high = std::max(high, p[k]);
+    }
+    magnitude = std::max({magnitude, std::abs(low), std::abs(high)});
+    extent = std::max(extent, high - low);
+  }
+  return magnitude > 8192 * extent;
+}
+
+}  // namespace
+
+Result<Done, InputError> check_cameras(Import& import) {
+  auto& capture = import.capture;
+  std::set<std::string> names;
+  std::size_t far_off = 0;
+  for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
+    SLF_CHECK(check_camera(capture.cameras[i], import.labels[i]));
+    if (!names.insert(capture.cameras[i].name).second)
+      return invalid(import.labels[i], "image '" + capture.cameras[i].name + "' twice");
+    far_off += principal_point_is_far_off(capture.cameras[i]);
+  }
+  if (far_off > 0)
+    capture.warnings.push_back(std::to_string(far_off) + " of " +
+                               std::to_string(capture.cameras.size()) +
+                               " cameras have a principal point more than 10 % off the centre");
+  return Done{};
+}
+
+Result<Done, InputError> check_image_files(const Capture& capture) {
+  for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
+    SLF_CHECK(check_size(capture.image_files[i], capture.cameras[i]));
+    if (!capture.mask_files.empty() && !capture.mask_files[i].empty())
+      SLF_CHECK(check_size(capture.mask_files[i], capture.cameras[i]));
+  }
+  return Done{};
+}
+
+Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_name) {
+  const std::size_t count = capture.cloud.positions.size();
+  if (count == 0) return invalid(cloud_name, "no points");
+  auto& warnings = capture.warnings;
+  if (far_from_origin(capture.cloud))
+    warnings.push_back(cloud_name + ": far from the origin for its size: positions are coarse");
+  if (capture.cloud.normals.empty() && !capture.cameras.empty())
+    warnings.push_back(cloud_name + ": no normals: they are estimated");
+  if (capture.cameras.empty()) return Done{};
+
+  const Survey sample = survey(capture, std::max<std::size_t>(count / kSampledPoints, 1));
+  if (sample.in_view == 0) {
+    const Survey all = survey(capture, 1);
+    if (all.in_view == 0) return outside_error(all, cloud_name);
+  }
+  const auto blind = std::count(sample.camera_sees.begin(), sample.camera_sees.end(), false);
+  if (blind > 0)
+    warnings.push_back(std::to_string(blind) + " of " + std::to_string(capture.cameras.size()) +
+                       " cameras do not see the cloud; are the camera axes those of the format?");
+  if (sample.in_view < sample.points / 2)
+    warnings.push_back(cloud_name + ": more than half of the points are in no camera's view");
+  if (!capture.cloud.normals.empty() && sample.facing < sample.in_view / 2)
+    warnings.push_back(cloud_name +
+                       ": most normals face away from every camera; do they point inwards?");
+  return Done{};
+}
+
+UpAxis up_of(const std::vector<Camera>& cameras, UpAxis otherwise) {
+  if (cameras.empty()) return otherwise;
+  Vec3 up{0, 0, 0};  // mean of the cameras' -y axes
+  for (const auto& camera : cameras)
+    for (std::size_t k = 0; k < 3; ++k)
+      up[k] -= camera.rotation[1][k] / static_cast<double>(cameras.size());
+  std::array<std::size_t, 3> axis{0, 1, 2};
+  std::sort(axis.begin(), axis.end(),
+            [&](std::size_t a, std::size_t b) { return std::abs(up[a]) > std::abs(up[b]); });
+  const double most = std::abs(up[axis[0]]), second = std::abs(up[axis[1]]);
+  if (!(most >= 0.3 && most >= 1.5 * second)) return otherwise;
+  return static_cast<UpAxis>(2 * axis[0] + (up[axis[0]] < 0 ? 1 : 0));  // +x, -x, +y, ...
+}
+
+}  // namespace slf

@@ -1,0 +1,156 @@
+#include "capture/colmap_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace slf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Known {
+  const char* name;
+  std::size_t num_params;  // 0: not supported
+};
+// By number. Source: COLMAP src/colmap/sensor/models.h.
+constexpr std::array<Known, 18> kModels{{{"SIMPLE_PINHOLE", 3},
+                                         {"PINHOLE", 4},
+                                         {"SIMPLE_RADIAL", 4},
+                                         {"RADIAL", 5},
+                                         {"OPENCV", 8},
+                                         {"OPENCV_FISHEYE", 0},
+                                         {"FULL_OPENCV", 0},
+                                         {"FOV", 0},
+                                         {"SIMPLE_RADIAL_FISHEYE", 0},
+                                         {"RADIAL_FISHEYE", 0},
+                                         {"THIN_PRISM_FISHEYE", 0},
+                                         {"RAD_TAN_THIN_PRISM_FISHEYE", 0},
+                                         {"SIMPLE_DIVISION", 0},
+                                         {"DIVISION", 0},
+                                         {"SIMPLE_FISHEYE", 0},
+                                         {"FISHEYE", 0},
+                                         {"EUCM", 0},
+                                         {"EQUIRECTANGULAR", 0}}};
+
+Result<ColmapModelKind, InputError> supported(const Known& model, const std::string& label) {
+  if (model.num_params > 0) return ColmapModelKind{model.name, model.num_params};
+  return InputError{Errc::kInvalidInput,
+                    label + ": camera model " + model.name +
+                        " is not supported; undistort the images to PINHOLE first"};
+}
+
+void set_intrinsics(const ColmapCamera& from, Camera& to) {
+  const auto& p = from.params;
+  const std::string kind = from.kind.name;
+  const bool one_focal = kind != "PINHOLE" && kind != "OPENCV";
+  std::size_t at = 0;
+  to.fx = p[at++];
+  to.fy = one_focal ? to.fx : p[at++];
+  to.cx = p[at++];
+  to.cy = p[at++];
+  // k; k1, k2; k1, k2, p1, p2: what is missing is zero.
+  for (std::size_t i = 0; at < p.size(); ++i) to.distortion[i] = p[at++];
+}
+
+// Hamilton convention, of unit length.
+std::array<std::array<double, 3>, 3> rotation_of(const std::array<double, 4>& q) {
+  const auto [w, x, y, z] = q;
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+           {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
+}
+
+// The directory that image names are relative to: images/ beside the model, or beside sparse/ where
+// the model is sparse/ or sparse/0. Where the first image is decides; where it is nowhere, the
+// outermost.
+struct Place {
+  fs::path root;
+  std::string prefix;  // "images/" or ""
+};
+
+Place place_of_images(const fs::path& directory, const std::string& first_image) {
+  std::vector<fs::path> roots{directory};
+  if (directory.parent_path().filename() == "sparse")
+    roots.push_back(directory.parent_path().parent_path());
+  if (directory.filename() == "sparse") roots.push_back(directory.parent_path());
+  std::error_code error;
+  for (const auto& root : roots)
+    for (const char* prefix : {"images/", ""})
+      if (fs::exists(root / (prefix + first_image), error)) return {root, prefix};
+  return {roots.back(), "images/"};
+}
+
+}  // namespace
+
+Result<ColmapModelKind, InputError> colmap_model_kind(std::int64_t id, const std::string& label) {
+  if (id >= 0 && static_cast<std::uint64_t>(id) < kModels.size())
+    return supported(kModels[static_cast<std::size_t>(id)], label);
+  return InputError{Errc::kInvalidInput, label + ": unknown camera model " + std::to_string(id)};
+}
+
+Result<ColmapModelKind, InputError> colmap_model_kind(const std::string& name,
+                                                      const std::string& label) {
+  for (const auto& model : kModels)
+    if (name == model.name) return supported(model, label);
+  return InputError{Errc::kInvalidInput, label + ": unknown camera model '" + name + "'"};
+}
+
+Result<Import, InputError> import_of(ColmapModel model, const fs::path& directory,
+                                     const std::string& extension) {
+  const std::string cameras_file = (directory / ("cameras" + extension)).string();
+  const std::string images_file = (directory / ("images" + extension)).string();
+  const auto invalid = [](const std::string& where, const std::string& cause) {
+    return InputError{Errc::kInvalidInput, where + ": " + cause};
+  };
+  std::map<std::uint32_t, const ColmapCamera*> camera_of;
+  for (const auto& camera : model.cameras) {
+    if (!camera_of.emplace(camera.id, &camera).second)
+      return invalid(cameras_file, "camera " + std::to_string(camera.id) + " twice");
+    if (camera.width < 1 || camera.height < 1 || camera.width > 65535 || camera.height > 65535)
+      return invalid(cameras_file,
+                     "camera " + std::to_string(camera.id) + ": image size out of range");
+  }
+  std::sort(model.images.begin(), model.images.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+
+  Import import;
+  const Place place =
+      place_of_images(directory, model.images.empty() ? "" : model.images.front().name);
+  import.capture.root = place.root;
+  import.capture.cloud = std::move(model.points);
+  import.cloud_name = (directory / ("points3D" + extension)).string();
+  std::size_t not_unit = 0;
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    auto& image = model.images[i];
+    const std::string label = images_file + ": image '" + image.name + "'";
+    if (i > 0 && image.name == model.images[i - 1].name) return invalid(label, "twice");
+    const auto found = camera_of.find(image.camera);
+    if (found == camera_of.end())
+      return invalid(label, "there is no camera " + std::to_string(image.camera));
+    auto q = image.quaternion;
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(length > 0) || !std::isfinite(length))
+      return invalid(label, "rotation of length 0 or not finite");
+    if (std::abs(length - 1) > 1e-6) ++not_unit;
+    for (double& component : q) component /= length;
+
+    Camera camera;
+    camera.name = image.name;
+    camera.width = static_cast<int>(found->second->width);
+    camera.height = static_cast<int>(found->second->height);
+    set_intrinsics(*found->second, camera);
+    camera.rotation = rotation_of(q);
+    camera.translation = image.translation;
+    import.capture.cameras.push_back(std::move(camera));
+    import.images.push_back(place.prefix + image.name);
+    import.labels.push_back(label);
+  }
+  if (not_unit > 0)
+    import.capture.warnings.push_back(images_file + ": " + std::to_string(not_unit) +
+                                      " rotations are not of unit length: normalised");
+  return import;
+}
+
+}  // namespace slf

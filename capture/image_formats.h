@@ -1,0 +1,48 @@
+// What the PNG and JPEG adapters offer: whole files in memory to and from images.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+using Bytes = std::span<const std::uint8_t>;
+
+inline constexpr std::uint32_t kMaxImageSide = 65535;
+inline constexpr std::uint64_t kMaxImagePixels = std::uint64_t{1} << 28;
+
+struct ImageSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+/// A cause, if the size is one that is refused before anything is allocated.
+std::optional<std::string> image_size_problem(ImageSize size);
+
+bool is_png(Bytes file);
+bool is_jpeg(Bytes file);
+
+/// From the first bytes of a file, without decoding; nothing if they do not say.
+std::optional<ImageSize> png_size(Bytes start);
+std::optional<ImageSize> jpeg_size(Bytes start);
+
+/// Size of a PNG or JPEG from its header alone. Reads a few kilobytes, more only if the header of a
+/// JPEG is longer.
+Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file);
+
+/// To 8 bits, grey and palette to RGB; four channels where the file has alpha or tRNS.
+/// @param name  for messages
+Result<Image, InputError> decode_png(const std::string& name, Bytes file);
+/// To RGB. EXIF orientation is ignored: a calibration refers to the stored pixels.
+Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file);
+
+/// 8-bit RGB or RGBA. The image's fields fit together (write_png has checked).
+Result<std::vector<std::uint8_t>, InputError> encode_png(const std::string& name,
+                                                         const Image& image);
+
+}  // namespace slf

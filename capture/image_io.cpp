@@ -1,0 +1,30 @@
+// Images by content, out through write_file.
+#include "capture/image_formats.h"
+
+namespace slf {
+
+Result<Image, InputError> read_image(const std::filesystem::path& file) {
+  SLF_TRY(const auto bytes, read_file(file));
+  if (is_png(bytes)) return decode_png(file.string(), bytes);
+  if (is_jpeg(bytes)) return decode_jpeg(file.string(), bytes);
+  return InputError{Errc::kInvalidInput, file.string() + ": neither PNG nor JPEG"};
+}
+
+Result<Done, InputError> write_png(const std::filesystem::path& file, const Image& image) {
+  const auto invalid = [&](const std::string& cause) {
+    return InputError{Errc::kInvalidArgument, file.string() + ": " + cause};
+  };
+  if (image.width < 1 || image.height < 1) return invalid("image without pixels");
+  const ImageSize size{static_cast<std::uint32_t>(image.width),
+                       static_cast<std::uint32_t>(image.height)};
+  if (const auto problem = image_size_problem(size)) return invalid(*problem);
+  if (image.channels != 3 && image.channels != 4)
+    return invalid("image of neither 3 nor 4 channels");
+  const std::uint64_t samples =
+      std::uint64_t{size.width} * size.height * static_cast<std::uint64_t>(image.channels);
+  if (image.data.size() != samples) return invalid("image data of another size than the image");
+  SLF_TRY(const auto bytes, encode_png(file.string(), image));
+  return write_file(file, bytes.data(), bytes.size());
+}
+
+}  // namespace slf

@@ -1,0 +1,45 @@
+// What the importers have in common. Each turns one format into an Import; load_capture picks the
+// importer, reads the cloud and checks the whole.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+/// Cameras as a format has them, in our convention but not yet checked.
+struct Import {
+  Capture capture;                   ///< root, cameras, splits; cloud if the format carries points
+  std::vector<std::string> images;   ///< [cameras] relative to root, as the format has them
+  std::vector<std::string> masks;    ///< [cameras] or empty; "" where a camera has none
+  std::vector<std::string> labels;   ///< [cameras] where each stands: "cameras.json: cameras[3]"
+  std::filesystem::path cloud_file;  ///< the PLY the format names; or empty
+  std::string cloud_name;            ///< for messages: where capture.cloud came from
+  std::optional<UpAxis> up;          ///< where the format says
+};
+
+/// The shared convention. @param file  cameras.json
+Result<Import, InputError> import_cameras_json(const std::filesystem::path& file);
+
+/// COLMAP models. @param directory  holds cameras, images, points3D
+Result<Import, InputError> import_colmap_binary(const std::filesystem::path& directory);
+Result<Import, InputError> import_colmap_text(const std::filesystem::path& directory);
+
+/// transforms.json of instant-ngp, nerfstudio and NeRF's Blender scenes.
+Result<Import, InputError> import_transforms_json(const std::filesystem::path& file);
+/// A scene in several files of one directory: transforms_train.json is the split "dense",
+/// transforms_test.json "evaluation".
+Result<Import, InputError> import_transforms_splits(const std::filesystem::path& directory);
+
+/// Refuses an image or mask path that is empty or leads out of the capture.
+/// @param label  for messages
+/// @return the path, absolute and without "." and ".."
+Result<std::filesystem::path, InputError> path_inside(const std::filesystem::path& root,
+                                                      const std::string& relative,
+                                                      const std::string& label);
+
+}  // namespace slf

@@ -1,0 +1,109 @@
+// The adapter of libjpeg-turbo. Errors arrive by longjmp: each function that calls setjmp has only
+// trivial locals; what owns memory lives in its caller.
+#include <cstddef>
+#include <cstdio>
+// jpeglib.h needs the two above.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+
+#include "capture/image_formats.h"
+
+namespace slf {
+
+namespace {
+
+// One block of 64 pixels takes a bit at the least in Huffman coding; the rest is reserve.
+constexpr std::uint64_t kMaxPixelsPerByte = 4096;
+
+struct Errors {
+  jpeg_error_mgr base;  // first: libjpeg hands back a pointer to it
+  std::jmp_buf jump;
+  char text[JMSG_LENGTH_MAX] = "";
+  bool damaged = false;  // a warning that means missing pixels
+};
+
+void on_error(j_common_ptr info) {
+  auto* errors = reinterpret_cast<Errors*>(info->err);
+  info->err->format_message(info, errors->text);
+  std::longjmp(errors->jump, 1);
+}
+
+// libjpeg fills what is missing with grey and warns; that is no photograph.
+void on_message(j_common_ptr info, int level) {
+  if (level >= 0) return;  // trace
+  const int code = info->err->msg_code;
+  if (code != JWRN_JPEG_EOF && code != JWRN_HIT_MARKER && code != JWRN_HUFF_BAD_CODE) return;
+  auto* errors = reinterpret_cast<Errors*>(info->err);
+  if (!errors->damaged) info->err->format_message(info, errors->text);
+  errors->damaged = true;
+}
+
+struct Reader {
+  Reader() {
+    std::memset(&info, 0, sizeof info);
+    info.err = jpeg_std_error(&errors.base);
+    errors.base.error_exit = on_error;
+    errors.base.emit_message = on_message;
+  }
+  ~Reader() { jpeg_destroy_decompress(&info); }  // harmless before create
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  jpeg_decompress_struct info;
+  Errors errors;
+};
+
+bool read_header(Reader& reader, Bytes file) {
+  if (setjmp(reader.errors.jump) != 0) return false;
+  jpeg_create_decompress(&reader.info);
+  jpeg_mem_src(&reader.info, file.data(), file.size());
+  jpeg_read_header(&reader.info, TRUE);
+  return true;
+}
+
+bool read_rows(Reader& reader, std::uint8_t* data, std::size_t stride) {
+  if (setjmp(reader.errors.jump) != 0) return false;
+  reader.info.out_color_space = JCS_RGB;
+  reader.info.dct_method = JDCT_ISLOW;  // the accurate one, the same on every machine
+  jpeg_start_decompress(&reader.info);
+  while (reader.info.output_scanline < reader.info.output_height) {
+    JSAMPROW row = data + reader.info.output_scanline * stride;
+    jpeg_read_scanlines(&reader.info, &row, 1);
+  }
+  jpeg_finish_decompress(&reader.info);
+  return true;
+}
+
+}  // namespace
+
+Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file) {
+  const auto invalid = [&](const std::string& cause) {
+    return InputError{Errc::kInvalidInput, name + ": " + cause};
+  };
+  Reader reader;
+  const auto damaged = [&] { return invalid(std::string("damaged JPEG: ") + reader.errors.text); };
+  if (!read_header(reader, file)) return damaged();
+
+  const ImageSize size{reader.info.image_width, reader.info.image_height};
+  if (const auto problem = image_size_problem(size)) return invalid(*problem);
+  if (std::uint64_t{size.width} * size.height / kMaxPixelsPerByte > file.size())
+    return invalid("damaged JPEG: larger than its bytes can hold");
+  const auto space = reader.info.jpeg_color_space;
+  if (space != JCS_GRAYSCALE && space != JCS_YCbCr && space != JCS_RGB)
+    return invalid("JPEG that is neither grey nor RGB (CMYK?)");
+
+  Image image;
+  image.width = static_cast<int>(size.width);
+  image.height = static_cast<int>(size.height);
+  image.channels = 3;
+  const std::size_t stride = std::size_t{3} * size.width;
+  image.data.resize(stride * size.height);
+  if (!read_rows(reader, image.data.data(), stride) || reader.errors.damaged) return damaged();
+  return image;
+}
+
+}  // namespace slf

@@ -1,0 +1,131 @@
+// Which importer reads a path, where the cloud comes from, and the checks of the whole.
+#include "capture/check_capture.h"
+#include "capture/importer.h"
+#include "capture/json.h"
+#include "capture/json_numbers.h"
+
+namespace slf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+// COLMAP's three files, by the one that cameras are in.
+std::optional<std::string> colmap_extension(const fs::path& directory) {
+  if (is_file(directory / "cameras.bin")) return ".bin";
+  if (is_file(directory / "cameras.txt")) return ".txt";
+  return std::nullopt;
+}
+
+Result<Import, InputError> import_colmap(const fs::path& directory, const std::string& extension) {
+  return extension == ".bin" ? import_colmap_binary(directory) : import_colmap_text(directory);
+}
+
+// By content: any name will do for a JSON file.
+Result<Import, InputError> import_json(const fs::path& file) {
+  if (file.filename() == "cameras.json") return import_cameras_json(file);
+  SLF_TRY(const auto text, read_file(file, kMaxJsonBytes));
+  SLF_TRY(const auto document, parse_json(file.string(), text));
+  const JsonView json(document, file.string());
+  if (json.find("frames")) return import_transforms_json(file);
+  if (json.find("cameras")) return import_cameras_json(file);
+  return json.error("neither 'cameras' nor 'frames': not a capture");
+}
+
+Result<Import, InputError> import_file(const fs::path& file) {
+  const std::string extension = lower(file.extension().string());
+  if (extension == ".json") return import_json(file);
+  const std::string stem = file.stem().string();
+  const bool colmap = stem == "cameras" || stem == "images" || stem == "points3D";
+  if (colmap && (extension == ".bin" || extension == ".txt"))
+    return import_colmap(file.parent_path(), extension);
+  if (extension == ".ply") {
+    Import import;
+    import.capture.root = file.parent_path();
+    import.cloud_file = file;
+    return import;
+  }
+  return InputError{Errc::kInvalidInput, file.string() + ": not a capture that is understood"};
+}
+
+Result<Import, InputError> import_directory(const fs::path& directory) {
+  if (is_file(directory / "cameras.json")) return import_cameras_json(directory / "cameras.json");
+  for (const char* model : {"", "sparse/0", "sparse"}) {
+    const fs::path place = *model == '\0' ? directory : directory / model;
+    if (const auto extension = colmap_extension(place)) return import_colmap(place, *extension);
+  }
+  if (is_file(directory / "transforms.json"))
+    return import_transforms_json(directory / "transforms.json");
+  if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
+  return InputError{Errc::kInvalidInput, directory.string() +
+                                             ": not a capture: no cameras.json, COLMAP model or "
+                                             "transforms.json"};
+}
+
+// Reads the cloud from where it is; returns its name for messages.
+Result<std::string, InputError> load_cloud(const fs::path& given, Import& import) {
+  auto& capture = import.capture;
+  fs::path file = !given.empty() ? given : import.cloud_file;
+  if (file.empty() && is_file(capture.root / "points.ply")) file = capture.root / "points.ply";
+  if (!file.empty()) {
+    SLF_TRY(capture.cloud, read_ply(file, &capture.warnings));
+    return file.string();
+  }
+  if (!import.cloud_name.empty()) return std::string(import.cloud_name);
+  return InputError{Errc::kUnreadable,
+                    (capture.root / "points.ply").string() + ": the capture has no point cloud"};
+}
+
+Result<Done, InputError> resolve_files(Import& import) {
+  auto& capture = import.capture;
+  for (std::size_t i = 0; i < import.images.size(); ++i) {
+    SLF_TRY(auto image, path_inside(capture.root, import.images[i], import.labels[i]));
+    capture.image_files.push_back(std::move(image));
+    if (import.masks.empty()) continue;
+    fs::path mask;
+    if (!import.masks[i].empty()) {
+      SLF_TRY(mask, path_inside(capture.root, import.masks[i], import.labels[i]));
+    }
+    capture.mask_files.push_back(std::move(mask));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOptions& options) {
+  std::error_code error;
+  fs::path path = fs::absolute(given, error).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "name/"
+  const auto status = fs::status(path, error);
+  if (given.empty() || !fs::exists(status))
+    return InputError{Errc::kUnreadable, given.string() + ": no such file or directory"};
+
+  SLF_TRY(Import import, fs::is_directory(status) ? import_directory(path) : import_file(path));
+  const bool lone_cloud = import.labels.empty() && import.cloud_file == path;
+  if (import.capture.cameras.empty() && !lone_cloud)
+    return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};
+  SLF_CHECK(check_cameras(import));
+  SLF_CHECK(resolve_files(import));
+  if (options.check_images) SLF_CHECK(check_image_files(import.capture));
+  SLF_TRY(const auto cloud_name, load_cloud(options.points, import));
+  SLF_CHECK(check_cloud(import.capture, cloud_name));
+  // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their
+  // photographs say otherwise.
+  const UpAxis usual = import.cloud_name.empty() ? UpAxis::kPlusZ : UpAxis::kUnknown;
+  import.capture.up = import.up ? *import.up : up_of(import.capture.cameras, usual);
+  return std::move(import.capture);
+}
+
+}  // namespace slf

@@ -1,0 +1,282 @@
+// PLY to a point cloud, properties by name.
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "capture/ply_header.h"
+#include "slf/capture.h"
+
+namespace slf {
+
+namespace {
+
+constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
+                                             "nz", "red", "green", "blue"};
+constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
+using Row = std::array<double, kWanted.size()>;
+
+// Values one after the other. Every read is checked against the end.
+class PlyBody {
+ public:
+  PlyBody(std::span<const std::uint8_t> bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
+
+  bool value(PlyType type, double& out) {
+    return format_ == PlyFormat::kAscii ? text(out) : binary(type, out);
+  }
+
+  bool list(const PlyProperty& property) {
+    double count = 0;
+    if (!value(property.count_type, count)) return false;
+    if (!(count >= 0 && count < 4294967296.0) || count != std::floor(count)) return false;
+    const auto items = static_cast<std::uint64_t>(count);
+    if (format_ != PlyFormat::kAscii) return skip(items * size_of(property.type));
+    double ignored = 0;
+    for (std::uint64_t i = 0; i < items; ++i)
+      if (!text(ignored)) return false;
+    return true;
+  }
+
+  bool skip(std::uint64_t bytes) {
+    if (bytes > bytes_.size() - at_) return false;
+    at_ += static_cast<std::size_t>(bytes);
+    return true;
+  }
+
+ private:
+  bool binary(PlyType type, double& out) {
+    const std::size_t size = size_of(type);
+    if (size > bytes_.size() - at_) return false;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t from = format_ == PlyFormat::kBigEndian ? i : size - 1 - i;
+      bits = bits << 8 | bytes_[at_ + from];
+    }
+    at_ += size;
+    switch (type) {
+      case PlyType::kInt8:
+        out = static_cast<std::int8_t>(bits);
+        break;
+      case PlyType::kInt16:
+        out = static_cast<std::int16_t>(bits);
+        break;
+      case PlyType::kInt32:
+        out = static_cast<std::int32_t>(bits);
+        break;
+      case PlyType::kUint8:
+      case PlyType::kUint16:
+      case PlyType::kUint32:
+        out = static_cast<double>(bits);
+        break;
+      case PlyType::kFloat:
+        out = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        break;
+      case PlyType::kDouble:
+        out = std::bit_cast<double>(bits);
+        break;
+    }
+    return true;
+  }
+
+  // Rows of an ascii file are lines, but only white space is relied on.
+  bool text(double& out) {
+    const auto is_space = [](std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
+    std::size_t end = at_;
+    while (end < bytes_.size() && !is_space(bytes_[end])) ++end;
+    if (end - at_ > 1 && bytes_[at_] == '+') ++at_;  // from_chars does not know it
+    const char* data = reinterpret_cast<const char*>(bytes_.data());
+    const auto [stop, error] = std::from_chars(data + at_, data + end, out);
+    if (error != std::errc() || stop != data + end) return false;
+    at_ = end;
+    return true;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  PlyFormat format_;
+  std::size_t at_ = 0;
+};
+
+// Where each property of the vertex goes; which of the optional groups are there in full.
+struct Columns {
+  std::vector<std::optional<std::size_t>> wanted;  // [properties] index into kWanted
+  std::array<PlyType, kWanted.size()> type{};
+  std::array<bool, kWanted.size()> present{};
+  bool normals = false, colours = false;
+  std::string skipped;  // names, for the warning
+};
+
+Columns columns_of(const PlyElement& vertex) {
+  Columns columns;
+  for (const auto& property : vertex.properties) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < kWanted.size(); ++i)
+      if (!property.is_list && property.name == kWanted[i]) found = i;
+    if (found) {
+      columns.present[*found] = true;
+      columns.type[*found] = property.type;
+    } else {
+      columns.skipped += (columns.skipped.empty() ? "" : ", ") + property.name;
+    }
+    columns.wanted.push_back(found);
+  }
+  const auto all = [&](std::size_t first) {
+    return columns.present[first] && columns.present[first + 1] && columns.present[first + 2];
+  };
+  columns.normals = all(kNormal);
+  columns.colours = all(kColour);
+  return columns;
+}
+
+// 0 .. 255 of a colour sample, whatever it is stored as; nothing if it is out of range.
+std::optional<std::uint8_t> colour_of(PlyType type, double value) {
+  double scale = 1;
+  if (type == PlyType::kUint16) scale = 1.0 / 257;
+  if (type == PlyType::kFloat || type == PlyType::kDouble) scale = 255;
+  const double scaled = std::floor(value * scale + 0.5);
+  if (!(value >= 0 && scaled <= 255)) return std::nullopt;
+  return static_cast<std::uint8_t>(scaled);
+}
+
+class VertexReader {
+ public:
+  VertexReader(const std::string& name, const PlyElement& vertex)
+      : name_(name), vertex_(vertex), columns_(columns_of(vertex)) {}
+
+  Result<Done, InputError> read(PlyBody& body) {
+    if (!columns_.present[0] || !columns_.present[1] || !columns_.present[2])
+      return invalid("PLY vertex without x, y and z");
+    const auto count = static_cast<std::size_t>(vertex_.count);  // bounded by the file's size
+    cloud.positions.reserve(count);
+    if (columns_.normals) cloud.normals.reserve(count);
+    if (columns_.colours) cloud.colours.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      Row row{};
+      for (std::size_t p = 0; p < vertex_.properties.size(); ++p) {
+        const auto& property = vertex_.properties[p];
+        double value = 0;
+        if (!(property.is_list ? body.list(property) : body.value(property.type, value)))
+          return invalid(at(i, property.name) + " is missing or damaged");
+        if (!columns_.wanted[p]) continue;
+        if (!std::isfinite(value)) return invalid(at(i, property.name) + " is not finite");
+        row[*columns_.wanted[p]] = value;
+      }
+      SLF_CHECK(add(i, row));
+    }
+    return Done{};
+  }
+
+  void warn(std::vector<std::string>& warnings) {
+    if (!columns_.skipped.empty())
+      warnings.push_back(name_ + ": properties skipped: " + columns_.skipped);
+    const auto some = [&](std::size_t first) {
+      return columns_.present[first] || columns_.present[first + 1] || columns_.present[first + 2];
+    };
+    if (some(kNormal) && !columns_.normals)
+      warnings.push_back(name_ + ": not all of nx, ny, nz are there: normals ignored");
+    if (some(kColour) && !columns_.colours)
+      warnings.push_back(name_ + ": not all of red, green, blue are there: colours ignored");
+    if (zero_normals_ > 0)
+      warnings.push_back(name_ + ": " + std::to_string(zero_normals_) +
+                         " normals have length 0: normals ignored");
+    else if (other_normals_ > 0)
+      warnings.push_back(name_ + ": " + std::to_string(other_normals_) +
+                         " normals are not of unit length: normalised");
+  }
+
+  // Normals are usable as a whole or not at all.
+  void drop_unusable_normals() {
+    if (zero_normals_ > 0) cloud.normals.clear();
+  }
+
+  PointCloud cloud;
+
+ private:
+  Result<Done, InputError> add(std::size_t i, const Row& row) {
+    std::array<float, 3> position{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      position[k] = static_cast<float>(row[k]);
+      if (!std::isfinite(position[k]))
+        return invalid(at(i, kWanted[k]) + " is not finite as a float");
+    }
+    cloud.positions.push_back(position);
+    if (columns_.normals) add_normal(row);
+    if (!columns_.colours) return Done{};
+    std::array<std::uint8_t, 3> colour{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto sample = colour_of(columns_.type[kColour + k], row[kColour + k]);
+      if (!sample) return invalid(at(i, kWanted[kColour + k]) + " is out of range");
+      colour[k] = *sample;
+    }
+    cloud.colours.push_back(colour);
+    return Done{};
+  }
+
+  void add_normal(const Row& row) {
+    const double x = row[kNormal], y = row[kNormal + 1], z = row[kNormal + 2];
+    const double length = std::hypot(x, y, z);
+    if (!(length > 0) || !std::isfinite(length)) {
+      ++zero_normals_;
+      cloud.normals.push_back({0, 0, 1});
+      return;
+    }
+    if (std::abs(length - 1) > 1e-3) ++other_normals_;
+    cloud.normals.push_back({static_cast<float>(x / length), static_cast<float>(y / length),
+                             static_cast<float>(z / length)});
+  }
+
+  InputError invalid(const std::string& cause) const {
+    return {Errc::kInvalidInput, name_ + ": " + cause};
+  }
+  static std::string at(std::size_t i, const std::string& property) {
+    return "vertex " + std::to_string(i) + ", property " + property;
+  }
+
+  const std::string& name_;
+  const PlyElement& vertex_;
+  Columns columns_;
+  std::size_t zero_normals_ = 0, other_normals_ = 0;
+};
+
+bool skip_element(PlyBody& body, const PlyElement& element, PlyFormat format) {
+  if (element.properties.empty()) return true;  // its rows take no bytes, whatever their count
+  if (format != PlyFormat::kAscii && !element.has_lists())
+    return body.skip(element.count * element.min_row_bytes(format));  // bounded by the file's size
+  double ignored = 0;
+  for (std::uint64_t i = 0; i < element.count; ++i)
+    for (const auto& property : element.properties)
+      if (!(property.is_list ? body.list(property) : body.value(property.type, ignored)))
+        return false;
+  return true;
+}
+
+}  // namespace
+
+Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
+                                        std::vector<std::string>* warnings) {
+  const std::string name = file == "-" ? "standard input" : file.string();
+  SLF_TRY(const auto bytes, read_file(file));
+  SLF_TRY(const auto header, parse_ply_header(name, bytes));
+  PlyBody body(std::span<const std::uint8_t>(bytes).subspan(header.body), header.format);
+  std::optional<PointCloud> cloud;
+  for (const auto& element : header.elements) {
+    if (element.name != "vertex") {
+      if (!skip_element(body, element, header.format))
+        return InputError{Errc::kInvalidInput,
+                          name + ": PLY element '" + element.name + "' is cut off or damaged"};
+      continue;
+    }
+    if (element.count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
+    VertexReader reader(name, element);
+    SLF_CHECK(reader.read(body));
+    if (warnings != nullptr) reader.warn(*warnings);
+    reader.drop_unusable_normals();
+    cloud = std::move(reader.cloud);
+  }
+  if (!cloud) return InputError{Errc::kInvalidInput, name + ": PLY without vertices"};
+  return *std::move(cloud);
+}
+
+}  // namespace slf

@@ -1,0 +1,141 @@
+// A float cloud onto the grid.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/morton.h"
+#include "slf/capture.h"
+
+namespace slf {
+
+namespace {
+
+constexpr int kMaxBits = 21;
+
+InputError invalid(const std::string& cause) {
+  return {Errc::kInvalidInput, "point cloud: " + cause};
+}
+
+struct Box {
+  Vec3 min{}, max{};
+
+  double largest_extent() const {
+    return std::max({max[0] - min[0], max[1] - min[1], max[2] - min[2]});
+  }
+};
+
+Result<Box, InputError> bounding_box(const PointCloud& cloud) {
+  Box box;
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = cloud.positions[i][k];
+      if (!std::isfinite(x))
+        return invalid("point " + std::to_string(i) + " has a coordinate that is not finite");
+      box.min[k] = i == 0 ? x : std::min(box.min[k], x);
+      box.max[k] = i == 0 ? x : std::max(box.max[k], x);
+    }
+  return box;
+}
+
+double cell_of(double x, double min, double step) { return std::floor((x - min) / step + 0.5); }
+
+Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bits,
+                                     double voxel_size) {
+  Grid grid;
+  grid.origin = box.min;
+  const double extent = box.largest_extent();
+  const InputError one_voxel = invalid("all points lie in one voxel");
+  if (voxel_size > 0) {
+    grid.step = voxel_size;
+    const double last = cell_of(extent, 0, voxel_size);
+    if (!(last < double(1 << kMaxBits)))
+      return invalid("a voxel size of " + std::to_string(voxel_size) + " needs more than " +
+                     std::to_string(kMaxBits) + " bits for an extent of " + std::to_string(extent));
+    if (points > 1 && last == 0) return one_voxel;
+    while (last >= double(1 << grid.bits)) ++grid.bits;
+    return grid;
+  }
+  grid.bits = bits;
+  grid.step = extent / double((1 << bits) - 1);
+  if (grid.step > 0) return grid;
+  if (points > 1) return one_voxel;
+  grid.step = 1;  // one point: any will do
+  return grid;
+}
+
+struct Cell {
+  std::uint64_t code;  // Morton
+  std::uint32_t point;
+  bool operator<(const Cell& other) const {
+    return code != other.code ? code < other.code : point < other.point;
+  }
+};
+
+std::vector<Cell> sorted_cells(const PointCloud& cloud, const Grid& grid) {
+  const double last = double((1 << grid.bits) - 1);
+  std::vector<Cell> cells(cloud.positions.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Voxel voxel{};
+    for (std::size_t k = 0; k < 3; ++k)
+      voxel[k] = static_cast<std::int32_t>(
+          std::clamp(cell_of(double{cloud.positions[i][k]}, grid.origin[k], grid.step), 0.0, last));
+    cells[i] = {morton(voxel), static_cast<std::uint32_t>(i)};
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+// Mean over the points of one voxel, in the order of their indices.
+template <class T>
+Vec3 mean_of(const std::vector<std::array<T, 3>>& values, const std::vector<Cell>& cells,
+             std::size_t begin, std::size_t end) {
+  Vec3 sum{0, 0, 0};
+  for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(values[cells[i].point][k]);
+  for (double& s : sum) s /= static_cast<double>(end - begin);
+  return sum;
+}
+
+std::array<float, 3> to_float(const Vec3& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+}  // namespace
+
+Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size) {
+  const auto argument = [](const std::string& cause) {
+    return InputError{Errc::kInvalidArgument, cause};
+  };
+  const std::size_t count = cloud.positions.size();
+  if (!(voxel_size >= 0) || !std::isfinite(voxel_size))
+    return argument("voxel size: finite and not negative");
+  if (voxel_size == 0 && (bits < 1 || bits > kMaxBits)) return argument("grid bits: 1 .. 21");
+  if (count == 0) return invalid("no points");
+  if (count > UINT32_MAX) return invalid("more than 2^32 - 1 points");
+  if ((!cloud.normals.empty() && cloud.normals.size() != count) ||
+      (!cloud.colours.empty() && cloud.colours.size() != count))
+    return argument("point cloud: as many normals and colours as positions are needed");
+
+  SLF_TRY(const Box box, bounding_box(cloud));
+  VoxelCloud voxels;
+  SLF_TRY(voxels.grid, choose_grid(box, count, bits, voxel_size));
+  const auto cells = sorted_cells(cloud, voxels.grid);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    while (end < count && cells[end].code == cells[begin].code) ++end;
+    voxels.positions.push_back(from_morton(cells[begin].code));
+    if (!cloud.colours.empty())
+      voxels.colours.push_back(to_float(mean_of(cloud.colours, cells, begin, end)));
+    if (cloud.normals.empty()) continue;
+    Vec3 normal = mean_of(cloud.normals, cells, begin, end);
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    if (length > 1e-6) {
+      for (double& n : normal) n /= length;
+      voxels.normals.push_back(to_float(normal));
+    } else {  // two sides of a sheet in one voxel: the first point's
+      voxels.normals.push_back(cloud.normals[cells[begin].point]);
+    }
+  }
+  voxels.merged = count - voxels.positions.size();
+  return voxels;
+}
+
+}  // namespace slf

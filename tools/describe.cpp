@@ -1,0 +1,136 @@
+#include "tools/describe.h"
+
+#include <algorithm>
+
+#include "slf/view_map.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+const char* name_of(UpAxis up) {
+  switch (up) {
+    case UpAxis::kPlusX:
+      return "+x";
+    case UpAxis::kMinusX:
+      return "-x";
+    case UpAxis::kPlusY:
+      return "+y";
+    case UpAxis::kMinusY:
+      return "-y";
+    case UpAxis::kPlusZ:
+      return "+z";
+    case UpAxis::kMinusZ:
+      return "-z";
+    case UpAxis::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+const char* name_of(Transfer transfer) {
+  return transfer == Transfer::kLinear ? "linear" : "display";
+}
+
+const char* name_of(ColourTransform colour) {
+  return colour == ColourTransform::kOpponent ? "opponent" : "none";
+}
+
+struct TypeTotal {
+  std::string type;
+  std::uint64_t units = 0, bytes = 0;
+};
+
+/// In the order in which types first appear in the stream.
+std::vector<TypeTotal> totals(const StreamInfo& info) {
+  std::vector<TypeTotal> list;
+  for (const UnitInfo& unit : info.units) {
+    auto found = std::find_if(list.begin(), list.end(),
+                              [&](const TypeTotal& t) { return t.type == unit.type; });
+    if (found == list.end()) found = list.insert(list.end(), {unit.type, 0, 0});
+    ++found->units;
+    found->bytes += unit.bytes;
+  }
+  return list;
+}
+
+}  // namespace
+
+nlohmann::ordered_json header_json(const LightFieldHeader& h) {
+  nlohmann::ordered_json json;
+  json["grid"] = {{"origin", h.grid.origin}, {"step", h.grid.step}, {"bits", h.grid.bits}};
+  json["up"] = name_of(h.up);
+  json["right_handed"] = h.right_handed;
+  json["metres_per_unit"] = h.metres_per_unit;
+  json["num_functions"] = h.num_functions;
+  json["shift"] = h.shift;
+  json["has_basis"] = h.has_basis && h.num_functions > 0;
+  if (!h.has_basis || h.num_functions == 0) return json;
+  json["basis"] = {{"id", "bspline"},
+                   {"order", h.basis.order},
+                   {"scales_theta", h.basis.scales_theta},
+                   {"scales_gamma", h.basis.scales_gamma}};
+  json["frame"] = "global";
+  json["colour"] = {{"transform", name_of(h.colour)}, {"to_rgb", colour_matrix(h.colour)}};
+  json["transfer"] = name_of(h.transfer);
+  json["gamma_range"] = {h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0};
+  return json;
+}
+
+std::string header_text(const LightFieldHeader& h) {
+  std::string out =
+      text("  grid          %d bits per axis, step %g, origin %g %g %g, up %s, %s-handed\n",
+           h.grid.bits, h.grid.step, h.grid.origin[0], h.grid.origin[1], h.grid.origin[2],
+           name_of(h.up), h.right_handed ? "right" : "left");
+  if (h.metres_per_unit > 0) out += text("  unit          %g metres\n", h.metres_per_unit);
+  if (h.num_functions == 0) return out + "  planes        none: geometry alone\n";
+  if (!h.has_basis)
+    return out + text("  planes        %d x 3 integers without a basis\n", h.num_functions);
+  const auto [low, high] = std::minmax_element(h.shift.begin(), h.shift.end());
+  out +=
+      text("  basis         B-spline wavelets of order %d, %d x %d = %d functions, global frame\n",
+           h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma, h.num_functions);
+  if (!h.shift.empty()) out += text("  shifts        %d to %d\n", *low, *high);
+  out += text("  colour        transform %s, %s values; gamma %.3f to %.3f\n", name_of(h.colour),
+              name_of(h.transfer), h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0);
+  return out;
+}
+
+nlohmann::ordered_json metadata_json(const Metadata& metadata) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& [key, value] : metadata) list.push_back({{"key", key}, {"value", value}});
+  return list;
+}
+
+nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const TypeTotal& total : totals(info)) json[total.type] = total.bytes;
+  return json;
+}
+
+std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes) {
+  std::string out = "bytes by unit type\n";
+  std::uint64_t rest = file_bytes;
+  const auto row = [&](const std::string& type, std::uint64_t units, std::uint64_t bytes) {
+    const double share = 100.0 * static_cast<double>(bytes) /
+                         static_cast<double>(std::max<std::uint64_t>(file_bytes, 1));
+    out += text("  %-14s %12s  %6.2f %%  in %llu\n", type.c_str(), grouped(bytes).c_str(), share,
+                static_cast<unsigned long long>(units));
+    rest -= std::min(rest, bytes);
+  };
+  for (const TypeTotal& total : totals(info)) row(total.type, total.units, total.bytes);
+  if (rest > 0) row("signature", 1, rest);
+  return out;
+}
+
+double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
+  return points == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
+}
+
+std::string printable(std::string foreign) {
+  std::replace_if(
+      foreign.begin(), foreign.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return foreign;
+}
+
+}  // namespace slf::tools

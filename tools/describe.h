@@ -1,0 +1,27 @@
+// Headers as JSON and as text, for info, eval and decode --dump.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "slf/decoder.h"
+
+namespace slf::tools {
+
+nlohmann::ordered_json header_json(const LightFieldHeader& header);
+std::string header_text(const LightFieldHeader& header);
+
+/// A list, since keys may repeat: [{"key": ..., "value": ...}].
+nlohmann::ordered_json metadata_json(const Metadata& metadata);
+
+/// Bytes of the whole file by unit type; "signature" is what no unit holds.
+nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info);
+std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes);
+
+double bits_per_point(std::uint64_t bytes, std::uint64_t points);
+
+/// Control characters of a foreign text replaced, so that it cannot steer a terminal.
+std::string printable(std::string text);
+
+}  // namespace slf::tools

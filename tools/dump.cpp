@@ -1,0 +1,80 @@
+#include "tools/dump.h"
+
+#include <cmath>
+
+#include "slf/normals.h"
+#include "slf/view_map.h"
+#include "tools/describe.h"
+#include "tools/npy.h"
+#include "tools/output.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+/// IEC 61966-2-1, on 0 .. 255: what a PLY viewer expects.
+float display_of(float linear) {
+  const double l = linear / 255.0;
+  return static_cast<float>(255 *
+                            (l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055));
+}
+
+void add_colours(const LightField& field, int threads, PointCloud& cloud) {
+  const ViewMaps maps(field, threads);
+  const bool linear = field.header.transfer == Transfer::kLinear;
+  cloud.colours.reserve(field.num_points());
+  for (std::size_t p = 0; p < field.num_points(); ++p) {
+    std::array<std::uint8_t, 3> rgb{};
+    const auto mean = maps.mean(p);
+    for (std::size_t c = 0; c < 3; ++c)
+      rgb[c] = static_cast<std::uint8_t>((linear ? display_of(mean[c]) : mean[c]) + 0.5f);
+    cloud.colours.push_back(rgb);
+  }
+}
+
+Outcome save_array(const std::string& directory, const char* name,
+                   const std::vector<std::uint8_t>& file) {
+  return save(inside(directory, name), file.data(), file.size());
+}
+
+}  // namespace
+
+PointCloud mean_cloud(const LightField& field, int threads) {
+  PointCloud cloud;
+  cloud.positions.reserve(field.num_points());
+  for (const Voxel& v : field.positions) {
+    const Vec3 w = field.header.grid.world(v);
+    cloud.positions.push_back(
+        {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
+  }
+  if (field.normals.bits > 0)
+    for (const auto& coded : field.normals.octahedral) {
+      const Vec3 n = decode_normal(coded, field.normals.bits);
+      cloud.normals.push_back(
+          {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
+    }
+  if (field.header.has_basis && field.header.num_functions > 0) add_colours(field, threads, cloud);
+  return cloud;
+}
+
+Outcome dump(const LightField& field, const std::string& directory) {
+  SLF_CHECK(make_directory(directory));
+  const std::size_t points = field.num_points();
+  const auto functions = static_cast<std::size_t>(field.header.num_functions);
+  const std::span<const std::int32_t> positions(points == 0 ? nullptr : field.positions[0].data(),
+                                                3 * points);
+  SLF_CHECK(save_array(directory, "positions.npy", npy_file({points, 3}, positions)));
+  SLF_CHECK(save_array(directory, "components.npy",
+                       npy_file({points, functions, 3}, std::span(field.components))));
+  if (field.normals.bits > 0) {
+    const std::span<const std::uint16_t> normals(field.normals.octahedral[0].data(), 2 * points);
+    SLF_CHECK(save_array(directory, "octahedral.npy", npy_file({points, 2}, normals)));
+  }
+  nlohmann::ordered_json json = header_json(field.header);
+  json["points"] = points;
+  json["normal_bits"] = field.normals.bits;
+  json["partial"] = field.partial;
+  return save(inside(directory, "light_field.json"), to_text(json));
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,20 @@
+// A light field in forms that other programs read.
+#pragma once
+
+#include <string>
+
+#include "slf/capture.h"
+#include "slf/types.h"
+#include "tools/failure.h"
+
+namespace slf::tools {
+
+/// World positions, normals where coded, and the mean colour (display values) where there is a
+/// basis.
+PointCloud mean_cloud(const LightField& field, int threads);
+
+/// Writes positions.npy, components.npy, octahedral.npy where normals are coded, light_field.json.
+/// light_field.json comes last: a dump cut short has none.
+Outcome dump(const LightField& field, const std::string& directory);
+
+}  // namespace slf::tools

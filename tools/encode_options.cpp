@@ -1,0 +1,197 @@
+#include "tools/encode_options.h"
+
+#include <bit>
+#include <charconv>
+
+#include "tools/choices.h"
+
+namespace slf::tools {
+namespace {
+
+std::string shown(double number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+}
+
+/// An option of the preset: `initial`, what the default preset has, is shown, not set.
+template <class T>
+CLI::Option* add(CLI::App& verb, const char* name, std::optional<T>& target, double initial,
+                 const std::string& description, const CLI::Validator& check) {
+  return verb.add_option(name, target, description)->default_str(shown(initial))->check(check);
+}
+
+void add_input_options(CLI::App& verb, EncodeOptions& o) {
+  verb.add_option("CAPTURE", o.capture,
+                  "Directory with cameras.json, a COLMAP model or transforms.json; or one of those "
+                  "files; or a coloured .ply alone (docs/captures.md)")
+      ->type_name("")
+      ->required();
+  verb.add_option("-o,--output", o.output, "The .slf file; - is standard output")
+      ->type_name("FILE")
+      ->required();
+  verb.add_option("--points", o.points, "PLY cloud to use in place of the capture's own")
+      ->type_name("FILE");
+  verb.add_option(
+      "--split", o.split,
+      "Input images: dense, intermediate, sparse, all, or a name of the capture's. None: "
+      "dense where the capture names splits, else all but every fourth");
+  add_up_choice(verb, o.up)
+      ->type_name("NAME")
+      ->each([&o](const std::string&) { o.up_given = true; })
+      ->default_str("the capture's");
+  verb.add_flag("--linear", o.linear,
+                "Fit in linear light (sRGB decoded); default: display values");
+}
+
+void add_observe_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
+  const ObserveSettings& s = initial.observe;
+  add(verb, "--delta", o.delta, s.delta_degrees,
+      "A view is valid up to 90 - delta degrees from the normal; degrees", range(0, 90))
+      ->group("Observation (paper III-A)");
+  add(verb, "--occlusion-resolution", o.occlusion_resolution, s.occlusion_resolution,
+      "Depth buffer pixels per image pixel", range(0.05, 8))
+      ->group("Observation (paper III-A)");
+  add(verb, "--depth-tolerance", o.depth_tolerance, s.depth_tolerance,
+      "Hidden if deeper than the depth buffer by more, in point spacings; 0: strict",
+      range(0, 1000))
+      ->group("Observation (paper III-A)");
+}
+
+void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
+  const FitSettings& s = initial.fit;
+  const auto fit = [](CLI::Option* option) { option->group("View maps (paper II)"); };
+  fit(add(verb, "--order", o.order, s.basis.order, "Order of the B-spline wavelets",
+          whole_range(1, 4)));
+  auto* functions =
+      add(verb, "--functions", o.functions, s.basis.num_functions(),
+          "N, functions per view map: a power of two; s0 = s1 or s1 + 1", whole_range(1, 4096));
+  fit(functions);
+  auto* scales = verb.add_option("--scales", o.scales,
+                                 "s0,s1 apart: 2^s0 functions of azimuth times 2^s1 of elevation")
+                     ->delimiter(',')
+                     ->expected(2)
+                     ->check(whole_range(0, 6))
+                     ->excludes(functions);
+  fit(scales);
+  fit(add(verb, "--lambda", o.lambda, s.lambda, "Ridge weight", range(0, 1e9)));
+  fit(add(verb, "--beta", o.beta, s.beta, "Smoothness weight", range(0, 1e9)));
+  fit(add(verb, "--iterations", o.iterations, s.iterations, "T, sweeps of smoothing",
+          whole_range(0, 100)));
+  fit(add(verb, "--neighbours", o.neighbours, s.neighbours, "Nearest points to smooth over",
+          whole_range(1, 64)));
+  auto* penalise = verb.add_flag("--penalise-dc", o.penalise_dc,
+                                 "lambda and beta hold for the mean too (paper)");
+  auto* free = verb.add_flag("--free-dc", o.free_dc, "They leave out the mean (default)")
+                   ->excludes(penalise);
+  fit(penalise);
+  fit(free);
+}
+
+void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
+  const auto coding = [](CLI::Option* option) { option->group("Coding"); };
+  auto* bits = add(verb, "--grid-bits", o.grid_bits, initial.grid_bits, "Voxel grid, bits per axis",
+                   whole_range(1, 21));
+  coding(bits);
+  coding(verb.add_option("--voxel-size", o.voxel_size,
+                         "Voxel edge in world units, in place of --grid-bits")
+             ->check(range(1e-12, 1e12))
+             ->excludes(bits));
+  coding(add(verb, "-q,--quality", o.q, initial.q,
+             "Quantiser step Q in grey levels: smaller is better and larger", range(0.05, 4096)));
+  coding(
+      add_steps_choice(verb, o.by_norm)->each([&o](const std::string&) { o.steps_given = true; }));
+  coding(
+      add_colour_choice(verb, o.colour)->each([&o](const std::string&) { o.colour_given = true; }));
+  coding(add_geometry_choice(verb, o.geometry)->each([&o](const std::string&) {
+    o.geometry_given = true;
+  }));
+  coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
+    o.coefficients_given = true;
+  }));
+  coding(add(verb, "--normal-bits", o.normal_bits, initial.normal_bits,
+             "Code normals with 4 to 12 bits per coordinate; 0: not", whole_range(0, 12)));
+  coding(add(verb, "--slice-points", o.slice_points, initial.max_slice_points,
+             "Most points of a slice", whole_range(1, 1 << 22)));
+  coding(
+      verb.add_option("--metadata", o.metadata, "KEY=VALUE to store in the file; may be repeated")
+          ->type_name("KEY=VALUE")
+          ->expected(1, -1));
+}
+
+Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
+  if (given.order) basis.order = *given.order;
+  if (given.functions) {
+    const auto n = static_cast<unsigned>(*given.functions);
+    if (!std::has_single_bit(n))
+      return Failure{kUsage, "encode: --functions " + std::to_string(n) + " is not a power of two"};
+    const int scales = std::countr_zero(n);
+    basis.scales_gamma = scales / 2;
+    basis.scales_theta = scales - basis.scales_gamma;
+  }
+  if (given.scales.size() == 2) {
+    basis.scales_theta = given.scales[0];
+    basis.scales_gamma = given.scales[1];
+  }
+  return Done{};
+}
+
+Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
+  for (const std::string& pair : given.metadata) {
+    const std::size_t equals = pair.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      return Failure{kUsage, "encode: --metadata " + pair + " is not KEY=VALUE"};
+    metadata.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+  }
+  return Done{};
+}
+
+template <class T, class U>
+void replace(U& setting, const std::optional<T>& given) {
+  if (given) setting = *given;
+}
+
+}  // namespace
+
+void add_encode_options(CLI::App& verb, EncodeOptions& o) {
+  const EncoderSettings initial = settings_of(Preset::kDefault);
+  add_input_options(verb, o);
+  add_preset_choice(verb, o.preset);
+  add_coding_options(verb, o, initial);
+  add_observe_options(verb, o, initial);
+  add_fit_options(verb, o, initial);
+  add_threads(verb, o.common);
+  add_quiet(verb, o.common);
+  add_json(verb, o.common);
+}
+
+Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
+  EncoderSettings s = settings_of(given.preset);
+  replace(s.grid_bits, given.grid_bits);
+  replace(s.voxel_size, given.voxel_size);
+  replace(s.q, given.q);
+  replace(s.observe.delta_degrees, given.delta);
+  replace(s.observe.occlusion_resolution, given.occlusion_resolution);
+  replace(s.observe.depth_tolerance, given.depth_tolerance);
+  replace(s.fit.lambda, given.lambda);
+  replace(s.fit.beta, given.beta);
+  replace(s.fit.iterations, given.iterations);
+  replace(s.fit.neighbours, given.neighbours);
+  replace(s.normal_bits, given.normal_bits);
+  replace(s.max_slice_points, given.slice_points);
+  if (s.normal_bits > 0 && s.normal_bits < 4)
+    return Failure{
+        kUsage, "encode: --normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12"};
+  SLF_CHECK(resolve_basis(given, s.fit.basis));
+  if (given.penalise_dc) s.fit.penalise_dc = true;
+  if (given.free_dc) s.fit.penalise_dc = false;
+  if (given.linear) s.observe.transfer = Transfer::kLinear;
+  if (given.steps_given) s.steps_by_norm = given.by_norm;
+  if (given.colour_given) s.colour = given.colour;
+  if (given.geometry_given) s.geometry = given.geometry;
+  if (given.coefficients_given) s.coefficients = given.coefficients;
+  SLF_CHECK(resolve_metadata(given, s.metadata));
+  s.threads = given.common.threads;
+  return s;
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,37 @@
+// The options of slf encode: a preset, and what is set apart from it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slf/encoder.h"
+#include "tools/options.h"
+
+namespace slf::tools {
+
+/// Empty where the command line says nothing: the preset decides.
+struct EncodeOptions {
+  std::string capture, output, points, split;
+  Preset preset = Preset::kDefault;
+  std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
+  std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
+  std::optional<std::uint32_t> slice_points;
+  std::vector<int> scales;
+  bool penalise_dc = false, free_dc = false, linear = false;
+  bool steps_given = false, by_norm = true;
+  bool colour_given = false, geometry_given = false, coefficients_given = false, up_given = false;
+  ColourTransform colour = ColourTransform::kOpponent;
+  GeometryCoder geometry = GeometryCoder::kOctree;
+  CoefficientCoder coefficients = CoefficientCoder::kVector;
+  UpAxis up = UpAxis::kPlusZ;
+  std::vector<std::string> metadata;  ///< key=value
+  CommonOptions common;
+};
+
+void add_encode_options(CLI::App& verb, EncodeOptions& options);
+
+/// The preset's settings with everything that was given in its place.
+Result<EncoderSettings, Failure> resolved(const EncodeOptions& given);
+
+}  // namespace slf::tools

@@ -1,0 +1,56 @@
+#include "tools/failure.h"
+
+#include <algorithm>
+
+namespace slf::tools {
+namespace {
+
+const char* cause_of(Errc code) {
+  switch (code) {
+    case Errc::kNotSlf:
+      return "not an .slf file";
+    case Errc::kTruncated:
+      return "truncated";
+    case Errc::kChecksum:
+      return "damaged: a checksum does not match";
+    case Errc::kOutOfRange:
+      return "damaged: a value is out of range";
+    case Errc::kReserved:
+      return "damaged, or from a newer version: a reserved value is in use";
+    case Errc::kUnsupported:
+      return "not supported by this build of slf";
+    case Errc::kLimitExceeded:
+      return "larger than the decoder's limits";
+    case Errc::kInvalidArgument:
+      return "the file does not have that many";
+    default:
+      return "cannot be used";
+  }
+}
+
+/// One line whatever a file name or a third-party message holds.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+Failure failure_of(const InputError& error, const std::string& file) {
+  const bool names_itself = file.empty() || error.code == Errc::kInvalidArgument ||
+                            error.message.find(file) != std::string::npos;
+  return {exit_code_of(error.code),
+          one_line(names_itself ? error.message : file + ": " + error.message)};
+}
+
+Failure failure_of(const Error& error, const std::string& file) {
+  return {exit_code_of(error.code),
+          one_line(file + ": " + cause_of(error.code) + " (" + error.element + ", bit " +
+                   std::to_string(error.bit_offset) + ")")};
+}
+
+std::string input_name(const std::string& file) { return file == "-" ? "standard input" : file; }
+std::string output_name(const std::string& file) { return file == "-" ? "standard output" : file; }
+
+}  // namespace slf::tools

@@ -1,0 +1,97 @@
+// slf: surface light fields on the command line. One file per verb; this one parses, runs and
+// turns what went wrong into one line and an exit code.
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "tools/interrupt.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+constexpr const char* kNoMemory = "slf: not enough memory\n";
+
+int report(const Failure& failure) {
+  std::fprintf(stderr, "slf: %s\n", failure.message.c_str());
+  return failure.code;
+}
+
+/// An exception that leaves a worker thread ends here: same line, same exit code as in main().
+[[noreturn]] void on_terminate() {
+  int code = kInternal;
+  try {
+    if (const auto current = std::current_exception()) std::rethrow_exception(current);
+  } catch (const std::bad_alloc&) {
+    code = kLimitExceeded;
+  } catch (...) {
+  }
+  std::fputs(code == kLimitExceeded ? kNoMemory : "slf: internal error\n", stderr);
+  _exit(code);
+}
+
+/// The verb that was being parsed when it failed, for the hint where to read on.
+std::string verb_of(const CLI::App& program) {
+  const auto chosen = program.get_subcommands();
+  return chosen.empty() ? "slf" : "slf " + chosen.front()->get_name();
+}
+
+int usage_error(const CLI::App& program, const CLI::ParseError& error, const char* first) {
+  std::string message = error.what();
+  if (program.get_subcommands().empty() && first != nullptr && first[0] != '-')
+    message = std::string(first) + " is not a verb";
+  for (char& c : message)
+    if (c == '\n') c = ' ';
+  const std::string verb = verb_of(program);
+  return report({kUsage, message + " (see " + verb + " --help)"});
+}
+
+int run(int argc, char** argv) {
+  CLI::App program{
+      "Surface light fields: photographs and a point cloud in, .slf out, any view back."};
+  program.name("slf");
+  program.footer(
+      std::string("slf VERB --help has the options of a verb. FILE may be - for standard "
+                  "input or output.\n\n") +
+      kExitCodeHelp);
+  program.set_version_flag("--version", "slf " SLF_VERSION);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+  Run verb;
+  add_synth(program, verb);
+  add_encode(program, verb);
+  add_pack(program, verb);
+  add_decode(program, verb);
+  add_render(program, verb);
+  add_eval(program, verb);
+  add_info(program, verb);
+  for (CLI::App* each : program.get_subcommands({})) each->footer("Exit codes: slf --help");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return program.exit(asked) == 0 && std::fflush(stdout) == 0 ? kSuccess : kWriteFailed;
+  } catch (const CLI::ParseError& error) {
+    return usage_error(program, error, argc > 1 ? argv[1] : nullptr);
+  }
+  const Outcome outcome = verb();
+  return outcome ? static_cast<int>(kSuccess) : report(outcome.error());
+}
+
+}  // namespace
+}  // namespace slf::tools
+
+int main(int argc, char** argv) {
+  slf::tools::install_interrupt_handler();
+  std::set_terminate(slf::tools::on_terminate);
+  try {
+    return slf::tools::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs(slf::tools::kNoMemory, stderr);
+    return slf::tools::kLimitExceeded;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "slf: internal error: %s\n", error.what());
+    return slf::tools::kInternal;
+  }
+}

@@ -1,0 +1,113 @@
+#include "tools/options.h"
+
+#include <charconv>
+
+#include "slf/capture.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+std::string shown(double number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+}
+
+}  // namespace
+
+CLI::Validator range(double low, double high) {
+  const std::string between = shown(low) + " to " + shown(high);
+  return CLI::Validator(
+      [=](std::string& given) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(given, value)) return given + " is not a number";
+        if (!(value >= low && value <= high)) return given + " is not in the range " + between;
+        return std::string();
+      },
+      between);
+}
+
+CLI::Validator whole_range(std::int64_t low, std::int64_t high) {
+  const std::string between = std::to_string(low) + " to " + std::to_string(high);
+  return CLI::Validator(
+      [=](std::string& given) {
+        std::int64_t value = 0;
+        const char* end = given.data() + given.size();
+        const auto [stopped, error] = std::from_chars(given.data(), end, value);
+        if (error == std::errc::invalid_argument || stopped != end)
+          return given + " is not a whole number";
+        if (error != std::errc() || value < low || value > high)
+          return given + " is not in the range " + between;
+        return std::string();
+      },
+      between);
+}
+
+void add_threads(CLI::App& verb, CommonOptions& options) {
+  verb.add_option("-j,--threads", options.threads,
+                  "Threads; 0 is all cores. Never changes a result")
+      ->capture_default_str()
+      ->check(whole_range(0, 1024));
+}
+
+void add_quiet(CLI::App& verb, CommonOptions& options) {
+  verb.add_flag("--quiet", options.quiet, "No progress, no report, no warnings; errors only");
+}
+
+void add_json(CLI::App& verb, CommonOptions& options) {
+  verb.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+void add_part(CLI::App& verb, PartOptions& options) {
+  verb.add_option("--levels", options.levels,
+                  "Octree levels to decode, 1 to the grid's bits; 0 is all. Fewer: a coarser cloud")
+      ->capture_default_str()
+      ->check(whole_range(0, 21));
+  verb.add_option(
+          "--groups", options.groups,
+          "Plane groups to decode, 1 to what the file has; 0 is all. Fewer: smoother colour")
+      ->capture_default_str()
+      ->check(whole_range(0, 16));
+  verb.add_option("--max-bytes", options.max_bytes,
+                  "Use only the units that end within the first BYTES; 0 is all")
+      ->capture_default_str()
+      ->check(whole_range(0, std::int64_t{1} << 40));
+}
+
+Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
+                                         int threads) {
+  SLF_TRY(const auto stream, from(input_name(file), read_file(file)));
+  DecodeOptions options;
+  options.levels = part.levels;
+  options.groups = part.groups;
+  options.max_bytes = part.max_bytes;
+  options.threads = threads;
+  Stopwatch watch;
+  SLF_TRY(auto field, from(input_name(file), decode(stream, options)));
+  return DecodedFile{std::move(field), stream.size(), watch.lap()};
+}
+
+double Stopwatch::lap() {
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> taken = now - last_;
+  last_ = now;
+  return taken.count();
+}
+
+Outcome require_view_maps(const LightField& field, const std::string& file) {
+  if (field.header.has_basis && field.header.num_functions > 0) return Done{};
+  return Failure{kInputInvalid, input_name(file) +
+                                    ": holds integer planes without a basis, so it has no colours "
+                                    "(slf decode reads it)"};
+}
+
+bool parse_size(const std::string& given, int& width, int& height) {
+  const char* end = given.data() + given.size();
+  const auto [cross, first] = std::from_chars(given.data(), end, width);
+  if (first != std::errc() || cross == end || (*cross != 'x' && *cross != 'X')) return false;
+  const auto [last, second] = std::from_chars(cross + 1, end, height);
+  return second == std::errc() && last == end && width >= 1 && width <= 16384 && height >= 1 &&
+         height <= 16384;
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,69 @@
+#include "tools/output.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "tools/interrupt.h"
+
+namespace slf::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Standard output may block for ever on its reader, and has no temporary file: no need to defer.
+template <class Write>
+Outcome written(const std::string& file, const Write& write) {
+  std::optional<DeferInterrupts> defer;
+  if (file != "-") defer.emplace();
+  return from(output_name(file), write());
+}
+
+}  // namespace
+
+Outcome check_output(const std::string& file) {
+  if (file == "-") return Done{};
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return Failure{kWriteFailed, file + ": is a directory"};
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+    return Done{};  // a device, a pipe
+  fs::path directory = fs::path(file).parent_path();
+  if (directory.empty()) directory = ".";
+  if (!fs::is_directory(directory, ignored))
+    return Failure{kWriteFailed,
+                   file + ": the directory " + directory.string() + " does not exist"};
+  if (access(directory.c_str(), W_OK) != 0)
+    return Failure{kWriteFailed,
+                   file + ": the directory " + directory.string() + " is not writable"};
+  return Done{};
+}
+
+Outcome make_directory(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) return Failure{kWriteFailed, directory + ": " + error.message()};
+  return Done{};
+}
+
+Outcome save(const std::string& file, const void* data, std::size_t size) {
+  return written(file, [&] { return write_file(file, data, size); });
+}
+
+Outcome save(const std::string& file, const std::string& text) {
+  return save(file, text.data(), text.size());
+}
+
+Outcome save(const std::string& file, const Image& image) {
+  return written(file, [&] { return write_png(file, image); });
+}
+
+Outcome save(const std::string& file, const PointCloud& cloud) {
+  return written(file, [&] { return write_ply(file, cloud); });
+}
+
+std::string inside(const std::string& directory, const std::string& name) {
+  return (fs::path(directory) / name).string();
+}
+
+}  // namespace slf::tools

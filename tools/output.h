@@ -1,0 +1,28 @@
+// Writing results: checked before the work, atomic after it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slf/capture.h"
+#include "tools/failure.h"
+
+namespace slf::tools {
+
+/// Refuses, before any work is done, an output that could not be written after it: the directory
+/// is missing or not writable, or the name is that of a directory. "-" is standard output.
+Outcome check_output(const std::string& file);
+
+/// Creates the directory (and those above it) if it is missing.
+Outcome make_directory(const std::string& directory);
+
+/// Atomic: the whole file or nothing, and an interrupt waits for it. "-" is standard output.
+Outcome save(const std::string& file, const void* data, std::size_t size);
+Outcome save(const std::string& file, const std::string& text);
+Outcome save(const std::string& file, const Image& image);
+Outcome save(const std::string& file, const PointCloud& cloud);
+
+/// Path of `name` within `directory`.
+std::string inside(const std::string& directory, const std::string& name);
+
+}  // namespace slf::tools

@@ -1,0 +1,46 @@
+// What the ray tracer and the point sampler ask of a scene.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/synth/vec.h"
+
+namespace slf::synth {
+
+/// A closed surface, around the origin, z up.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+
+  struct Bounds {
+    Vec3 low, high;
+    double radius;  ///< of a sphere around the origin
+  };
+  virtual Bounds bounds() const = 0;
+
+  /// Points per largest extent of the default cloud: with 255 it is closed on an 8-bit grid.
+  virtual int default_lattice() const = 0;
+
+  /// All crossings of the line with the surface, in any order.
+  virtual void crossings(const Ray& ray, std::vector<SurfacePoint>& out) const = 0;
+
+  /// Diffuse colour of a surface point.
+  virtual Colour albedo(const SurfacePoint& point) const = 0;
+
+  /// Light that arrives along -ray.direction, and in `transmittance` the share of the background
+  /// that shines through; false if the ray misses.
+  virtual bool radiance(const Ray& ray, Colour& light, double& transmittance) const = 0;
+};
+
+/// "can", "die", "vase"; null for any other name.
+std::unique_ptr<Scene> make_scene(const std::string& name);
+/// The same names, for messages: "can, die, vase".
+std::string scene_names();
+
+std::unique_ptr<Scene> make_can();
+std::unique_ptr<Scene> make_die();
+std::unique_ptr<Scene> make_vase();
+
+}  // namespace slf::synth

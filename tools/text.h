@@ -1,0 +1,33 @@
+// Text for people: formatted numbers, and writing it out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/failure.h"
+
+namespace slf::tools {
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
+
+/// 1234567 -> "1,234,567".
+std::string grouped(std::uint64_t number);
+
+/// To standard output, flushed; a full disk or a closed pipe is a failure.
+Outcome print(const std::string& text);
+/// Indented, with a line end. Strings that are not UTF-8 are shown with replacement characters.
+Outcome print(const nlohmann::ordered_json& json);
+std::string to_text(const nlohmann::ordered_json& json);
+
+/// "slf: warning: ..." on standard error, unless quiet.
+void warn(const std::string& message, bool quiet);
+void warn(const std::vector<std::string>& messages, bool quiet);
+
+/// Largest resident set of this process so far, MiB.
+double peak_memory_mib();
+
+}  // namespace slf::tools

@@ -1,0 +1,72 @@
+// slf decode: points with their mean colour, and on request every integer of the light field.
+#include <memory>
+
+#include "slf/view_map.h"
+#include "tools/dump.h"
+#include "tools/options.h"
+#include "tools/output.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+struct DecodeVerbOptions {
+  std::string input, output, dump;
+  PartOptions part;
+  CommonOptions common;
+};
+
+nlohmann::ordered_json report_json(const DecodedFile& decoded) {
+  return {{"bytes", decoded.bytes},
+          {"points", decoded.field.num_points()},
+          {"functions", decoded.field.header.num_functions},
+          {"grid_bits", decoded.field.header.grid.bits},
+          {"partial", decoded.field.partial},
+          {"seconds", decoded.seconds}};
+}
+
+Outcome run_decode(const DecodeVerbOptions& given) {
+  if (given.output.empty() && given.dump.empty())
+    return Failure{kUsage, "decode: --output or --dump is missing"};
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "decode: --json and --output - both want standard output"};
+  if (!given.output.empty()) SLF_CHECK(check_output(given.output));
+  SLF_TRY(const DecodedFile decoded, decode_file(given.input, given.part, given.common.threads));
+  if (!given.output.empty())
+    SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
+  if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.dump));
+  if (given.common.json) return print(report_json(decoded));
+  if (!given.common.quiet)
+    std::fprintf(stderr, "%s points, %d functions%s, decoded in %.3f s\n",
+                 grouped(decoded.field.num_points()).c_str(), decoded.field.header.num_functions,
+                 decoded.field.partial ? ", PARTIAL" : "", decoded.seconds);
+  return Done{};
+}
+
+}  // namespace
+
+void add_decode(CLI::App& program, Run& run) {
+  auto* verb =
+      program.add_subcommand("decode", "Decode to a point cloud, or to the coded integers");
+  auto o = std::make_shared<DecodeVerbOptions>();
+  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb->add_option("-o,--output", o->output,
+                   "PLY with positions (world units), normals where coded, and the colour averaged "
+                   "over all directions; - is standard output")
+      ->type_name("FILE");
+  verb->add_option(
+          "--dump", o->dump,
+          "Directory for positions.npy [P,3], components.npy [P,K,3] (int32), octahedral.npy "
+          "[P,2] where normals are coded, and light_field.json (what the integers mean)")
+      ->type_name("DIR");
+  add_part(*verb, o->part);
+  add_threads(*verb, o->common);
+  add_quiet(*verb, o->common);
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_decode(*o); }; });
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,134 @@
+// slf info: what a file holds, from its headers alone.
+#include <map>
+#include <memory>
+
+#include "slf/capture.h"
+#include "tools/describe.h"
+#include "tools/options.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+struct InfoOptions {
+  std::string input;
+  bool units = false;
+  CommonOptions common;
+};
+
+nlohmann::ordered_json units_json(const StreamInfo& info) {
+  auto list = nlohmann::ordered_json::array();
+  for (const UnitInfo& unit : info.units) {
+    nlohmann::ordered_json entry = {
+        {"type", unit.type}, {"offset", unit.offset}, {"bytes", unit.bytes}};
+    if (unit.slice >= 0) entry["slice"] = unit.slice;
+    if (unit.group >= 0) entry["group"] = unit.group;
+    if (unit.level_first >= 0) entry["levels"] = {unit.level_first, unit.level_last};
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes) {
+  nlohmann::ordered_json json;
+  json["bytes"] = bytes;
+  json["version"] = {info.version_major, info.version_minor};
+  json["profile"] = info.profile;
+  json["level"] = info.level;
+  json["complete"] = info.complete;
+  json["points"] = info.num_points;
+  json["slices"] = info.num_slices;
+  json["bits_per_point"] = bits_per_point(bytes, info.num_points);
+  json["geometry_coder"] = info.geometry_coder;
+  json["coefficient_coder"] = info.coefficient_coder;
+  json["header"] = header_json(info.header);
+  json["groups"] = info.num_groups;
+  json["group"] = info.group;
+  json["step"] = info.step;
+  json["bytes_by_type"] = bytes_by_type_json(info);
+  json["units"] = units_json(info);
+  json["metadata"] = metadata_json(info.metadata);
+  return json;
+}
+
+std::string units_text(const StreamInfo& info) {
+  std::string out = "\nunits\n      offset       bytes  type\n";
+  for (const UnitInfo& unit : info.units) {
+    out += text("%12llu %11llu  %s", static_cast<unsigned long long>(unit.offset),
+                static_cast<unsigned long long>(unit.bytes), unit.type.c_str());
+    if (unit.slice >= 0) out += text("  slice %d", unit.slice);
+    if (unit.group >= 0) out += text("  group %d", unit.group);
+    if (unit.level_first >= 0) out += text("  levels %d to %d", unit.level_first, unit.level_last);
+    out += '\n';
+  }
+  return out;
+}
+
+/// Functions, shifts and steps of every group on one line.
+std::string groups_text(const StreamInfo& info) {
+  std::string out;
+  for (int g = 0; g < info.num_groups; ++g) {
+    std::uint32_t low = 0, high = 0;
+    int functions = 0;
+    for (std::size_t k = 0; k < info.group.size(); ++k) {
+      if (info.group[k] != g) continue;
+      for (const std::uint32_t step : info.step[k]) {
+        low = functions == 0 ? step : std::min(low, step);
+        high = std::max(high, step);
+        functions += functions == 0;
+      }
+    }
+    const auto members = std::count(info.group.begin(), info.group.end(), g);
+    std::uint64_t bytes = 0;
+    for (const UnitInfo& unit : info.units)
+      if (unit.group == g) bytes += unit.bytes;
+    out += text("  group %-3d %5d functions, steps %u to %u, %s bytes\n", g,
+                static_cast<int>(members), low, high, grouped(bytes).c_str());
+  }
+  return out;
+}
+
+std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t bytes,
+                      bool units) {
+  std::string out = input_name(file) + ": " + grouped(bytes) + " bytes, .slf version " +
+                    text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
+                         info.profile, info.level) +
+                    (info.complete ? "\n" : ", CUT SHORT (no end unit)\n");
+  out += text("  points        %s in %llu slice%s, %.3f bits per point\n",
+              grouped(info.num_points).c_str(), static_cast<unsigned long long>(info.num_slices),
+              info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
+  out += header_text(info.header);
+  out += text("  coders        %s geometry", info.geometry_coder.c_str());
+  out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients\n" : "\n";
+  if (info.header.num_functions > 0) out += groups_text(info);
+  out += "\n" + bytes_by_type_text(info, bytes);
+  if (units) out += units_text(info);
+  if (!info.metadata.empty()) out += "\nmetadata\n";
+  for (const auto& [key, value] : info.metadata)
+    out += text("  %-20s %s\n", key.c_str(), printable(value).c_str());
+  return out;
+}
+
+Outcome run_info(const InfoOptions& given) {
+  SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
+  SLF_TRY(const StreamInfo info, from(input_name(given.input), read_info(stream)));
+  if (given.common.json) return print(info_json(info, stream.size()));
+  return print(info_text(info, given.input, stream.size(), given.units));
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Run& run) {
+  auto* verb =
+      program.add_subcommand("info", "Show what an .slf file holds, from its headers alone");
+  auto o = std::make_shared<InfoOptions>();
+  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb->add_flag("--units", o->units, "List every unit (JSON always does)");
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_info(*o); }; });
+}
+
+}  // namespace slf::tools

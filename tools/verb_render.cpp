@@ -1,0 +1,285 @@
+// slf render: images from a circle of viewpoints, from a given camera, or beside a photograph.
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "slf/render.h"
+#include "tools/camera_file.h"
+#include "tools/mosaic.h"
+#include "tools/options.h"
+#include "tools/output.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+struct RenderOptions {
+  std::string input, output, camera, capture, image, size, background = "128,128,128";
+  int orbit = 0;
+  double azimuth = 0, elevation = 20, fov = 30, radius = 0;
+  bool sheet = false, pair = false, transparent = false, diffuse_only = false;
+  PartOptions part;
+  CommonOptions common;
+};
+
+/// A view and where it goes.
+struct View {
+  Camera camera;
+  std::string file;
+};
+
+bool parse_background(const std::string& given, std::array<std::uint8_t, 3>& rgb) {
+  const char *at = given.data(), *end = at + given.size();
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (c > 0 && (at == end || *at++ != ',')) return false;
+    const auto [stopped, error] = std::from_chars(at, end, rgb[c]);  // refuses beyond 255
+    if (error != std::errc()) return false;
+    at = stopped;
+  }
+  return at == end;
+}
+
+/// Name of view i: "%03d" or "%d" of the pattern replaced, or i.png within a directory.
+/// @return empty where the pattern has no such place
+std::string numbered(const std::string& pattern, int i) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(pattern, ignored) || pattern.back() == '/')
+    return inside(pattern, text("%03d.png", i));
+  const std::size_t percent = pattern.find('%');
+  if (percent == std::string::npos) return {};
+  std::size_t d = percent + 1;
+  while (d < pattern.size() && pattern[d] >= '0' && pattern[d] <= '9') ++d;
+  if (d == pattern.size() || pattern[d] != 'd' || d > percent + 3) return {};
+  const std::string width = pattern.substr(percent + 1, d - percent - 1);
+  std::string number = std::to_string(i);
+  const std::size_t digits = width.empty() ? 0 : static_cast<std::size_t>(std::stoi(width));
+  if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+  return pattern.substr(0, percent) + number + pattern.substr(d + 1);
+}
+
+Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
+                                               const Renderer& renderer) {
+  int width = 800, height = 800;
+  if (!given.size.empty()) parse_size(given.size, width, height);
+  const int count = std::max(given.orbit, 1);
+  std::vector<View> views;
+  for (int i = 0; i < count; ++i) {
+    const double turn = given.azimuth / 360 + static_cast<double>(i) / count;
+    View view{renderer.orbit(turn, given.elevation, width, height, given.fov), given.output};
+    view.camera.name = text("orbit %d of %d", i + 1, count);
+    if (count > 1 && !given.sheet) view.file = numbered(given.output, i);
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+View camera_view(const RenderOptions& given, Camera camera) {
+  int width = camera.width, height = camera.height;
+  if (!given.size.empty()) parse_size(given.size, width, height);
+  return {resized(std::move(camera), width, height), given.output};
+}
+
+/// Colours freed of the black that the renderer composed them with, and coverage as alpha.
+Image transparent(const Rendering& rendering) {
+  Image out = rendering.image;
+  out.channels = 4;
+  out.data.clear();
+  for (std::size_t i = 0; i < rendering.coverage.size(); ++i) {
+    const unsigned alpha = rendering.coverage[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const unsigned value = rendering.image.data[3 * i + c];
+      out.data.push_back(static_cast<std::uint8_t>(
+          alpha == 0 ? 0 : std::min(255u, (value * 255 + alpha / 2) / alpha)));
+    }
+    out.data.push_back(static_cast<std::uint8_t>(alpha));
+  }
+  return out;
+}
+
+RenderSettings settings_of(const RenderOptions& given) {
+  RenderSettings settings;
+  parse_background(given.background, settings.background);
+  if (given.transparent) settings.background = {0, 0, 0};
+  settings.radius = given.radius;
+  settings.view_dependent = !given.diffuse_only;
+  settings.threads = given.common.threads;
+  return settings;
+}
+
+Outcome check_options(const RenderOptions& given) {
+  std::array<std::uint8_t, 3> rgb{};
+  int width = 0, height = 0;
+  if (!parse_background(given.background, rgb))
+    return Failure{kUsage,
+                   "render: --background " + given.background + " is not R,G,B of 0 to 255"};
+  if (!given.size.empty() && !parse_size(given.size, width, height))
+    return Failure{kUsage, "render: --size " + given.size + " is not WxH of 1 to 16384"};
+  if (given.capture.empty() != given.image.empty())
+    return Failure{kUsage, "render: --capture and --image go together"};
+  if (given.pair && (given.capture.empty() || given.transparent))
+    return Failure{kUsage, "render: --pair needs --capture and --image, and is not transparent"};
+  if (given.sheet && given.transparent)
+    return Failure{kUsage, "render: --sheet is not transparent"};
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "render: --json and --output - both want standard output"};
+  if (given.orbit <= 1 || given.sheet) return check_output(given.output);
+  const std::string first = numbered(given.output, 0);
+  if (first.empty())
+    return Failure{kUsage, "render: --output " + given.output +
+                               " is neither a directory nor has a %d for the view's number"};
+  if (given.output.back() == '/') SLF_CHECK(make_directory(given.output));
+  return check_output(first);
+}
+
+struct Rendered {
+  std::vector<Image> images;
+  std::vector<double> seconds;
+};
+
+Rendered render_views(const RenderOptions& given, const Renderer& renderer,
+                      const std::vector<View>& views) {
+  Rendered out;
+  for (const View& view : views) {
+    Stopwatch watch;
+    const Rendering rendering = renderer.render(view.camera);
+    out.seconds.push_back(watch.lap());
+    out.images.push_back(given.transparent ? transparent(rendering) : rendering.image);
+  }
+  return out;
+}
+
+Outcome report(const RenderOptions& given, const std::vector<View>& views, const Rendered& rendered,
+               double prepare) {
+  auto list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const View& view = views[i];
+    list.push_back({{"camera", view.camera.name},
+                    {"file", view.file},
+                    {"size", {view.camera.width, view.camera.height}},
+                    {"seconds", rendered.seconds[i]}});
+    if (!given.common.quiet && !given.common.json)
+      std::fprintf(stderr, "%s: %s, %d x %d, %.3f s\n", output_name(view.file).c_str(),
+                   view.camera.name.c_str(), view.camera.width, view.camera.height,
+                   rendered.seconds[i]);
+  }
+  if (!given.common.json) return Done{};
+  return print(nlohmann::ordered_json{{"seconds_prepare", prepare}, {"images", list}});
+}
+
+/// The photograph of the view, on the background and of the view's size.
+Result<Image, Failure> photograph(const RenderOptions& given, const Capture& capture, int camera,
+                                  const View& view) {
+  SLF_TRY(const Image image, from(given.capture, load_image(capture, camera)));
+  if (image.width != view.camera.width || image.height != view.camera.height)
+    return Failure{kUsage,
+                   "render: --pair and another --size than the photograph's do not go together"};
+  std::array<std::uint8_t, 3> background{};
+  parse_background(given.background, background);
+  return opaque(image, background);
+}
+
+Outcome run_render(const RenderOptions& given) {
+  SLF_CHECK(check_options(given));
+  Capture capture;
+  int photo = -1;
+  std::vector<View> views;
+  if (!given.capture.empty()) {
+    SLF_TRY(capture, from(given.capture,
+                          load_capture(given.capture, {.points = {}, .check_images = false})));
+    SLF_TRY(photo, find_camera(capture, given.image, given.capture));
+    views.push_back(camera_view(given, capture.cameras[static_cast<std::size_t>(photo)]));
+  } else if (!given.camera.empty()) {
+    SLF_TRY(Camera camera, read_camera(given.camera));
+    views.push_back(camera_view(given, std::move(camera)));
+  }
+  SLF_TRY(const DecodedFile decoded, decode_file(given.input, given.part, given.common.threads));
+  SLF_CHECK(require_view_maps(decoded.field, given.input));
+  Stopwatch watch;
+  const ViewMaps maps(decoded.field, given.common.threads);
+  const RenderSettings settings = settings_of(given);
+  const Renderer renderer(maps, settings);
+  const double prepare = watch.lap();
+  if (views.empty()) {
+    SLF_TRY(views, orbit_views(given, renderer));
+  }
+  Rendered rendered = render_views(given, renderer, views);
+  if (given.pair) {
+    SLF_TRY(const Image left, photograph(given, capture, photo, views[0]));
+    SLF_CHECK(save(given.output, mosaic({left, rendered.images[0]}, 2, settings.background)));
+  } else if (given.sheet) {
+    const int columns = sheet_columns(static_cast<int>(views.size()));
+    SLF_CHECK(save(given.output, mosaic(rendered.images, columns, settings.background)));
+  } else {
+    for (std::size_t i = 0; i < views.size(); ++i)
+      SLF_CHECK(save(views[i].file, rendered.images[i]));
+  }
+  return report(given, views, rendered, prepare);
+}
+
+void add_view_options(CLI::App& verb, RenderOptions& o) {
+  const char* group = "Views (default: one view of an orbit)";
+  auto* orbit = verb.add_option("--orbit", o.orbit, "N views on a circle around the cloud")
+                    ->check(whole_range(1, 1000));
+  auto* camera =
+      verb.add_option("--camera", o.camera, "cameras.json, cameras.json:NAME or cameras.json:INDEX")
+          ->type_name("FILE[:WHICH]")
+          ->excludes(orbit);
+  auto* capture = verb.add_option("--capture", o.capture, "A capture, for --image")
+                      ->type_name("DIR")
+                      ->excludes(orbit)
+                      ->excludes(camera);
+  auto* image =
+      verb.add_option("--image", o.image, "Name (or index) of the capture's image to render")
+          ->type_name("NAME");
+  auto* pair = verb.add_flag("--pair", o.pair, "Photograph and rendering side by side");
+  auto* sheet = verb.add_flag("--sheet", o.sheet, "All views of the orbit in one image");
+  auto* azimuth = verb.add_option("--azimuth", o.azimuth, "Of the orbit's first view, degrees")
+                      ->capture_default_str()
+                      ->check(range(-360, 360));
+  auto* elevation =
+      verb.add_option("--elevation", o.elevation, "Of the orbit, degrees above the horizon")
+          ->capture_default_str()
+          ->check(range(-90, 90));
+  auto* fov = verb.add_option("--fov", o.fov, "Field of view of the orbit's cameras, degrees")
+                  ->capture_default_str()
+                  ->check(range(1, 170));
+  for (CLI::Option* option : {orbit, camera, capture, image, pair, sheet, azimuth, elevation, fov})
+    option->group(group);
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Run& run) {
+  auto* verb = program.add_subcommand("render", "Render images (PNG) from any viewpoint");
+  auto o = std::make_shared<RenderOptions>();
+  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb->add_option(
+          "-o,--output", o->output,
+          "PNG; - is standard output. Several views: a directory, or a name with %d or %03d")
+      ->required()
+      ->type_name("FILE");
+  add_view_options(*verb, *o);
+  verb->add_option("--size", o->size, "Pixels, WxH; default: 800x800, or the camera's own")
+      ->type_name("WxH");
+  verb->add_option("--background", o->background, "R,G,B, each 0 to 255")
+      ->type_name("R,G,B")
+      ->capture_default_str();
+  verb->add_flag("--transparent", o->transparent, "No background: coverage becomes alpha");
+  verb->add_flag("--diffuse-only", o->diffuse_only,
+                 "Mean colours, without what depends on the view");
+  verb->add_option("--radius", o->radius, "Of a surfel, voxels; 0: from the points' spacing")
+      ->capture_default_str()
+      ->check(range(0, 1000));
+  add_part(*verb, o->part);
+  add_threads(*verb, o->common);
+  add_quiet(*verb, o->common);
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_render(*o); }; });
+}
+
+}  // namespace slf::tools
