@@ -1,0 +1,19 @@
+# Installation: libraries, public headers, the program, and what find_package(slf) reads.
+include(CMakePackageConfigHelpers)
+set(SLF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/slf)
+
+set_target_properties(slf_decoder PROPERTIES EXPORT_NAME decoder)
+install(TARGETS slf slf_decoder EXPORT slfTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/slf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT slfTargets NAMESPACE slf:: DESTINATION ${SLF_CMAKE_DIR})
+if(TARGET slf_program)
+  install(TARGETS slf_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(cmake/slfConfig.cmake.in ${PROJECT_BINARY_DIR}/slfConfig.cmake
+                              INSTALL_DESTINATION ${SLF_CMAKE_DIR})
+# Before 1.0 every minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/slfConfig.cmake ${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
+        DESTINATION ${SLF_CMAKE_DIR})

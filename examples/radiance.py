@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Colour of points along a direction, from the integers that `slf decode --dump DIR` writes.
+
+    radiance.py DIR POINT X Y Z     POINT: its number; X Y Z: towards the eye, any length
+
+Needs numpy alone and no part of slf: it evaluates the sum over the basis functions as the
+specification defines them (clause 6.3, after the paper's Eq. 4 to 6), slowly and plainly.
+"""
+import json
+import math
+import os
+import sys
+from math import comb
+
+import numpy as np
+
+
+def cardinal_bspline(order, x):
+    """B-spline of degree order - 1 with knots 0, 1 .. order."""
+    if x < 0 or x >= order:
+        return 0.0
+    if order == 1:
+        return 1.0
+    return (x * cardinal_bspline(order - 1, x)
+            + (order - x) * cardinal_bspline(order - 1, x - 1)) / (order - 1)
+
+
+def mother_wavelet(order, x):
+    """Wavelet with support [0, 2 order - 1]; its two-scale taps are q_n."""
+    total = 0.0
+    for n in range(3 * order - 1):
+        q = (-1) ** n * 2.0 ** (1 - order) * sum(
+            comb(order, j) * cardinal_bspline(2 * order, n - j + 1) for j in range(order + 1))
+        total += q * cardinal_bspline(order, 2 * x - n)
+    return total
+
+
+def wavelet(order, i, x):
+    """w_i on the circle of circumference 1: the constant, then 2^k wavelets of every scale k."""
+    if i == 0:
+        return 1.0
+    period = 2 ** (i.bit_length() - 1)
+    t = (x % 1.0) * period - (i - period)
+    return sum(mother_wavelet(order, t + m * period) for m in range(2 * order)
+               if t + m * period < 2 * order - 1)
+
+
+def basis_values(basis, theta, gamma):
+    """[K] values; function k = i1 * 2^s0 + i0 is w_i0 of azimuth times w_i1 of gamma."""
+    azimuth = [wavelet(basis["order"], i, theta / (2 * math.pi)) for i in range(2 ** basis["scales_theta"])]
+    elevation = [wavelet(basis["order"], i, gamma / 2) for i in range(2 ** basis["scales_gamma"])]
+    return np.outer(elevation, azimuth).ravel()
+
+
+def radiance(directory, point, direction):
+    """World position [3] and R, G, B [3] on 0 .. 255 of one point towards `direction`."""
+    with open(os.path.join(directory, "light_field.json")) as file:
+        field = json.load(file)
+    voxel = np.load(os.path.join(directory, "positions.npy"), mmap_mode="r")[point]
+    components = np.load(os.path.join(directory, "components.npy"), mmap_mode="r")[point]
+    if not field["has_basis"]:
+        sys.exit("these components have no meaning: the file was packed, not encoded")
+    x, y, z = direction
+    theta = math.atan2(y, x)
+    low, high = field["gamma_range"]  # directions beyond what the cameras saw repeat the last seen
+    gamma = min(max(z / math.sqrt(x * x + y * y + z * z), low), high)
+    coefficients = components / 2.0 ** np.array(field["shift"])[:, None]
+    channels = basis_values(field["basis"], theta, gamma) @ coefficients
+    rgb = np.array(field["colour"]["to_rgb"]) @ channels
+    world = np.array(field["grid"]["origin"]) + field["grid"]["step"] * voxel
+    return world, np.clip(rgb, 0, 255)
+
+
+def main():
+    if len(sys.argv) != 6:
+        sys.exit(__doc__)
+    world, rgb = radiance(sys.argv[1], int(sys.argv[2]), [float(a) for a in sys.argv[3:]])
+    print("%.6g %.6g %.6g  %.3f %.3f %.3f" % (*world, *rgb))
+
+
+if __name__ == "__main__":
+    main()
