@@ -1,5 +1,6 @@
 // The program as a person meets it: verbs on a tiny capture, usage errors, reports.
-#include <regex>
+#include <algorithm>
+#include <map>
 
 #include "cli_support.h"
 #include "tools/npy.h"
@@ -29,7 +30,8 @@ class PackTest : public CliTest {
 TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
   const Ran version = slf("--version");
   EXPECT_EQ(version.code, 0);
-  EXPECT_TRUE(std::regex_match(version.out, std::regex("slf \\d+\\.\\d+\\.\\d+\n"))) << version.out;
+  EXPECT_EQ(version.out.rfind("slf ", 0), 0u) << version.out;
+  EXPECT_EQ(std::count(version.out.begin(), version.out.end(), '.'), 2) << version.out;
   const Ran help = slf("--help");
   EXPECT_EQ(help.code, 0);
   EXPECT_NE(help.out.find("130 cancelled"), std::string::npos);

@@ -40,7 +40,9 @@ Image mosaic(const std::vector<Image>& images, int columns,
 }
 
 int sheet_columns(int count) {
-  return std::clamp(static_cast<int>(std::ceil(std::sqrt(2.0 * count))), 1, count);
+  const int widest = std::clamp(static_cast<int>(std::ceil(std::sqrt(2.0 * count))), 1, count);
+  const int rows = (count + widest - 1) / widest;
+  return (count + rows - 1) / rows;  // as few empty places as these rows allow
 }
 
 }  // namespace slf::tools
