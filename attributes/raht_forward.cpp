@@ -2,7 +2,7 @@
 
 #include "attributes/raht_arithmetic.h"
 #include "bitstream/multiversion.h"
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -1,7 +1,9 @@
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -19,18 +21,27 @@ void parallel_ranges(std::size_t items, std::size_t grain, int threads,
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t ranges = (items + grain - 1) / grain;
   std::atomic<std::size_t> next{0}, done{0};
+  std::exception_ptr failure;  // std::bad_alloc, or what a body of the caller throws
+  std::mutex failure_mutex;
   const auto work = [&](bool reports) {
-    for (std::size_t i; (i = next.fetch_add(1)) < ranges;) {
-      const std::size_t end = std::min(items, (i + 1) * grain);
-      body(i * grain, end);
-      done.fetch_add(end - i * grain);
-      if (reports && tick) tick(done.load());
+    try {
+      for (std::size_t i; (i = next.fetch_add(1)) < ranges;) {
+        const std::size_t end = std::min(items, (i + 1) * grain);
+        body(i * grain, end);
+        done.fetch_add(end - i * grain);
+        if (reports && tick) tick(done.load());
+      }
+    } catch (...) {
+      next.store(ranges);  // nobody begins another range
+      const std::lock_guard lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
     }
   };
   std::vector<std::thread> pool;
   for (int t = thread_count(threads, ranges) - 1; t > 0; --t) pool.emplace_back(work, false);
   work(true);
   for (auto& thread : pool) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace slf

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "capture/spacing.h"
 
 namespace slf {

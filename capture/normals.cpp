@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "capture/nearest.h"
 #include "capture/normal_orientation.h"
 #include "slf/capture.h"

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "slf/view_map.h"
 
 namespace slf {

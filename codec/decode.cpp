@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bitstream/index.h"
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
 

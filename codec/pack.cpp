@@ -5,7 +5,7 @@
 
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "codec/pack_parameters.h"
 #include "codec/slice_encoder.h"
 #include "geometry/morton.h"

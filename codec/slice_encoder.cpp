@@ -9,7 +9,7 @@
 #include "attributes/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "attributes/raht_tree.h"
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "codec/slice_decoder.h"
 #include "codec/slice_digest.h"
 #include "entropy/range_encoder.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "capture/nearest.h"
 #include "capture/spacing.h"
 #include "lightfield/colour.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "lightfield/fit_neighbours.h"
 #include "lightfield/fit_step.h"
 #include "lightfield/fit_unobserved.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "capture/nearest.h"
 
 namespace slf {

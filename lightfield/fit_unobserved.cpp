@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "lightfield/observe_camera.h"
 #include "slf/fit.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "lightfield/colour.h"
 #include "lightfield/octahedral.h"
 #include "lightfield/render_splats.h"

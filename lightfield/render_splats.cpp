@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "geometry/morton.h"
 
 namespace slf {

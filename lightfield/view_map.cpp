@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "lightfield/nodes.h"
 
 namespace slf {

@@ -2,7 +2,7 @@
 
 #include <unordered_set>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "tools/synth/shading.h"
 
 namespace slf::synth {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <optional>
 
-#include "bitstream/parallel.h"
+#include "slf/parallel.h"
 #include "tools/synth/rings.h"
 #include "tools/synth/sample_points.h"
 #include "tools/synth/trace.h"
