@@ -19,13 +19,16 @@ using PlaneGroups = std::vector<std::vector<std::uint16_t>>;
 /// The entropy coding state of every group of a slice; it lives on from level range to level range.
 class CoefficientModels {
  public:
-  CoefficientModels(const PlaneGroups& groups, std::size_t num_points, std::size_t planes, bool vector);
+  CoefficientModels(const PlaneGroups& groups, std::size_t num_points, std::size_t planes,
+                    bool vector);
 
   /// Codes rows order[begin .. end) of a group; see VectorCoefficients::code.
   template <class Coder>
-  bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin, std::size_t end) {
+  bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,
+            std::size_t end) {
     if (!vector_.empty())
-      return vector_[group].code(coder, rows, group > 0 ? &vector_[group - 1] : nullptr, begin, end);
+      return vector_[group].code(coder, rows, group > 0 ? &vector_[group - 1] : nullptr, begin,
+                                 end);
     return independent_[group].code(coder, rows, begin, end);
   }
 

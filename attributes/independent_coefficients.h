@@ -44,7 +44,8 @@ class IndependentCoefficients {
     const bool negative = coder.raw(1, value < 0);
     if (magnitude == 0) return false;
     if (Coder::kDecodes)
-      value = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+      value =
+          negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
     return true;
   }
 

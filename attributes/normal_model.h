@@ -49,16 +49,19 @@ class NormalModel {
       return true;
     }
     const bool negative = coder.bit(contexts.negative, kLimit, residual < 0);
-    const std::uint32_t magnitude = code_magnitude(
-        coder, contexts.magnitude, kLimit, static_cast<std::uint32_t>(residual < 0 ? -residual : residual));
+    const std::uint32_t magnitude =
+        code_magnitude(coder, contexts.magnitude, kLimit,
+                       static_cast<std::uint32_t>(residual < 0 ? -residual : residual));
     if (magnitude == 0 || magnitude > 1u << (bits_ - 1)) return false;
-    residual = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+    residual =
+        negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
     return true;
   }
 
   int bits_;
   std::array<std::int32_t, 2> previous_{0, 0};
-  std::array<Component, 6> components_;  // the second component knows the size of the first's residual
+  std::array<Component, 6>
+      components_;  // the second component knows the size of the first's residual
 };
 
 }  // namespace slf

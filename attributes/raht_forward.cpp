@@ -29,7 +29,8 @@ void forward_lanes(const Merge* merges, std::size_t count, std::int32_t* values,
 void raht_forward(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads) {
   const auto stride = static_cast<std::size_t>(planes);
   parallel_ranges(stride, kLanes, threads, [&](std::size_t begin, std::size_t end) {
-    forward_lanes(tree.merges.data(), tree.merges.size(), values.data() + begin, stride, end - begin);
+    forward_lanes(tree.merges.data(), tree.merges.size(), values.data() + begin, stride,
+                  end - begin);
   });
 }
 

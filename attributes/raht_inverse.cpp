@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kBlock = 48;
 
 /// `lanes` of both rows of a merge. Most are zero in most merges.
-inline void inverse_merge(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
-                          std::size_t lanes) {
+inline void inverse_merge(const Merge& m, std::int32_t* __restrict low,
+                          std::int32_t* __restrict high, std::size_t lanes) {
   std::int32_t any = 0;
   for (std::size_t j = 0; j < lanes; ++j) any |= low[j] | high[j];
   if (any == 0) return;
@@ -24,7 +24,8 @@ inline void inverse_merge(const Merge& m, std::int32_t* __restrict low, std::int
 }
 
 SLF_MULTIVERSION
-void inverse_lanes(std::span<const Merge> merges, std::int32_t* values, std::size_t stride, std::size_t lanes) {
+void inverse_lanes(std::span<const Merge> merges, std::int32_t* values, std::size_t stride,
+                   std::size_t lanes) {
   for (const Merge& m : merges) {
     std::int32_t* low = values + m.left * stride;
     std::int32_t* high = values + m.right * stride;
@@ -39,7 +40,8 @@ void inverse_lanes(std::span<const Merge> merges, std::int32_t* values, std::siz
 void raht_inverse(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads) {
   const auto stride = static_cast<std::size_t>(planes);
   // Whole rows on one thread: merges are depth first, so rows follow one another in memory.
-  const auto parts = static_cast<std::size_t>(thread_count(threads, (stride + kBlock - 1) / kBlock));
+  const auto parts =
+      static_cast<std::size_t>(thread_count(threads, (stride + kBlock - 1) / kBlock));
   const std::size_t grain = ((stride + parts - 1) / parts + kBlock - 1) / kBlock * kBlock;
   parallel_ranges(stride, grain, threads, [&](std::size_t begin, std::size_t end) {
     inverse_lanes(tree.merges, values.data() + begin, stride, end - begin);

@@ -17,7 +17,8 @@ struct Children {
 
 Children cartesian_tree(const std::vector<std::uint8_t>& split) {
   const std::size_t count = split.size();
-  Children tree{std::vector<std::uint32_t>(count, kNone), std::vector<std::uint32_t>(count, kNone), kNone};
+  Children tree{std::vector<std::uint32_t>(count, kNone), std::vector<std::uint32_t>(count, kNone),
+                kNone};
   std::vector<std::uint32_t> spine;  // rows whose right side is still open, splits descending
   for (std::uint32_t row = 1; row < count; ++row) {
     std::uint32_t below = kNone;
@@ -45,7 +46,8 @@ std::vector<std::uint32_t> coding_order(const std::vector<std::uint8_t>& split) 
   begin[0] = 1;  // row 0 comes first
   for (std::size_t i = 1; i <= kSplits; ++i) begin[i] += begin[i - 1];
   std::vector<std::uint32_t> order(split.size(), 0);
-  for (std::uint32_t row = 1; row < split.size(); ++row) order[begin[kSplits - 1u - split[row]]++] = row;
+  for (std::uint32_t row = 1; row < split.size(); ++row)
+    order[begin[kSplits - 1u - split[row]]++] = row;
   return order;
 }
 
@@ -113,7 +115,8 @@ RahtTop cut_raht_tree(const RahtTree& tree, int lowest_split) {
   top.first.push_back(static_cast<std::uint32_t>(tree.size()));
   for (auto& parent : top.tree.parent) parent = kept[parent];
   for (const Merge& m : tree.merges)
-    if (stays(m.right)) top.tree.merges.push_back({kept[m.left], kept[m.right], m.cos_q30, m.sin_q30});
+    if (stays(m.right))
+      top.tree.merges.push_back({kept[m.left], kept[m.right], m.cos_q30, m.sin_q30});
   for (const std::uint32_t row : tree.order)
     if (stays(row)) top.tree.order.push_back(kept[row]);
   return top;

@@ -12,7 +12,7 @@ namespace slf {
 /// first point, the difference of a merge in the row of the right node's first point. So every row
 /// but 0 holds exactly one difference when the transform is done, and row 0 the mean of all.
 struct Merge {
-  std::uint32_t left, right;    ///< rows
+  std::uint32_t left, right;      ///< rows
   std::int32_t cos_q30, sin_q30;  ///< sqrt of the left and right share of the weight (spec 8.6.2)
 };
 
@@ -20,8 +20,8 @@ struct RahtTree {
   std::vector<Merge> merges;          ///< [P - 1] parents before children, depth first
   std::vector<std::uint8_t> split;    ///< [P] Morton bit that row's merge joins; 255 for row 0
   std::vector<std::uint32_t> parent;  ///< [P] row whose merge is next above row's; 0 at the top
-  std::vector<std::uint32_t> order;   ///< [P] rows in coding order: row 0, then by split descending,
-                                      ///< rows ascending within a split
+  std::vector<std::uint32_t> order;  ///< [P] rows in coding order: row 0, then by split descending,
+                                     ///< rows ascending within a split
   std::size_t size() const { return split.size(); }
 };
 

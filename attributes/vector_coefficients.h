@@ -18,10 +18,15 @@ namespace slf {
 class VectorCoefficients {
  public:
   /// functions: the group's, ascending.
-  VectorCoefficients(std::vector<std::uint16_t> functions, std::size_t num_points, std::size_t planes)
-      : functions_(std::move(functions)), zeros_(planes, 0), nonzeros_(num_points, 0),
-        activity_(planes, 4096), node_(kLevelClasses * 27),
-        block_(16 * 2 * 2 * 3), value_(2 * kLevelClasses * kActivities * 5 * 4 * 4),
+  VectorCoefficients(std::vector<std::uint16_t> functions, std::size_t num_points,
+                     std::size_t planes)
+      : functions_(std::move(functions)),
+        zeros_(planes, 0),
+        nonzeros_(num_points, 0),
+        activity_(planes, 4096),
+        node_(kLevelClasses * 27),
+        block_(16 * 2 * 2 * 3),
+        value_(2 * kLevelClasses * kActivities * 5 * 4 * 4),
         magnitude_(kActivities * 3) {}
 
   /// Codes rows order[begin .. end). `lower`: the group before this one, or nullptr.
@@ -37,9 +42,11 @@ class VectorCoefficients {
       const bool beside = previous != 0 && tree.split[previous] == tree.split[row];
       const Around around{parent != 0 ? rows.row(parent) : zeros_.data(),
                           beside ? rows.row(previous) : zeros_.data(), level_class(tree, row)};
-      const std::uint32_t context = ((around.level * 3 + few(parent != 0 ? nonzeros_[parent] : 0u)) * 3 +
-                                     few(beside ? nonzeros_[previous] : 0u)) * 3 +
-                                    few(lower != nullptr ? lower->nonzeros_[row] : 0u);
+      const std::uint32_t context =
+          ((around.level * 3 + few(parent != 0 ? nonzeros_[parent] : 0u)) * 3 +
+           few(beside ? nonzeros_[previous] : 0u)) *
+              3 +
+          few(lower != nullptr ? lower->nonzeros_[row] : 0u);
       const bool any = !Coder::kDecodes && has_any(rows.row(row), 0, functions_.size());
       if (!coder.bit(node_[context], kLimit, any)) continue;
       if (!code_node(coder, around, rows.row(row), row)) return false;
@@ -81,8 +88,11 @@ class VectorCoefficients {
       if (!implied) {
         const std::uint32_t context =
             ((static_cast<std::uint32_t>(std::min<std::size_t>(first / kBlock, 15)) * 2 +
-              has_any(around.parent, first, last)) * 2 +
-             has_any(around.previous, first, last)) * 3 + few(count);
+              has_any(around.parent, first, last)) *
+                 2 +
+             has_any(around.previous, first, last)) *
+                3 +
+            few(count);
         const bool any = !Coder::kDecodes && has_any(values, first, last);
         if (!coder.bit(block_[context], kLimit, any)) continue;
       }
@@ -102,9 +112,12 @@ class VectorCoefficients {
         const std::uint32_t beside = size_class(around.parent[j]) + size_class(around.previous[j]);
         // The same function's earlier channels; for the first, the function before.
         const std::uint32_t sibling =
-            c == 0 ? (f > first ? size_class(values[3u * functions_[f - 1]]) : 3u)
-                   : std::min(size_class(values[plane0]) + (c == 2 ? size_class(values[j - 1]) : 0u), 3u);
-        if (!code_value(coder, values[j], j, around.level, beside, c == 0, sibling, count)) return false;
+            c == 0
+                ? (f > first ? size_class(values[3u * functions_[f - 1]]) : 3u)
+                : std::min(size_class(values[plane0]) + (c == 2 ? size_class(values[j - 1]) : 0u),
+                           3u);
+        if (!code_value(coder, values[j], j, around.level, beside, c == 0, sibling, count))
+          return false;
       }
     }
     return true;
@@ -112,11 +125,14 @@ class VectorCoefficients {
 
   template <class Coder>
   bool code_value(Coder& coder, std::int32_t& value, std::size_t plane, std::uint32_t level,
-                  std::uint32_t beside, bool first_channel, std::uint32_t sibling, std::uint32_t& count) {
+                  std::uint32_t beside, bool first_channel, std::uint32_t sibling,
+                  std::uint32_t& count) {
     const std::uint32_t activity = activity_class(plane);
     const std::uint32_t so_far = count < 2 ? count : count < 5 ? 2 : 3;
     const std::uint32_t context =
-        ((((first_channel * kLevelClasses + level) * kActivities + activity) * 5 + beside) * 4 + sibling) * 4 +
+        ((((first_channel * kLevelClasses + level) * kActivities + activity) * 5 + beside) * 4 +
+         sibling) *
+            4 +
         so_far;
     const unsigned nonzero = coder.bit(value_[context], kLimit, !Coder::kDecodes && value != 0);
     // Moves 1/32 of the way: the share of non-zeros among the values coded.
@@ -128,7 +144,8 @@ class VectorCoefficients {
     const bool negative = coder.raw(1, value < 0);
     if (magnitude == 0) return false;
     if (Coder::kDecodes)
-      value = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+      value =
+          negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
     ++count;
     return true;
   }
@@ -140,9 +157,9 @@ class VectorCoefficients {
   }
 
   std::vector<std::uint16_t> functions_;
-  std::vector<std::int32_t> zeros_;       // [planes] stands for a parent or neighbour that is not there
-  std::vector<std::uint8_t> nonzeros_;    // [P] non-zero values of the group, 255 for more
-  std::vector<std::int32_t> activity_;    // [planes] of 65536
+  std::vector<std::int32_t> zeros_;  // [planes] stands for a parent or neighbour that is not there
+  std::vector<std::uint8_t> nonzeros_;  // [P] non-zero values of the group, 255 for more
+  std::vector<std::int32_t> activity_;  // [planes] of 65536
   std::vector<AdaptiveBit> node_, block_, value_;
   std::vector<MagnitudeContexts> magnitude_;
 };

@@ -1,7 +1,8 @@
 // Lossless geometry of voxel clouds, whole file counted: bench_geometry CLOUD.ply ...
 //
-// Prints bytes, bits per point and times beside Draco's in the same run and, for the clouds TMC13 was
-// measured on, its position bytes (v23.0-rc2, the better of planar off and on; research notes, g-pcc 3a).
+// Prints bytes, bits per point and times beside Draco's in the same run and, for the clouds TMC13
+// was measured on, its position bytes (v23.0-rc2, the better of planar off and on; research notes,
+// g-pcc 3a).
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -37,7 +38,8 @@ Result<LightField, InputError> integer_field(const std::filesystem::path& file) 
   field.header.grid = {{0, 0, 0}, 1, bits};
   field.header.has_basis = false;
   for (const Voxel& v : with_corners.positions) {
-    const bool corner = v == Voxel{0, 0, 0} || v == Voxel{(1 << bits) - 1, (1 << bits) - 1, (1 << bits) - 1};
+    const bool corner =
+        v == Voxel{0, 0, 0} || v == Voxel{(1 << bits) - 1, (1 << bits) - 1, (1 << bits) - 1};
     if (!corner) field.positions.push_back(v);
   }
   return field;
@@ -59,15 +61,16 @@ Row measure(const LightField& field, GeometryCoder coder) {
   if (!stream) return row;
   row.bytes = stream->size();
   row.encode = bench::median_seconds(3, [&] { (void)pack(field, parameters); });
-  row.decode = bench::median_seconds(3, [&] { row.lossless = decode(*stream)->positions == field.positions; });
+  row.decode = bench::median_seconds(
+      3, [&] { row.lossless = decode(*stream)->positions == field.positions; });
   return row;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::printf("%-16s %8s | %8s %6s %7s %7s | %8s %7s %7s | %8s %7s\n", "cloud", "points", "slf B", "bpp", "enc s",
-              "dec s", "Draco B", "enc s", "dec s", "TMC13 B", "slf");
+  std::printf("%-16s %8s | %8s %6s %7s %7s | %8s %7s %7s | %8s %7s\n", "cloud", "points", "slf B",
+              "bpp", "enc s", "dec s", "Draco B", "enc s", "dec s", "TMC13 B", "slf");
   double ratio = 0;
   int compared = 0;
   for (int i = 1; i < argc; ++i) {
@@ -77,10 +80,12 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "bench_geometry: %s\n", field.error().message.c_str());
       return 1;
     }
-    const Row ours = measure(*field, GeometryCoder::kOctree), draco = measure(*field, GeometryCoder::kDraco);
-    std::printf("%-16s %8zu | %8zu %6.3f %7.3f %7.3f | %8zu %7.3f %7.3f |", file.stem().c_str(), field->num_points(),
-                ours.bytes, 8.0 * static_cast<double>(ours.bytes) / static_cast<double>(field->num_points()), ours.encode,
-                ours.decode, draco.bytes, draco.encode, draco.decode);
+    const Row ours = measure(*field, GeometryCoder::kOctree),
+              draco = measure(*field, GeometryCoder::kDraco);
+    std::printf("%-16s %8zu | %8zu %6.3f %7.3f %7.3f | %8zu %7.3f %7.3f |", file.stem().c_str(),
+                field->num_points(), ours.bytes,
+                8.0 * static_cast<double>(ours.bytes) / static_cast<double>(field->num_points()),
+                ours.encode, ours.decode, draco.bytes, draco.encode, draco.decode);
     if (const auto known = kTmc13Bytes.find(file.stem().string()); known != kTmc13Bytes.end()) {
       const double change = static_cast<double>(ours.bytes) / known->second - 1;
       std::printf(" %8d %+6.1f%%", known->second, 100 * change);

@@ -1,6 +1,8 @@
-// The main job, timed by stage, and the presets beside each other: bench_main_job CAPTURE [GRID_BITS [SPLIT]]
+// The main job, timed by stage, and the presets beside each other: bench_main_job CAPTURE
+// [GRID_BITS [SPLIT]]
 //
-// Times: encode once per row on all cores, decode and render as medians of five; decode on one thread.
+// Times: encode once per row on all cores, decode and render as medians of five; decode on one
+// thread.
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -45,16 +47,19 @@ Result<Done, InputError> print_row(const Job& job, Preset preset, int bits, doub
   if (!field) return InputError{field.error().code, to_string(field.error())};
   const ViewMaps maps(*field);
   const Renderer renderer(maps);
-  const double render_seconds = bench::median_seconds(5, [&] { (void)renderer.render(renderer.orbit(0.1, 20, 800, 800)); });
+  const double render_seconds =
+      bench::median_seconds(5, [&] { (void)renderer.render(renderer.orbit(0.1, 20, 800, 800)); });
   EvaluateSettings evaluation;
   evaluation.images = false;
   SLF_TRY(const Quality seen, evaluate(maps, job.capture, job.input, evaluation));
   SLF_TRY(const Quality unseen, evaluate(maps, job.capture, job.held_out, evaluation));
-  const double encode_seconds = encoded.seconds_voxelise + encoded.seconds_observe + encoded.seconds_fit + encoded.seconds_code;
+  const double encode_seconds = encoded.seconds_voxelise + encoded.seconds_observe +
+                                encoded.seconds_fit + encoded.seconds_code;
   std::printf("%-8s %4g %9zu %7.2f %7.2f | %6.2f %6.2f %6.2f %6.2f | %7.3f %7.3f | %5.2f\n",
-              preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(), seen.point_psnr, unseen.point_psnr,
-              encode_seconds, encoded.seconds_observe, encoded.seconds_fit, encoded.seconds_code, decode_seconds,
-              render_seconds, peak_gib());
+              preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(),
+              seen.point_psnr, unseen.point_psnr, encode_seconds, encoded.seconds_observe,
+              encoded.seconds_fit, encoded.seconds_code, decode_seconds, render_seconds,
+              peak_gib());
   std::fflush(stdout);
   return Done{};
 }
@@ -72,9 +77,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bench_main_job: %s\n", job.error().message.c_str());
     return 1;
   }
-  std::printf("%s, %zu input and %zu held-out cameras, %d bits\n", argv[1], job->input.size(), job->held_out.size(), bits);
-  std::printf("%-8s %4s %9s %7s %7s | %6s %6s %6s %6s | %7s %7s | %5s\n", "preset", "Q", "bytes", "input", "held",
-              "encode", "obs", "fit", "code", "decode1", "render", "GiB");
+  std::printf("%s, %zu input and %zu held-out cameras, %d bits\n", argv[1], job->input.size(),
+              job->held_out.size(), bits);
+  std::printf("%-8s %4s %9s %7s %7s | %6s %6s %6s %6s | %7s %7s | %5s\n", "preset", "Q", "bytes",
+              "input", "held", "encode", "obs", "fit", "code", "decode1", "render", "GiB");
   for (const Preset preset : {Preset::kDefault, Preset::kPaper})
     for (const double q : {8.0, 16.0, 32.0})
       if (const auto done = print_row(*job, preset, bits, q); !done) {

@@ -17,7 +17,8 @@ class BitReader {
 
   std::uint64_t u(int n, const char* element) {  // 0 <= n <= 64
     assert(n >= 0 && n <= 64);
-    if (failed_ || static_cast<std::uint64_t>(n) > bits_left()) return fail(Errc::kTruncated, element);
+    if (failed_ || static_cast<std::uint64_t>(n) > bits_left())
+      return fail(Errc::kTruncated, element);
     std::uint64_t value = 0;
     for (int i = 0; i < n; ++i, ++pos_)
       value = value << 1 | (bytes_[pos_ / 8] >> (7 - pos_ % 8) & 1u);

@@ -15,7 +15,8 @@ class BitWriter {
     assert(n >= 0 && n <= 64 && (n == 64 || value >> n == 0));
     for (int i = n - 1; i >= 0; --i, ++pos_) {
       if (pos_ % 8 == 0) bytes_.push_back(0);
-      bytes_.back() = static_cast<std::uint8_t>(bytes_.back() | (value >> i & 1u) << (7 - pos_ % 8));
+      bytes_.back() =
+          static_cast<std::uint8_t>(bytes_.back() | (value >> i & 1u) << (7 - pos_ % 8));
     }
   }
 

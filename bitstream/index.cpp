@@ -20,6 +20,8 @@ Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> payloa
   std::uint32_t count = 0;
   std::vector<IndexEntry> entries;
   parse.ue("index_num_units", count, Range{0, 0xFFFFFFFE});
+  constexpr std::uint64_t kLeastEntryBits = 8 + 5;  // the shortest unit is 6 bytes: ue(6)
+  parse.require(count <= in.bits_left() / kLeastEntryBits, Errc::kTruncated, "index_num_units");
   parse.resize("index_num_units", entries, count);
   for (IndexEntry& entry : entries) index_entry(parse, entry.type, entry.bytes);
   in.trailing_bits("index_trailing_bits");

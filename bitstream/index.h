@@ -10,8 +10,8 @@
 
 namespace slf {
 
-/// One entry of the index. A range request is planned from the running sum of `bytes`, which begins at
-/// the byte after the index unit.
+/// One entry of the index. A range request is planned from the running sum of `bytes`, which begins
+/// at the byte after the index unit.
 struct IndexEntry {
   UnitType type{};
   std::uint64_t bytes = 0;

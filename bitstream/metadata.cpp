@@ -34,7 +34,8 @@ Result<Metadata> parse_metadata(std::span<const std::uint8_t> payload) {
   Metadata metadata;
   for (std::span<const std::uint8_t> rest = text; !rest.empty();) {
     std::string key = take_string(rest);
-    if (rest.empty()) return Error{Errc::kOutOfRange, "metadata_text", 0};  // a key without a value
+    // A key without a name, or without a value.
+    if (key.empty() || rest.empty()) return Error{Errc::kOutOfRange, "metadata_text", 0};
     metadata.emplace_back(std::move(key), take_string(rest));
   }
   return metadata;

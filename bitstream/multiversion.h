@@ -2,7 +2,8 @@
 #pragma once
 
 // clang 14 has no target_clones; a sanitizer's run-time is not ready when the choice is made.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define SLF_MULTIVERSION __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define SLF_MULTIVERSION

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,7 +39,10 @@ void parallel_ranges(std::size_t items, std::size_t grain, int threads,
     }
   };
   std::vector<std::thread> pool;
-  for (int t = thread_count(threads, ranges) - 1; t > 0; --t) pool.emplace_back(work, false);
+  try {
+    for (int t = thread_count(threads, ranges) - 1; t > 0; --t) pool.emplace_back(work, false);
+  } catch (const std::system_error&) {  // the system has no more threads: those there are do it
+  }
   work(true);
   for (auto& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);

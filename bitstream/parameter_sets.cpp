@@ -19,7 +19,8 @@ std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSe
   return out.take();
 }
 
-Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload, std::uint32_t grid_bits) {
+Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload,
+                                       std::uint32_t grid_bits) {
   BitReader in(payload);
   ParseSyntax parse{in};
   SliceHeader header;

@@ -46,12 +46,15 @@ struct SequenceParameterSet {
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
-  std::uint32_t num_groups() const { return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1; }
+  std::uint32_t num_groups() const {
+    return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
+  }
 };
 
 template <class V, class Run>
 void plane_run(V& v, Run& r, std::uint32_t functions_left, std::uint32_t num_groups) {
-  v.ue("sps_run_length_minus1", r.sps_run_length_minus1, Range{0, std::int64_t{functions_left} - 1});
+  v.ue("sps_run_length_minus1", r.sps_run_length_minus1,
+       Range{0, std::int64_t{functions_left} - 1});
   v.ue("sps_plane_group", r.sps_plane_group, Range{0, std::int64_t{num_groups} - 1});
   v.u(4, "sps_plane_shift", r.sps_plane_shift, Range{0, 15});
   v.u(1, "sps_equal_steps_flag", r.sps_equal_steps_flag, Range{0, 1});
@@ -61,8 +64,8 @@ void plane_run(V& v, Run& r, std::uint32_t functions_left, std::uint32_t num_gro
 
 /// Level ranges: ends ascending, the last is grid_bits and is not coded.
 template <class V, class Count, class Ends>
-void level_ranges(V& v, const char* count_name, const char* end_name, Count& count_minus1, Ends& ends,
-                  std::uint32_t grid_bits) {
+void level_ranges(V& v, const char* count_name, const char* end_name, Count& count_minus1,
+                  Ends& ends, std::uint32_t grid_bits) {
   v.ue(count_name, count_minus1, Range{0, std::int64_t{grid_bits} - 1});
   v.resize(end_name, ends, count_minus1);
   std::int64_t least = 1;
@@ -122,8 +125,8 @@ void sequence_parameter_set(V& v, Set& s) {
     v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
     v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
     v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
-    v.require(s.sps_num_functions == 1u << (s.sps_scales_theta + s.sps_scales_gamma), Errc::kOutOfRange,
-              "sps_num_functions");
+    v.require(s.sps_num_functions == 1u << (s.sps_scales_theta + s.sps_scales_gamma),
+              Errc::kOutOfRange, "sps_num_functions");
     v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 0});
     v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
     v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
@@ -147,7 +150,7 @@ struct SliceHeader {
 };
 
 inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
-inline constexpr std::uint32_t kMaxSlices = 1u << 20;
+inline constexpr std::uint32_t kMaxSlices = 1u << 16;
 
 // Spec 7.3  slice_header( )
 template <class V, class Header>
@@ -156,7 +159,8 @@ void slice_header(V& v, Header& h, std::uint32_t grid_bits) {
   v.ue("slice_num_points_minus1", h.slice_num_points_minus1, Range{0, kMaxSlicePoints - 1});
   v.u(5, "slice_depth", h.slice_depth, Range{0, std::int64_t{grid_bits}});
   const int cell_bits = static_cast<int>(grid_bits - (v.ok() ? h.slice_depth : grid_bits));
-  for (auto& cell : h.slice_cell) v.u(cell_bits, "slice_cell", cell, Range{0, (1 << cell_bits) - 1});
+  for (auto& cell : h.slice_cell)
+    v.u(cell_bits, "slice_cell", cell, Range{0, (1 << cell_bits) - 1});
 }
 
 /// Spec 7.4 - 7.6, 7.9: what stands before the payload of a unit that belongs to a slice.
@@ -176,7 +180,8 @@ void slice_unit_header(V& v, Header& h, bool has_range, bool has_group) {
 
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);
 std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set);
-Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload, std::uint32_t grid_bits);
+Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload,
+                                       std::uint32_t grid_bits);
 std::vector<std::uint8_t> write_slice_header(const SliceHeader& header, std::uint32_t grid_bits);
 
 }  // namespace slf

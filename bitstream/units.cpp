@@ -53,15 +53,24 @@ Result<Done> check_end(const Unit& unit, std::size_t units_before) {
 
 const char* unit_name(UnitType type) {
   switch (type) {
-    case UnitType::kSequence: return "sequence";
-    case UnitType::kSlice: return "slice";
-    case UnitType::kGeometry: return "geometry";
-    case UnitType::kNormals: return "normals";
-    case UnitType::kCoefficients: return "coefficients";
-    case UnitType::kIndex: return "index";
-    case UnitType::kMetadata: return "metadata";
-    case UnitType::kDigest: return "digest";
-    case UnitType::kEnd: return "end";
+    case UnitType::kSequence:
+      return "sequence";
+    case UnitType::kSlice:
+      return "slice";
+    case UnitType::kGeometry:
+      return "geometry";
+    case UnitType::kNormals:
+      return "normals";
+    case UnitType::kCoefficients:
+      return "coefficients";
+    case UnitType::kIndex:
+      return "index";
+    case UnitType::kMetadata:
+      return "metadata";
+    case UnitType::kDigest:
+      return "digest";
+    case UnitType::kEnd:
+      return "end";
   }
   return "unknown";
 }
@@ -69,8 +78,10 @@ const char* unit_name(UnitType type) {
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes) {
   if (stream.size() < kSignature.size() ||
       !std::equal(kSignature.begin(), kSignature.end(), stream.begin())) {
-    const bool prefix = std::equal(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                       stream.size(), kSignature.size())), kSignature.begin());
+    const bool prefix = std::equal(
+        stream.begin(),
+        stream.begin() + static_cast<std::ptrdiff_t>(std::min(stream.size(), kSignature.size())),
+        kSignature.begin());
     return Error{prefix && !stream.empty() ? Errc::kTruncated : Errc::kNotSlf, "signature", 0};
   }
   Units result;
@@ -78,8 +89,8 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
   while (at < stream.size()) {
     if (result.complete) return Error{Errc::kOutOfRange, "end_of_stream", at * 8};
     auto unit = read_unit(stream, at);
-    const bool cut = max_bytes != 0 && (unit ? at + unit->bytes > max_bytes
-                                             : unit.error().code == Errc::kTruncated);
+    const bool cut = max_bytes != 0 && max_bytes < stream.size() &&
+                     (unit ? at + unit->bytes > max_bytes : unit.error().code == Errc::kTruncated);
     if (cut) break;
     if (!unit) return unit.error();
     if (unit->type == UnitType::kEnd) SLF_CHECK(check_end(*unit, result.units.size()));
@@ -90,7 +101,8 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
   return result;
 }
 
-void append_unit(std::vector<std::uint8_t>& stream, UnitType type, std::span<const std::uint8_t> payload) {
+void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
+                 std::span<const std::uint8_t> payload) {
   const std::size_t start = stream.size();
   stream.push_back(static_cast<std::uint8_t>(type));
   std::uint64_t length = payload.size();
@@ -98,7 +110,8 @@ void append_unit(std::vector<std::uint8_t>& stream, UnitType type, std::span<con
   stream.push_back(static_cast<std::uint8_t>(length));
   stream.insert(stream.end(), payload.begin(), payload.end());
   const std::uint32_t crc = crc32(std::span(stream).subspan(start));
-  for (int shift = 24; shift >= 0; shift -= 8) stream.push_back(static_cast<std::uint8_t>(crc >> shift));
+  for (int shift = 24; shift >= 0; shift -= 8)
+    stream.push_back(static_cast<std::uint8_t>(crc >> shift));
 }
 
 std::uint64_t unit_bytes(std::uint64_t payload_bytes) {

@@ -11,7 +11,8 @@
 namespace slf {
 
 /// No text-mode transfer survives it: a byte above 127, CR LF, end-of-file, LF.
-inline constexpr std::array<std::uint8_t, 8> kSignature = {0x8B, 'S', 'L', 'F', 0x0D, 0x0A, 0x1A, 0x0A};
+inline constexpr std::array<std::uint8_t, 8> kSignature = {0x8B, 'S',  'L',  'F',
+                                                           0x0D, 0x0A, 0x1A, 0x0A};
 
 enum class UnitType : std::uint8_t {
   kSequence = 1,
@@ -42,12 +43,14 @@ struct Units {
 
 /// Checks signature, lengths and every CRC-32. Unknown types are kept; a decoder skips them.
 /// @param max_bytes  units that do not end within it are left out; 0: all
-/// @errors kNotSlf; kTruncated: the stream ends inside a unit; kChecksum; kOutOfRange: bytes after the
+/// @errors kNotSlf; kTruncated: the stream ends inside a unit; kChecksum; kOutOfRange: bytes after
+/// the
 ///         end unit, or a length longer than it need be.
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0);
 
 /// Appends one unit. Informative mirror of the above.
-void append_unit(std::vector<std::uint8_t>& stream, UnitType type, std::span<const std::uint8_t> payload);
+void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
+                 std::span<const std::uint8_t> payload);
 
 /// Bytes of a unit with this payload.
 std::uint64_t unit_bytes(std::uint64_t payload_bytes);

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "slf/parallel.h"
 #include "capture/spacing.h"
+#include "slf/parallel.h"
 
 namespace slf {
 

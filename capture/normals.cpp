@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
-#include "slf/parallel.h"
 #include "capture/nearest.h"
 #include "capture/normal_orientation.h"
 #include "slf/capture.h"
+#include "slf/parallel.h"
 
 namespace slf {
 

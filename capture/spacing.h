@@ -6,8 +6,9 @@
 
 namespace slf {
 
-/// Mean distance to the fourth nearest other point, over up to 2000 points spread evenly: the spacing
-/// a grid of the same density would have along its axes. World units; 0 for fewer than two points.
+/// Mean distance to the fourth nearest other point, over up to 2000 points spread evenly: the
+/// spacing a grid of the same density would have along its axes. World units; 0 for fewer than two
+/// points.
 double typical_spacing(std::span<const std::array<float, 3>> points);
 
 }  // namespace slf

@@ -15,11 +15,12 @@ bool held_out(int camera) { return camera % kHeldOutEvery == kHeldOutEvery - 1; 
 
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture,
                                                    const std::string& name) {
-  const auto named = capture.splits.find(name.empty() ? "dense" : name);
+  const bool by_default = name.empty() || name == "default";
+  const auto named = capture.splits.find(by_default ? "dense" : name);
   if (named != capture.splits.end()) return named->second;
-  const bool rest = name.empty(), evaluation = name == "evaluation";
+  const bool rest = by_default, evaluation = name == "evaluation";
   if (!rest && !evaluation && name != "all") {
-    std::string known = "all, evaluation";
+    std::string known = "all, default, evaluation";
     for (const auto& [split, cameras] : capture.splits)
       if (split != "evaluation" && split != "all") known += ", " + split;
     return InputError{Errc::kInvalidArgument,

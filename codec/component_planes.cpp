@@ -23,15 +23,17 @@ int scale_of(unsigned index) { return static_cast<int>(std::bit_width(index)); }
 void to_coded_channels(std::span<float> coefficients, ColourTransform transform, int threads) {
   if (transform == ColourTransform::kNone) return;
   const auto to_rgb = colour_matrix(transform);
-  parallel_ranges(coefficients.size() / 3, kPointGrain * 64, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      float* rgb = &coefficients[3 * i];
-      std::array<double, 3> coded{};
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t from = 0; from < 3; ++from) coded[c] += to_rgb[from][c] * static_cast<double>(rgb[from]);
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(coded[c]);
-    }
-  });
+  parallel_ranges(coefficients.size() / 3, kPointGrain * 64, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                      float* rgb = &coefficients[3 * i];
+                      std::array<double, 3> coded{};
+                      for (std::size_t c = 0; c < 3; ++c)
+                        for (std::size_t from = 0; from < 3; ++from)
+                          coded[c] += to_rgb[from][c] * static_cast<double>(rgb[from]);
+                      for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(coded[c]);
+                    }
+                  });
 }
 
 std::vector<int> component_shifts(std::span<const float> coefficients, std::size_t functions,
@@ -44,28 +46,31 @@ std::vector<int> component_shifts(std::span<const float> coefficients, std::size
   std::vector<int> shifts(functions, kMostShift);
   const double root = std::floor(std::sqrt(static_cast<double>(slice_points))) + 2;
   for (std::size_t k = 0; k < functions; ++k)
-    while (shifts[k] > 0 && (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >= kTransformLimit)
+    while (shifts[k] > 0 &&
+           (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >= kTransformLimit)
       --shifts[k];
   return shifts;
 }
 
-std::vector<std::int32_t> to_components(std::span<const float> coefficients, const std::vector<int>& shifts,
-                                        int threads) {
+std::vector<std::int32_t> to_components(std::span<const float> coefficients,
+                                        const std::vector<int>& shifts, int threads) {
   const std::size_t row = 3 * shifts.size();
   std::vector<float> scale(row);
   for (std::size_t j = 0; j < row; ++j) scale[j] = static_cast<float>(1 << shifts[j / 3]);
   std::vector<std::int32_t> components(coefficients.size());
-  parallel_ranges(coefficients.size() / row, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (std::size_t j = 0; j < row; ++j)
-        components[p * row + j] = static_cast<std::int32_t>(
-            std::lround(std::clamp(coefficients[p * row + j] * scale[j], -1e9f, 1e9f)));
-  });
+  parallel_ranges(
+      coefficients.size() / row, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+          for (std::size_t j = 0; j < row; ++j)
+            components[p * row + j] = static_cast<std::int32_t>(
+                std::lround(std::clamp(coefficients[p * row + j] * scale[j], -1e9f, 1e9f)));
+      });
   return components;
 }
 
-std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis, const std::vector<int>& shifts,
-                                                          double q, bool by_norm) {
+std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,
+                                                          const std::vector<int>& shifts, double q,
+                                                          bool by_norm) {
   const std::vector<double> norms = basis_norms(basis);
   std::vector<std::array<std::uint32_t, 3>> steps;
   for (std::size_t k = 0; k < shifts.size(); ++k) {

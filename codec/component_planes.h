@@ -18,13 +18,14 @@ std::vector<int> component_shifts(std::span<const float> coefficients, std::size
                                   std::size_t slice_points);
 
 /// round(coefficient * 2^shift).
-std::vector<std::int32_t> to_components(std::span<const float> coefficients, const std::vector<int>& shifts,
-                                        int threads);
+std::vector<std::int32_t> to_components(std::span<const float> coefficients,
+                                        const std::vector<int>& shifts, int threads);
 
-/// [K][3] Q, or Q / (2 ||b_k||), in component units, at least 1. The half brings the quality at one Q
-/// nearer to that of the uniform step, which spends most of its bits on functions of small norm.
-std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis, const std::vector<int>& shifts,
-                                                          double q, bool by_norm);
+/// [K][3] Q, or Q / (2 ||b_k||), in component units, at least 1. The half brings the quality at one
+/// Q nearer to that of the uniform step, which spends most of its bits on functions of small norm.
+std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,
+                                                          const std::vector<int>& shifts, double q,
+                                                          bool by_norm);
 
 /// [K] The mean alone, then rectangles of scales: N = 1, 8, 32, 128, ... functions for s0 = s1 + 1.
 std::vector<int> scale_groups(const Basis& basis);

@@ -5,27 +5,31 @@
 #include <optional>
 
 #include "bitstream/index.h"
-#include "slf/parallel.h"
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
 Result<SequencePlan> plan_sequence(const SequenceParameterSet& set, const DecodeOptions& options) {
   SequencePlan plan{set, {}, {}, static_cast<int>(set.grid_bits()), true};
-  if (options.levels < 0 || options.levels > plan.levels) return Error{Errc::kInvalidArgument, "levels", 0};
+  if (options.levels < 0 || options.levels > plan.levels)
+    return Error{Errc::kInvalidArgument, "levels", 0};
   if (options.groups < 0 || options.groups > static_cast<int>(set.num_groups()))
     return Error{Errc::kInvalidArgument, "groups", 0};
-  if (plan.planes() > options.limits.max_planes) return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
+  if (plan.planes() > options.limits.max_planes)
+    return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
   if (options.levels > 0) plan.levels = options.levels;
-  plan.groups.resize(options.groups > 0 ? static_cast<std::size_t>(options.groups) : set.num_groups());
+  plan.groups.resize(options.groups > 0 ? static_cast<std::size_t>(options.groups)
+                                        : set.num_groups());
   plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups();
   const auto groups = function_groups(set);
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (const auto g = static_cast<std::size_t>(groups[k]); g < plan.groups.size())
       plan.groups[g].push_back(static_cast<std::uint16_t>(k));
-  for (const auto& step : function_steps(set)) plan.steps.insert(plan.steps.end(), step.begin(), step.end());
+  for (const auto& step : function_steps(set))
+    plan.steps.insert(plan.steps.end(), step.begin(), step.end());
   return plan;
 }
 
@@ -33,11 +37,8 @@ Result<SequencePlan> plan_sequence(const SequenceParameterSet& set, const Decode
 Result<Done> check_limits(const std::vector<SliceDecoder>& slices, const SequencePlan& plan,
                           const DecodeLimits& limits) {
   std::uint64_t points = 0;
-  for (const SliceDecoder& slice : slices) {
+  for (const SliceDecoder& slice : slices)
     points += std::uint64_t{slice.header.slice_num_points_minus1} + 1;
-    if (static_cast<int>(plan.set.grid_bits() - slice.header.slice_depth) >= plan.levels && slices.size() > 1)
-      return Error{Errc::kInvalidArgument, "levels", 0};  // coarser than the slices are
-  }
   const std::uint64_t bytes_per_point = sizeof(Voxel) + plan.planes() * sizeof(std::int32_t) + 4;
   if (points > limits.max_points) return Error{Errc::kLimitExceeded, "slice_num_points_minus1", 0};
   if (points > limits.max_output_bytes / bytes_per_point)
@@ -45,8 +46,8 @@ Result<Done> check_limits(const std::vector<SliceDecoder>& slices, const Sequenc
   return Done{};
 }
 
-/// Runs step(i) for every slice, on several threads where there are several slices; the error of the
-/// first slice in stream order that has one.
+/// Runs step(i) for every slice, on several threads where there are several slices; the error of
+/// the first slice in stream order that has one.
 template <class Step>
 Result<Done> for_each_slice(std::size_t count, int threads, Step step) {
   std::vector<std::optional<Error>> errors(count);
@@ -59,48 +60,81 @@ Result<Done> for_each_slice(std::size_t count, int threads, Step step) {
   return Done{};
 }
 
+/// Occupancy of every slice to positions and transform trees.
+Result<Done> decode_geometry(std::vector<SliceDecoder>& slices, const SequencePlan& plan,
+                             int threads) {
+  return for_each_slice(slices.size(), threads,
+                        [&](std::size_t i) { return slices[i].decode_geometry(plan); });
+}
+
+/// Cells coarser than a slice's cube may belong to several slices: the first has it.
+void drop_repeated_cells(std::vector<SliceDecoder>& slices) {
+  const Voxel* last = nullptr;
+  for (SliceDecoder& slice : slices) {
+    if (slice.positions.empty()) continue;
+    if (last != nullptr && slice.positions.front() == *last) {
+      slice.drop();
+    } else {
+      last = &slice.positions.back();
+    }
+  }
+}
+
+/// The header and the points of all slices; components and normals are zero.
+LightField gather_points(const std::vector<SliceDecoder>& slices, const SequencePlan& plan) {
+  LightField field;
+  field.header = header_of(plan.set);
+  field.header.grid = coarser_grid(field.header.grid, plan.levels);
+  for (const SliceDecoder& slice : slices)
+    field.positions.insert(field.positions.end(), slice.positions.begin(), slice.positions.end());
+  field.components.assign(field.num_points() * plan.planes(), 0);
+  field.normals.bits = static_cast<int>(plan.set.sps_normal_bits);
+  field.normals.octahedral.assign(field.normals.bits > 0 ? field.num_points() : 0, {});
+  return field;
+}
+
+/// Components and normals of every slice into its part of `field`, and the digests over them.
+Result<Done> decode_values(std::vector<SliceDecoder>& slices, const SequencePlan& plan, int threads,
+                           LightField& field) {
+  std::vector<std::size_t> first{0};
+  for (const SliceDecoder& slice : slices) first.push_back(first.back() + slice.positions.size());
+  const int plane_threads = slices.size() > 1 ? 1 : threads;
+  return for_each_slice(slices.size(), threads, [&](std::size_t i) -> Result<Done> {
+    const std::size_t points = first[i + 1] - first[i], planes = plan.planes();
+    const auto components = std::span(field.components).subspan(first[i] * planes, points * planes);
+    std::span<std::array<std::uint16_t, 2>> normals;
+    SLF_CHECK(slices[i].decode_components(plan, components, plane_threads));
+    if (field.normals.bits > 0) {
+      normals = std::span(field.normals.octahedral).subspan(first[i], points);
+      SLF_CHECK(slices[i].decode_normals(plan, normals));
+    }
+    if (slices[i].partial || !plan.whole) return Done{};
+    return slices[i].check_digest(components, normals);
+  });
+}
+
+bool is_partial(const Units& units, const SequencePlan& plan,
+                const std::vector<SliceDecoder>& slices) {
+  return !units.complete || !plan.whole ||
+         std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return slice.partial; });
+}
+
 }  // namespace
 
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream", 0};
-  SLF_TRY(const Units units, split_units(stream, options.max_bytes));                      // 7.1
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));                           // 7.2
-  SLF_CHECK(check_index(units));                                                           // 7.7
-  SLF_TRY(const SequencePlan plan, plan_sequence(set, options));                           // 8.2
-  SLF_TRY(auto slices, collect_slices(units, set));                                        // 7.3
-  SLF_CHECK(check_limits(slices, plan, options.limits));  // 9
-  const int slice_threads = thread_count(options.threads, slices.size());
-  const int plane_threads = slices.size() > 1 ? 1 : options.threads;
-
-  SLF_CHECK(for_each_slice(slices.size(), slice_threads, [&](std::size_t i) {
-            return slices[i].decode_geometry(plan);                                        // 8.4 - 8.6
-          }));
-  LightField field;
-  field.header = header_of(set);
-  field.header.grid = coarser_grid(field.header.grid, plan.levels);
-  field.normals.bits = static_cast<int>(set.sps_normal_bits);
-  std::vector<std::size_t> first{0};
-  for (const SliceDecoder& slice : slices) {
-    field.positions.insert(field.positions.end(), slice.positions.begin(), slice.positions.end());
-    first.push_back(field.positions.size());
-  }
-  field.components.assign(field.num_points() * plan.planes(), 0);
-  field.normals.octahedral.assign(field.normals.bits > 0 ? field.num_points() : 0, {});
-
-  SLF_CHECK(for_each_slice(slices.size(), slice_threads, [&](std::size_t i) -> Result<Done> {
-            const std::size_t points = first[i + 1] - first[i];
-            const auto components = std::span(field.components).subspan(first[i] * plan.planes(), points * plan.planes());
-            const auto normals = field.normals.bits > 0 ? std::span(field.normals.octahedral).subspan(first[i], points)
-                                                        : std::span<std::array<std::uint16_t, 2>>{};
-            SLF_CHECK(slices[i].decode_components(plan, components, plane_threads));  // 8.7 - 8.9
-            if (field.normals.bits > 0) {
-              SLF_CHECK(slices[i].decode_normals(plan, normals));  // 8.10
-            }
-            if (slices[i].partial || !plan.whole) return Done{};
-            return slices[i].check_digest(components, normals);                            // 7.9
-          }));
-  field.partial = !units.complete || !plan.whole;
-  for (const SliceDecoder& slice : slices) field.partial = field.partial || slice.partial;
+  if (stream.size() > options.limits.max_stream_bytes)
+    return Error{Errc::kLimitExceeded, "stream", 0};
+  SLF_TRY(const Units units, split_units(stream, options.max_bytes));  // 7.1
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));       // 7.2
+  SLF_CHECK(check_index(units));                                       // 7.7
+  SLF_TRY(auto slices, collect_slices(units, set));                    // 7.3
+  SLF_TRY(const SequencePlan plan, plan_sequence(set, options));       // 8.2
+  SLF_CHECK(check_limits(slices, plan, options.limits));               // 9
+  SLF_CHECK(decode_geometry(slices, plan, options.threads));           // 8.4 - 8.6
+  drop_repeated_cells(slices);                                         // 8.9
+  LightField field = gather_points(slices, plan);                      // 6.1, 6.2
+  SLF_CHECK(decode_values(slices, plan, options.threads, field));      // 8.7 - 8.10, 7.9
+  field.partial = is_partial(units, plan, slices);                     // 8.9
   return field;
 }
 

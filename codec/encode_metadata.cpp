@@ -25,18 +25,19 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
       {"steps", s.steps_by_norm ? "by-norm" : "uniform"},
   };
   if (cameras > 0) {
-    metadata.insert(metadata.end(), {
-        {"delta", text(s.observe.delta_degrees)},
-        {"occlusion_resolution", text(s.observe.occlusion_resolution)},
-        {"depth_tolerance", text(s.observe.depth_tolerance)},
-        {"order", std::to_string(s.fit.basis.order)},
-        {"functions", std::to_string(s.fit.basis.num_functions())},
-        {"lambda", text(s.fit.lambda)},
-        {"beta", text(s.fit.beta)},
-        {"iterations", std::to_string(s.fit.iterations)},
-        {"neighbours", std::to_string(s.fit.neighbours)},
-        {"penalise_dc", s.fit.penalise_dc ? "yes" : "no"},
-    });
+    metadata.insert(metadata.end(),
+                    {
+                        {"delta", text(s.observe.delta_degrees)},
+                        {"occlusion_resolution", text(s.observe.occlusion_resolution)},
+                        {"depth_tolerance", text(s.observe.depth_tolerance)},
+                        {"order", std::to_string(s.fit.basis.order)},
+                        {"functions", std::to_string(s.fit.basis.num_functions())},
+                        {"lambda", text(s.fit.lambda)},
+                        {"beta", text(s.fit.beta)},
+                        {"iterations", std::to_string(s.fit.iterations)},
+                        {"neighbours", std::to_string(s.fit.neighbours)},
+                        {"penalise_dc", s.fit.penalise_dc ? "yes" : "no"},
+                    });
   }
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;

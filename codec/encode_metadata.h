@@ -6,6 +6,7 @@
 namespace slf {
 
 /// The resolved settings, then settings.metadata. No time, no path, no machine.
-Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encoded, std::size_t cameras);
+Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encoded,
+                          std::size_t cameras);
 
 }  // namespace slf

@@ -5,11 +5,11 @@
 
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
-#include "slf/parallel.h"
 #include "codec/pack_parameters.h"
 #include "codec/slice_encoder.h"
 #include "geometry/morton.h"
 #include "slf/encoder.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -23,9 +23,11 @@ struct SortedField {
 };
 
 Result<SortedField, InputError> sort_points(const LightField& field) {
-  const std::size_t count = field.num_points(), planes = static_cast<std::size_t>(field.num_planes());
+  const std::size_t count = field.num_points(),
+                    planes = static_cast<std::size_t>(field.num_planes());
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[i] = {morton(field.positions[i]), static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < count; ++i)
+    order[i] = {morton(field.positions[i]), static_cast<std::uint32_t>(i)};
   std::sort(order.begin(), order.end());
   SortedField sorted;
   sorted.morton.reserve(count);
@@ -33,18 +35,21 @@ Result<SortedField, InputError> sort_points(const LightField& field) {
   sorted.components.reserve(count * planes);
   for (const auto& [code, i] : order) {
     if (!sorted.morton.empty() && sorted.morton.back() == code)
-      return InputError{Errc::kInvalidArgument, "positions: point " + std::to_string(i) + " stands where another does"};
+      return InputError{Errc::kInvalidArgument,
+                        "positions: point " + std::to_string(i) + " stands where another does"};
     sorted.morton.push_back(code);
     sorted.positions.push_back(field.positions[i]);
     const auto row = field.components.begin() + static_cast<std::ptrdiff_t>(i * planes);
-    sorted.components.insert(sorted.components.end(), row, row + static_cast<std::ptrdiff_t>(planes));
+    sorted.components.insert(sorted.components.end(), row,
+                             row + static_cast<std::ptrdiff_t>(planes));
     if (field.normals.bits > 0) sorted.normals.push_back(field.normals.octahedral[i]);
   }
   return sorted;
 }
 
 /// All units of all slices, slices side by side on the threads there are.
-Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted, const std::vector<SliceCut>& cuts,
+Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted,
+                                                       const std::vector<SliceCut>& cuts,
                                                        const SliceCoding& coding, int threads) {
   const std::size_t planes = coding.steps.size();
   std::vector<std::optional<Result<std::vector<CodedUnit>, InputError>>> coded(cuts.size());
@@ -53,9 +58,11 @@ Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted, cons
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t begin = cuts[i].begin, points = cuts[i].end - begin;
       const SliceInput input{
-          std::span(sorted.morton).subspan(begin, points), std::span(sorted.positions).subspan(begin, points),
+          std::span(sorted.morton).subspan(begin, points),
+          std::span(sorted.positions).subspan(begin, points),
           std::span(sorted.components).subspan(begin * planes, points * planes),
-          std::span(sorted.normals).subspan(sorted.normals.empty() ? 0 : begin, sorted.normals.empty() ? 0 : points)};
+          std::span(sorted.normals)
+              .subspan(sorted.normals.empty() ? 0 : begin, sorted.normals.empty() ? 0 : points)};
       coded[i] = encode_slice(cuts[i], input, coding, inner_threads);
     }
   });
@@ -68,7 +75,8 @@ Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted, cons
 }
 
 /// Signature, sequence, index, what is given, end.
-std::vector<std::uint8_t> assemble(const SequenceParameterSet& set, const std::vector<CodedUnit>& units, bool index) {
+std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
+                                   const std::vector<CodedUnit>& units, bool index) {
   BitWriter end;
   end.ue(units.size() + (index ? 2 : 1));  // units before the end unit
   const std::vector<std::uint8_t> end_payload = end.take();
@@ -76,7 +84,8 @@ std::vector<std::uint8_t> assemble(const SequenceParameterSet& set, const std::v
   append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set));
   if (index) {
     std::vector<IndexEntry> entries;
-    for (const CodedUnit& unit : units) entries.push_back({unit.type, unit_bytes(unit.payload.size())});
+    for (const CodedUnit& unit : units)
+      entries.push_back({unit.type, unit_bytes(unit.payload.size())});
     entries.push_back({UnitType::kEnd, unit_bytes(end_payload.size())});
     append_unit(stream, UnitType::kIndex, write_index(entries));
   }
@@ -87,15 +96,19 @@ std::vector<std::uint8_t> assemble(const SequenceParameterSet& set, const std::v
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field, const CodingParameters& parameters) {
-  SLF_TRY(const SequenceParameterSet set, sequence_of(field, parameters));               // 7.2
-  SLF_TRY(SortedField sorted, sort_points(field));                                       // 6.2
-  const auto cuts = cut_slices(sorted.morton, field.header.grid.bits, parameters.max_slice_points);  // 7.3
+Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
+                                                   const CodingParameters& parameters) {
+  SLF_TRY(const SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
+  SLF_TRY(SortedField sorted, sort_points(field));                          // 6.2
+  const auto cuts =
+      cut_slices(sorted.morton, field.header.grid.bits, parameters.max_slice_points);  // 7.3
+  if (cuts.size() > kMaxSlices)
+    return InputError{Errc::kInvalidArgument, "points per slice: more than 2^16 slices are needed"};
   const SliceCoding coding{set, plane_groups(set), plane_steps(set), parameters.digest};
-  SLF_TRY(auto units, code_slices(sorted, cuts, coding, parameters.threads));            // 8.4 - 8.10
+  SLF_TRY(auto units, code_slices(sorted, cuts, coding, parameters.threads));  // 8.4 - 8.10
   if (!parameters.metadata.empty())
-    units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata)});         // 7.8
-  return assemble(set, units, parameters.index);                                         // 7.1, 7.7
+    units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata)});  // 7.8
+  return assemble(set, units, parameters.index);                                  // 7.1, 7.7
 }
 
 }  // namespace slf

@@ -11,7 +11,8 @@ namespace {
 InputError invalid(const char* what) { return {Errc::kInvalidArgument, what}; }
 
 bool in_grid(const Voxel& v, int bits) {
-  return std::all_of(v.begin(), v.end(), [bits](std::int32_t c) { return c >= 0 && c >> bits == 0; });
+  return std::all_of(v.begin(), v.end(),
+                     [bits](std::int32_t c) { return c >= 0 && c >> bits == 0; });
 }
 
 bool valid_ends(const std::vector<int>& ends, int bits) {
@@ -23,23 +24,39 @@ bool valid_ends(const std::vector<int>& ends, int bits) {
   return ends.empty() || last == bits;
 }
 
+bool valid_metadata(const Metadata& metadata) {
+  std::size_t bytes = 0;
+  for (const auto& [key, value] : metadata) {
+    if (key.empty() || (key + value).find('\0') != std::string::npos) return false;
+    bytes += key.size() + value.size() + 2;
+  }
+  return bytes <= 1u << 20;
+}
+
 Result<Done, InputError> check_field(const LightField& field) {
   const LightFieldHeader& h = field.header;
-  const std::size_t points = field.num_points(), functions = static_cast<std::size_t>(h.num_functions);
+  const std::size_t points = field.num_points(),
+                    functions = static_cast<std::size_t>(h.num_functions);
   if (points == 0) return invalid("positions: there are none");
   if (h.grid.bits < 1 || h.grid.bits > 21) return invalid("grid bits: 1 to 21");
-  if (!(h.grid.step > 0) || !std::isfinite(h.grid.step)) return invalid("grid step: a finite number above 0");
+  if (!(h.grid.step > 0) || !std::isfinite(h.grid.step))
+    return invalid("grid step: a finite number above 0");
+  if (!(h.metres_per_unit >= 0) || !std::isfinite(h.metres_per_unit))
+    return invalid("metres per unit: finite, 0 where not known");
   for (const double c : h.grid.origin)
     if (!std::isfinite(c)) return invalid("grid origin: finite numbers");
   for (const Voxel& v : field.positions)
     if (!in_grid(v, h.grid.bits)) return invalid("positions: one lies outside the grid");
-  if (h.num_functions < 0 || h.num_functions > 4096) return invalid("number of functions: 0 to 4096");
-  if (field.components.size() != points * functions * 3) return invalid("components: not [points][functions][3]");
+  if (h.num_functions < 0 || h.num_functions > 4096)
+    return invalid("number of functions: 0 to 4096");
+  if (field.components.size() != points * functions * 3)
+    return invalid("components: not [points][functions][3]");
+  if (h.has_basis &&
+      (h.basis.order < 1 || h.basis.order > 4 || h.basis.scales_theta < 0 ||
+       h.basis.scales_theta > 6 || h.basis.scales_gamma < 0 || h.basis.scales_gamma > 6))
+    return invalid("basis: order 1 to 4, scales 0 to 6");
   if (h.has_basis && h.num_functions > 0 && h.basis.num_functions() != h.num_functions)
     return invalid("basis: its number of functions differs from the components'");
-  if (h.has_basis && (h.basis.order < 1 || h.basis.order > 4 || h.basis.scales_theta < 0 || h.basis.scales_theta > 6 ||
-                      h.basis.scales_gamma < 0 || h.basis.scales_gamma > 6))
-    return invalid("basis: order 1 to 4, scales 0 to 6");
   if (h.gamma_min_q7 < -127 || h.gamma_max_q7 > 127 || h.gamma_min_q7 > h.gamma_max_q7)
     return invalid("gamma range: -127 to 127, ascending");
   if (!h.shift.empty() && h.shift.size() != functions) return invalid("shift: one per function");
@@ -47,7 +64,8 @@ Result<Done, InputError> check_field(const LightField& field) {
     if (s < 0 || s > 15) return invalid("shift: 0 to 15");
   if (field.normals.bits != 0 && (field.normals.bits < 4 || field.normals.bits > 12))
     return invalid("normal bits: 0, or 4 to 12");
-  if (field.normals.bits > 0 && field.normals.octahedral.size() != points) return invalid("normals: one per point");
+  if (field.normals.bits > 0 && field.normals.octahedral.size() != points)
+    return invalid("normals: one per point");
   for (const auto& n : field.normals.octahedral)
     if ((n[0] | n[1]) >> field.normals.bits != 0) return invalid("normals: more bits than stated");
   return Done{};
@@ -56,13 +74,15 @@ Result<Done, InputError> check_field(const LightField& field) {
 Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
   const auto functions = static_cast<std::size_t>(field.header.num_functions);
   if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
+  if (!p.group.empty() && p.group[0] != 0) return invalid("groups: function 0 is in group 0");
   int groups = 0;
   for (const int g : p.group) {
     if (g < 0 || g > 15) return invalid("groups: 0 to 15");
     groups = std::max(groups, g + 1);
   }
   for (int g = 0; g < groups; ++g)
-    if (std::find(p.group.begin(), p.group.end(), g) == p.group.end()) return invalid("groups: one is empty");
+    if (std::find(p.group.begin(), p.group.end(), g) == p.group.end())
+      return invalid("groups: one is empty");
   if (!p.step.empty() && p.step.size() != functions) return invalid("steps: three per function");
   for (const auto& step : p.step)
     for (const std::uint32_t s : step)
@@ -72,7 +92,10 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
     return invalid("level ends: ascending, the last the grid's bits");
   if (p.geometry == GeometryCoder::kDraco && p.geometry_level_ends.size() > 1)
     return invalid("geometry level ends: Draco codes all levels in one unit");
-  if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints) return invalid("points per slice: 1 to 2^22");
+  if (!valid_metadata(p.metadata))
+    return invalid("metadata: keys without a name, zero bytes, or over 1 MiB");
+  if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
+    return invalid("points per slice: 1 to 2^22");
   return Done{};
 }
 
@@ -86,7 +109,8 @@ std::vector<PlaneRun> runs_of(const LightFieldHeader& header, const CodingParame
     const auto& s = run.sps_plane_step;
     run.sps_equal_steps_flag = s[0] == s[1] && s[1] == s[2];
     const bool same = !runs.empty() && runs.back().sps_plane_group == run.sps_plane_group &&
-                      runs.back().sps_plane_shift == run.sps_plane_shift && runs.back().sps_plane_step == s;
+                      runs.back().sps_plane_shift == run.sps_plane_shift &&
+                      runs.back().sps_plane_step == s;
     if (same) {
       ++runs.back().sps_run_length_minus1;
     } else {
@@ -99,13 +123,15 @@ std::vector<PlaneRun> runs_of(const LightFieldHeader& header, const CodingParame
 /// All but the last, which is inferred.
 std::vector<std::uint32_t> coded_ends(const std::vector<int>& ends) {
   std::vector<std::uint32_t> coded;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) coded.push_back(static_cast<std::uint32_t>(ends[i]));
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    coded.push_back(static_cast<std::uint32_t>(ends[i]));
   return coded;
 }
 
 }  // namespace
 
-Result<SequenceParameterSet, InputError> sequence_of(const LightField& field, const CodingParameters& p) {
+Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
+                                                     const CodingParameters& p) {
   SLF_CHECK(check_field(field));
   SLF_CHECK(check_parameters(field, p));
   const LightFieldHeader& h = field.header;
@@ -121,7 +147,8 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field, co
   set.sps_metres_per_unit = h.metres_per_unit;
   set.sps_normal_bits = static_cast<std::uint32_t>(field.normals.bits);
   set.sps_geometry_range_end = coded_ends(p.geometry_level_ends);
-  set.sps_num_geometry_ranges_minus1 = static_cast<std::uint32_t>(set.sps_geometry_range_end.size());
+  set.sps_num_geometry_ranges_minus1 =
+      static_cast<std::uint32_t>(set.sps_geometry_range_end.size());
   set.sps_num_functions = static_cast<std::uint32_t>(h.num_functions);
   set.sps_basis_flag = h.has_basis && h.num_functions > 0;
   set.sps_basis_idc = static_cast<std::uint32_t>(h.basis.id);
@@ -138,7 +165,8 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field, co
   for (const PlaneRun& run : set.runs)
     set.sps_num_groups_minus1 = std::max(set.sps_num_groups_minus1, run.sps_plane_group);
   set.sps_coefficient_range_end = coded_ends(p.coefficient_level_ends);
-  set.sps_num_coefficient_ranges_minus1 = static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());
+  set.sps_num_coefficient_ranges_minus1 =
+      static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());
   return set;
 }
 

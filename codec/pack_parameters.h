@@ -8,7 +8,8 @@
 namespace slf {
 
 /// @errors kInvalidArgument: names the parameter.
-Result<SequenceParameterSet, InputError> sequence_of(const LightField& field, const CodingParameters& parameters);
+Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
+                                                     const CodingParameters& parameters);
 
 PlaneGroups plane_groups(const SequenceParameterSet& set);
 std::vector<std::uint32_t> plane_steps(const SequenceParameterSet& set);  ///< [3 K]

@@ -22,20 +22,28 @@ int slice_level(std::uint32_t end, std::uint32_t grid_bits, std::uint32_t slice_
   return end > above ? static_cast<int>(end - above) : 0;
 }
 
-Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePlan& plan, int& depth) {
-  OctreeDecoder octree(static_cast<int>(header.slice_depth), std::uint64_t{header.slice_num_points_minus1} + 1);
+Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePlan& plan,
+                                                               int& depth) {
+  const auto is_geometry = [](const SliceUnit& u) { return u.type == UnitType::kGeometry; };
+  if (std::none_of(units.begin(), units.end(), is_geometry)) {
+    partial = true;
+    return std::vector<std::uint64_t>{};
+  }
+  OctreeDecoder octree(static_cast<int>(header.slice_depth),
+                       std::uint64_t{header.slice_num_points_minus1} + 1);
   std::uint32_t range = 0;
   for (const SliceUnit& unit : units) {
     if (unit.type != UnitType::kGeometry) continue;
     if (unit.header.range != range || range > plan.set.sps_num_geometry_ranges_minus1)
       return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
-    const std::uint32_t end = range_end(plan.set.sps_geometry_range_end, range, plan.set.grid_bits());
-    SLF_CHECK(octree.decode(unit.payload, slice_level(end, plan.set.grid_bits(), header.slice_depth)));
+    const std::uint32_t end =
+        range_end(plan.set.sps_geometry_range_end, range, plan.set.grid_bits());
+    SLF_CHECK(
+        octree.decode(unit.payload, slice_level(end, plan.set.grid_bits(), header.slice_depth)));
     ++range;
   }
   depth = octree.level();
   if (range <= plan.set.sps_num_geometry_ranges_minus1) partial = true;
-  if (range == 0) return std::vector<std::uint64_t>{};
   return octree.morton();
 }
 
@@ -45,6 +53,7 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const Sequenc
                                  [](const SliceUnit& u) { return u.type == UnitType::kGeometry; });
   partial = unit == units.end();
   if (partial) return codes;
+  if (unit->header.range != 0) return Error{Errc::kOutOfRange, "level_range", unit->offset * 8};
   SLF_TRY(const auto voxels, decode_draco(unit->payload, static_cast<int>(header.slice_depth),
                                           std::uint64_t{header.slice_num_points_minus1} + 1));
   (void)plan;
@@ -57,20 +66,21 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const Sequenc
 
 Result<Done> SliceDecoder::decode_geometry(const SequencePlan& plan) {
   int depth = static_cast<int>(header.slice_depth);
-  SLF_TRY(auto codes, plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit(plan));
+  SLF_TRY(auto codes,
+          plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit(plan));
   if (!partial && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
     return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
   keep(std::move(codes), depth, plan);
   return Done{};
 }
 
-/// Cuts the points to plan.levels and puts them on that grid. Where the geometry is incomplete, cells
-/// of the deepest level known stand for their points, which are in the middle of them.
+/// Cuts the points to plan.levels and puts them on that grid. Where the geometry is incomplete,
+/// cells of the deepest level known stand for their points, which are in the middle of them.
 void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const SequencePlan& plan) {
   if (codes.empty()) return;
   const int bits = static_cast<int>(plan.set.grid_bits());
-  const int dropped = bits - plan.levels;                                 // grid levels below those kept
-  const int unknown = static_cast<int>(header.slice_depth) - depth;       // slice levels not decoded
+  const int dropped = bits - plan.levels;                            // grid levels below those kept
+  const int unknown = static_cast<int>(header.slice_depth) - depth;  // slice levels not decoded
   if (!partial) {
     RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
     tree_ = std::move(top.tree);
@@ -91,8 +101,8 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
   }
 }
 
-Result<Done> SliceDecoder::decode_components(const SequencePlan& plan, std::span<std::int32_t> components,
-                                             int threads) {
+Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
+                                             std::span<std::int32_t> components, int threads) {
   const std::size_t planes = plan.planes();
   if (planes == 0) return Done{};
   const SequenceParameterSet& set = plan.set;
@@ -104,8 +114,8 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan, std::span
     const CoefficientRows rows{tree_, components, planes};
     for (const SliceUnit& unit : units) {
       if (unit.type != UnitType::kCoefficients) continue;
-      if (unit.header.range * groups + unit.header.group != expected || unit.header.group >= groups ||
-          unit.header.range >= ranges)
+      if (unit.header.range * groups + unit.header.group != expected ||
+          unit.header.group >= groups || unit.header.range >= ranges)
         return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
       ++expected;
       if (unit.header.group >= plan.groups.size()) continue;
@@ -114,13 +124,15 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan, std::span
         const int level = slice_level(grid_level, set.grid_bits(), header.slice_depth);
         return order_end(tree_, 3 * (static_cast<int>(header.slice_depth) - level));
       };
-      const std::size_t begin =
-          unit.header.range == 0
-              ? 0
-              : order_at(range_end(set.sps_coefficient_range_end, unit.header.range - 1, set.grid_bits()));
-      const std::uint32_t end_level = range_end(set.sps_coefficient_range_end, unit.header.range, set.grid_bits());
+      const std::size_t begin = unit.header.range == 0
+                                    ? 0
+                                    : order_at(range_end(set.sps_coefficient_range_end,
+                                                         unit.header.range - 1, set.grid_bits()));
+      const std::uint32_t end_level =
+          range_end(set.sps_coefficient_range_end, unit.header.range, set.grid_bits());
       const bool cut = static_cast<int>(end_level) > plan.levels;
-      SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin, order_at(end_level), cut));
+      SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin,
+                                    order_at(end_level), cut));
     }
     SLF_CHECK(dequantise(components, plan.steps));
     raht_inverse(tree_, static_cast<int>(planes), components, threads);
@@ -147,14 +159,17 @@ Result<Done> SliceDecoder::decode_normals(const SequencePlan& plan,
   NormalModel model(static_cast<int>(plan.set.sps_normal_bits));
   for (std::size_t i = 0, kept = 0; i < first_.back(); ++i) {
     std::array<std::uint16_t, 2> normal{};
-    if (!model.code(decoder, normal)) return Error{Errc::kOutOfRange, "nu_magnitude", unit->offset * 8};
-    if (i == first_[kept]) normals[kept++] = normal;  // a coarser node has the normal of its first point
+    if (!model.code(decoder, normal))
+      return Error{Errc::kOutOfRange, "nu_magnitude", unit->offset * 8};
+    if (i == first_[kept])
+      normals[kept++] = normal;  // a coarser node has the normal of its first point
   }
   return decoder.finish("nu_normals");
 }
 
-Result<Done> SliceDecoder::check_digest(std::span<const std::int32_t> components,
-                                        std::span<const std::array<std::uint16_t, 2>> normals) const {
+Result<Done> SliceDecoder::check_digest(
+    std::span<const std::int32_t> components,
+    std::span<const std::array<std::uint16_t, 2>> normals) const {
   for (const SliceUnit& unit : units) {
     if (unit.type != UnitType::kDigest) continue;
     const auto digest = slice_digest(positions, components, normals);

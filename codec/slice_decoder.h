@@ -42,10 +42,18 @@ struct SliceDecoder {
   /// Occupancy to `positions` (on the grid of plan.levels bits) and the transform tree.
   Result<Done> decode_geometry(const SequencePlan& plan);
   /// Coefficients to components [positions][3 K]; the span is zero on entry.
-  Result<Done> decode_components(const SequencePlan& plan, std::span<std::int32_t> components, int threads);
-  Result<Done> decode_normals(const SequencePlan& plan, std::span<std::array<std::uint16_t, 2>> normals);
+  Result<Done> decode_components(const SequencePlan& plan, std::span<std::int32_t> components,
+                                 int threads);
+  Result<Done> decode_normals(const SequencePlan& plan,
+                              std::span<std::array<std::uint16_t, 2>> normals);
   Result<Done> check_digest(std::span<const std::int32_t> components,
                             std::span<const std::array<std::uint16_t, 2>> normals) const;
+
+  /// Leaves nothing of the slice.
+  void drop() {
+    positions.clear();
+    tree_ = {};
+  }
 
   std::vector<Voxel> positions;
   bool partial = false;  ///< units were missing
@@ -55,14 +63,15 @@ struct SliceDecoder {
   Result<std::vector<std::uint64_t>> decode_draco_unit(const SequencePlan& plan);
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 
-  RahtTree tree_;                      // of the kept rows; empty where the geometry is incomplete
-  std::vector<std::uint32_t> first_;   // [kept + 1] first point below each kept row
+  RahtTree tree_;                     // of the kept rows; empty where the geometry is incomplete
+  std::vector<std::uint32_t> first_;  // [kept + 1] first point below each kept row
 };
 
 /// Octree level of the slice at which a level range of the sequence ends. 0 .. slice_depth.
 int slice_level(std::uint32_t range_end, std::uint32_t grid_bits, std::uint32_t slice_depth);
 
 /// End of level range `range`, in levels of the grid.
-std::uint32_t range_end(const std::vector<std::uint32_t>& coded_ends, std::uint32_t range, std::uint32_t grid_bits);
+std::uint32_t range_end(const std::vector<std::uint32_t>& coded_ends, std::uint32_t range,
+                        std::uint32_t grid_bits);
 
 }  // namespace slf

@@ -9,13 +9,13 @@
 #include "attributes/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "attributes/raht_tree.h"
-#include "slf/parallel.h"
 #include "codec/slice_decoder.h"
 #include "codec/slice_digest.h"
 #include "entropy/range_encoder.h"
 #include "geometry/draco_encoder.h"
 #include "geometry/morton.h"
 #include "geometry/octree_encoder.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -36,7 +36,8 @@ void cut_cube(std::span<const std::uint64_t> morton, std::size_t begin, std::siz
     return;
   }
   // The smallest cube around these points.
-  const int depth_needed = (static_cast<int>(std::bit_width(morton[begin] ^ morton[end - 1])) + 2) / 3;
+  const int depth_needed =
+      (static_cast<int>(std::bit_width(morton[begin] ^ morton[end - 1])) + 2) / 3;
   const Voxel cell = from_morton(morton[begin] >> (3 * depth_needed));
   SliceCut cut{{}, begin, end};
   cut.header.slice_id = static_cast<std::uint32_t>(cuts.size());
@@ -47,8 +48,8 @@ void cut_cube(std::span<const std::uint64_t> morton, std::size_t begin, std::siz
   cuts.push_back(cut);
 }
 
-std::vector<std::uint8_t> slice_unit_payload(const SliceUnitHeader& header, bool has_range, bool has_group,
-                                             std::span<const std::uint8_t> body) {
+std::vector<std::uint8_t> slice_unit_payload(const SliceUnitHeader& header, bool has_range,
+                                             bool has_group, std::span<const std::uint8_t> body) {
   BitWriter out;
   WriteSyntax write{out};
   slice_unit_header(write, header, has_range, has_group);
@@ -56,46 +57,54 @@ std::vector<std::uint8_t> slice_unit_payload(const SliceUnitHeader& header, bool
   return out.take();
 }
 
-Result<Done, InputError> code_geometry(const SliceCut& cut, const SliceInput& input, std::span<const std::uint64_t> local,
-                                       const SequenceParameterSet& set, std::vector<CodedUnit>& units) {
+Result<Done, InputError> code_geometry(const SliceCut& cut, const SliceInput& input,
+                                       std::span<const std::uint64_t> local,
+                                       const SequenceParameterSet& set,
+                                       std::vector<CodedUnit>& units) {
   const int depth = static_cast<int>(cut.header.slice_depth);
   std::vector<std::vector<std::uint8_t>> payloads;
   if (set.sps_geometry_coder == 0) {
     std::vector<int> ends;
     for (std::uint32_t r = 0; r <= set.sps_num_geometry_ranges_minus1; ++r)
-      ends.push_back(slice_level(range_end(set.sps_geometry_range_end, r, set.grid_bits()), set.grid_bits(),
-                                 cut.header.slice_depth));
+      ends.push_back(slice_level(range_end(set.sps_geometry_range_end, r, set.grid_bits()),
+                                 set.grid_bits(), cut.header.slice_depth));
     payloads = encode_octree(local, depth, ends);
   } else {
     std::vector<Voxel> voxels(input.positions.begin(), input.positions.end());
     for (Voxel& v : voxels)
       for (auto& coordinate : v) coordinate &= (1 << depth) - 1;
     auto draco = encode_draco(voxels);
-    if (!draco) return InputError{Errc::kUnsupported, "geometry coder draco: this build has no Draco"};
+    if (!draco)
+      return InputError{Errc::kUnsupported,
+                        "geometry coder draco: Draco failed, or is not part of this build"};
     payloads.push_back(std::move(*draco));
   }
   for (std::uint32_t r = 0; r < payloads.size(); ++r)
-    units.push_back({UnitType::kGeometry, slice_unit_payload({cut.header.slice_id, r, 0}, true, false, payloads[r])});
+    units.push_back({UnitType::kGeometry,
+                     slice_unit_payload({cut.header.slice_id, r, 0}, true, false, payloads[r])});
   return Done{};
 }
 
-void code_normals(const SliceCut& cut, const SliceInput& input, int bits, std::vector<CodedUnit>& units) {
+void code_normals(const SliceCut& cut, const SliceInput& input, int bits,
+                  std::vector<CodedUnit>& units) {
   RangeEncoder encoder;
   NormalModel model(bits);
   for (auto normal : input.normals) model.code(encoder, normal);
-  units.push_back({UnitType::kNormals, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false, encoder.finish())});
+  units.push_back({UnitType::kNormals, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false,
+                                                          encoder.finish())});
 }
 
 /// sqrt(P) times the largest component is what the mean of all could reach. Spec 8.8.2.
 bool fits_transform(const SliceInput& input) {
   std::int64_t largest = 0;
-  for (const std::int32_t value : input.components) largest = std::max(largest, std::abs(std::int64_t{value}));
+  for (const std::int32_t value : input.components)
+    largest = std::max(largest, std::abs(std::int64_t{value}));
   const auto root = static_cast<std::int64_t>(isqrt(input.morton.size())) + 1;
   return largest < kCoefficientLimit && largest * root < kCoefficientLimit;
 }
 
-void code_components(const SliceCut& cut, const SliceInput& input, const RahtTree& tree, const SliceCoding& coding,
-                     int threads, std::vector<CodedUnit>& units) {
+void code_components(const SliceCut& cut, const SliceInput& input, const RahtTree& tree,
+                     const SliceCoding& coding, int threads, std::vector<CodedUnit>& units) {
   const SequenceParameterSet& set = coding.set;
   const std::size_t planes = coding.steps.size();
   raht_forward(tree, static_cast<int>(planes), input.components, threads);
@@ -110,14 +119,14 @@ void code_components(const SliceCut& cut, const SliceInput& input, const RahtTre
   const CoefficientRows rows{tree, input.components, planes};
   std::size_t begin = 0;
   for (std::uint32_t r = 0; r <= set.sps_num_coefficient_ranges_minus1; ++r) {
-    const int level = slice_level(range_end(set.sps_coefficient_range_end, r, set.grid_bits()), set.grid_bits(),
-                                  cut.header.slice_depth);
+    const int level = slice_level(range_end(set.sps_coefficient_range_end, r, set.grid_bits()),
+                                  set.grid_bits(), cut.header.slice_depth);
     const std::size_t end = order_end(tree, 3 * (static_cast<int>(cut.header.slice_depth) - level));
     for (std::uint32_t g = 0; g < coding.groups.size(); ++g) {
       RangeEncoder encoder;
       models.code(encoder, rows, g, begin, end);
-      units.push_back({UnitType::kCoefficients,
-                       slice_unit_payload({cut.header.slice_id, r, g}, true, true, encoder.finish())});
+      units.push_back({UnitType::kCoefficients, slice_unit_payload({cut.header.slice_id, r, g},
+                                                                   true, true, encoder.finish())});
     }
     begin = end;
   }
@@ -135,7 +144,8 @@ std::array<std::uint8_t, 32> decoded_digest(const SliceInput& input, const RahtT
 
 }  // namespace
 
-std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid_bits, std::uint32_t max_points) {
+std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid_bits,
+                                 std::uint32_t max_points) {
   std::vector<SliceCut> cuts;
   cut_cube(morton, 0, morton.size(), grid_bits, max_points, cuts);
   return cuts;
@@ -149,17 +159,20 @@ Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, Sli
   std::vector<std::uint64_t> local(input.morton.begin(), input.morton.end());
   for (auto& code : local) code &= inside;
   SLF_CHECK(code_geometry(cut, input, local, coding.set, units));
-  if (coding.set.sps_normal_bits > 0) code_normals(cut, input, static_cast<int>(coding.set.sps_normal_bits), units);
+  if (coding.set.sps_normal_bits > 0)
+    code_normals(cut, input, static_cast<int>(coding.set.sps_normal_bits), units);
   const RahtTree tree = build_raht_tree(local);
   if (!coding.steps.empty()) {
     if (!fits_transform(input))
-      return InputError{Errc::kInvalidArgument,
-                        "components: the largest, times the root of the number of points, reaches 2^27"};
+      return InputError{
+          Errc::kInvalidArgument,
+          "components: the largest, times the root of the number of points, reaches 2^27"};
     code_components(cut, input, tree, coding, threads, units);
   }
   if (coding.digest) {
     const auto digest = decoded_digest(input, tree, coding, threads);
-    units.push_back({UnitType::kDigest, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false, digest)});
+    units.push_back(
+        {UnitType::kDigest, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false, digest)});
   }
   return units;
 }

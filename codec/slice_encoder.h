@@ -19,15 +19,16 @@ struct SliceCut {
   std::size_t begin = 0, end = 0;
 };
 
-/// Cuts sorted, distinct codes into cubes: the smallest that holds all, or, where it holds more than
-/// max_points, its children's.
-std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid_bits, std::uint32_t max_points);
+/// Cuts sorted, distinct codes into cubes: the smallest that holds all, or, where it holds more
+/// than max_points, its children's.
+std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid_bits,
+                                 std::uint32_t max_points);
 
 /// The integers of one slice.
 struct SliceInput {
   std::span<const std::uint64_t> morton;  ///< on the grid
   std::span<const Voxel> positions;
-  std::span<std::int32_t> components;     ///< [P][3 K]; used up: holds quantised coefficients after
+  std::span<std::int32_t> components;  ///< [P][3 K]; used up: holds quantised coefficients after
   std::span<const std::array<std::uint16_t, 2>> normals;
 };
 
@@ -46,7 +47,8 @@ struct CodedUnit {
 };
 
 /// The units of a slice in stream order.
-/// @errors kInvalidArgument: a component too large to transform. kUnsupported: no Draco in this build.
+/// @errors kInvalidArgument: a component too large to transform. kUnsupported: no Draco in this
+/// build.
 Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, SliceInput input,
                                                         const SliceCoding& coding, int threads);
 

@@ -10,7 +10,8 @@
 namespace slf {
 
 /// The sequence unit, which must come first.
-/// @errors kTruncated where there is no unit at all; kOutOfRange where another comes first or a second
+/// @errors kTruncated where there is no unit at all; kOutOfRange where another comes first or a
+/// second
 ///         one follows; those of parse_sequence_parameter_set.
 Result<SequenceParameterSet> find_sequence(const Units& units);
 
@@ -19,6 +20,7 @@ Result<SliceUnit> read_slice_unit(const Unit& unit);
 
 /// Slices in stream order, each with its units. Checks order: cubes ascending and disjoint, ids
 /// counting up from 0, units after their slice unit.
-Result<std::vector<SliceDecoder>> collect_slices(const Units& units, const SequenceParameterSet& set);
+Result<std::vector<SliceDecoder>> collect_slices(const Units& units,
+                                                 const SequenceParameterSet& set);
 
 }  // namespace slf

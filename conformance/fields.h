@@ -26,7 +26,8 @@ class Random {
 };
 
 inline std::vector<Voxel> sorted(std::vector<Voxel> voxels) {
-  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
+  std::sort(voxels.begin(), voxels.end(),
+            [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
@@ -40,7 +41,8 @@ inline std::vector<Voxel> sphere(int bits, std::uint32_t thin = 0) {
     for (std::int32_t y = 0; y < side; ++y)
       for (std::int32_t x = 0; x < side; ++x) {
         const std::int32_t d = (x - r) * (x - r) + (y - r) * (y - r) + (z - r) * (z - r);
-        if (d <= r * r && d > (r - 1) * (r - 1) && (thin == 0 || random.below(thin) != 0)) voxels.push_back({x, y, z});
+        if (d <= r * r && d > (r - 1) * (r - 1) && (thin == 0 || random.below(thin) != 0))
+          voxels.push_back({x, y, z});
       }
   return sorted(voxels);
 }
@@ -57,7 +59,8 @@ inline std::vector<Voxel> scattered(std::size_t count, int bits, std::uint64_t s
 }
 
 /// A mean that varies over the surface, functions that fade, and some noise.
-inline LightField field(std::vector<Voxel> voxels, int bits, int functions, std::int32_t size = 8000) {
+inline LightField field(std::vector<Voxel> voxels, int bits, int functions,
+                        std::int32_t size = 8000) {
   Random random(5);
   LightField f;
   f.header.grid = {{0, 0, 0}, 1, bits};
@@ -69,7 +72,8 @@ inline LightField field(std::vector<Voxel> voxels, int bits, int functions, std:
       for (int c = 0; c < 3; ++c) {
         const std::int32_t wave = (v[0] * (k + 3) * 7 + v[1] * (c + 2) * 5 + v[2] * 3) % 64 - 32;
         const auto noise = static_cast<std::int32_t>(random.below(65)) - 32;
-        f.components.push_back(k == 0 ? size * wave / 32 + noise : (size / 8 * wave / 32 + noise) / (k + c));
+        f.components.push_back(k == 0 ? size * wave / 32 + noise
+                                      : (size / 8 * wave / 32 + noise) / (k + c));
       }
   return f;
 }

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <string>
 
+#include "bitstream/bit_writer.h"
 #include "bitstream/sha256.h"
 #include "bitstream/units.h"
 #include "conformance/cases.h"
-#include "bitstream/bit_writer.h"
 #include "slf/decoder.h"
 
 namespace slf::conformance {
@@ -30,8 +30,10 @@ std::string sha256(std::span<const std::uint8_t> bytes) {
 }
 
 template <class Integer>
-std::string sha256_of(const std::vector<Integer>& values) {  // little-endian hosts only, as the goldens
-  return sha256({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(Integer)});
+std::string sha256_of(
+    const std::vector<Integer>& values) {  // little-endian hosts only, as the goldens
+  return sha256(
+      {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(Integer)});
 }
 
 std::string quoted(const std::string& s) { return '"' + s + '"'; }
@@ -42,20 +44,25 @@ std::string list(const std::vector<std::string>& items) {
   return text + "]";
 }
 
-std::string description(const std::string& id, const std::vector<std::string>& clauses, const std::string& purpose,
-                        std::span<const std::uint8_t> stream) {
-  return "{\n  \"id\": " + quoted(id) + ",\n  \"format_version\": \"0.1\",\n  \"clauses\": " + list(clauses) + ",\n  \"purpose\": " +
-         quoted(purpose) + ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
+std::string description(const std::string& id, const std::vector<std::string>& clauses,
+                        const std::string& purpose, std::span<const std::uint8_t> stream) {
+  return "{\n  \"id\": " + quoted(id) +
+         ",\n  \"format_version\": \"0.1\",\n  \"clauses\": " + list(clauses) +
+         ",\n  \"purpose\": " + quoted(purpose) +
+         ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
          ", \"sha256\": " + quoted(sha256(stream)) + "},\n";
 }
 
 std::string expectation(const LightField& field, int levels, int groups) {
-  std::string text = "    {\"levels\": " + std::to_string(levels) + ", \"groups\": " + std::to_string(groups) +
-                     ", \"partial\": " + (field.partial ? "true" : "false") + ", \"points\": " + std::to_string(field.num_points()) +
+  std::string text = "    {\"levels\": " + std::to_string(levels) +
+                     ", \"groups\": " + std::to_string(groups) +
+                     ", \"partial\": " + (field.partial ? "true" : "false") +
+                     ", \"points\": " + std::to_string(field.num_points()) +
                      ", \"functions\": " + std::to_string(field.header.num_functions) +
                      ",\n     \"positions_sha256\": " + quoted(sha256_of(field.positions)) +
                      ",\n     \"components_sha256\": " + quoted(sha256_of(field.components));
-  if (field.normals.bits > 0) text += ",\n     \"normals_sha256\": " + quoted(sha256_of(field.normals.octahedral));
+  if (field.normals.bits > 0)
+    text += ",\n     \"normals_sha256\": " + quoted(sha256_of(field.normals.octahedral));
   return text + "}";
 }
 
@@ -79,10 +86,12 @@ std::vector<std::uint8_t> altered(const std::vector<std::uint8_t>& stream, const
   return out;
 }
 
-void write(const fs::path& directory, const std::vector<std::uint8_t>& stream, const std::string& manifest) {
+void write(const fs::path& directory, const std::vector<std::uint8_t>& stream,
+           const std::string& manifest) {
   fs::create_directories(directory);
   std::ofstream(directory / "stream.slf", std::ios::binary)
-      .write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
+      .write(reinterpret_cast<const char*>(stream.data()),
+             static_cast<std::streamsize>(stream.size()));
   std::ofstream(directory / "case.json", std::ios::binary) << manifest;
 }
 
@@ -108,8 +117,11 @@ bool write_case(const fs::path& root, const Case& c) {
     }
     text += (i ? ",\n" : "") + expectation(*field, options.levels, options.groups);
   }
-  text += "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 [points][functions][3]; "
-          "normals: uint16 pairs; decoded order\",\n  \"source\": {\"made_by\": \"conformance/generate.cpp\", \"licence\": \"CC0-1.0\"}\n}\n";
+  text +=
+      "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 "
+      "[points][functions][3]; "
+      "normals: uint16 pairs; decoded order\",\n  \"source\": {\"made_by\": "
+      "\"conformance/generate.cpp\", \"licence\": \"CC0-1.0\"}\n}\n";
   write(root / "streams" / c.id, stream, text);
   return true;
 }
@@ -123,13 +135,17 @@ bool write_refused(const fs::path& root, const RefusedCase& c) {
       std::fprintf(stderr, "%s: was not refused\n", c.id.c_str());
       return false;
     }
-    const std::string text = description(c.id, c.clauses, c.purpose, c.stream) + "  \"refuse\": {\"by\": \"info\", \"code\": " +
-                             quoted(to_string(info.error().code)) + ", \"element\": " + quoted(info.error().element) + "}\n}\n";
+    const std::string text =
+        description(c.id, c.clauses, c.purpose, c.stream) +
+        "  \"refuse\": {\"by\": \"info\", \"code\": " + quoted(to_string(info.error().code)) +
+        ", \"element\": " + quoted(info.error().element) + "}\n}\n";
     write(root / "refused" / c.id, c.stream, text);
     return true;
   }
-  const std::string text = description(c.id, c.clauses, c.purpose, c.stream) + "  \"refuse\": {\"by\": \"decode\", \"code\": " +
-                           quoted(to_string(field.error().code)) + ", \"element\": " + quoted(field.error().element) + "}\n}\n";
+  const std::string text =
+      description(c.id, c.clauses, c.purpose, c.stream) +
+      "  \"refuse\": {\"by\": \"decode\", \"code\": " + quoted(to_string(field.error().code)) +
+      ", \"element\": " + quoted(field.error().element) + "}\n}\n";
   write(root / "refused" / c.id, c.stream, text);
   return true;
 }
@@ -143,7 +159,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   bool good = true;
-  for (const auto& c : slf::conformance::valid_cases()) good = slf::conformance::write_case(argv[1], c) && good;
-  for (const auto& c : slf::conformance::refused_cases()) good = slf::conformance::write_refused(argv[1], c) && good;
+  for (const auto& c : slf::conformance::valid_cases())
+    good = slf::conformance::write_case(argv[1], c) && good;
+  for (const auto& c : slf::conformance::refused_cases())
+    good = slf::conformance::write_refused(argv[1], c) && good;
   return good ? 0 : 1;
 }

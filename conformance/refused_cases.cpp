@@ -35,7 +35,8 @@ Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
   const Bytes base = base_stream(false);
   std::vector<EditableUnit> units;
   const Units split = *split_units(base);
-  for (const Unit& unit : split.units) units.push_back({unit.type, Bytes(unit.payload.begin(), unit.payload.end())});
+  for (const Unit& unit : split.units)
+    units.push_back({unit.type, Bytes(unit.payload.begin(), unit.payload.end())});
   edit(units);
   Bytes stream(kSignature.begin(), kSignature.end());
   std::uint64_t count = 0;
@@ -62,7 +63,8 @@ Bytes with_sequence(const std::function<void(SequenceParameterSet&)>& edit) {
 }
 
 EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type) {
-  return *std::find_if(units.begin(), units.end(), [type](const EditableUnit& u) { return u.type == type; });
+  return *std::find_if(units.begin(), units.end(),
+                       [type](const EditableUnit& u) { return u.type == type; });
 }
 
 void add_framing(std::vector<RefusedCase>& cases) {
@@ -79,24 +81,33 @@ void add_framing(std::vector<RefusedCase>& cases) {
   stream.push_back(0);
   cases.push_back({"bytes-after-end", "one byte follows the end unit", {"7.1"}, stream});
   cases.push_back({"length-not-shortest", "a unit length with a needless byte", {"7.1"}, [] {
-    Bytes s(kSignature.begin(), kSignature.end());
-    for (const int byte : {99, 0x80, 0x00, 0, 0, 0, 0}) s.push_back(static_cast<std::uint8_t>(byte));
-    return s;
-  }()});
-  cases.push_back({"no-sequence", "begins with a slice unit", {"7.1"}, edited([](auto& units) { units.erase(units.begin()); })});
-  cases.push_back({"two-sequences", "the sequence unit is repeated", {"7.1"}, edited([](auto& units) { units.insert(units.begin() + 1, units[0]); })});
-  cases.push_back({"units-lost", "one unit fewer than the end unit counts", {"7.10"}, [] {
-    const Bytes whole = base_stream(false);
-    const Units units = *split_units(whole);
-    const Unit& lost = units.units[2];
-    Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset));
-    s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset + lost.bytes), whole.end());
-    return s;
-  }()});
+                     Bytes s(kSignature.begin(), kSignature.end());
+                     for (const int byte : {99, 0x80, 0x00, 0, 0, 0, 0})
+                       s.push_back(static_cast<std::uint8_t>(byte));
+                     return s;
+                   }()});
+  cases.push_back({"no-sequence", "begins with a slice unit", {"7.1"}, edited([](auto& units) {
+                     units.erase(units.begin());
+                   })});
+  cases.push_back(
+      {"two-sequences", "the sequence unit is repeated", {"7.1"}, edited([](auto& units) {
+         units.insert(units.begin() + 1, units[0]);
+       })});
+  cases.push_back(
+      {"units-lost", "one unit fewer than the end unit counts", {"7.10"}, [] {
+         const Bytes whole = base_stream(false);
+         const Units units = *split_units(whole);
+         const Unit& lost = units.units[2];
+         Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset));
+         s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset + lost.bytes),
+                  whole.end());
+         return s;
+       }()});
 }
 
 void add_headers(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose, const std::function<void(SequenceParameterSet&)>& edit) {
+  const auto add = [&](const char* id, const char* purpose,
+                       const std::function<void(SequenceParameterSet&)>& edit) {
     cases.push_back({id, purpose, {"7.2"}, with_sequence(edit)});
   };
   add("version-major", "a newer major version", [](auto& s) { s.sps_version_major = 1; });
@@ -105,27 +116,36 @@ void add_headers(std::vector<RefusedCase>& cases) {
   add("level", "an unknown level", [](auto& s) { s.sps_level = 3; });
   add("grid-bits", "more than 21 bits", [](auto& s) { s.sps_grid_bits_minus1 = 25; });
   add("step-zero", "a grid step of 0", [](auto& s) { s.sps_unit_grid_flag = 0, s.sps_step = 0; });
-  add("origin-nan", "a grid origin that is no number", [](auto& s) { s.sps_unit_grid_flag = 0, s.sps_origin[1] = std::nan(""); });
+  add("origin-nan", "a grid origin that is no number",
+      [](auto& s) { s.sps_unit_grid_flag = 0, s.sps_origin[1] = std::nan(""); });
   add("up-axis", "up axis 7", [](auto& s) { s.sps_up_axis = 7; });
   add("normal-bits", "normals of 2 bits", [](auto& s) { s.sps_normal_bits = 2; });
   add("basis-idc", "an unknown basis", [](auto& s) { s.sps_basis_idc = 5; });
-  add("functions-do-not-match", "scales that give another number of functions", [](auto& s) { s.sps_scales_theta = 2; });
+  add("functions-do-not-match", "scales that give another number of functions",
+      [](auto& s) { s.sps_scales_theta = 2; });
   add("colour-idc", "an unknown colour transform", [](auto& s) { s.sps_colour_idc = 6; });
-  add("gamma-range", "a gamma range that descends", [](auto& s) { s.sps_gamma_min = 10, s.sps_gamma_max = -10; });
+  add("gamma-range", "a gamma range that descends",
+      [](auto& s) { s.sps_gamma_min = 10, s.sps_gamma_max = -10; });
   add("stages", "a transform in stages", [](auto& s) { s.sps_num_stages_minus1 = 1; });
   add("range-ends", "level ranges that do not ascend", [](auto& s) {
     s.sps_num_coefficient_ranges_minus1 = 2;
     s.sps_coefficient_range_end = {2, 2};
   });
-  add("run-too-long", "a plane run beyond the last function", [](auto& s) { s.runs[0].sps_run_length_minus1 = 20; });
-  cases.push_back({"header-trailing-bytes", "a byte after the sequence header", {"3.3"}, edited([](auto& units) { units[0].payload.push_back(0); })});
+  add("run-too-long", "a plane run beyond the last function",
+      [](auto& s) { s.runs[0].sps_run_length_minus1 = 20; });
+  cases.push_back({"header-trailing-bytes",
+                   "a byte after the sequence header",
+                   {"3.3"},
+                   edited([](auto& units) { units[0].payload.push_back(0); })});
 }
 
 void add_slices(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose, const char* clause, const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  const auto add = [&](const char* id, const char* purpose, const char* clause,
+                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
     cases.push_back({id, purpose, {clause}, edited(edit)});
   };
-  add("slice-repeated", "a slice in the place of another", "7.3", [](auto& units) { first_of(units, UnitType::kSlice).payload[0] ^= 0x40; });
+  add("slice-repeated", "a slice in the place of another", "7.3",
+      [](auto& units) { first_of(units, UnitType::kSlice).payload[0] ^= 0x40; });
   add("geometry-longer", "a codeword with bytes to spare", "8.3.1", [](auto& units) {
     auto& payload = first_of(units, UnitType::kGeometry).payload;
     payload.insert(payload.end(), 5, 0x55);  // four could be the decoder's register
@@ -142,18 +162,22 @@ void add_slices(std::vector<RefusedCase>& cases) {
     auto& first = first_of(units, UnitType::kCoefficients);
     std::swap(first, *(&first + 1));
   });
-  add("digest", "another digest", "7.9", [](auto& units) { first_of(units, UnitType::kDigest).payload.back() ^= 1; });
-  add("metadata-garbage", "metadata that does not inflate", "7.8", [](auto& units) { first_of(units, UnitType::kMetadata).payload.back() ^= 1; });
-  cases.push_back({"index-wrong", "an index that names another length", {"7.7"}, [] {
-    const Bytes whole = base_stream(true);
-    const Units units = *split_units(whole);
-    Bytes payload(units.units[1].payload.begin(), units.units[1].payload.end());
-    payload[5] ^= 0x10;
-    Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[1].offset));
-    append_unit(s, UnitType::kIndex, payload);
-    s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[2].offset), whole.end());
-    return s;
-  }()});
+  add("digest", "another digest", "7.9",
+      [](auto& units) { first_of(units, UnitType::kDigest).payload.back() ^= 1; });
+  add("metadata-garbage", "metadata that does not inflate", "7.8",
+      [](auto& units) { first_of(units, UnitType::kMetadata).payload.back() ^= 1; });
+  cases.push_back(
+      {"index-wrong", "an index that names another length", {"7.7"}, [] {
+         const Bytes whole = base_stream(true);
+         const Units units = *split_units(whole);
+         Bytes payload(units.units[1].payload.begin(), units.units[1].payload.end());
+         payload[5] ^= 0x10;
+         Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[1].offset));
+         append_unit(s, UnitType::kIndex, payload);
+         s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[2].offset),
+                  whole.end());
+         return s;
+       }()});
 }
 
 }  // namespace

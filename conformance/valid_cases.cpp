@@ -22,10 +22,19 @@ std::vector<Voxel> lattice(std::int32_t nx, std::int32_t ny, std::int32_t nz) {
 
 void add_geometry(std::vector<Case>& cases) {
   const auto add = [&](std::string id, std::string purpose, std::vector<Voxel> voxels, int bits) {
-    cases.push_back({std::move(id), std::move(purpose), Strings{"7.3", "8.4"}, field(std::move(voxels), bits, 0), {}, {}, {}, 0, false});
+    cases.push_back({std::move(id),
+                     std::move(purpose),
+                     Strings{"7.3", "8.4"},
+                     field(std::move(voxels), bits, 0),
+                     {},
+                     {},
+                     {},
+                     0,
+                     false});
   };
   add("one-point", "smallest light field: no level to code", {{5, 2, 7}}, 3);
-  add("two-points-21-bit", "corners of the largest grid", {{0, 0, 0}, {(1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1}}, 21);
+  add("two-points-21-bit", "corners of the largest grid",
+      {{0, 0, 0}, {(1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1}}, 21);
   add("full-cube", "every voxel occupied: probabilities near 1", lattice(16, 16, 16), 4);
   add("line", "one row", lattice(256, 1, 1), 8);
   add("plane", "one layer", lattice(64, 64, 1), 6);
@@ -37,44 +46,127 @@ void add_geometry(std::vector<Case>& cases) {
 
 void add_components(std::vector<Case>& cases) {
   {
-    Case c{"two-points", "annex B: one merge", {"8.6", "8.7.2", "8.8"}, field({{0, 0, 0}, {1, 1, 1}}, 1, 1), with_steps(1, 4), {}, {}, 0, false};
+    Case c{"two-points",
+           "annex B: one merge",
+           {"8.6", "8.7.2", "8.8"},
+           field({{0, 0, 0}, {1, 1, 1}}, 1, 1),
+           with_steps(1, 4),
+           {},
+           {},
+           0,
+           false};
     c.field.components = {100, -200, 300, 400, 500, -600};
     cases.push_back(c);
   }
   for (const bool vector : {true, false}) {
-    Case c{vector ? "vector" : "independent", "three groups, three level ranges", {"7.6", vector ? "8.7.2" : "8.7.3", "8.8", "8.9"},
-           field(sphere(6), 6, 24), with_steps(24, 250), {1, 4, 5}, {1, 2}, 0, false};
+    Case c{vector ? "vector" : "independent",
+           "three groups, three level ranges",
+           {"7.6", vector ? "8.7.2" : "8.7.3", "8.8", "8.9"},
+           field(sphere(6), 6, 24),
+           with_steps(24, 250),
+           {1, 4, 5},
+           {1, 2},
+           0,
+           false};
     c.parameters.coefficients = vector ? CoefficientCoder::kVector : CoefficientCoder::kIndependent;
     for (int k = 0; k < 24; ++k) c.parameters.group.push_back(k == 0 ? 0 : k < 5 ? 1 : 2);
     c.parameters.coefficient_level_ends = {4, 5, 6};
     c.parameters.geometry_level_ends = {3, 6};
     cases.push_back(c);
   }
-  Case steps{"unequal-steps", "steps and shifts per function and channel", {"7.2", "8.7.4"}, field(sphere(5), 5, 4), {}, {}, {}, 0, false};
+  Case steps{"unequal-steps",
+             "steps and shifts per function and channel",
+             {"7.2", "8.7.4"},
+             field(sphere(5), 5, 4),
+             {},
+             {},
+             {},
+             0,
+             false};
   steps.parameters.step = {{8, 16, 17}, {9, 9, 9}, {9, 9, 9}, {100, 50, 1}};
   steps.field.header.shift = {6, 6, 5, 0};
   cases.push_back(steps);
-  cases.push_back({"large-magnitudes", "escapes of the magnitude code, step 1", {"8.3.4", "8.6.2"}, field(sphere(4), 4, 2, 2000000), with_steps(2, 1), {}, {}, 0, false});
-  Case zero{"all-zero", "components that are all zero", {"8.7.2"}, field(sphere(5), 5, 16), with_steps(16, 1), {}, {}, 0, false};
+  cases.push_back({"large-magnitudes",
+                   "escapes of the magnitude code, step 1",
+                   {"8.3.4", "8.6.2"},
+                   field(sphere(4), 4, 2, 2000000),
+                   with_steps(2, 1),
+                   {},
+                   {},
+                   0,
+                   false});
+  Case zero{"all-zero",
+            "components that are all zero",
+            {"8.7.2"},
+            field(sphere(5), 5, 16),
+            with_steps(16, 1),
+            {},
+            {},
+            0,
+            false};
   std::fill(zero.field.components.begin(), zero.field.components.end(), 0);
   cases.push_back(zero);
 }
 
 void add_structure(std::vector<Case>& cases) {
-  Case slices{"slices", "several slices of different depth", {"7.3", "8.2"}, field(sphere(6), 6, 3), with_steps(3, 32), {}, {}, 0, false};
+  Case slices{"slices",
+              "several slices",
+              {"7.3", "8.2"},
+              field(sphere(6), 6, 3),
+              with_steps(3, 32),
+              {},
+              {},
+              0,
+              false};
   slices.parameters.max_slice_points = 1500;
   cases.push_back(slices);
-  Case normals{"normals", "coded normals, whole and of coarser nodes", {"7.5", "8.9", "8.10"}, field(sphere(5), 5, 1), with_steps(1, 16), {3}, {}, 0, false};
+  std::vector<Voxel> uneven = sphere(5);
+  for (const Voxel& stray :
+       {Voxel{100, 3, 90}, Voxel{127, 127, 127}, Voxel{64, 64, 64}, Voxel{65, 64, 64}})
+    uneven.push_back(stray);
+  Case depths{"slices-of-different-depth",
+              "lone points are slices without a level; coarser cells that several slices share",
+              {"7.3", "8.9"},
+              field(sorted(uneven), 7, 3),
+              with_steps(3, 32),
+              {1, 3, 6},
+              {},
+              0,
+              false};
+  depths.parameters.max_slice_points = 600;
+  depths.field.normals.bits = 4;
+  for (std::size_t p = 0; p < depths.field.num_points(); ++p)
+    depths.field.normals.octahedral.push_back(
+        {static_cast<std::uint16_t>(p % 16), static_cast<std::uint16_t>(p / 7 % 16)});
+  cases.push_back(depths);
+  Case normals{"normals",
+               "coded normals, whole and of coarser nodes",
+               {"7.5", "8.9", "8.10"},
+               field(sphere(5), 5, 1),
+               with_steps(1, 16),
+               {3},
+               {},
+               0,
+               false};
   normals.field.normals.bits = 7;
   Random random(9);
   std::uint32_t a = 0, b = 0;
   for (std::size_t p = 0; p < normals.field.num_points(); ++p) {
     a = (a + random.below(5)) % 128;
     b = (b + 127 + random.below(3)) % 128;
-    normals.field.normals.octahedral.push_back({static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b)});
+    normals.field.normals.octahedral.push_back(
+        {static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b)});
   }
   cases.push_back(normals);
-  Case basis{"basis", "a B-spline light field with every header element in use", {"6.3", "7.2"}, field(sphere(5), 5, 8), with_steps(8, 16), {}, {}, 0, false};
+  Case basis{"basis",
+             "a B-spline light field with every header element in use",
+             {"6.3", "7.2"},
+             field(sphere(5), 5, 8),
+             with_steps(8, 16),
+             {},
+             {},
+             0,
+             false};
   basis.field.header.has_basis = true;
   basis.field.header.basis = {BasisId::kBspline, 3, 2, 1};
   basis.field.header.colour = ColourTransform::kOpponent;
@@ -87,22 +179,38 @@ void add_structure(std::vector<Case>& cases) {
   basis.field.header.gamma_max_q7 = 90;
   basis.parameters.metadata = {{"source", "generated"}, {"note", "größer"}};
   cases.push_back(basis);
-  Case bare{"no-index-no-digest", "only what must be there", {"7.1"}, field(sphere(4), 4, 1), with_steps(1, 8), {}, {}, 0, false};
+  Case bare{"no-index-no-digest",
+            "only what must be there",
+            {"7.1"},
+            field(sphere(4), 4, 1),
+            with_steps(1, 8),
+            {},
+            {},
+            0,
+            false};
   bare.parameters.index = bare.parameters.digest = false;
   cases.push_back(bare);
   bare.id = "unknown-unit";
   bare.purpose = "a unit of a type to come is skipped";
   bare.unknown_unit = true;
   cases.push_back(bare);
-  Case draco{"draco", "profile 1", {"8.5"}, field(sphere(6), 6, 1), with_steps(1, 16), {}, {}, 0, false};
+  Case draco{"draco", "profile 1", {"8.5"}, field(sphere(6), 6, 1), with_steps(1, 16), {},
+             {},      0,           false};
   draco.parameters.geometry = GeometryCoder::kDraco;
   cases.push_back(draco);
 }
 
 void add_prefixes(std::vector<Case>& cases) {
   for (const std::size_t units : {2u, 4u, 5u, 7u, 8u}) {
-    Case c{"prefix-" + std::to_string(units), "a stream cut after " + std::to_string(units) + " units", {"7.1", "8.9"},
-           field(sphere(5), 5, 4), with_steps(4, 16), {}, {}, units, false};
+    Case c{"prefix-" + std::to_string(units),
+           "a stream cut after " + std::to_string(units) + " units",
+           {"7.1", "8.9"},
+           field(sphere(5), 5, 4),
+           with_steps(4, 16),
+           {},
+           {},
+           units,
+           false};
     c.parameters.group = {0, 1, 1, 1};
     c.parameters.geometry_level_ends = {3, 5};
     c.parameters.coefficient_level_ends = {4, 5};

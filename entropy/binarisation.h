@@ -9,7 +9,8 @@
 
 namespace slf {
 
-/// Contexts of values >= 1: is it more than 1, than 2, ... than kUnary, then Exp-Golomb of the rest.
+/// Contexts of values >= 1: is it more than 1, than 2, ... than kUnary, then Exp-Golomb of the
+/// rest.
 struct MagnitudeContexts {
   static constexpr std::size_t kUnary = 14;
   static constexpr std::size_t kPrefix = 28;  ///< longest Exp-Golomb prefix: values below 2^28
@@ -17,8 +18,8 @@ struct MagnitudeContexts {
   std::array<AdaptiveBit, kPrefix> prefix;
 };
 
-/// Codes value >= 1 (decoder: the argument is ignored). Returns 0 where a damaged stream has a longer
-/// prefix than a value can have.
+/// Codes value >= 1 (decoder: the argument is ignored). Returns 0 where a damaged stream has a
+/// longer prefix than a value can have.
 template <class Coder>
 std::uint32_t code_magnitude(Coder& coder, MagnitudeContexts& contexts, std::uint32_t limit,
                              std::uint32_t value) {

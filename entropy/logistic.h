@@ -23,7 +23,8 @@ constexpr int squash(int logistic) {
   const int x = std::clamp(logistic, -kLogisticLimit, kLogisticLimit);
   const int a = x < 0 ? -x : x;
   const std::size_t i = static_cast<std::size_t>(a) / 64;
-  const int p = kSquashQuarters[i] + ((kSquashQuarters[i + 1] - kSquashQuarters[i]) * (a % 64) >> 6);
+  const int p =
+      kSquashQuarters[i] + ((kSquashQuarters[i + 1] - kSquashQuarters[i]) * (a % 64) >> 6);
   return x < 0 ? 65536 - p : p;
 }
 
@@ -41,7 +42,8 @@ inline constexpr std::array<std::int16_t, 4096> kStretch = [] {
 
 inline int stretch(std::uint32_t p1) { return kStretch[p1 >> 4]; }  // p1 < 65536
 
-/// A set of weight vectors of which a context selects one; the weighted sum of logistic predictions.
+/// A set of weight vectors of which a context selects one; the weighted sum of logistic
+/// predictions.
 template <std::size_t kInputs, std::size_t kSets>
 class Mixer {
  public:
@@ -52,8 +54,7 @@ class Mixer {
     selected_ = &weights_[set * kInputs];
     std::int64_t sum = 0;
     for (std::size_t i = 0; i < kInputs; ++i) sum += std::int64_t{selected_[i]} * inputs[i];
-    mixed_ = static_cast<int>(
-        std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit));
+    mixed_ = static_cast<int>(std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit));
     return mixed_;
   }
 

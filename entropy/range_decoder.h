@@ -9,8 +9,9 @@
 
 namespace slf {
 
-/// Decodes what RangeEncoder wrote. Bytes past the end read as zero, but at most four of them can be
-/// needed by a sound codeword: finish() tells. Loops over decoded symbols must be bounded by counts.
+/// Decodes what RangeEncoder wrote. Bytes past the end read as zero, but at most four of them can
+/// be needed by a sound codeword: finish() tells. Loops over decoded symbols must be bounded by
+/// counts.
 class RangeDecoder {
  public:
   static constexpr bool kDecodes = true;

@@ -19,7 +19,8 @@ void make_crcs_right(std::vector<std::uint8_t>& stream) {
     }
     if (length + 4 > stream.size() - p) return;
     const std::uint32_t crc = slf::crc32(std::span(stream).subspan(at, p + length - at));
-    for (std::size_t i = 0; i < 4; ++i) stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
     at = p + length + 4;
   }
 }

@@ -28,7 +28,9 @@ std::optional<std::vector<std::uint8_t>> encode_draco(std::span<const Voxel> pos
   return std::vector<std::uint8_t>(bytes, bytes + buffer.size());
 }
 #else
-std::optional<std::vector<std::uint8_t>> encode_draco(std::span<const Voxel>) { return std::nullopt; }
+std::optional<std::vector<std::uint8_t>> encode_draco(std::span<const Voxel>) {
+  return std::nullopt;
+}
 #endif
 
 }  // namespace slf

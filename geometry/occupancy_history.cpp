@@ -28,8 +28,9 @@ std::array<std::uint8_t, 6> OccupancyHistory::at(std::uint64_t morton) {
   const Voxel cell = from_morton(morton);
   const auto x = static_cast<std::uint32_t>(cell[0]), y = static_cast<std::uint32_t>(cell[1]),
              z = static_cast<std::uint32_t>(cell[2]);
-  slot_ = {slot_of(x), slot_of(y), slot_of(z),
-           slot_of(y, z, level_), slot_of(x, z, level_), slot_of(x, y, level_)};
+  slot_ = {
+      slot_of(x),           slot_of(y), slot_of(z), slot_of(y, z, level_), slot_of(x, z, level_),
+      slot_of(x, y, level_)};
   std::array<std::uint8_t, 6> occupancy;
   for (std::size_t i = 0; i < 6; ++i) occupancy[i] = latest_[i][slot_[i]];
   return occupancy;

@@ -7,7 +7,8 @@
 
 namespace slf {
 
-/// Scanned and lattice-like clouds repeat along rows and columns much farther apart than neighbours.
+/// Scanned and lattice-like clouds repeat along rows and columns much farther apart than
+/// neighbours.
 class OccupancyHistory {
  public:
   void start_level(int level);

@@ -8,15 +8,19 @@
 namespace slf {
 namespace {
 
-constexpr int kFirstWeight = 8000;  // of 65536; found on the clouds of docs/rate.md, as the next two
+constexpr int kFirstWeight =
+    8000;  // of 65536; found on the clouds of docs/rate.md, as the next two
 constexpr int kMixerRate = 32;
 constexpr std::uint32_t kCountLimit = 255;
 
 /// log2 of the number of contexts of each prediction; where hashed, the most. Spec table 8-3.
 constexpr std::array<int, 11> kContextBits = {11, 15, 18, 18, 15, 14, 18, 12, 12, 12, 18};
-constexpr std::array<bool, 11> kHashed = {false, false, true, true, false, false, true, false, false, false, true};
+constexpr std::array<bool, 11> kHashed = {false, false, true,  true,  false, false,
+                                          true,  false, false, false, true};
 
-constexpr std::uint64_t bit_at(int x, int y, int z) { return std::uint64_t{1} << (x + 4 * y + 16 * z); }
+constexpr std::uint64_t bit_at(int x, int y, int z) {
+  return std::uint64_t{1} << (x + 4 * y + 16 * z);
+}
 
 /// The children of direction d's neighbour that lie in the window, as (child, window bit) pairs.
 struct WindowPart {
@@ -124,7 +128,8 @@ std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, u
   const std::uint64_t unknown = node.unknown >> base & kAllAround;
 
   // Faces towards the outside of the node (0 empty, 1 occupied, 2 unknown each) and the inside.
-  const std::array<std::uint64_t, 3> outer = {bit_at(2 * cx, 1, 1), bit_at(1, 2 * cy, 1), bit_at(1, 1, 2 * cz)};
+  const std::array<std::uint64_t, 3> outer = {bit_at(2 * cx, 1, 1), bit_at(1, 2 * cy, 1),
+                                              bit_at(1, 1, 2 * cz)};
   const std::array<std::uint64_t, 3> inner = {bit_at(2 - 2 * cx, 1, 1), bit_at(1, 2 - 2 * cy, 1),
                                               bit_at(1, 1, 2 - 2 * cz)};
   unsigned outer_faces = 0, inner_faces = 0;
@@ -136,9 +141,12 @@ std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, u
 
   // The seven neighbours of the node that touch the child.
   const int ox = 2 * cx - 1, oy = 2 * cy - 1, oz = 2 * cz - 1;
-  const auto has = [&](int dx, int dy, int dz) { return node.neighbours >> direction_index(dx, dy, dz) & 1u; };
-  const unsigned corner = has(ox, 0, 0) | has(0, oy, 0) << 1 | has(0, 0, oz) << 2 | has(ox, oy, 0) << 3 |
-                          has(ox, 0, oz) << 4 | has(0, oy, oz) << 5 | has(ox, oy, oz) << 6;
+  const auto has = [&](int dx, int dy, int dz) {
+    return node.neighbours >> direction_index(dx, dy, dz) & 1u;
+  };
+  const unsigned corner = has(ox, 0, 0) | has(0, oy, 0) << 1 | has(0, 0, oz) << 2 |
+                          has(ox, oy, 0) << 3 | has(ox, 0, oz) << 4 | has(0, oy, oz) << 5 |
+                          has(ox, oy, oz) << 6;
 
   const auto num_occupied = static_cast<unsigned>(std::popcount(occupied));
   const auto num_unknown = static_cast<unsigned>(std::popcount(unknown));
@@ -146,7 +154,8 @@ std::uint32_t OccupancyModel::predict(const NodeContext& node, unsigned child, u
   const auto num_neighbours = static_cast<unsigned>(std::popcount(node.neighbours));
   const auto& column = node.columns;
 
-  const std::array<std::uint32_t, kContexts> index = {  // spec table 8-3
+  const std::array<std::uint32_t, kContexts> index = {
+      // spec table 8-3
       faces * 8 + child,
       siblings << 7 | corner,
       hash(node.neighbours, siblings, context_bits_[2]),

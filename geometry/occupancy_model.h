@@ -16,11 +16,12 @@ namespace slf {
 /// What the decisions of one node have in common. Windows are 4 x 4 x 4 cells of the child level
 /// around the node's own 2 x 2 x 2; bit x + 4 y + 16 z with x, y, z = 0 .. 3.
 struct NodeContext {
-  std::uint32_t neighbours = 0;      ///< bit d: the neighbour in direction d is occupied
-  std::uint64_t occupied = 0;        ///< window: cells known to be occupied
-  std::uint64_t unknown = 0;         ///< window: cells of neighbours that are not coded yet
-  std::uint32_t halves = 0;          ///< history along x, y, z: which halves were occupied, 2 bits each
-  std::array<std::uint32_t, 3> columns{};  ///< history of (y,z), (x,z), (x,y): occupied columns, 4 bits
+  std::uint32_t neighbours = 0;  ///< bit d: the neighbour in direction d is occupied
+  std::uint64_t occupied = 0;    ///< window: cells known to be occupied
+  std::uint64_t unknown = 0;     ///< window: cells of neighbours that are not coded yet
+  std::uint32_t halves = 0;      ///< history along x, y, z: which halves were occupied, 2 bits each
+  std::array<std::uint32_t, 3>
+      columns{};  ///< history of (y,z), (x,z), (x,y): occupied columns, 4 bits
   std::uint32_t level = 0;
 };
 
@@ -31,8 +32,8 @@ class OccupancyModel {
 
   void start_level(int level) { history_.start_level(level); }
 
-  /// Codes the occupancy of node n. The nodes before it are known. The encoder passes the occupancy,
-  /// the decoder 0; both get it back: 1 .. 255.
+  /// Codes the occupancy of node n. The nodes before it are known. The encoder passes the
+  /// occupancy, the decoder 0; both get it back: 1 .. 255.
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, int level,
                     std::uint8_t occupancy) {

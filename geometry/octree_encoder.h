@@ -7,10 +7,10 @@
 
 namespace slf {
 
-/// One payload per entry of level_ends (ascending, the last is `depth`): the occupancies of the levels
-/// from the previous end (0 at first) up to this one.
+/// One payload per entry of level_ends (ascending, the last is `depth`): the occupancies of the
+/// levels from the previous end (0 at first) up to this one.
 /// @param morton  distinct codes below 8^depth, ascending; at least one
-std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64_t> morton, int depth,
-                                                     std::span<const int> level_ends);
+std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64_t> morton,
+                                                     int depth, std::span<const int> level_ends);
 
 }  // namespace slf

@@ -8,7 +8,9 @@
 namespace slf {
 
 /// Direction index 0 .. 26 of (dx, dy, dz), each -1 .. 1; 13 is the node itself. Spec 8.4.1.
-constexpr int direction_index(int dx, int dy, int dz) { return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1); }
+constexpr int direction_index(int dx, int dy, int dz) {
+  return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1);
+}
 inline constexpr int kSelf = 13;
 
 /// Neighbour of a child: which neighbour of its parent it lies in, and which child of that.
@@ -26,8 +28,8 @@ inline constexpr std::array<std::array<ChildNeighbour, 27>, 8> kChildNeighbours 
           const int x = (c & 1) + dx, y = (c >> 1 & 1) + dy, z = (c >> 2 & 1) + dz;  // -1 .. 2
           const int node = direction_index((x + 2) / 2 - 1, (y + 2) / 2 - 1, (z + 2) / 2 - 1);
           const int child = (x & 1) | (y & 1) << 1 | (z & 1) << 2;
-          table[static_cast<std::size_t>(c)][static_cast<std::size_t>(direction_index(dx, dy, dz))] = {
-              static_cast<std::uint8_t>(node), static_cast<std::uint8_t>(child)};
+          table[static_cast<std::size_t>(c)][static_cast<std::size_t>(direction_index(
+              dx, dy, dz))] = {static_cast<std::uint8_t>(node), static_cast<std::uint8_t>(child)};
         }
   return table;
 }();
@@ -48,8 +50,8 @@ struct OctreeLevel {
 /// Level 0.
 OctreeLevel octree_root();
 
-/// The level below one whose occupancies are all known: O(nodes). with_neighbours: needed unless the
-/// level is the leaves, whose children are not coded.
+/// The level below one whose occupancies are all known: O(nodes). with_neighbours: needed unless
+/// the level is the leaves, whose children are not coded.
 OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours);
 
 }  // namespace slf

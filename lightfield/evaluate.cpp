@@ -6,12 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "slf/parallel.h"
 #include "capture/nearest.h"
 #include "capture/spacing.h"
 #include "lightfield/colour.h"
 #include "lightfield/render_splats.h"
 #include "slf/fit.h"
+#include "slf/parallel.h"
 #include "slf/render.h"
 
 namespace slf {

@@ -4,11 +4,11 @@
 #include <limits>
 #include <string>
 
-#include "slf/parallel.h"
 #include "lightfield/fit_neighbours.h"
 #include "lightfield/fit_step.h"
 #include "lightfield/fit_unobserved.h"
 #include "slf/fit.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "slf/parallel.h"
 #include "capture/nearest.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

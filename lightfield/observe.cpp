@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "slf/parallel.h"
 #include "lightfield/observe_camera.h"
 #include "slf/fit.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "slf/parallel.h"
 #include "lightfield/colour.h"
 #include "lightfield/octahedral.h"
 #include "lightfield/render_splats.h"
 #include "lightfield/render_surfels.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "slf/parallel.h"
 #include "geometry/morton.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

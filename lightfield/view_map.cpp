@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "slf/parallel.h"
 #include "lightfield/nodes.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {

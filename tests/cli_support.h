@@ -88,7 +88,8 @@ class CliTest : public testing::Test {
   std::filesystem::path directory_;
 };
 
-/// A directory `tiny` with a synthetic capture: 100 images of 48 x 48, 20 of them dense, some 1500 points.
+/// A directory `tiny` with a synthetic capture: 100 images of 48 x 48, 20 of them dense, some 1500
+/// points.
 class TinyCaptureTest : public CliTest {
  protected:
   void SetUp() override {

@@ -86,7 +86,8 @@ TEST(Spec_8_10_Normals, AreLossless) {
   LightField field = test::make_field(test::sphere_cloud(5), 5, 1);
   field.normals.bits = 8;
   for (std::size_t p = 0; p < field.num_points(); ++p)
-    field.normals.octahedral.push_back({static_cast<std::uint16_t>(p * 7 % 256), static_cast<std::uint16_t>(p % 256)});
+    field.normals.octahedral.push_back(
+        {static_cast<std::uint16_t>(p * 7 % 256), static_cast<std::uint16_t>(p % 256)});
   const auto decoded = decode(packed(field, with_step(1, 8)));
   ASSERT_TRUE(decoded) << to_string(decoded.error());
   EXPECT_EQ(decoded->normals.octahedral, field.normals.octahedral);
@@ -134,7 +135,8 @@ TEST(Spec_8_2_Levels, FewerLevelsGiveTheMeansOfTheNodes) {
     EXPECT_EQ(coarse->header.grid.bits, levels);
     EXPECT_DOUBLE_EQ(coarse->header.grid.step, 1 << (6 - levels));
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      EXPECT_NEAR(coarse->components[3 * n], sum[n] / weight[n], 3) << "node " << n << ", levels " << levels;
+      EXPECT_NEAR(coarse->components[3 * n], sum[n] / weight[n], 3)
+          << "node " << n << ", levels " << levels;
   }
 }
 
@@ -170,7 +172,8 @@ TEST(Spec_7_1_Prefix, EveryCutAtAUnitBoundaryDecodesAndIsPartial) {
   for (const UnitInfo& unit : info->units) {
     const auto size = static_cast<std::size_t>(unit.offset);
     if (size == 8) continue;  // no unit at all
-    const std::vector<std::uint8_t> cut(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<std::uint8_t> cut(stream.begin(),
+                                        stream.begin() + static_cast<std::ptrdiff_t>(size));
     const auto decoded = decode(cut);
     ASSERT_TRUE(decoded) << "cut at " << size << ": " << to_string(decoded.error());
     EXPECT_TRUE(decoded->partial);
@@ -178,6 +181,37 @@ TEST(Spec_7_1_Prefix, EveryCutAtAUnitBoundaryDecodesAndIsPartial) {
     options.max_bytes = size;
     EXPECT_EQ(decode(stream, options)->components, decoded->components);
   }
+}
+
+TEST(Spec_8_9_Levels, SlicesSmallerThanTheCellsGiveEachCellOnce) {
+  const LightField field = test::make_field({{0, 0, 0}, {5, 5, 5}, {7, 0, 0}}, 3, 1);
+  CodingParameters parameters = with_step(1, 1);
+  parameters.max_slice_points = 1;
+  const auto stream = packed(field, parameters);
+  const auto whole = decode(stream);
+  ASSERT_TRUE(whole) << to_string(whole.error());
+  EXPECT_EQ(whole->num_points(), 3u);
+  DecodeOptions options;
+  options.levels = 1;
+  const auto coarse = decode(stream, options);
+  ASSERT_TRUE(coarse) << to_string(coarse.error());
+  EXPECT_EQ(coarse->positions, (std::vector<Voxel>{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}));
+  const auto dense = packed(test::make_field(test::sphere_cloud(5), 5, 1), [&] {
+    parameters.max_slice_points = 40;
+    return parameters;
+  }());
+  const auto cells = decode(dense, options);
+  ASSERT_TRUE(cells) << to_string(cells.error());
+  EXPECT_EQ(cells->num_points(), 8u);
+}
+
+TEST(Pack, WhatItWritesDecodesAtTheLargestCoefficients) {
+  // Rounding to a step may not pass the limit of 2^27.
+  LightField field =
+      test::make_field(test::sorted_distinct({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), 1, 1);
+  for (auto& c : field.components) c = 44000000;
+  const auto decoded = decode(packed(field, with_step(1, 70000000)));
+  EXPECT_TRUE(decoded) << to_string(decoded.error());
 }
 
 TEST(Pack, RefusesDuplicatePositions) {
@@ -199,7 +233,10 @@ TEST(Pack, RefusesWhatIsOutsideItsRanges) {
   using P = CodingParameters;
   EXPECT_TRUE(refused([](LightField& f, P&) { f.positions[0][0] = 8; }));
   EXPECT_TRUE(refused([](LightField& f, P&) { f.positions[0][0] = -1; }));
-  EXPECT_TRUE(refused([](LightField& f, P&) { f.positions.clear(); f.components.clear(); }));
+  EXPECT_TRUE(refused([](LightField& f, P&) {
+    f.positions.clear();
+    f.components.clear();
+  }));
   EXPECT_TRUE(refused([](LightField& f, P&) { f.components.push_back(0); }));
   EXPECT_TRUE(refused([](LightField& f, P&) { f.components[0] = 1 << 27; }));
   EXPECT_TRUE(refused([](LightField& f, P&) { f.header.grid.step = 0; }));

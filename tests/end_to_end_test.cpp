@@ -16,7 +16,8 @@ namespace {
 class EndToEnd : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    root_ = std::filesystem::path(testing::TempDir()) / ("slf_end_to_end_" + std::to_string(::getpid()));
+    root_ = std::filesystem::path(testing::TempDir()) /
+            ("slf_end_to_end_" + std::to_string(::getpid()));
     std::filesystem::remove_all(root_);
     synth::SynthSettings settings;
     settings.scene = "can";
@@ -96,7 +97,8 @@ TEST_F(EndToEnd, MoreBytesOfAFileAreNeverWorse) {
     const ViewMaps maps(*decode(e.stream, options));
     EvaluateSettings settings;
     settings.images = false;
-    const double now = evaluate(maps, capture_, *split_cameras(capture_, "dense"), settings)->point_psnr;
+    const double now =
+        evaluate(maps, capture_, *split_cameras(capture_, "dense"), settings)->point_psnr;
     EXPECT_GT(now, last) << groups << " groups";
     last = now;
   }

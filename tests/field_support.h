@@ -14,7 +14,8 @@ namespace slf::test {
 
 /// Distinct voxels, Morton order.
 inline std::vector<Voxel> sorted_distinct(std::vector<Voxel> voxels) {
-  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
+  std::sort(voxels.begin(), voxels.end(),
+            [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
@@ -55,9 +56,13 @@ inline std::vector<NamedCloud> clouds_of_every_shape() {
       {"one_point", 3, {{5, 0, 7}}},
       {"one_point_21_bit", 21, {{(1 << 21) - 1, 0, 1 << 20}}},
       {"two_corners_21_bit", 21, {{0, 0, 0}, {(1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1}}},
-      {"full_cube", 3, {}}, {"line", 8, {}}, {"plane", 6, {}},
-      {"random", 7, random_cloud(3000, 7, 1)}, {"random_21_bit", 21, random_cloud(500, 21, 2)},
-      {"one_bit", 1, {{0, 0, 0}, {1, 1, 1}}}, {"sphere", 6, sphere_cloud(6)}};
+      {"full_cube", 3, {}},
+      {"line", 8, {}},
+      {"plane", 6, {}},
+      {"random", 7, random_cloud(3000, 7, 1)},
+      {"random_21_bit", 21, random_cloud(500, 21, 2)},
+      {"one_bit", 1, {{0, 0, 0}, {1, 1, 1}}},
+      {"sphere", 6, sphere_cloud(6)}};
   for (std::int32_t i = 0; i < 512; ++i) clouds[3].voxels.push_back({i & 7, i >> 3 & 7, i >> 6});
   for (std::int32_t i = 0; i < 256; ++i) clouds[4].voxels.push_back({i, 17, 200});
   for (std::int32_t i = 0; i < 4096; ++i) clouds[5].voxels.push_back({i & 63, i >> 6, 31});
@@ -66,8 +71,8 @@ inline std::vector<NamedCloud> clouds_of_every_shape() {
 }
 
 /// Smooth components with some noise: [P][K][3], |value| below `size`.
-inline std::vector<std::int32_t> smooth_components(const std::vector<Voxel>& voxels, int functions, int size,
-                                                   std::uint32_t seed) {
+inline std::vector<std::int32_t> smooth_components(const std::vector<Voxel>& voxels, int functions,
+                                                   int size, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<std::int32_t> components;
   for (const Voxel& v : voxels)
@@ -80,8 +85,8 @@ inline std::vector<std::int32_t> smooth_components(const std::vector<Voxel>& vox
   return components;
 }
 
-inline LightField make_field(const std::vector<Voxel>& voxels, int bits, int functions, int size = 1000,
-                             std::uint32_t seed = 7) {
+inline LightField make_field(const std::vector<Voxel>& voxels, int bits, int functions,
+                             int size = 1000, std::uint32_t seed = 7) {
   LightField field;
   field.header.grid = {{0, 0, 0}, 1, bits};
   field.header.num_functions = functions;

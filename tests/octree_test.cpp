@@ -32,7 +32,8 @@ TEST(Spec_8_4_1_Neighbours, AreThoseOfTheGrid) {
       nodes.occupancy[n] = 0;
       for (const Voxel& v : voxels)
         if (morton(v) >> (3 * (4 - level)) == nodes.morton[n])
-          nodes.occupancy[n] = static_cast<std::uint8_t>(nodes.occupancy[n] | 1u << (morton(v) >> (3 * (3 - level)) & 7));
+          nodes.occupancy[n] = static_cast<std::uint8_t>(
+              nodes.occupancy[n] | 1u << (morton(v) >> (3 * (3 - level)) & 7));
     }
     nodes = octree_children(nodes, true);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -44,7 +45,8 @@ TEST(Spec_8_4_1_Neighbours, AreThoseOfTheGrid) {
             std::int32_t expected = -1;
             for (std::size_t m = 0; m < nodes.size(); ++m)
               if (from_morton(nodes.morton[m]) == to) expected = static_cast<std::int32_t>(m);
-            ASSERT_EQ(nodes.neighbours[n][static_cast<std::size_t>(direction_index(dx, dy, dz))], expected);
+            ASSERT_EQ(nodes.neighbours[n][static_cast<std::size_t>(direction_index(dx, dy, dz))],
+                      expected);
           }
     }
   }
@@ -55,7 +57,8 @@ class OctreeTest : public testing::TestWithParam<test::NamedCloud> {};
 TEST_P(OctreeTest, EveryRangeOfLevelsDecodesToItsNodes) {
   const auto& [name, bits, voxels] = GetParam();
   const auto morton_codes = codes(voxels);
-  for (const std::vector<int>& ends : {std::vector<int>{bits}, std::vector<int>{(bits + 1) / 2, bits}}) {
+  for (const std::vector<int>& ends :
+       {std::vector<int>{bits}, std::vector<int>{(bits + 1) / 2, bits}}) {
     const auto payloads = encode_octree(morton_codes, bits, ends);
     ASSERT_EQ(payloads.size(), ends.size());
     OctreeDecoder decoder(bits, voxels.size());
@@ -63,7 +66,8 @@ TEST_P(OctreeTest, EveryRangeOfLevelsDecodesToItsNodes) {
       ASSERT_TRUE(decoder.decode(payloads[i], ends[i]));
       std::vector<std::uint64_t> nodes;
       for (const std::uint64_t code : morton_codes)
-        if (nodes.empty() || nodes.back() != code >> (3 * (bits - ends[i]))) nodes.push_back(code >> (3 * (bits - ends[i])));
+        if (nodes.empty() || nodes.back() != code >> (3 * (bits - ends[i])))
+          nodes.push_back(code >> (3 * (bits - ends[i])));
       EXPECT_EQ(decoder.morton(), nodes);
     }
   }
@@ -83,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(Spec_8_4, OctreeTest, testing::ValuesIn(test::clouds_of
 TEST(Spec_8_4_Rate, AClosedSurfaceTakesLessThanABitAPoint) {
   const auto voxels = test::sphere_cloud(7);
   const std::vector<int> ends = {7};
-  EXPECT_LT(8.0 * static_cast<double>(encode_octree(codes(voxels), 7, ends)[0].size()), 1.0 * static_cast<double>(voxels.size()));
+  EXPECT_LT(8.0 * static_cast<double>(encode_octree(codes(voxels), 7, ends)[0].size()),
+            1.0 * static_cast<double>(voxels.size()));
 }
 
 }  // namespace

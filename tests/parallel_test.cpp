@@ -24,7 +24,9 @@ TEST(Parallel, EveryItemIsGivenOnceInRangesThatDoNotDependOnThreads) {
 
 TEST(Parallel, AnExceptionOfAnyThreadReachesTheCaller) {
   for (const int threads : {1, 4})
-    EXPECT_THROW(parallel_ranges(100, 1, threads, [](std::size_t, std::size_t) { throw std::bad_alloc(); }), std::bad_alloc);
+    EXPECT_THROW(
+        parallel_ranges(100, 1, threads, [](std::size_t, std::size_t) { throw std::bad_alloc(); }),
+        std::bad_alloc);
 }
 
 }  // namespace

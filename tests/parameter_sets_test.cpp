@@ -37,7 +37,8 @@ SequenceParameterSet full_set() {
   s.sps_num_groups_minus1 = 2;
   s.sps_num_coefficient_ranges_minus1 = 1;
   s.sps_coefficient_range_end = {19};
-  s.runs = {{0, 0, 6, 1, {1, 1, 1}}, {99, 1, 15, 0, {1, 2, (1u << 27) - 1}}, {26, 2, 0, 1, {77, 1, 1}}};
+  s.runs = {
+      {0, 0, 6, 1, {1, 1, 1}}, {99, 1, 15, 0, {1, 2, (1u << 27) - 1}}, {26, 2, 0, 1, {77, 1, 1}}};
   return s;
 }
 
@@ -56,7 +57,8 @@ TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
 TEST_P(SequenceParameterSetTest, EveryTruncationIsReportedAndNothingIsReadPastTheEnd) {
   const auto whole = write_sequence_parameter_set(GetParam().set);
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<std::uint8_t> cut(whole.begin(),
+                                        whole.begin() + static_cast<std::ptrdiff_t>(size));
     const auto parsed = parse_sequence_parameter_set(cut);
     ASSERT_FALSE(parsed) << size << " of " << whole.size() << " bytes";
     EXPECT_EQ(parsed.error().code, Errc::kTruncated);
@@ -79,7 +81,8 @@ TEST_P(SequenceParameterSetTest, EveryFlippedBitGivesAValueOrAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
-                         testing::Values(SetCase{"geometry_alone", {}}, SetCase{"everything", full_set()}),
+                         testing::Values(SetCase{"geometry_alone", {}},
+                                         SetCase{"everything", full_set()}),
                          [](const auto& set) { return set.param.name; });
 
 TEST(Spec_3_3_BitReader, ExpGolombCodesAreThoseOfTheTable) {
@@ -153,7 +156,8 @@ TEST(Sha256, MatchesFips180_4) {
       sha.update({&byte, 1});
     }
     std::string digits;
-    for (const std::uint8_t byte : sha.finish()) digits += "0123456789abcdef"[byte >> 4], digits += "0123456789abcdef"[byte & 15];
+    for (const std::uint8_t byte : sha.finish())
+      digits += "0123456789abcdef"[byte >> 4], digits += "0123456789abcdef"[byte & 15];
     return digits;
   };
   EXPECT_EQ(hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -19,7 +19,8 @@ std::vector<std::uint64_t> codes(const std::vector<Voxel>& voxels) {
 }
 
 TEST(Spec_8_6_1_Isqrt, IsTheFloorOfTheRoot) {
-  for (const std::uint64_t n : {0ull, 1ull, 2ull, 3ull, 4ull, 99ull, 100ull, 1ull << 60, (1ull << 62) - 1, ~0ull}) {
+  for (const std::uint64_t n :
+       {0ull, 1ull, 2ull, 3ull, 4ull, 99ull, 100ull, 1ull << 60, (1ull << 62) - 1, ~0ull}) {
     const std::uint64_t r = isqrt(n);
     EXPECT_LE(static_cast<unsigned __int128>(r) * r, n);
     EXPECT_GT(static_cast<unsigned __int128>(r + 1) * (r + 1), n);
@@ -60,7 +61,8 @@ TEST_P(RahtTreeTest, EveryRowButTheFirstIsMergedOnceParentsFirst) {
     coded[tree.order[i]] = true;
     if (i < 2) continue;
     const std::uint32_t before = tree.order[i - 1], row = tree.order[i];
-    EXPECT_TRUE(tree.split[before] > tree.split[row] || (tree.split[before] == tree.split[row] && before < row));
+    EXPECT_TRUE(tree.split[before] > tree.split[row] ||
+                (tree.split[before] == tree.split[row] && before < row));
   }
   EXPECT_EQ(tree.order[0], 0u);
 }
@@ -85,7 +87,8 @@ TEST_P(RahtTreeTest, EnergyIsKept) {
   std::mt19937 random(2);
   std::vector<std::int32_t> values(GetParam().voxels.size());
   double before = 0, after = 0;
-  for (auto& v : values) before += std::pow(v = static_cast<std::int32_t>(random() % 200001) - 100000, 2);
+  for (auto& v : values)
+    before += std::pow(v = static_cast<std::int32_t>(random() % 200001) - 100000, 2);
   raht_forward(tree, 1, values, 1);
   for (const auto v : values) after += std::pow(v, 2.0);
   EXPECT_NEAR(after / before, 1, 1e-4);

@@ -105,7 +105,8 @@ TEST(Spec_8_3_3_Logistic, StretchInvertsSquash) {
     EXPECT_NEAR(p, 1 / (1 + std::exp(-x / 256.0)), 0.004) << x;  // linear between table entries
   }
   // One logistic unit is 64 of 65536 at p = 1/2, and p is known to 16.
-  for (std::uint32_t p = 8; p < 65536; p += 16) EXPECT_NEAR(squash(stretch(p)), static_cast<int>(p), 72) << p;
+  for (std::uint32_t p = 8; p < 65536; p += 16)
+    EXPECT_NEAR(squash(stretch(p)), static_cast<int>(p), 72) << p;
 }
 
 TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
@@ -114,7 +115,8 @@ TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
   double cost = 0;
   for (int i = 0; i < 4000; ++i) {
     const unsigned bit = random() % 2;
-    const std::array<int, 2> inputs = {bit ? 1000 : -1000, random() % 2 ? 1000 : -1000};  // truth, noise
+    const std::array<int, 2> inputs = {bit ? 1000 : -1000,
+                                       random() % 2 ? 1000 : -1000};  // truth, noise
     const double p1 = squash(mixer.mix(inputs, 0)) / 65536.0;
     if (i >= 2000) cost -= std::log2(bit ? p1 : 1 - p1);
     mixer.update(inputs, bit, 16);
@@ -123,7 +125,8 @@ TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
 }
 
 TEST(Spec_8_3_4_Magnitude, RoundTripsFromOneToTheLargest) {
-  std::vector<std::uint32_t> values = {1, 2, 3, 13, 14, 15, 16, 17, 18, 100, 65535, 1u << 20, (1u << 27) - 1};
+  std::vector<std::uint32_t> values = {
+      1, 2, 3, 13, 14, 15, 16, 17, 18, 100, 65535, 1u << 20, (1u << 27) - 1};
   RangeEncoder encoder;
   MagnitudeContexts written;
   for (const std::uint32_t v : values) EXPECT_EQ(code_magnitude(encoder, written, 255, v), v);

@@ -1,4 +1,5 @@
-// What a damaged, foreign or hostile stream may do: give an error that names its place. Nothing else.
+// What a damaged, foreign or hostile stream may do: give an error that names its place. Nothing
+// else.
 #include <gtest/gtest.h>
 
 #include "bitstream/parameter_sets.h"
@@ -39,7 +40,8 @@ std::vector<std::uint8_t> with_sound_crcs(std::vector<std::uint8_t> stream) {
     }
     if (length > stream.size() || p + length + 4 > stream.size()) return stream;
     const std::uint32_t crc = crc32(std::span(stream).subspan(at, p + length - at));
-    for (std::size_t i = 0; i < 4; ++i) stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
     at = p + length + 4;
   }
   return stream;
@@ -57,7 +59,8 @@ TEST(Spec_7_1_Hazards, EveryTruncationIsReportedOrIsAPartialLightField) {
   ASSERT_TRUE(decode(whole));
   for (std::size_t size = 0; size < whole.size(); ++size) {
     // A fresh exact-size buffer, so AddressSanitizer sees a read one byte too far.
-    const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<std::uint8_t> cut(whole.begin(),
+                                        whole.begin() + static_cast<std::ptrdiff_t>(size));
     const auto decoded = decode(cut);
     if (decoded) {
       EXPECT_TRUE(decoded->partial) << size;
@@ -124,7 +127,8 @@ TEST(Spec_7_1_UnknownUnits, AreSkipped) {
   const std::vector<std::uint8_t> payload = {1, 2, 3};
   append_unit(extended, static_cast<UnitType>(99), payload);
   // Everything but the end unit, which must count one more.
-  extended.insert(extended.end(), whole.begin() + at, whole.begin() + static_cast<std::ptrdiff_t>(units->units.back().offset));
+  extended.insert(extended.end(), whole.begin() + at,
+                  whole.begin() + static_cast<std::ptrdiff_t>(units->units.back().offset));
   BitWriter end;
   end.ue(units->units.size());
   append_unit(extended, UnitType::kEnd, end.take());
@@ -138,6 +142,28 @@ TEST(Spec_7_1_Hazards, BytesAfterTheEndAreRefused) {
   auto stream = small_stream();
   stream.push_back(0);
   EXPECT_FALSE(decode(stream));
+}
+
+TEST(Spec_7_1_Order, RepeatedUnitsOfASliceAreRefused) {
+  const auto whole = small_stream(false);
+  const auto units = split_units(whole);
+  ASSERT_TRUE(units);
+  for (const UnitType repeated : {UnitType::kSlice, UnitType::kGeometry, UnitType::kNormals,
+                                  UnitType::kCoefficients, UnitType::kDigest}) {
+    std::vector<std::uint8_t> stream(whole.begin(), whole.begin() + 8);
+    std::uint64_t count = 0;
+    for (const Unit& unit : units->units) {
+      if (unit.type == UnitType::kEnd) {
+        BitWriter end;
+        end.ue(count);
+        append_unit(stream, UnitType::kEnd, end.take());
+        break;
+      }
+      for (int copies = unit.type == repeated ? 2 : 1; copies > 0; --copies, ++count)
+        append_unit(stream, unit.type, unit.payload);
+    }
+    EXPECT_FALSE(decode(stream)) << unit_name(repeated);
+  }
 }
 
 TEST(Spec_9_Limits, AreCheckedBeforeAnythingIsDecoded) {

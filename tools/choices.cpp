@@ -77,7 +77,7 @@ CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice) {
 CLI::Option* add_steps_choice(CLI::App& verb, bool& by_norm) {
   return add_choice<bool>(
       verb, "--steps", by_norm, {{"by-norm", true}, {"uniform", false}},
-      "Quantiser steps: Q / norm of the function, or Q for all; paper: uniform");
+      "Quantiser steps: Q / (2 norm of the function), or Q for all; paper: uniform");
 }
 
 }  // namespace slf::tools

@@ -74,7 +74,7 @@ Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
 /// What split_cameras made of "".
 std::string split_name(const Capture& capture, const std::string& given) {
   if (!given.empty()) return given;
-  return capture.splits.count("dense") ? "dense" : "all but every fourth";
+  return capture.splits.count("dense") ? "dense" : "default";
 }
 
 Outcome run_encode(const EncodeOptions& given) {
@@ -96,7 +96,8 @@ Outcome run_encode(const EncodeOptions& given) {
   const double load = watch.lap();
   settings.metadata.insert(settings.metadata.begin(), {"source", last_name(given.capture)});
   if (!cameras.empty())
-    settings.metadata.insert(settings.metadata.begin() + 1, {"split", split_name(capture, given.split)});
+    settings.metadata.insert(settings.metadata.begin() + 1,
+                             {"split", split_name(capture, given.split)});
   SLF_TRY(const Encoded encoded, from(given.capture, encode(capture, cameras, settings, progress)));
   line.clear();
   warn(encoded.warnings, given.common.quiet);

@@ -186,15 +186,14 @@ void add_pack(CLI::App& program, Run& run) {
   verb->add_option(
           "POSITIONS", o->positions,
           "positions.npy, integers [P,3], each 0 to 2^21 - 1, no duplicates; or a .ply with "
-          "such coordinates; - is standard input (.npy)->type_name("
-          ")")
+          "such coordinates; - is standard input (.npy)")
+      ->type_name("")
       ->required();
   verb->add_option(
       "COMPONENTS", o->components,
       "components.npy, integers [P,K,3], in the order of POSITIONS. None: geometry alone");
   verb->add_option("-o,--output", o->output, "The .slf file; - is standard output")
       ->type_name("FILE")
-      ->type_name("")
       ->required();
   verb->add_option("--grid-bits", o->grid_bits,
                    "Bits per axis, 1 to 21; 0: what the largest coordinate needs")

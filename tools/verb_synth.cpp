@@ -68,11 +68,11 @@ void add_synth(CLI::App& program, Run& run) {
   synth::SynthSettings& s = o->settings;
   verb->add_option("SCENE", s.scene, "Scene (see --list)")->type_name("");
   verb->add_option(
-      "-o,--output", o->output,
-      "Directory to write the capture into: new, empty, or an earlier synthetic capture");
+          "-o,--output", o->output,
+          "Directory to write the capture into: new, empty, or an earlier synthetic capture")
+      ->type_name("DIR");
   verb->add_option("--size", o->size, "Pixels of an image, WxH, 8x8 to 4096x4096")
       ->type_name("WxH")
-      ->type_name("DIR")
       ->capture_default_str();
   verb->add_option("--points", s.points,
                    "About so many points, 100 to 10000000; 0: the scene's own density")

@@ -40,8 +40,8 @@ struct Camera {
 
 /// Float point cloud.
 struct PointCloud {
-  std::vector<std::array<float, 3>> positions;      ///< [P]
-  std::vector<std::array<float, 3>> normals;        ///< [P] unit, outward; or empty
+  std::vector<std::array<float, 3>> positions;       ///< [P]
+  std::vector<std::array<float, 3>> normals;         ///< [P] unit, outward; or empty
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< [P]; or empty
 };
 
@@ -51,10 +51,10 @@ struct Capture {
   PointCloud cloud;
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
-  std::vector<std::filesystem::path> mask_files;   ///< [cameras] or empty: 8-bit, 0 = not the object
+  std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: 8-bit, 0 = not the object
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;
-  std::vector<std::string> warnings;               ///< one line each, for the person to read
+  std::vector<std::string> warnings;  ///< one line each, for the person to read
 };
 
 /// What load_capture looks for, all optional.
@@ -66,17 +66,18 @@ struct CaptureOptions {
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
 /// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0 or sparse), or
 /// transforms.json; or one of those files; or a lone .ply (a cloud without cameras).
-/// Every value is checked as `docs/captures.md` lists; what is suspicious but usable becomes a warning.
+/// Every value is checked as `docs/captures.md` lists; what is suspicious but usable becomes a
+/// warning.
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
 
 /// The image of camera i with three channels, or four where the file has alpha or a mask exists
-/// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an error.
-/// Thread-safe on a const capture.
+/// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an
+/// error. Thread-safe on a const capture.
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 
-/// Camera indices of a split. "" means `dense` where the capture names splits, else all but every
+/// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else all but every
 /// fourth; "all" is every camera; "evaluation" is the named split, else every fourth.
 /// @errors kInvalidArgument: no such split.
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture, const std::string& name);
@@ -98,10 +99,11 @@ Result<Done, InputError> write_file(const std::filesystem::path& file, const voi
                                     std::size_t size);
 /// All bytes of a file; "-" is standard input. Refuses more than max_bytes.
 Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
-                                                        std::uint64_t max_bytes = std::uint64_t{1} << 32);
+                                                        std::uint64_t max_bytes = std::uint64_t{1}
+                                                                                  << 32);
 
-/// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (those that see
-/// a point decide, found with a coarse depth map; where they do not say, its neighbours do; no
+/// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (those that
+/// see a point decide, found with a coarse depth map; where they do not say, its neighbours do; no
 /// viewpoints: away from the centroid). Unit length.
 /// The same for any thread count. O(P log P).
 std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
@@ -111,10 +113,10 @@ std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
 /// A cloud on the grid: Morton order, duplicates merged.
 struct VoxelCloud {
   Grid grid;
-  std::vector<Voxel> positions;                 ///< [P] Morton order, x least significant
-  std::vector<std::array<float, 3>> normals;    ///< [P] mean of the merged, renormalised; or empty
-  std::vector<std::array<float, 3>> colours;    ///< [P] mean of the merged, 0 .. 255; or empty
-  std::size_t merged = 0;                       ///< points that fell into an occupied voxel
+  std::vector<Voxel> positions;               ///< [P] Morton order, x least significant
+  std::vector<std::array<float, 3>> normals;  ///< [P] mean of the merged, renormalised; or empty
+  std::vector<std::array<float, 3>> colours;  ///< [P] mean of the merged, 0 .. 255; or empty
+  std::size_t merged = 0;                     ///< points that fell into an occupied voxel
 };
 
 /// voxel = floor((x - min) / step + 1/2), step = largest extent / (2^bits - 1), or `voxel_size`

@@ -14,8 +14,8 @@ namespace slf {
 
 struct DecodeOptions {
   DecodeLimits limits;
-  int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid, each
-                   ///< node with the mean of its points
+  int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
+                   ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
   std::uint64_t max_bytes = 0;  ///< use only units that end within the first max_bytes; 0: all
   int threads = 1;              ///< 0: all cores. The result does not depend on it
@@ -27,8 +27,8 @@ struct DecodeOptions {
 /// @return the light field, bit exact on every platform. A stream cut at a unit boundary gives a
 ///         light field marked partial; any other damage gives nothing.
 /// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kReserved: damaged or foreign.
-///         kUnsupported: newer major version, unknown profile. kLimitExceeded: larger than the limits.
-///         kInvalidArgument: levels or groups beyond what the stream has.
+///         kUnsupported: newer major version, unknown profile. kLimitExceeded: larger than the
+///         limits. kInvalidArgument: levels or groups beyond what the stream has.
 /// @throws std::bad_alloc only. Thread-safe: no shared state. O(P * K) time and memory.
 /// Source: spec clause 8.
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options = {});
@@ -47,10 +47,11 @@ struct StreamInfo {
   std::uint64_t num_points = 0;  ///< as the slice units say
   std::uint64_t num_slices = 0;
   int num_groups = 0;
-  std::vector<int> group;                      ///< [K]
-  std::vector<std::array<std::uint32_t, 3>> step;  ///< [K][3] quantiser steps, integer component units
-  std::string geometry_coder;                  ///< "octree" or "draco"
-  std::string coefficient_coder;               ///< "vector" or "independent"
+  std::vector<int> group;  ///< [K]
+  std::vector<std::array<std::uint32_t, 3>>
+      step;                       ///< [K][3] quantiser steps, integer component units
+  std::string geometry_coder;     ///< "octree" or "draco"
+  std::string coefficient_coder;  ///< "vector" or "independent"
   Metadata metadata;
   std::vector<UnitInfo> units;
   bool complete = false;  ///< the end unit is there

@@ -24,11 +24,13 @@ enum class CoefficientCoder : std::uint8_t {
 struct CodingParameters {
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
-  std::vector<int> group;                          ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
-  std::vector<std::array<std::uint32_t, 3>> step;  ///< [K][3] >= 1, integer component units; empty: all 1
-  std::vector<int> coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
-                                            ///< the last is the grid's bits. Empty: one unit per group
-  std::vector<int> geometry_level_ends;     ///< the same for geometry units
+  std::vector<int> group;  ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
+  std::vector<std::array<std::uint32_t, 3>>
+      step;  ///< [K][3] >= 1, integer component units; empty: all 1
+  std::vector<int>
+      coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
+                               ///< the last is the grid's bits. Empty: one unit per group
+  std::vector<int> geometry_level_ends;  ///< the same for geometry units
   std::uint32_t max_slice_points = 1u << 20;
   bool digest = true;
   bool index = true;
@@ -48,18 +50,18 @@ enum class Preset { kDefault, kPaper };
 
 struct EncoderSettings {
   Preset preset = Preset::kDefault;
-  int grid_bits = 9;         ///< 1 .. 21
-  double voxel_size = 0;     ///< > 0: instead of grid_bits
+  int grid_bits = 9;      ///< 1 .. 21
+  double voxel_size = 0;  ///< > 0: instead of grid_bits
   ObserveSettings observe;
   FitSettings fit;
-  double q = 16;             ///< quantiser step Q, grey levels, 0.05 .. 4096
-  bool steps_by_norm = true; ///< step_k = Q / (2 ||b_k||); false: Q for every plane
+  double q = 16;              ///< quantiser step Q, grey levels, 0.05 .. 4096
+  bool steps_by_norm = true;  ///< step_k = Q / (2 ||b_k||); false: Q for every plane
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
-  int normal_bits = 0;       ///< 0: normals are not coded; 4 .. 12
+  int normal_bits = 0;  ///< 0: normals are not coded; 4 .. 12
   std::uint32_t max_slice_points = 1u << 20;
-  Metadata metadata;         ///< added to what the encoder itself records
+  Metadata metadata;  ///< added to what the encoder itself records
   int threads = 0;
 };
 

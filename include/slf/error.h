@@ -11,13 +11,13 @@ namespace slf {
 
 /// What went wrong. One value per kind of remedy, not per site; the site is in the message.
 enum class Errc : std::uint8_t {
-  kNotSlf,           ///< the signature is missing: another kind of file
-  kTruncated,        ///< the stream ends inside a unit
-  kChecksum,         ///< a CRC-32 or a digest does not match
-  kOutOfRange,       ///< a syntax element is outside the range of its clause
-  kReserved,         ///< a reserved bit or value is in use
-  kUnsupported,      ///< newer major version, unknown profile, or a component left out of this build
-  kLimitExceeded,    ///< sound, but larger than the caller's DecodeLimits
+  kNotSlf,         ///< the signature is missing: another kind of file
+  kTruncated,      ///< the stream ends inside a unit
+  kChecksum,       ///< a CRC-32 or a digest does not match
+  kOutOfRange,     ///< a syntax element is outside the range of its clause
+  kReserved,       ///< a reserved bit or value is in use
+  kUnsupported,    ///< newer major version, unknown profile, or a component left out of this build
+  kLimitExceeded,  ///< sound, but larger than the caller's DecodeLimits
   kInvalidArgument,  ///< a setting or an argument outside its documented range
   kUnreadable,       ///< a file is missing or cannot be read
   kInvalidInput,     ///< a file was read and its content cannot be used
@@ -32,7 +32,8 @@ const char* to_string(Errc code);
 struct Error {
   Errc code{};
   const char* element = "";
-  std::uint64_t bit_offset = 0;  ///< from the first byte of the stream (units), or of the unit (syntax)
+  std::uint64_t bit_offset =
+      0;  ///< from the first byte of the stream (units), or of the unit (syntax)
 };
 
 /// An error of anything else a person hands in: a file, a capture, a setting.
@@ -79,7 +80,8 @@ struct Done {};
 #define SLF_CONCAT_(a, b) a##b
 #define SLF_CONCAT(a, b) SLF_CONCAT_(a, b)
 /// SLF_TRY(const auto x, f()); declares x, or returns f()'s error from the function around it.
-#define SLF_TRY(declaration, expression) SLF_TRY_(declaration, expression, SLF_CONCAT(slf_try_, __LINE__))
+#define SLF_TRY(declaration, expression) \
+  SLF_TRY_(declaration, expression, SLF_CONCAT(slf_try_, __LINE__))
 /// SLF_CHECK(f()); returns f()'s error from the function around it, if there is one.
 #define SLF_CHECK(expression) SLF_CHECK_(expression, SLF_CONCAT(slf_check_, __LINE__))
 #define SLF_CHECK_(expression, result) \

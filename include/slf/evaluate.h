@@ -19,17 +19,18 @@ struct EvaluateSettings {
 };
 
 struct Quality {
-  double point_psnr = 0;       ///< dB, pooled over points, cameras, channels
+  double point_psnr = 0;  ///< dB, pooled over points, cameras, channels
   std::array<double, 3> channel_psnr{};
   std::uint64_t observations = 0;
-  double image_psnr = 0;       ///< dB, pooled over pixels both cover
-  double coverage = 0;         ///< share of the photographs' object pixels that the renderings cover
+  double image_psnr = 0;  ///< dB, pooled over pixels both cover
+  double coverage = 0;    ///< share of the photographs' object pixels that the renderings cover
   std::vector<double> image_psnr_each;  ///< [cameras]
 };
 
 /// Point PSNR: over every decoded point, every given camera valid under δ′, three channels: mean
-/// squared error of radiance clamped and rounded to 8 bit, peak 255. Normals and visibility are those
-/// of the capture (nearest point), so that all codecs are judged on one set. Spec annex D, DESIGN 7.
+/// squared error of radiance clamped and rounded to 8 bit, peak 255. Normals and visibility are
+/// those of the capture (nearest point), so that all codecs are judged on one set. Spec annex D,
+/// DESIGN 7.
 Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& capture,
                                      std::span<const int> cameras, const EvaluateSettings& settings,
                                      const Progress& progress = {});

@@ -13,22 +13,25 @@ namespace slf {
 
 /// Paper III-A.
 struct ObserveSettings {
-  double delta_degrees = 10;       ///< δ, 0 .. 90: a view is valid up to 90° - δ from the normal
-  double occlusion_resolution = 1; ///< depth buffer pixels per image pixel, 0.05 .. 8
-  double depth_tolerance = 2.5;    ///< in spacings of the occluders (over the cosine of the view angle):
-                                   ///< deeper than the buffer by more is hidden. 0: the paper's strict test
+  double delta_degrees = 10;  ///< δ, 0 .. 90: a view is valid up to 90° - δ from the normal
+  double occlusion_resolution = 1;  ///< depth buffer pixels per image pixel, 0.05 .. 8
+  double depth_tolerance =
+      2.5;  ///< in spacings of the occluders (over the cosine of the view angle):
+            ///< deeper than the buffer by more is hidden. 0: the paper's strict test
   Transfer transfer = Transfer::kDisplay;
-  int threads = 0;                 ///< 0: all cores
+  int threads = 0;  ///< 0: all cores
 };
 
 /// What the cameras saw of each point, grouped by point, cameras ascending within a point.
 /// Deterministic for any thread count.
 struct Observations {
-  std::vector<std::uint64_t> first;  ///< [P + 1]: observations of point p are first[p] .. first[p+1]-1
-  std::vector<std::array<float, 2>> direction;  ///< (θ in [-π, π], γ = sin φ in [-1, 1]), point -> camera
-  std::vector<std::array<float, 3>> colour;     ///< 0 .. 255 (of the chosen transfer)
-  std::vector<std::uint16_t> camera;            ///< index into the capture's cameras
-  double gamma_min = -1, gamma_max = 1;         ///< over all observations
+  std::vector<std::uint64_t>
+      first;  ///< [P + 1]: observations of point p are first[p] .. first[p+1]-1
+  std::vector<std::array<float, 2>>
+      direction;  ///< (θ in [-π, π], γ = sin φ in [-1, 1]), point -> camera
+  std::vector<std::array<float, 3>> colour;  ///< 0 .. 255 (of the chosen transfer)
+  std::vector<std::uint16_t> camera;         ///< index into the capture's cameras
+  double gamma_min = -1, gamma_max = 1;      ///< over all observations
 };
 
 /// The points to observe, in world space.
@@ -52,10 +55,10 @@ Result<Observations, InputError> observe(const Capture& capture, std::span<const
 /// Paper II, Eq. 2-3 and Algorithm 1.
 struct FitSettings {
   Basis basis;
-  double lambda = 0.8;     ///< λ >= 0 (0 is solved as a least-norm problem)
-  double beta = 1.3;       ///< β >= 0
-  int iterations = 3;      ///< T, 0 .. 100 Jacobi sweeps
-  int neighbours = 8;      ///< k nearest points, 1 .. 64, ties by Morton order, self excluded
+  double lambda = 0.8;       ///< λ >= 0 (0 is solved as a least-norm problem)
+  double beta = 1.3;         ///< β >= 0
+  int iterations = 3;        ///< T, 0 .. 100 Jacobi sweeps
+  int neighbours = 8;        ///< k nearest points, 1 .. 64, ties by Morton order, self excluded
   bool penalise_dc = false;  ///< the paper: true. false leaves function 0 out of λ and β
   int threads = 0;
 };
@@ -66,7 +69,8 @@ struct FitSettings {
 ///         Points without observations take the mean of their neighbours that have some (and, where
 ///         those have none either, of the nearest that has).
 /// The same for any thread count of one binary. Each point is factorised once for λ and once for
-/// λ + β, which all sweeps share, in the M x M dual form where it has fewer observations than functions.
+/// λ + β, which all sweeps share, in the M x M dual form where it has fewer observations than
+/// functions.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,
                                                      std::span<const Voxel> positions,
                                                      const FitSettings& settings,

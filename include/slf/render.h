@@ -12,22 +12,22 @@ namespace slf {
 
 struct RenderSettings {
   std::array<std::uint8_t, 3> background{128, 128, 128};
-  double radius = 0;        ///< of a surfel in voxels; 0: from the cloud's own spacing
+  double radius = 0;           ///< of a surfel in voxels; 0: from the cloud's own spacing
   bool view_dependent = true;  ///< false: the mean colour (function 0 alone)
   int threads = 0;
 };
 
 struct Rendering {
-  Image image;                    ///< RGB, display values
+  Image image;                         ///< RGB, display values
   std::vector<std::uint8_t> coverage;  ///< [height][width] 0 .. 255: share of the pixel covered
-  std::vector<float> depth;       ///< [height][width] along the optical axis; +inf where nothing
+  std::vector<float> depth;  ///< [height][width] along the optical axis; +inf where nothing
 };
 
-/// Surfel splatting: each point is a disc in the plane of its normal (coded, else estimated from the
-/// voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what lies
-/// within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has no
-/// holes. Distortion of the camera is honoured at surfel centres.
-/// Deterministic for any thread count.
+/// Surfel splatting: each point is a disc in the plane of its normal (coded, else estimated from
+/// the voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what
+/// lies within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has
+/// no holes. Distortion of the camera is honoured at surfel centres. Deterministic for any thread
+/// count.
 class Renderer {
  public:
   /// Precomputes normals and surfel radii; keeps a reference to `maps`.

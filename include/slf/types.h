@@ -72,14 +72,14 @@ struct LightFieldHeader {
   /// direction no camera saw repeats the nearest one that a camera saw. In 1/127, -127 .. 127.
   int gamma_min_q7 = -127;
   int gamma_max_q7 = 127;
-  int num_functions = 0;  ///< K; basis.num_functions(), or any K for planes without a meaning
-  bool has_basis = true;  ///< false: integer planes without a meaning (slf pack); K may be 0
+  int num_functions = 0;   ///< K; basis.num_functions(), or any K for planes without a meaning
+  bool has_basis = true;   ///< false: integer planes without a meaning (slf pack); K may be 0
   std::vector<int> shift;  ///< [K] component = round(coefficient * 2^shift), 0 .. 15
 };
 
 /// Normals as coded: octahedral map, two components of `bits` bits each.
 struct CodedNormals {
-  int bits = 0;                                     ///< 0: not coded; else 4 .. 12
+  int bits = 0;                                          ///< 0: not coded; else 4 .. 12
   std::vector<std::array<std::uint16_t, 2>> octahedral;  ///< [P][2]
 };
 
