@@ -1,0 +1,939 @@
+#!/usr/bin/env python3
+"""An independent decoder, written from the text of slf-bitstream.md alone; slow; for reading beside the
+specification and as a second opinion in the conformance tests.
+
+    decoder.py decode STREAM.slf [--dump DIRECTORY] [--levels N] [--groups N]
+
+Decodes to the integer conformance point and leaves positions.npy (int32 [P, 3]), components.npy (int32
+[P, K, 3]) and, where the stream has normals, octahedral.npy (uint16 [P, 2]) in DIRECTORY. --levels keeps the
+first N levels of the grid, --groups the first N groups of functions (clause 8.9). Exit code: 0 decoded,
+1 refused, with the syntax element in question on standard error.
+
+Needs Python 3 (3.10 or later) and numpy. Profile 1 (Draco geometry, clause 8.5) is not decoded but refused.
+Beyond 2^28 component values in a stream it refuses too (clause 9). Numbers in docstrings are clauses.
+"""
+import argparse
+import hashlib
+import math
+import os
+import struct
+import sys
+import zlib
+
+import numpy as np
+
+SEQUENCE, SLICE, GEOMETRY, NORMALS, COEFFICIENTS, INDEX, METADATA, DIGEST, END = 1, 2, 3, 4, 5, 6, 7, 8, 15
+MAX_VALUES = 1 << 28
+
+
+class Refused(Exception):
+    """3.3: the stream does not conform, or is not supported; names the syntax element."""
+
+
+def require(condition, element):
+    """3.3: a value outside its range is reported, and there is no light field."""
+    if not condition:
+        raise Refused(element)
+
+
+# ---- 3 Conventions
+
+class BitReader:
+    """3.3: reads a payload, most significant bit first."""
+
+    def __init__(self, data):
+        """3.3: starts at the first bit of the payload."""
+        self.data = data
+        self.position = 0
+
+    def u(self, bits, element):
+        """3.3: u(n), unsigned."""
+        end = self.position + bits
+        require(end <= 8 * len(self.data), element + " (truncated)")
+        window = int.from_bytes(self.data[self.position // 8:(end + 7) // 8], "big")
+        self.position = end
+        return (window >> (-end % 8)) & ((1 << bits) - 1)
+
+    def s8(self, element):
+        """3.3: s(8), two's complement."""
+        value = self.u(8, element)
+        return value - 256 if value >= 128 else value
+
+    def ue(self, element):
+        """3.3: ue(v), Exp-Golomb of order 0."""
+        zeros = 0
+        while self.u(1, element) == 0:
+            zeros += 1
+            require(zeros <= 31, element)
+        return (1 << zeros) - 1 + self.u(zeros, element)
+
+    def f64(self, element):
+        """3.3: f(64), a finite double."""
+        value = struct.unpack(">d", self.u(64, element).to_bytes(8, "big"))[0]
+        require(math.isfinite(value), element)
+        return value
+
+    def align(self, element):
+        """3.3: zero bits to the next byte."""
+        require(self.u(-self.position % 8, element) == 0, element)
+
+    def trailing_bits(self, element):
+        """3.3: the end of a header, which nothing may follow."""
+        self.align(element)
+        require(self.position == 8 * len(self.data), element)
+
+    def rest(self, element):
+        """3.3: zero bits to the next byte, then the bytes that are left."""
+        self.align(element)
+        return self.data[self.position // 8:]
+
+
+# ---- 6 The light field
+
+def morton(x, y, z):
+    """6.2: the Morton code of a position."""
+    code = 0
+    for i in range(21):
+        code |= (x >> i & 1) << 3 * i | (y >> i & 1) << 3 * i + 1 | (z >> i & 1) << 3 * i + 2
+    return code
+
+
+# ---- 7 Syntax
+
+def read_units(data):
+    """7.1: the units of a stream as (type, payload, size of the whole unit)."""
+    require(data[:8] == bytes.fromhex("8B534C460D0A1A0A"), "signature")
+    position, units = 8, []
+    while position < len(data):
+        start = position
+        position += 1
+        length = shift = 0
+        while True:
+            require(shift < 6 * 7, "unit_length")
+            require(position < len(data), "unit_length (truncated)")
+            byte = data[position]
+            position += 1
+            length |= (byte & 127) << shift
+            if byte < 128:
+                require(byte or shift == 0, "unit_length")
+                break
+            shift += 7
+        end = position + length
+        require(end + 4 <= len(data), "unit_payload (truncated)")
+        require(zlib.crc32(data[start:end]) == int.from_bytes(data[end:end + 4], "big"), "unit_crc")
+        units.append((data[start], data[position:end], end + 4 - start))
+        position = end + 4
+        require(data[start] != END or position == len(data), "end_of_stream")
+    require(units and units[0][0] == SEQUENCE, "unit_type")
+    return units
+
+
+class Sequence:
+    """7.2: the parameters of the stream."""
+
+    def __init__(self, payload):
+        """7.2: parses the sequence unit."""
+        reader = BitReader(payload)
+
+        def checked(bits, accept, element):
+            """7.2: an unsigned element and its range."""
+            value = reader.u(bits, element)
+            require(accept(value), element)
+            return value
+
+        checked(8, lambda v: v == 0, "sps_version_major")
+        checked(8, lambda v: v == 1, "sps_version_minor")
+        profile = checked(4, lambda v: v <= 1, "sps_profile")
+        checked(4, lambda v: v == 0, "sps_level")
+        self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
+        if not reader.u(1, "sps_unit_grid_flag"):
+            for _ in range(3):
+                reader.f64("sps_origin")
+            require(reader.f64("sps_step") > 0, "sps_step")
+        checked(3, lambda v: v <= 6, "sps_up_axis")
+        reader.u(1, "sps_left_handed_flag")
+        if reader.u(1, "sps_metres_flag"):
+            require(reader.f64("sps_metres_per_unit") > 0, "sps_metres_per_unit")
+        checked(2, lambda v: v == profile, "sps_geometry_coder")
+        self.normal_bits = checked(4, lambda v: v == 0 or 4 <= v <= 12, "sps_normal_bits")
+        self.geometry_bounds = self.level_ranges(reader, "geometry")
+        require(profile == 0 or len(self.geometry_bounds) == 2, "sps_num_geometry_ranges_minus1")
+        self.functions = reader.ue("sps_num_functions")
+        require(self.functions <= 4096, "sps_num_functions")
+        self.coefficient_bounds = [0]
+        self.groups = []                    # functions of each group
+        self.steps = []                     # three steps of each function
+        if self.functions:
+            if reader.u(1, "sps_basis_flag"):
+                checked(4, lambda v: v == 0, "sps_basis_idc")
+                reader.u(2, "sps_order_minus1")
+                scales = checked(3, lambda v: v <= 6, "sps_scales_theta")
+                scales += checked(3, lambda v: v <= 6, "sps_scales_gamma")
+                require(self.functions == 1 << scales, "sps_num_functions")
+                checked(3, lambda v: v == 0, "sps_frame_idc")
+                checked(3, lambda v: v <= 1, "sps_colour_idc")
+                checked(2, lambda v: v <= 1, "sps_transfer_idc")
+                gamma_min, gamma_max = reader.s8("sps_gamma_min"), reader.s8("sps_gamma_max")
+                require(gamma_min >= -127, "sps_gamma_min")
+                require(gamma_max >= gamma_min, "sps_gamma_max")
+            self.vector_coder = checked(2, lambda v: v <= 1, "sps_coefficient_coder") == 0
+            self.groups = [[] for _ in range(reader.u(4, "sps_num_groups_minus1") + 1)]
+            checked(3, lambda v: v == 0, "sps_num_stages_minus1")
+            self.coefficient_bounds = self.level_ranges(reader, "coefficient")
+            while len(self.steps) < self.functions:
+                self.plane_run(reader)
+        reader.trailing_bits("sps_trailing_bits")
+        require(profile == 0, "sps_profile (Draco geometry is not supported)")
+
+    def level_ranges(self, reader, kind):
+        """7.2: the first level of every range, and grid_bits after the last."""
+        count = reader.ue(f"sps_num_{kind}_ranges_minus1")
+        require(count <= self.grid_bits - 1, f"sps_num_{kind}_ranges_minus1")
+        bounds = [0]
+        for _ in range(count):
+            end = reader.u(5, f"sps_{kind}_range_end")
+            require(bounds[-1] < end <= self.grid_bits - 1, f"sps_{kind}_range_end")
+            bounds.append(end)
+        return bounds + [self.grid_bits]
+
+    def plane_run(self, reader):
+        """7.2: plane_run( ), functions of one group, shift and steps."""
+        length = reader.ue("sps_run_length_minus1") + 1
+        require(length <= self.functions - len(self.steps), "sps_run_length_minus1")
+        group = reader.ue("sps_plane_group")
+        require(group < len(self.groups), "sps_plane_group")
+        reader.u(4, "sps_plane_shift")
+        equal = reader.u(1, "sps_equal_steps_flag")
+        steps = [reader.ue("sps_plane_step") for _ in range(1 if equal else 3)]
+        require(all(1 <= step < 1 << 27 for step in steps), "sps_plane_step")
+        for _ in range(length):
+            self.groups[group].append(len(self.steps))
+            self.steps.append(steps * 3 if equal else steps)
+
+
+def check_index(payload, following):
+    """7.7: the index agrees with the units that follow it, as far as the stream goes."""
+    reader = BitReader(payload)
+    count = reader.ue("index_num_units")
+    whole = following and following[-1][0] == END
+    require(count == len(following) if whole else count >= len(following), "index_num_units")
+    for i in range(count):
+        unit_type, size = reader.u(8, "index_unit_type"), reader.ue("index_unit_bytes")
+        if i < len(following):
+            require(unit_type == following[i][0], "index_unit_type")
+            require(size == following[i][2], "index_unit_bytes")
+    reader.trailing_bits("index_trailing_bits")
+
+
+def check_metadata(payload):
+    """7.8: the metadata inflates to pairs of a key, not empty, and a value."""
+    reader = BitReader(payload)
+    size = reader.ue("metadata_bytes")
+    require(size <= 1 << 20, "metadata_bytes")
+    inflater = zlib.decompressobj()
+    try:
+        text = inflater.decompress(reader.rest("metadata_alignment"), size + 1)
+        text.decode("utf-8")
+    except (zlib.error, UnicodeDecodeError):
+        raise Refused("metadata_deflated") from None
+    require(inflater.eof and not inflater.unused_data and len(text) == size, "metadata_deflated")
+    fields = text.split(b"\0")
+    require(fields.pop() == b"" and len(fields) % 2 == 0 and all(fields[::2]), "metadata_deflated")
+
+
+def check_digest(digest, positions, components, normals):
+    """7.9: SHA-256 of the decoded slice; normals is None where the stream has none."""
+    data = positions.astype("<i4").tobytes() + components.astype("<i4").tobytes()
+    if normals is not None:
+        data += normals.astype("<u2").tobytes()
+    require(hashlib.sha256(data).digest() == digest, "digest_sha256")
+
+
+def check_end(payload, number):
+    """7.10: the end unit counts the units before it."""
+    reader = BitReader(payload)
+    require(reader.ue("end_num_units") == number, "end_num_units")
+    reader.trailing_bits("end_trailing_bits")
+
+
+# ---- 8.3 Arithmetic decoding
+
+RATES = [(131072 + (2 * n + 3) // 2) // (2 * n + 3) for n in range(256)]       # R[n] of 8.3.2
+
+
+class Contexts:
+    """8.3.2: a set of contexts: probabilities with 22 fractional bits, and counts."""
+
+    def __init__(self, size):
+        """8.3.2: the initial state."""
+        self.probability = [1 << 21] * size
+        self.count = [0] * size
+
+
+class MagnitudeContexts:
+    """8.3.4: the contexts of a magnitude."""
+
+    def __init__(self):
+        """8.3.4: more[14] and prefix[28]."""
+        self.more = Contexts(14)
+        self.prefix = Contexts(28)
+
+
+class ArithmeticDecoder:
+    """8.3.1: decisions out of a codeword."""
+
+    def __init__(self, codeword):
+        """8.3.1: the start."""
+        self.codeword = codeword
+        self.range = (1 << 32) - 1
+        self.code = int.from_bytes((codeword + bytes(4))[:4], "big")
+        self.consumed = 4
+
+    def decide(self, p):
+        """8.3.1: a decision with P(1) = p / 65536."""
+        bound = (self.range >> 16) * p
+        if self.code < bound:
+            bit = 1
+            self.range = bound
+        else:
+            bit = 0
+            self.code -= bound
+            self.range -= bound
+        while self.range < 1 << 24:
+            byte = self.codeword[self.consumed] if self.consumed < len(self.codeword) else 0
+            self.consumed += 1
+            self.range <<= 8
+            self.code = self.code << 8 | byte
+        return bit
+
+    def raw(self, bits):
+        """8.3.1: raw(n)."""
+        value = 0
+        for _ in range(bits):
+            value = value << 1 | self.decide(1 << 15)
+        return value
+
+    def finish(self, element):
+        """8.3.1: the bytes consumed at the end of a unit."""
+        require(self.consumed >= len(self.codeword), element + " (longer)")
+        require(self.consumed <= len(self.codeword) + 4, element + " (truncated)")
+
+    def adaptive(self, contexts, index, limit):
+        """8.3.2: a decision in a context, which adapts."""
+        before, count = contexts.probability[index], contexts.count[index]
+        bit = self.decide(max(before >> 6, 1))
+        target = (1 << 22) - 1 if bit else 0
+        contexts.probability[index] = before + ((target - before) * RATES[count] >> 16)
+        if count < limit:
+            contexts.count[index] = count + 1
+        return bit
+
+    def magnitude(self, contexts, limit):
+        """8.3.4: a magnitude of 1 or more."""
+        for value in range(1, 15):
+            if not self.adaptive(contexts.more, value - 1, limit):
+                return value
+        length = 0
+        while self.adaptive(contexts.prefix, length, limit):
+            length += 1
+            require(length < 28, "magnitude")
+        return 14 + (1 << length) + self.raw(length)
+
+
+TABLE_A1 = [int(word) for word in """
+32768 36843 40793 44511 47911 50941 53581 55834 57724 59287 60565 61598 62428 63090 63615 64030 64357 64614
+64816 64974 65097 65194 65269 65328 65374 65410 65438 65459 65476 65489 65500 65508 65514 65519 65523 65526
+65528 65530 65531 65532 65533 65534 65534 65535 65535""".split()]
+
+
+def squash(x):
+    """8.3.3: logistic value, in 1/256, to probability."""
+    a = min(abs(x), 2815)
+    i = a // 64
+    p = TABLE_A1[i] + ((TABLE_A1[i + 1] - TABLE_A1[i]) * (a % 64) >> 6)
+    return 65536 - p if x < 0 else p
+
+
+def stretch_table():
+    """8.3.3: stretch(p) for every p >> 4."""
+    table, x = [], -2815
+    for sixteenth in range(4096):
+        while x < 2815 and SQUASH[x + 2815] < 16 * sixteenth + 8:
+            x += 1
+        table.append(x)
+    return table
+
+
+SQUASH = [squash(x) for x in range(-2815, 2816)]
+STRETCH = stretch_table()
+
+
+# ---- 8.4 Octree geometry
+
+CHILDREN = [(c & 1, c >> 1 & 1, c >> 2) for c in range(8)]
+DIRECTIONS = [(dx, dy, dz) for dz in (-1, 0, 1) for dy in (-1, 0, 1) for dx in (-1, 0, 1)]
+
+
+def window_bit(x, y, z):
+    """8.4.1: a cell of the window as a bit, 0 outside it."""
+    return 1 << (x + 4 * y + 16 * z) if 0 <= min(x, y, z) and max(x, y, z) < 4 else 0
+
+
+def window_table():
+    """8.4.1: the cells of the window that a neighbour in direction d with occupancy o has, as [d][o]."""
+    table = []
+    for dx, dy, dz in DIRECTIONS:
+        cells = [window_bit(2 * dx + x + 1, 2 * dy + y + 1, 2 * dz + z + 1) for x, y, z in CHILDREN]
+        table.append([sum(cells[c] for c in range(8) if o >> c & 1) for o in range(256)])
+    return table
+
+
+def around(distances):
+    """8.4.2: the cells around (1, 1, 1) at these distances: ALL is 1, 2, 3 and FE is 1, 2."""
+    return sum(window_bit(dx + 1, dy + 1, dz + 1) for dx, dy, dz in DIRECTIONS
+               if abs(dx) + abs(dy) + abs(dz) in distances)
+
+
+def face_cells(child, outside):
+    """8.4.2: window bits, around (1, 1, 1), of a child's face neighbours outside or inside the node."""
+    cells = []
+    for axis in range(3):
+        cell = [1, 1, 1]
+        cell[axis] = 2 if child[axis] == outside else 0
+        cells.append(window_bit(*cell))
+    return cells
+
+
+def corner_directions(child):
+    """8.4.2: the directions whose neighbours make up corner."""
+    signs = [1 if side else -1 for side in child]
+    patterns = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1), (1, 1, 1))
+    offsets = [[sign * used for sign, used in zip(signs, pattern)] for pattern in patterns]
+    return [(dx + 1) + 3 * (dy + 1) + 9 * (dz + 1) for dx, dy, dz in offsets]
+
+
+def halves_table(axis):
+    """8.4.3: bits 2i and 2i + 1 of halves, by occupancy."""
+    return [sum({1 << 2 * axis + CHILDREN[c][axis] for c in range(8) if o >> c & 1}) for o in range(256)]
+
+
+def columns_table(first, second):
+    """8.4.3: which columns hold a child, by occupancy; first and second are the other axes."""
+    return [sum({1 << CHILDREN[c][first] + 2 * CHILDREN[c][second] for c in range(8) if o >> c & 1})
+            for o in range(256)]
+
+
+WINDOW = window_table()
+ALL, FE = around((1, 2, 3)), around((1, 2))
+OUTSIDE = [face_cells(child, 1) for child in CHILDREN]
+INSIDE = [face_cells(child, 0) for child in CHILDREN]
+CORNER = [corner_directions(child) for child in CHILDREN]
+WINDOW_SHIFT = [x + 4 * y + 16 * z for x, y, z in CHILDREN]
+HALVES = [halves_table(axis) for axis in range(3)]
+COLUMNS_X, COLUMNS_Y, COLUMNS_Z = columns_table(1, 2), columns_table(0, 2), columns_table(0, 1)
+
+
+def hash_pair(a, b, bits):
+    """8.4.4: the hash of (a, b)."""
+    mask = (1 << 64) - 1
+    h = (a * 0x9E3779B97F4A7C15 + b * 0xC2B2AE3D27D4EB4F) & mask
+    h = ((h ^ h >> 32) * 0x9E3779B97F4A7C15) & mask
+    return h >> (64 - bits)
+
+
+class Octree:
+    """8.4: the geometry of a slice."""
+
+    def __init__(self, points):
+        """8.4.2: contexts of table 8-3, three mixers; 8.4.1: the root."""
+        self.points = points
+        self.hash_bits = min(18, max(points.bit_length() + 4, 10))
+        widths = (11, 15, self.hash_bits, self.hash_bits, 15, 14, self.hash_bits, 12, 12, 12, self.hash_bits)
+        self.contexts = [Contexts(1 << bits) for bits in widths]
+        self.mixers = [{}, {}, {}]          # set of weights by its number
+        self.nodes = [(0, 0, 0)]
+        self.level = 0
+
+    def decode_level(self, decoder):
+        """8.4.1: the children of all nodes of a level."""
+        index = {node: i for i, node in enumerate(self.nodes)}
+        occupancies = []
+        history = [{} for _ in range(6)]
+        following = []
+        for i, (x, y, z) in enumerate(self.nodes):
+            neighbours = occupied = unknown = 0
+            for d, (dx, dy, dz) in enumerate(DIRECTIONS):
+                j = index.get((x + dx, y + dy, z + dz), i)
+                if j != i:
+                    neighbours |= 1 << d
+                    if j < i:
+                        occupied |= WINDOW[d][occupancies[j]]
+                    else:
+                        unknown |= WINDOW[d][255]
+            entries = self.history_entries(x, y, z)
+            around_node = neighbours, occupied, unknown
+            coded = self.decode_node(decoder, around_node, self.read_history(history, entries))
+            for table, entry in zip(history, entries):
+                table[entry] = coded
+            occupancies.append(coded)
+            following += [(2 * x + cx, 2 * y + cy, 2 * z + cz)
+                          for c, (cx, cy, cz) in enumerate(CHILDREN) if coded >> c & 1]
+            require(len(following) <= self.points, "gu_occupancy")
+        self.nodes = following
+        self.level += 1
+
+    def decode_node(self, decoder, around_node, history):
+        """8.4.1: eight decisions, the last of which may be implied."""
+        coded = 0
+        for c in range(8):
+            if c == 7 and coded == 0:
+                return 128
+            indices, sets = self.predict(c, coded, around_node, history)
+            if self.decode_child(decoder, indices, sets):
+                coded |= 1 << c
+        return coded
+
+    def predict(self, c, coded, around_node, history):
+        """8.4.2: the indices of table 8-3 and the sets of weights."""
+        neighbours, occupied, unknown = around_node
+        halves, col_x, col_y, col_z = history
+        bits = self.hash_bits
+        siblings = 1 << c | coded
+        # direction 13 is the node itself: its children stand at window bits 21 + x + 4y + 16z
+        O = (occupied | WINDOW[13][coded]) >> WINDOW_SHIFT[c] & ALL
+        U = unknown >> WINDOW_SHIFT[c] & ALL
+        ax, ay, az = [1 if O & cell else 2 if U & cell else 0 for cell in OUTSIDE[c]]
+        bx, by, bz = [1 if O & cell else 0 for cell in INSIDE[c]]
+        faces = 8 * (ax + 3 * ay + 9 * az) + bx + 2 * by + 4 * bz
+        corner = 0
+        for k, d in enumerate(CORNER[c]):
+            corner |= (neighbours >> d & 1) << k
+        nO, nU, nN, nS = O.bit_count(), U.bit_count(), neighbours.bit_count(), min(coded.bit_count(), 3)
+        indices = (
+            faces * 8 + c,
+            siblings * 128 + corner,
+            hash_pair(neighbours, siblings, bits),
+            hash_pair(O & FE, (U & FE) * 8 + c, bits),
+            ((nO * 27 + nU) * 8 + c) * 4 + nS,
+            halves * 256 + siblings,
+            hash_pair(col_x * 256 + col_y * 16 + col_z, siblings, bits),
+            col_x * 256 + siblings,
+            col_y * 256 + siblings,
+            col_z * 256 + siblings,
+            hash_pair(O, U * 8 + c, bits))
+        return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, faces)
+
+    def decode_child(self, decoder, indices, sets):
+        """8.4.2: a decision from three mixers; 8.3.3: mixing and its update; 8.3.2: contexts."""
+        inputs = []
+        for contexts, k in zip(self.contexts, indices):
+            inputs.append(STRETCH[max(contexts.probability[k] >> 6, 1) >> 4] if contexts.count[k] else 0)
+        inputs.append(256)
+        weights = [mixer.setdefault(k, [8000] * 12) for mixer, k in zip(self.mixers, sets)]
+        values = []
+        for row in weights:
+            value = sum([w * x for w, x in zip(row, inputs)]) >> 16
+            values.append(max(-2815, min(value, 2815)))
+        total = sum(values)
+        mean = total // 3 if total >= 0 else -(-total // 3)
+        bit = decoder.decide(max(1, min(SQUASH[mean + 2815], 65535)))
+        for row, value in zip(weights, values):
+            error = ((bit << 16) - SQUASH[value + 2815]) * 32
+            row[:] = [max(-1 << 22, min(w + (x * error + (1 << 19) >> 20), 1 << 22))
+                      for w, x in zip(row, inputs)]
+        target = (1 << 22) - 1 if bit else 0
+        for contexts, k in zip(self.contexts, indices):
+            before, count = contexts.probability[k], contexts.count[k]
+            contexts.probability[k] = before + ((target - before) * RATES[count] >> 16)
+            if count < 255:
+                contexts.count[k] = count + 1
+        return bit
+
+    def history_entries(self, x, y, z):
+        """8.4.3: a node's entries in the six tables: x, y, z, (y, z), (x, z), (x, y)."""
+        entries = [x & (1 << 18) - 1, y & (1 << 18) - 1, z & (1 << 18) - 1]
+        for a, b in ((y, z), (x, z), (x, y)):
+            if 2 * self.level <= 18:
+                entries.append(a + (b << self.level))
+            else:
+                entries.append((a * 2654435761 ^ b * 2246822519) % (1 << 32) >> 14)
+        return entries
+
+    @staticmethod
+    def read_history(history, entries):
+        """8.4.3: halves, col_x, col_y and col_z of a node."""
+        by_x, by_y, by_z, by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
+        halves = HALVES[0][by_x] | HALVES[1][by_y] | HALVES[2][by_z]
+        return halves, COLUMNS_X[by_yz], COLUMNS_Y[by_xz], COLUMNS_Z[by_xy]
+
+
+# ---- 8.6 The transform tree
+
+class TransformTree:
+    """8.6: the merges of a slice."""
+
+    def __init__(self, codes):
+        """8.6.1: split, left, first row after the merge, and parent of every row; 8.6.3: coding order."""
+        count = len(codes)
+        self.split = [3 * 21] + [(codes[r] ^ codes[r - 1]).bit_length() - 1 for r in range(1, count)]
+        self.left = [0] * count
+        self.end = [count] * count
+        stack = [0]
+        for r in range(1, count):
+            while self.split[stack[-1]] < self.split[r]:
+                self.end[stack.pop()] = r
+            self.left[r] = stack[-1]
+            stack.append(r)
+        # the node joined by the merge of row r is joined next at its own first row or at the row after it
+        self.parent = [0] * count
+        for r in range(1, count):
+            left, end = self.left[r], self.end[r]
+            if end == count or (left and self.split[left] < self.split[end]):
+                self.parent[r] = left
+            else:
+                self.parent[r] = end
+        self.order = [0] + sorted(range(1, count), key=lambda r: (-self.split[r], r))
+
+    def rotation(self, r):
+        """8.6.2: c and s of the merge of row r."""
+        left, right = r - self.left[r], self.end[r] - r
+        cosine, sine = [math.isqrt(weight * 2**40 // (left + right) * 2**20) for weight in (left, right)]
+        return cosine, sine
+
+    def rows(self, first_range, begin, end, depth):
+        """8.6.3: rows of the slice levels begin .. end - 1, in coding order."""
+        return [r for r in self.order
+                if (first_range if r == 0 else begin <= depth - 1 - self.split[r] // 3 < end)]
+
+
+def round30(x):
+    """8.6.2: division by 2^30, to nearest, ties away from zero."""
+    return x + (1 << 29) - (x < 0) >> 30
+
+
+# ---- 8.7 Coefficients
+
+def few(n):
+    """8.7.2: few(n)."""
+    return 0 if n == 0 else 1 if n <= 2 else 2
+
+
+def size(v):
+    """8.7.2: size(v)."""
+    return min(abs(v), 2)
+
+
+class VectorCoder:
+    """8.7.2: the vector coder of one group of a slice."""
+
+    def __init__(self, functions, tree, group_before):
+        """8.7.1: its contexts and other state."""
+        self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
+        self.node = Contexts(13 * 3 * 3 * 3)
+        self.block = Contexts(16 * 2 * 2 * 3)
+        self.nonzero = Contexts(2 * 13 * 12 * 5 * 4 * 4)
+        self.magnitudes = [MagnitudeContexts() for _ in range(12 * 3)]
+        self.activity = [4096] * self.planes
+        self.count = [0] * len(tree.split)
+        self.quantised = {}                 # of rows that are not all zero
+
+    def decode(self, decoder, rows):
+        """8.7.2: rows in coding order; a row whose node decision is 0 has no coefficients."""
+        split, zeros, last = self.tree.split, [0] * self.planes, 0
+        for r in rows:
+            level = min(split[r] // 3, 11) if r else 12
+            parent = self.tree.parent[r]
+            previous = last if split[last] == split[r] else 0
+            last = r
+            # row 0 does not count as a parent or previous row
+            count_parent = self.count[parent] if parent else 0
+            count_previous = self.count[previous] if previous else 0
+            count_before = self.group_before.count[r] if self.group_before else 0
+            context = ((level * 3 + few(count_parent)) * 3 + few(count_previous)) * 3 + few(count_before)
+            if decoder.adaptive(self.node, context, 255):
+                beside = [self.quantised.get(row, zeros) if row else zeros for row in (parent, previous)]
+                self.quantised[r] = self.decode_row(decoder, r, level, *beside)
+
+    def decode_row(self, decoder, r, level, parent, previous):
+        """8.7.2, 2: the blocks of a row."""
+        values, count = [0] * self.planes, 0
+        blocks = (self.planes + 23) // 24
+        for block in range(blocks):
+            begin, end = 24 * block, min(24 * block + 24, self.planes)
+            if block < blocks - 1 or count:
+                context = (min(block, 15) * 2 + any(parent[begin:end])) * 2 + any(previous[begin:end])
+                if not decoder.adaptive(self.block, context * 3 + few(count), 255):
+                    continue
+            for j in range(begin, end):
+                beside = size(parent[j]) + size(previous[j])
+                values[j] = self.decode_value(decoder, values, j, begin, level, beside, count)
+                count += values[j] != 0
+        self.count[r] = min(count, 255)
+        return values
+
+    def decode_value(self, decoder, values, j, begin, level, beside, count):
+        """8.7.2, 3 and 4: one coefficient."""
+        channel = j % 3
+        activity = max(0, min(self.activity[j].bit_length() - 5, 11))
+        if channel == 0:
+            sibling = size(values[j - 3]) if j > begin else 3
+        elif channel == 1:
+            sibling = size(values[j - 1])
+        else:
+            sibling = min(3, size(values[j - 2]) + size(values[j - 1]))
+        n = count if count <= 1 else 2 if count <= 4 else 3
+        context = ((((channel == 0) * 13 + level) * 12 + activity) * 5 + beside) * 4 + sibling
+        bit = decoder.adaptive(self.nonzero, context * 4 + n, 255)
+        self.activity[j] += ((65535 if bit else 0) - self.activity[j]) >> 5
+        if not bit:
+            return 0
+        magnitude = decoder.magnitude(self.magnitudes[activity * 3 + min(beside, 2)], 255)
+        return -magnitude if decoder.raw(1) else magnitude
+
+
+class IndependentCoder:
+    """8.7.3: the independent coder of one group of a slice."""
+
+    def __init__(self, functions, _tree, _group_before):
+        """8.7.1: its contexts."""
+        self.nonzero = Contexts(3 * functions)
+        self.magnitudes = [MagnitudeContexts() for _ in range(3 * functions)]
+        self.quantised = {}
+
+    def decode(self, decoder, rows):
+        """8.7.3: rows in coding order, planes ascending."""
+        for r in rows:
+            values = [0] * len(self.magnitudes)
+            for j, contexts in enumerate(self.magnitudes):
+                if decoder.adaptive(self.nonzero, j, 30):
+                    magnitude = decoder.magnitude(contexts, 30)
+                    values[j] = -magnitude if decoder.raw(1) else magnitude
+            self.quantised[r] = values
+
+
+def reconstruct(sequence, coders, points):
+    """8.7.4: coefficients by row and plane; those of groups without a coder are 0 (8.9)."""
+    coefficients = np.zeros((points, 3 * sequence.functions), np.int64)
+    for functions, coder in zip(sequence.groups, coders):
+        planes = [(3 * k + c, sequence.steps[k][c]) for k in functions for c in range(3)]
+        for r, values in coder.quantised.items():
+            for (plane, step), value in zip(planes, values):
+                require(abs(value * step) < 1 << 27, "cu_coefficients")
+                coefficients[r, plane] = value * step
+    return coefficients
+
+
+# ---- 8.8 Inverse transform
+
+def inverse_transform(values, tree, shift):
+    """8.8.1: undoes the merges from the top down, those of split >= 3 shift (8.9), a split at a time."""
+    begin = 1
+    while begin < len(tree.order) and tree.split[tree.order[begin]] >= 3 * shift:
+        end, split = begin, tree.split[tree.order[begin]]
+        while end < len(tree.order) and tree.split[tree.order[end]] == split:
+            end += 1
+        rows = tree.order[begin:end]
+        left = [tree.left[r] for r in rows]
+        rotations = np.array([tree.rotation(r) for r in rows], np.int64)
+        c, s = rotations[:, :1], rotations[:, 1:]
+        a, b = values[left], values[rows]
+        values[left] = round30(c * a - s * b)
+        values[rows] = round30(s * a + c * b)
+        begin = end
+
+
+# ---- 8.9 Partial and coarser light fields; a slice as a whole
+
+class Slice:
+    """7.3: a slice, filled by its units (7.1) and then given out (8.9)."""
+
+    def __init__(self, sequence, slice_id, reader, cube_end):
+        """7.3: parses the slice unit; cube_end is where the cube before ends in Morton order."""
+        self.sequence = sequence
+        require(reader.ue("slice_id") == slice_id < 1 << 16, "slice_id")
+        self.points = reader.ue("slice_num_points_minus1") + 1
+        require(self.points <= 1 << 22, "slice_num_points_minus1")
+        self.depth = reader.u(5, "slice_depth")
+        require(self.depth <= sequence.grid_bits, "slice_depth")
+        self.top = sequence.grid_bits - self.depth
+        self.cell = [reader.u(self.top, "slice_cell") for _ in range(3)]
+        reader.trailing_bits("slice_trailing_bits")
+        cube = morton(*self.cell) << 3 * self.depth
+        require(cube >= cube_end, "slice_cell")
+        self.id, self.cube_end = slice_id, cube + (1 << 3 * self.depth)
+        self.octree = Octree(self.points)
+        self.tree = self.digest = self.normals = None
+        self.coders = []
+        self.expected = self.unit_order()
+
+    def unit_order(self):
+        """7.1: the units of the slice in their order, without the digest."""
+        sequence = self.sequence
+        geometry = [(GEOMETRY, level_range) for level_range in range(len(sequence.geometry_bounds) - 1)]
+        normals = [(NORMALS,)] if sequence.normal_bits else []
+        coefficients = [(COEFFICIENTS, level_range, group)
+                        for level_range in range(len(sequence.coefficient_bounds) - 1)
+                        for group in range(len(sequence.groups))]
+        return geometry + normals + coefficients
+
+    def read_unit(self, unit_type, payload):
+        """7.4, 7.5, 7.6, 7.9: a unit of the slice, which must be the next one by 7.1."""
+        reader = BitReader(payload)
+        require(reader.ue("slice_id") == self.id, "slice_id")
+        if unit_type == DIGEST:
+            require(not self.expected and self.digest is None, "unit_type (digest)")
+            self.digest = reader.rest("digest_alignment")
+            require(len(self.digest) == 32, "digest_sha256")
+            return
+        require(self.expected and self.expected[0][0] == unit_type, "unit_type")
+        _, *numbers = self.expected.pop(0)
+        for element, number in zip(("level_range", "plane_group"), numbers):
+            require(reader.ue(element) == number, element)
+        element = {GEOMETRY: "gu_occupancy", NORMALS: "nu_normals"}.get(unit_type, "cu_coefficients")
+        decoder = ArithmeticDecoder(reader.rest(element))
+        if unit_type == GEOMETRY:
+            self.decode_geometry(decoder, *numbers)
+        elif unit_type == NORMALS:
+            self.normals = decode_normals(decoder, self.points, self.sequence.normal_bits)
+        else:
+            self.decode_coefficients(decoder, *numbers)
+        decoder.finish(element)
+
+    def decode_geometry(self, decoder, level_range):
+        """8.4.1: the levels of a range that lie within the slice."""
+        bounds = self.sequence.geometry_bounds[level_range:level_range + 2]
+        begin, end = [max(g - self.top, 0) for g in bounds]
+        for _ in range(begin, end):
+            self.octree.decode_level(decoder)
+        if level_range == len(self.sequence.geometry_bounds) - 2:
+            require(len(self.octree.nodes) == self.points, "gu_occupancy")
+            self.tree = TransformTree([morton(*node) for node in self.octree.nodes])
+
+    def decode_coefficients(self, decoder, level_range, group):
+        """8.7.1: the rows of a level range, the functions of a group."""
+        if group == len(self.coders):
+            coder = VectorCoder if self.sequence.vector_coder else IndependentCoder
+            before = self.coders[-1] if self.coders else None
+            self.coders.append(coder(len(self.sequence.groups[group]), self.tree, before))
+        begin, end = [g - self.top for g in self.sequence.coefficient_bounds[level_range:level_range + 2]]
+        self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
+
+    def output(self, levels, groups):
+        """8.9: positions, components and normals of the first levels and groups, 0: of all."""
+        sequence = self.sequence
+        shift = max(sequence.grid_bits - levels, 0) if levels else 0
+        corner = np.array(self.cell, np.int64) << self.depth
+        nodes = np.array(self.octree.nodes, np.int64)
+        if self.tree is None:
+            known = len(sequence.geometry_bounds) - 1 - sum(unit[0] == GEOMETRY for unit in self.expected)
+            nodes = nodes if known else nodes[:0]
+            side = 1 << (self.depth - self.octree.level)
+            positions = (corner + nodes * side + side // 2) >> shift
+            components = np.zeros((len(nodes), sequence.functions, 3), np.int64)
+            return positions, components, np.zeros((len(nodes), 2), np.int64)
+        positions = corner + nodes
+        coders = self.coders[:groups] if groups else self.coders
+        values = reconstruct(sequence, coders, self.points)
+        inverse_transform(values, self.tree, shift)
+        normals = np.zeros((self.points, 2), np.int64) if self.normals is None else self.normals
+        if shift:
+            first = [r for r in range(self.points) if r == 0 or self.tree.split[r] >= 3 * shift]
+            weights = np.diff(first + [self.points])
+            scale = np.array([math.isqrt(2**60 // int(w)) for w in weights], np.int64)
+            positions, normals = positions[first] >> shift, normals[first]
+            values = round30(values[first] * scale[:, None])
+        components = values.reshape(len(positions), sequence.functions, 3)
+        if self.digest and not self.expected and not shift and len(coders) == len(sequence.groups):
+            check_digest(self.digest, positions, components, normals if sequence.normal_bits else None)
+        return positions, components, normals
+
+
+# ---- 8.10 Normals
+
+def decode_normals(decoder, points, bits):
+    """8.10: two coordinates a point, as residuals to the point before."""
+    contexts = [(Contexts(2), MagnitudeContexts()) for _ in range(4)]
+    normals, half = np.zeros((points, 2), np.int64), 1 << (bits - 1)
+    before = [0, 0]
+    for i in range(points):
+        residual = 0
+        for coordinate in range(2):
+            signs, magnitude = contexts[1 + size(residual) if coordinate else 0]
+            residual = 0
+            if decoder.adaptive(signs, 0, 255):
+                negative = decoder.adaptive(signs, 1, 255)
+                residual = decoder.magnitude(magnitude, 255)
+                require(residual <= (half if negative else half - 1), "nu_normals")
+                residual = -residual if negative else residual
+            before[coordinate] = (before[coordinate] + residual) % (2 * half)
+        normals[i] = before
+    return normals
+
+
+# ---- 8.1 The whole stream
+
+def decode(data, levels, groups):
+    """8.1: units in; sequence, positions, components, normals out; 7.1: the order of units."""
+    units = read_units(data)
+    sequence = Sequence(units[0][1])
+    parts = [(np.zeros((0, 3)), np.zeros((0, sequence.functions, 3)), np.zeros((0, 2)))]
+    current, slices, cube_end, values, metadata = None, 0, 0, 0, 0
+    for number, (unit_type, payload, _) in enumerate(units[1:], 1):
+        require(unit_type != SEQUENCE, "unit_type")
+        if unit_type in (SLICE, END) and current:
+            require(not current.expected, "unit_type (the slice before is not complete)")
+            parts.append(current.output(levels, groups))
+            cube_end, current = current.cube_end, None
+        if unit_type == SLICE:
+            current = Slice(sequence, slices, BitReader(payload), cube_end)
+            slices += 1
+            values += current.points * 3 * sequence.functions
+            require(values <= MAX_VALUES, "slice_num_points_minus1 (beyond this decoder's limit)")
+        elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST):
+            require(current, "slice_id")
+            current.read_unit(unit_type, payload)
+        elif unit_type == INDEX:
+            check_index(payload, units[number + 1:])
+        elif unit_type == METADATA:
+            metadata += 1
+            require(metadata == 1, "unit_type (metadata)")
+            check_metadata(payload)
+        elif unit_type == END:
+            check_end(payload, number)
+    if current:
+        parts.append(current.output(levels, groups))
+    positions, components, normals = [np.concatenate(arrays) for arrays in zip(*parts)]
+    if levels and levels < sequence.grid_bits and len(positions):
+        keep = np.append(True, (positions[1:] != positions[:-1]).any(axis=1))       # 8.9: the first one's
+        positions, components, normals = positions[keep], components[keep], normals[keep]
+    return sequence, positions, components, normals
+
+
+def main():
+    """8.2: decodes a file, with --levels and --groups."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command", choices=["decode"])
+    parser.add_argument("stream")
+    parser.add_argument("--dump", metavar="DIRECTORY")
+    parser.add_argument("--levels", type=int, default=0)
+    parser.add_argument("--groups", type=int, default=0)
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.stream, "rb") as file:
+            sequence, positions, components, normals = decode(file.read(), arguments.levels, arguments.groups)
+    except (Refused, OSError) as problem:
+        print("refused:", problem, file=sys.stderr)
+        return 1
+    if arguments.dump:
+        os.makedirs(arguments.dump, exist_ok=True)
+        np.save(os.path.join(arguments.dump, "positions.npy"), positions.astype("<i4"))
+        np.save(os.path.join(arguments.dump, "components.npy"), components.astype("<i4"))
+        if sequence.normal_bits:
+            np.save(os.path.join(arguments.dump, "octahedral.npy"), normals.astype("<u2"))
+    print("points", len(positions), "functions", sequence.functions)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
