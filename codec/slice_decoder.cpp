@@ -47,7 +47,7 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePla
   return octree.morton();
 }
 
-Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const SequencePlan& plan) {
+Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit() {
   std::vector<std::uint64_t> codes;
   const auto unit = std::find_if(units.begin(), units.end(),
                                  [](const SliceUnit& u) { return u.type == UnitType::kGeometry; });
@@ -56,7 +56,6 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const Sequenc
   if (unit->header.range != 0) return Error{Errc::kOutOfRange, "level_range", unit->offset * 8};
   SLF_TRY(const auto voxels, decode_draco(unit->payload, static_cast<int>(header.slice_depth),
                                           std::uint64_t{header.slice_num_points_minus1} + 1));
-  (void)plan;
   for (const Voxel& v : voxels) codes.push_back(morton(v));
   std::sort(codes.begin(), codes.end());
   if (std::adjacent_find(codes.begin(), codes.end()) != codes.end())
@@ -67,7 +66,7 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_draco_unit(const Sequenc
 Result<Done> SliceDecoder::decode_geometry(const SequencePlan& plan) {
   int depth = static_cast<int>(header.slice_depth);
   SLF_TRY(auto codes,
-          plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit(plan));
+          plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit());
   if (!partial && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
     return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
   keep(std::move(codes), depth, plan);

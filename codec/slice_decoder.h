@@ -60,7 +60,7 @@ struct SliceDecoder {
 
  private:
   Result<std::vector<std::uint64_t>> decode_octree(const SequencePlan& plan, int& depth);
-  Result<std::vector<std::uint64_t>> decode_draco_unit(const SequencePlan& plan);
+  Result<std::vector<std::uint64_t>> decode_draco_unit();
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 
   RahtTree tree_;                     // of the kept rows; empty where the geometry is incomplete

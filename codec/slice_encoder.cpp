@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"

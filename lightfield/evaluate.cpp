@@ -217,8 +217,7 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
   for (std::size_t k = 0; k < 3; ++k) quality.channel_psnr[k] = errors.channel_psnr(k);
   quality.observations = errors.count;
   if (settings.images) {
-    SLF_TRY([[maybe_unused]] const Done compared,
-            compare_images(maps, capture, cameras, surface, settings.threads, progress, quality));
+    SLF_CHECK(compare_images(maps, capture, cameras, surface, settings.threads, progress, quality));
   }
   return quality;
 }

@@ -20,6 +20,12 @@ inline std::vector<Voxel> sorted_distinct(std::vector<Voxel> voxels) {
   return voxels;
 }
 
+inline std::vector<std::uint64_t> codes(const std::vector<Voxel>& voxels) {
+  std::vector<std::uint64_t> morton_codes;
+  for (const Voxel& v : voxels) morton_codes.push_back(morton(v));
+  return morton_codes;
+}
+
 inline std::vector<Voxel> random_cloud(std::size_t count, int bits, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<Voxel> voxels;

@@ -7,11 +7,7 @@
 namespace slf {
 namespace {
 
-std::vector<std::uint64_t> codes(const std::vector<Voxel>& voxels) {
-  std::vector<std::uint64_t> morton_codes;
-  for (const Voxel& v : voxels) morton_codes.push_back(morton(v));
-  return morton_codes;
-}
+using test::codes;
 
 TEST(Spec_6_2_Morton, InterleavesWithXLeastSignificant) {
   EXPECT_EQ(morton({1, 0, 0}), 1u);

@@ -12,11 +12,7 @@
 namespace slf {
 namespace {
 
-std::vector<std::uint64_t> codes(const std::vector<Voxel>& voxels) {
-  std::vector<std::uint64_t> morton_codes;
-  for (const Voxel& v : voxels) morton_codes.push_back(morton(v));
-  return morton_codes;
-}
+using test::codes;
 
 TEST(Spec_8_6_1_Isqrt, IsTheFloorOfTheRoot) {
   for (const std::uint64_t n :
