@@ -57,7 +57,7 @@ Result<Done, InputError> print_row(const Job& job, Preset preset, int bits, doub
                                 encoded.seconds_fit + encoded.seconds_code;
   std::printf("%-8s %4g %9zu %7.2f %7.2f | %6.2f %6.2f %6.2f %6.2f | %7.3f %7.3f | %5.2f\n",
               preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(),
-              seen.point_psnr, unseen.point_psnr, encode_seconds, encoded.seconds_observe,
+              seen.points[0].psnr, unseen.points[0].psnr, encode_seconds, encoded.seconds_observe,
               encoded.seconds_fit, encoded.seconds_code, decode_seconds, render_seconds,
               peak_gib());
   std::fflush(stdout);

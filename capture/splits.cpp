@@ -1,5 +1,6 @@
 // Which cameras are input and which are held out.
 #include <algorithm>
+#include <charconv>
 
 #include "slf/capture.h"
 
@@ -11,6 +12,14 @@ constexpr int kHeldOutEvery = 4;  // the fourth, the eighth, ...
 
 bool held_out(int camera) { return camera % kHeldOutEvery == kHeldOutEvery - 1; }
 
+/// n of "1/n", 1 .. 9999; 0: another name.
+int thinning(const std::string& name) {
+  int n = 0;
+  if (!name.starts_with("1/") || name.size() > 6) return 0;
+  const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), n);
+  return error == std::errc() && end == name.data() + name.size() ? std::max(n, 0) : 0;
+}
+
 }  // namespace
 
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture,
@@ -18,22 +27,26 @@ Result<std::vector<int>, InputError> split_cameras(const Capture& capture,
   const bool by_default = name.empty() || name == "default";
   const auto named = capture.splits.find(by_default ? "dense" : name);
   if (named != capture.splits.end()) return named->second;
-  const bool rest = by_default, evaluation = name == "evaluation";
-  if (!rest && !evaluation && name != "all") {
-    std::string known = "all, default, evaluation";
+  const int every = by_default ? 1 : thinning(name);
+  const bool evaluation = name == "evaluation";
+  if (every == 0 && !evaluation && name != "all") {
+    std::string known = "all, default, evaluation, 1/n";
     for (const auto& [split, cameras] : capture.splits)
       if (split != "evaluation" && split != "all") known += ", " + split;
     return InputError{Errc::kInvalidArgument,
                       "split '" + name + "': the capture has no such split, only " + known};
   }
-  // Without `dense`, the input is all that `evaluation`, or every fourth, leaves.
+  // Without `dense`, the input is all that `evaluation`, or every fourth, leaves; or 1/n of it.
   const auto kept_out = capture.splits.find("evaluation");
   std::vector<int> cameras;
+  int left = 0;  // cameras that are not held out, so far
   for (int i = 0; i < static_cast<int>(capture.cameras.size()); ++i) {
     const bool out = kept_out == capture.splits.end()
                          ? held_out(i)
                          : std::count(kept_out->second.begin(), kept_out->second.end(), i) > 0;
-    if (name == "all" || out == evaluation) cameras.push_back(i);
+    const bool chosen = name == "all" || (evaluation ? out : !out && left % every == 0);
+    left += !out;
+    if (chosen) cameras.push_back(i);
   }
   return cameras;
 }

@@ -2,6 +2,7 @@
 #include "slf/evaluate.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,7 +10,9 @@
 #include "capture/nearest.h"
 #include "capture/spacing.h"
 #include "lightfield/colour.h"
+#include "lightfield/observe_camera.h"
 #include "lightfield/render_splats.h"
+#include "lightfield/ssim.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 #include "slf/render.h"
@@ -17,15 +20,29 @@
 namespace slf {
 namespace {
 
-/// Squared errors of 8-bit values per channel, and how many values each channel has.
+/// Luma of R, G, B. ITU-R BT.709.
+template <class T>
+double luma(const T& rgb) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/// Squared errors of 8-bit values per channel and of luma, and how many values each has.
 struct ErrorSum {
   std::array<double, 3> squares{};
+  double luma_squares = 0;
   std::uint64_t count = 0;
 
-  void add(const ErrorSum& other) {
+  void add(const std::array<double, 3>& error) {
+    for (std::size_t k = 0; k < 3; ++k) squares[k] += error[k] * error[k];
+    luma_squares += luma(error) * luma(error);
+    ++count;
+  }
+  void add_all(const ErrorSum& other) {
     for (std::size_t k = 0; k < 3; ++k) squares[k] += other.squares[k];
+    luma_squares += other.luma_squares;
     count += other.count;
   }
+  double luma_psnr() const { return psnr(luma_squares, count); }
   double channel_psnr(std::size_t k) const { return psnr(squares[k], count); }
   double psnr() const { return psnr(squares[0] + squares[1] + squares[2], 3 * count); }
 
@@ -80,26 +97,37 @@ double to_display(float value, Transfer transfer) {
   return std::floor(display + 0.5);
 }
 
-ErrorSum point_errors(const ViewMaps& maps, const Observations& seen, int threads) {
+/// One sum per δ′. `seen` holds the views of the smallest; the cone is the observer's own.
+std::vector<ErrorSum> point_errors(const ViewMaps& maps, const Capture& capture,
+                                   const ObservedPoints& points, const Observations& seen,
+                                   const std::vector<double>& deltas, int threads) {
   constexpr std::size_t kGrain = 1024;
-  std::vector<ErrorSum> parts((maps.num_points() + kGrain - 1) / kGrain);
+  std::vector<Vec3> centres;
+  for (const Camera& camera : capture.cameras) centres.push_back(camera.centre());
+  std::vector<double> least;
+  for (const double delta : deltas) least.push_back(least_cosine(delta));
+  std::vector<std::vector<ErrorSum>> parts((maps.num_points() + kGrain - 1) / kGrain,
+                                           std::vector<ErrorSum>(deltas.size()));
   parallel_ranges(maps.num_points(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-    ErrorSum& part = parts[begin / kGrain];
+    std::vector<ErrorSum>& part = parts[begin / kGrain];
     for (std::size_t p = begin; p < end; ++p)
       for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i) {
         const auto [theta, gamma] = seen.direction[i];
         const auto radiance = maps.radiance(p, theta, gamma);
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double error = to_display(radiance[k], maps.header().transfer) -
-                               to_display(seen.colour[i][k], Transfer::kDisplay);
-          part.squares[k] += error * error;
-        }
-        ++part.count;
+        std::array<double, 3> error{};
+        for (std::size_t k = 0; k < 3; ++k)
+          error[k] = to_display(radiance[k], maps.header().transfer) -
+                     to_display(seen.colour[i][k], Transfer::kDisplay);
+        const double cosine =
+            view_cosine(points.positions[p], points.normals[p], centres[seen.camera[i]]);
+        for (std::size_t d = 0; d < deltas.size(); ++d)
+          if (cosine >= least[d]) part[d].add(error);
       }
   });
-  ErrorSum sum;
-  for (const ErrorSum& part : parts) sum.add(part);
-  return sum;
+  std::vector<ErrorSum> sums(deltas.size());
+  for (const auto& part : parts)
+    for (std::size_t d = 0; d < deltas.size(); ++d) sums[d].add_all(part[d]);
+  return sums;
 }
 
 /// Where a photograph shows the object, 0 or 1 per pixel: its alpha, else where the capture's own
@@ -128,24 +156,49 @@ std::vector<std::uint8_t> object_mask(const Image& photograph, const Camera& cam
 
 struct ImageErrors {
   ErrorSum errors;
+  SsimSum ssim;
   std::uint64_t object_pixels = 0;
+  double seconds = 0;  ///< of the rendering
 };
 
+/// @param mask  where the photograph shows the object; on return where both do
 ImageErrors compare(const Image& photograph, const Rendering& rendering,
-                    const std::vector<std::uint8_t>& mask) {
+                    std::vector<std::uint8_t>& mask) {
   ImageErrors result;
   const auto channels = static_cast<std::size_t>(photograph.channels);
+  std::vector<float> photograph_luma(mask.size()), rendering_luma(mask.size());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (!mask[i]) continue;
     ++result.object_pixels;
-    if (rendering.coverage[i] < 128) continue;
-    ++result.errors.count;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int error = rendering.image.data[3 * i + k] - photograph.data[channels * i + k];
-      result.errors.squares[k] += error * error;
-    }
+    mask[i] = rendering.coverage[i] >= 128;
+    if (!mask[i]) continue;
+    const std::uint8_t *is = &rendering.image.data[3 * i], *was = &photograph.data[channels * i];
+    result.errors.add({double(is[0]) - was[0], double(is[1]) - was[1], double(is[2]) - was[2]});
+    rendering_luma[i] = static_cast<float>(luma(is));
+    photograph_luma[i] = static_cast<float>(luma(was));
   }
+  result.ssim = ssim(photograph_luma, rendering_luma, mask, photograph.width, photograph.height);
   return result;
+}
+
+/// `camera`'s photograph against what the renderer draws.
+Result<ImageErrors, InputError> compare_image(const Renderer& renderer, const Capture& capture,
+                                              int camera_index, const Surface& surface) {
+  SLF_TRY(const Image photograph, load_image(capture, camera_index));
+  const Camera& camera = capture.cameras[std::size_t(camera_index)];
+  const auto start = std::chrono::steady_clock::now();
+  const Rendering rendering = renderer.render(camera);
+  const auto end = std::chrono::steady_clock::now();
+  auto mask = object_mask(photograph, camera, capture.cloud, surface);
+  ImageErrors errors = compare(photograph, rendering, mask);
+  errors.seconds = std::chrono::duration<double>(end - start).count();
+  return errors;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 /// Renders every camera and compares; one camera per thread.
@@ -161,29 +214,34 @@ Result<Done, InputError> compare_images(const ViewMaps& maps, const Capture& cap
       cameras.size(), 1, threads,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          const auto photograph = load_image(capture, cameras[i]);
-          if (!photograph) {
-            failures[i] = photograph.error();
-            continue;
+          auto errors = compare_image(renderer, capture, cameras[i], surface);
+          if (errors) {
+            each[i] = std::move(*errors);
+          } else {
+            failures[i] = errors.error();
           }
-          const Camera& camera = capture.cameras[std::size_t(cameras[i])];
-          each[i] = compare(*photograph, renderer.render(camera),
-                            object_mask(*photograph, camera, capture.cloud, surface));
         }
       },
       [&](std::size_t done) {
         if (progress) progress("images", double(done) / double(cameras.size()));
       });
   ErrorSum pooled;
+  SsimSum similar;
   std::uint64_t object_pixels = 0;
+  std::vector<double> seconds;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (failures[i]) return *failures[i];
-    pooled.add(each[i].errors);
+    pooled.add_all(each[i].errors);
+    similar.sum += each[i].ssim.sum;
+    similar.count += each[i].ssim.count;
     object_pixels += each[i].object_pixels;
-    quality.image_psnr_each.push_back(each[i].errors.psnr());
+    seconds.push_back(each[i].seconds);
+    quality.image.psnr_each.push_back(each[i].errors.psnr());
   }
-  quality.image_psnr = pooled.psnr();
-  quality.coverage = object_pixels > 0 ? double(pooled.count) / double(object_pixels) : 0;
+  quality.image.psnr = pooled.psnr();
+  quality.image.ssim = similar.sum / double(std::max<std::uint64_t>(similar.count, 1));
+  quality.image.coverage = object_pixels > 0 ? double(pooled.count) / double(object_pixels) : 0;
+  quality.render_seconds = median(std::move(seconds));
   return Done{};
 }
 
@@ -196,6 +254,9 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
   if (cameras.empty()) return invalid("evaluation needs at least one camera");
   if (capture.cloud.positions.empty()) return invalid("evaluation needs the capture's points");
   if (maps.num_points() == 0) return invalid("the light field has no points");
+  if (settings.deltas_degrees.empty()) return invalid("evaluation needs at least one delta");
+  for (const double delta : settings.deltas_degrees)
+    if (!(delta >= 0 && delta <= 90)) return invalid("delta must be 0 .. 90 degrees");
   for (const int camera : cameras)
     if (camera < 0 || std::size_t(camera) >= capture.cameras.size())
       return invalid("camera index beyond the capture's cameras");
@@ -203,19 +264,26 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
   const NearestPoints tree(capture.cloud.positions);
   Surface surface = capture_surface(capture, settings.threads);
   if (!(surface.spacing > 0)) surface.spacing = maps.header().grid.step;  // a single point
+  const ObservedPoints points = decoded_points(maps, surface, tree, settings.threads);
   ObserveSettings observing;
-  observing.delta_degrees = settings.delta_degrees;
+  observing.delta_degrees =
+      *std::min_element(settings.deltas_degrees.begin(), settings.deltas_degrees.end());
   observing.depth_tolerance = settings.depth_tolerance;
   observing.threads = settings.threads;
-  SLF_TRY(const Observations seen,
-          observe(capture, cameras, decoded_points(maps, surface, tree, settings.threads),
-                  capture.cloud.positions, surface.spacing, observing, progress));
+  SLF_TRY(const Observations seen, observe(capture, cameras, points, capture.cloud.positions,
+                                           surface.spacing, observing, progress));
 
   Quality quality;
-  const ErrorSum errors = point_errors(maps, seen, settings.threads);
-  quality.point_psnr = errors.psnr();
-  for (std::size_t k = 0; k < 3; ++k) quality.channel_psnr[k] = errors.channel_psnr(k);
-  quality.observations = errors.count;
+  const auto errors =
+      point_errors(maps, capture, points, seen, settings.deltas_degrees, settings.threads);
+  for (std::size_t d = 0; d < errors.size(); ++d) {
+    const ErrorSum& e = errors[d];
+    quality.points.push_back({settings.deltas_degrees[d],
+                              e.psnr(),
+                              e.luma_psnr(),
+                              {e.channel_psnr(0), e.channel_psnr(1), e.channel_psnr(2)},
+                              e.count});
+  }
   if (settings.images) {
     SLF_CHECK(compare_images(maps, capture, cameras, surface, settings.threads, progress, quality));
   }

@@ -35,6 +35,21 @@ Between between(double x, int size) {
 
 }  // namespace
 
+double least_cosine(double delta_degrees) {
+  return std::sin(delta_degrees * std::numbers::pi / 180);
+}
+
+double view_cosine(const std::array<float, 3>& position, const std::array<float, 3>& normal,
+                   const Vec3& centre) {
+  double along_normal = 0, squared = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double to_camera = centre[a] - static_cast<double>(position[a]);
+    along_normal += to_camera * static_cast<double>(normal[a]);
+    squared += to_camera * to_camera;
+  }
+  return along_normal / std::sqrt(squared);
+}
+
 bool sample_bilinear(const Image& image, double u, double v, const std::array<float, 256>& transfer,
                      std::array<float, 3>& colour) {
   const Between x = between(u - 0.5, image.width), y = between(v - 0.5, image.height);
@@ -63,7 +78,7 @@ CameraObserver::CameraObserver(const ObservedPoints& points,
     : points_(points),
       occluders_(occluders),
       depth_{settings.occlusion_resolution, spacing, settings.depth_tolerance},
-      min_cosine_(std::sin(settings.delta_degrees * std::numbers::pi / 180)),
+      min_cosine_(least_cosine(settings.delta_degrees)),
       transfer_(transfer_table(settings.transfer)) {}
 
 CameraSightings CameraObserver::observe(const Camera& camera, const Image& image) const {
@@ -73,14 +88,7 @@ CameraSightings CameraObserver::observe(const Camera& camera, const Image& image
   for (std::size_t p = 0; p < points_.positions.size(); ++p) {
     const auto& position = points_.positions[p];
     const auto& normal = points_.normals[p];
-    Vec3 to_camera{};
-    double along_normal = 0, squared = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      to_camera[a] = centre[a] - static_cast<double>(position[a]);
-      along_normal += to_camera[a] * static_cast<double>(normal[a]);
-      squared += to_camera[a] * to_camera[a];
-    }
-    const double cosine = along_normal / std::sqrt(squared);
+    const double cosine = view_cosine(position, normal, centre);
     if (!(cosine >= min_cosine_)) continue;  // also a point at the camera's centre, and NaN
     ++seen.counts.facing;
     double depth = 0;
@@ -93,7 +101,9 @@ CameraSightings CameraObserver::observe(const Camera& camera, const Image& image
     ++seen.counts.visible;
     Sighting sighting{static_cast<std::uint32_t>(p), {}, {}};
     if (!sample_bilinear(image, (*at)[0], (*at)[1], transfer_, sighting.colour)) continue;
-    sighting.direction = direction_of(to_camera);
+    sighting.direction =
+        direction_of({centre[0] - double(position[0]), centre[1] - double(position[1]),
+                      centre[2] - double(position[2])});
     seen.sightings.push_back(sighting);
   }
   return seen;

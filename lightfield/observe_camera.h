@@ -48,9 +48,16 @@ class CameraObserver {
   const ObservedPoints& points_;
   std::span<const std::array<float, 3>> occluders_;
   DepthSettings depth_;
-  double min_cosine_;                // sin(delta)
+  double min_cosine_;
   std::array<float, 256> transfer_;  // 8-bit sample to 0 .. 255 of the chosen transfer
 };
+
+/// sin(delta): the least cosine between normal and view for the view to be valid.
+double least_cosine(double delta_degrees);
+
+/// Cosine between the normal (unit) and the direction to a camera's centre; NaN at the centre.
+double view_cosine(const std::array<float, 3>& position, const std::array<float, 3>& normal,
+                   const Vec3& centre);
 
 /// Bilinear interpolation at image point (u, v), pixel centres at + 0.5, edges repeated; false
 /// where a pixel that contributes is masked (alpha 0).

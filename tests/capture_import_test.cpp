@@ -164,6 +164,18 @@ TEST(Splits, WithoutNamesEveryFourthIsHeldOut) {
   EXPECT_THAT(*split_cameras(capture, ""), ElementsAre(2, 3, 4, 5, 6, 7, 8));
 }
 
+TEST(Splits, OneOfNIsEveryNthOfWhatIsNotHeldOut) {
+  Capture capture;
+  capture.cameras.resize(9);
+  EXPECT_THAT(*split_cameras(capture, "1/1"), ElementsAre(0, 1, 2, 4, 5, 6, 8));
+  EXPECT_THAT(*split_cameras(capture, "1/3"), ElementsAre(0, 4, 8));
+  capture.splits["evaluation"] = {0, 1};
+  capture.splits["dense"] = {2};
+  EXPECT_THAT(*split_cameras(capture, "1/2"), ElementsAre(2, 4, 6, 8));
+  for (const char* wrong : {"1/0", "1/", "1/-2", "1/2x", "2/3", "1/99999"})
+    EXPECT_FALSE(split_cameras(capture, wrong)) << wrong;
+}
+
 TEST(Transforms, FrameValuesOverrideThoseOfTheDocument) {
   const auto capture = load_with([](const fs::path& p) {
     write_transforms(p, replaced(kTransformsJson, "\"file_path\": \"images/b.png\"",

@@ -167,10 +167,17 @@ TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   EXPECT_TRUE(exists("dump/octahedral.npy"));
 
   const auto quality = parsed(slf("eval a.slf tiny --json").out);
-  // Measured: 19.5 and 17.2 dB; half a voxel is two texels of the label.
-  EXPECT_GT(quality["input"]["point_psnr"], 19);
-  EXPECT_GT(quality["held_out"]["point_psnr"], 16.7);
-  EXPECT_GT(quality["held_out"]["coverage"], 0.8);
+  // Measured: 19.5 and 17.2 dB, SSIM 0.325; half a voxel is two texels of the label.
+  EXPECT_GT(quality["input"]["points"][0]["psnr"], 19);
+  EXPECT_GT(quality["held_out"]["points"][0]["psnr"], 16.7);
+  EXPECT_GT(quality["held_out"]["image"]["coverage"], 0.8);
+  EXPECT_GT(quality["held_out"]["image"]["ssim"], 0.3);
+  EXPECT_EQ(quality["settings"], report["settings"]);
+  EXPECT_EQ(quality["bytes_by_type"], report["bytes_by_type"]);
+  const auto wider = parsed(slf("eval a.slf tiny --json --no-images --delta-eval 0,10,30").out);
+  ASSERT_EQ(wider["held_out"]["points"].size(), 3u);
+  EXPECT_EQ(wider["held_out"]["points"][1], quality["held_out"]["points"][0]);
+  EXPECT_TRUE(wider["held_out"]["image"].is_null());
   expect_failure(slf("eval a.slf tiny --no-images --min-psnr 200 >/dev/null"), 8, "a.slf",
                  "below 200 dB");
   EXPECT_EQ(slf("eval a.slf tiny --no-images --min-psnr 10").code, 0);

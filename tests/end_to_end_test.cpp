@@ -45,7 +45,7 @@ class EndToEnd : public testing::Test {
     const ViewMaps maps(*field);
     EvaluateSettings settings;
     settings.images = false;
-    return evaluate(maps, capture_, *split_cameras(capture_, split), settings)->point_psnr;
+    return evaluate(maps, capture_, *split_cameras(capture_, split), settings)->points[0].psnr;
   }
 
   static inline std::filesystem::path root_;
@@ -98,7 +98,7 @@ TEST_F(EndToEnd, MoreBytesOfAFileAreNeverWorse) {
     EvaluateSettings settings;
     settings.images = false;
     const double now =
-        evaluate(maps, capture_, *split_cameras(capture_, "dense"), settings)->point_psnr;
+        evaluate(maps, capture_, *split_cameras(capture_, "dense"), settings)->points[0].psnr;
     EXPECT_GT(now, last) << groups << " groups";
     last = now;
   }

@@ -61,17 +61,21 @@ TEST_F(EvaluateTest, BothPsnrsAreThoseOfAKnownDifference) {
   const std::vector<int> cameras{0, 1};
   const auto quality = evaluate(maps, capture_, cameras, {});
   ASSERT_TRUE(quality) << quality.error().message;
-  EXPECT_EQ(quality->observations, 2u * 32 * 32);
+  EXPECT_EQ(quality->points[0].observations, 2u * 32 * 32);
+  // Luma of the errors (3, 0, -4) and (0, -2, 0).
+  const double first = 0.2126 * 3 - 0.0722 * 4, second = 0.7152 * 2;
+  EXPECT_NEAR(quality->points[0].luma_psnr,
+              10 * std::log10(255.0 * 255 * 2 / (first * first + second * second)), 1e-9);
   // Errors 3, 0, 4 and 0, 2, 0: mean square over two cameras and three channels 29 / 6.
-  EXPECT_NEAR(quality->point_psnr, 10 * std::log10(255.0 * 255 * 6 / 29), 1e-9);
-  EXPECT_NEAR(quality->channel_psnr[0], 10 * std::log10(255.0 * 255 * 2 / 9), 1e-9);
-  EXPECT_NEAR(quality->channel_psnr[1], 10 * std::log10(255.0 * 255 * 2 / 4), 1e-9);
-  EXPECT_NEAR(quality->channel_psnr[2], 10 * std::log10(255.0 * 255 * 2 / 16), 1e-9);
+  EXPECT_NEAR(quality->points[0].psnr, 10 * std::log10(255.0 * 255 * 6 / 29), 1e-9);
+  EXPECT_NEAR(quality->points[0].channel_psnr[0], 10 * std::log10(255.0 * 255 * 2 / 9), 1e-9);
+  EXPECT_NEAR(quality->points[0].channel_psnr[1], 10 * std::log10(255.0 * 255 * 2 / 4), 1e-9);
+  EXPECT_NEAR(quality->points[0].channel_psnr[2], 10 * std::log10(255.0 * 255 * 2 / 16), 1e-9);
   // The plate covers the image, so the pictures differ by the same everywhere.
-  EXPECT_NEAR(quality->image_psnr, quality->point_psnr, 0.3);
-  ASSERT_EQ(quality->image_psnr_each.size(), 2u);
-  EXPECT_NEAR(quality->image_psnr_each[0], 10 * std::log10(255.0 * 255 * 3 / 25), 0.3);
-  EXPECT_GT(quality->coverage, 0.99);
+  EXPECT_NEAR(quality->image.psnr, quality->points[0].psnr, 0.3);
+  ASSERT_EQ(quality->image.psnr_each.size(), 2u);
+  EXPECT_NEAR(quality->image.psnr_each[0], 10 * std::log10(255.0 * 255 * 3 / 25), 0.3);
+  EXPECT_GT(quality->image.coverage, 0.99);
 }
 
 TEST_F(EvaluateTest, RadianceIsClampedAndRoundedBeforeItIsCompared) {
@@ -88,10 +92,36 @@ TEST_F(EvaluateTest, RadianceIsClampedAndRoundedBeforeItIsCompared) {
   settings.images = false;
   const auto quality = evaluate(maps, capture_, cameras, settings);
   ASSERT_TRUE(quality) << quality.error().message;
-  EXPECT_NEAR(quality->channel_psnr[0], 20 * std::log10(255.0), 1e-9);
-  EXPECT_TRUE(std::isinf(quality->channel_psnr[1]));
-  EXPECT_TRUE(std::isinf(quality->channel_psnr[2]));
-  EXPECT_TRUE(quality->image_psnr_each.empty());
+  EXPECT_NEAR(quality->points[0].channel_psnr[0], 20 * std::log10(255.0), 1e-9);
+  EXPECT_TRUE(std::isinf(quality->points[0].channel_psnr[1]));
+  EXPECT_TRUE(std::isinf(quality->points[0].channel_psnr[2]));
+  EXPECT_TRUE(quality->image.psnr_each.empty());
+}
+
+TEST_F(EvaluateTest, EachDeltaCountsTheViewsThatOneMeasuredAloneWould) {
+  // Seen from near, the points of the plate fall into cones of all widths.
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{100, 0, 0}, {0, 90, 250}}, 5));
+  add_photograph({90, 20, 100});
+  capture_.cameras[0] = frontal_camera(15.5, 15.5, 10, kSize, 1.0);
+  const std::vector<int> cameras{0};
+  EvaluateSettings settings;
+  settings.images = false;
+  settings.deltas_degrees = {30, 0, 45};
+  const auto together = evaluate(maps, capture_, cameras, settings);
+  ASSERT_TRUE(together) << together.error().message;
+  ASSERT_EQ(together->points.size(), 3u);
+  for (std::size_t d = 0; d < 3; ++d) {
+    EvaluateSettings alone = settings;
+    alone.deltas_degrees = {settings.deltas_degrees[d]};
+    const auto quality = evaluate(maps, capture_, cameras, alone);
+    ASSERT_TRUE(quality) << quality.error().message;
+    EXPECT_EQ(together->points[d].delta_degrees, settings.deltas_degrees[d]);
+    EXPECT_EQ(together->points[d].observations, quality->points[0].observations);
+    EXPECT_EQ(together->points[d].psnr, quality->points[0].psnr);
+    EXPECT_EQ(together->points[d].luma_psnr, quality->points[0].luma_psnr);
+  }
+  EXPECT_LT(together->points[2].observations, together->points[0].observations);
+  EXPECT_LT(together->points[0].observations, together->points[1].observations);
 }
 
 TEST_F(EvaluateTest, CoverageIsTheShareOfTheObjectThatIsDrawn) {
@@ -104,7 +134,7 @@ TEST_F(EvaluateTest, CoverageIsTheShareOfTheObjectThatIsDrawn) {
   const std::vector<int> cameras{0};
   const auto quality = evaluate(maps, capture_, cameras, {});
   ASSERT_TRUE(quality) << quality.error().message;
-  EXPECT_NEAR(quality->coverage, 0.5, 0.05);
+  EXPECT_NEAR(quality->image.coverage, 0.5, 0.05);
 }
 
 TEST_F(EvaluateTest, AlphaOfAPhotographIsItsMask) {
@@ -113,9 +143,10 @@ TEST_F(EvaluateTest, AlphaOfAPhotographIsItsMask) {
   const std::vector<int> cameras{0};
   const auto quality = evaluate(maps, capture_, cameras, {});
   ASSERT_TRUE(quality) << quality.error().message;
-  EXPECT_NEAR(double(quality->observations), 32 * 16, 33);  // one column at the mask's edge
-  EXPECT_NEAR(quality->image_psnr, 20 * std::log10(25.5), 0.2);
-  EXPECT_GT(quality->coverage, 0.99);
+  EXPECT_NEAR(double(quality->points[0].observations), 32 * 16,
+              33);  // one column at the mask's edge
+  EXPECT_NEAR(quality->image.psnr, 20 * std::log10(25.5), 0.2);
+  EXPECT_GT(quality->image.coverage, 0.99);
 }
 
 TEST_F(EvaluateTest, TheSameForAnyThreadCount) {
@@ -131,10 +162,10 @@ TEST_F(EvaluateTest, TheSameForAnyThreadCount) {
     qualities.push_back(*quality);
   }
   for (const Quality& other : qualities) {
-    EXPECT_EQ(other.point_psnr, qualities[0].point_psnr);
-    EXPECT_EQ(other.image_psnr, qualities[0].image_psnr);
-    EXPECT_EQ(other.image_psnr_each, qualities[0].image_psnr_each);
-    EXPECT_EQ(other.coverage, qualities[0].coverage);
+    EXPECT_EQ(other.points[0].psnr, qualities[0].points[0].psnr);
+    EXPECT_EQ(other.image.psnr, qualities[0].image.psnr);
+    EXPECT_EQ(other.image.psnr_each, qualities[0].image.psnr_each);
+    EXPECT_EQ(other.image.coverage, qualities[0].image.coverage);
   }
 }
 
@@ -146,6 +177,11 @@ TEST_F(EvaluateTest, WhatCannotBeEvaluatedIsRefused) {
   EXPECT_FALSE(evaluate(maps, capture_, beyond, {}));
   const ViewMaps none(constant_light_field({}, {{0, 0, 0}}, 5));
   EXPECT_FALSE(evaluate(none, capture_, first, {}));
+  EvaluateSettings settings;
+  for (const std::vector<double>& deltas : {std::vector<double>{}, {-1}, {10, 91}}) {
+    settings.deltas_degrees = deltas;
+    EXPECT_FALSE(evaluate(maps, capture_, first, settings));
+  }
   fs::remove(capture_.image_files[0]);
   EXPECT_FALSE(evaluate(maps, capture_, first, {}));
   capture_.cloud = {};

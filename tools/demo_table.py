@@ -14,8 +14,9 @@ def load(name):
 
 
 def quality(name, q):
-    row(name + " point PSNR", "%.2f dB (%d cameras)" % (q["point_psnr"], q["cameras"]))
-    row(name + " image PSNR", "%.2f dB, coverage %.1f %%" % (q["image_psnr"], 100 * q["coverage"]))
+    row(name + " point PSNR", "%.2f dB (%d cameras)" % (q["points"][0]["psnr"], q["cameras"]))
+    row(name + " image PSNR", "%.2f dB, SSIM %.3f, coverage %.1f %%" % (
+        q["image"]["psnr"], q["image"]["ssim"], 100 * q["image"]["coverage"]))
 
 
 def row(name, value):

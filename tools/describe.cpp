@@ -102,6 +102,15 @@ nlohmann::ordered_json metadata_json(const Metadata& metadata) {
   return list;
 }
 
+nlohmann::ordered_json settings_json(const StreamInfo& info) {
+  nlohmann::ordered_json json = {{"grid_bits", info.header.grid.bits},
+                                 {"geometry_coder", info.geometry_coder},
+                                 {"coefficient_coder", info.coefficient_coder},
+                                 {"colour", name_of(info.header.colour)}};
+  for (const auto& [key, value] : info.metadata) json[key] = value;
+  return json;
+}
+
 nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const TypeTotal& total : totals(info)) json[total.type] = total.bytes;

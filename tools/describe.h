@@ -15,6 +15,9 @@ std::string header_text(const LightFieldHeader& header);
 /// A list, since keys may repeat: [{"key": ..., "value": ...}].
 nlohmann::ordered_json metadata_json(const Metadata& metadata);
 
+/// How a file was made: its headers' and its metadata's settings in one object.
+nlohmann::ordered_json settings_json(const StreamInfo& info);
+
 /// Bytes of the whole file by unit type; "signature" is what no unit holds.
 nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info);
 std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes);

@@ -22,12 +22,14 @@ std::string last_name(const std::string& path) {
                                  : full.filename().string();
 }
 
-nlohmann::ordered_json report_json(const Encoded& e, std::size_t cameras, double load) {
+nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std::size_t cameras,
+                                   double load) {
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["points"] = e.points;
   json["merged"] = e.merged;
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
+  json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
@@ -39,6 +41,7 @@ nlohmann::ordered_json report_json(const Encoded& e, std::size_t cameras, double
       {"code", e.seconds_code},
       {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_fit + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
+  json["settings"] = settings_json(info);
   return json;
 }
 
@@ -102,7 +105,10 @@ Outcome run_encode(const EncodeOptions& given) {
   line.clear();
   warn(encoded.warnings, given.common.quiet);
   SLF_CHECK(save(given.output, encoded.stream.data(), encoded.stream.size()));
-  if (given.common.json) return print(report_json(encoded, cameras.size(), load));
+  if (given.common.json) {
+    SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
+    return print(report_json(encoded, info, cameras.size(), load));
+  }
   if (!given.common.quiet) std::fputs(report_text(encoded, cameras.size(), load).c_str(), stderr);
   return Done{};
 }

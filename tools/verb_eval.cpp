@@ -29,76 +29,126 @@ struct Measured {
   Quality quality;
 };
 
-std::string metadata_value(const StreamInfo& info, const std::string& key) {
-  for (const auto& [name, value] : info.metadata)
+/// What is judged: a decoded file and what is said about it.
+struct Subject {
+  LightField field;
+  std::uint64_t bytes = 0;
+  Metadata metadata;
+  nlohmann::ordered_json bytes_by_type, settings, decode_seconds;
+  std::string bytes_text;
+};
+
+std::string metadata_value(const Metadata& metadata, const std::string& key) {
+  for (const auto& [name, value] : metadata)
     if (name == key) return value;
   return {};
 }
 
 nlohmann::ordered_json quality_json(const Measured& m, bool images) {
-  nlohmann::ordered_json json = {{"cameras", m.cameras},
-                                 {"point_psnr", m.quality.point_psnr},
-                                 {"channel_psnr", m.quality.channel_psnr},
-                                 {"observations", m.quality.observations}};
-  if (!images) return json;
-  json["image_psnr"] = m.quality.image_psnr;
-  json["coverage"] = m.quality.coverage;
-  json["image_psnr_each"] = m.quality.image_psnr_each;
+  nlohmann::ordered_json json = {{"cameras", m.cameras}};
+  for (const PointQuality& p : m.quality.points)
+    json["points"].push_back({{"delta", p.delta_degrees},
+                              {"psnr", p.psnr},
+                              {"luma_psnr", p.luma_psnr},
+                              {"channel_psnr", p.channel_psnr},
+                              {"observations", p.observations}});
+  json["image"] = nullptr;
+  if (images)
+    json["image"] = {{"psnr", m.quality.image.psnr},
+                     {"ssim", m.quality.image.ssim},
+                     {"coverage", m.quality.image.coverage},
+                     {"psnr_each", m.quality.image.psnr_each}};
   return json;
 }
 
 std::string quality_text(const Measured& m, bool images) {
-  std::string out = text("  %-9s %4zu cameras   point PSNR %6.2f dB (R %.2f, G %.2f, B %.2f)",
-                         m.name.c_str(), m.cameras, m.quality.point_psnr, m.quality.channel_psnr[0],
-                         m.quality.channel_psnr[1], m.quality.channel_psnr[2]);
+  std::string out = text("%s, %zu cameras\n", m.name.c_str(), m.cameras);
+  for (const PointQuality& p : m.quality.points)
+    out +=
+        text("  points, delta %-4g %6.2f dB   luma %.2f, R %.2f, G %.2f, B %.2f\n", p.delta_degrees,
+             p.psnr, p.luma_psnr, p.channel_psnr[0], p.channel_psnr[1], p.channel_psnr[2]);
   if (images)
-    out += text("   image PSNR %6.2f dB, coverage %.2f %%", m.quality.image_psnr,
-                100 * m.quality.coverage);
-  return out + "\n";
+    out += text("  images             %6.2f dB   SSIM %.4f, coverage %.2f %%\n",
+                m.quality.image.psnr, m.quality.image.ssim, 100 * m.quality.image.coverage);
+  return out;
 }
 
-Outcome report(const EvalOptions& given, const StreamInfo& info, std::uint64_t bytes,
-               const std::vector<Measured>& measured, double seconds) {
+nlohmann::ordered_json report_json(const EvalOptions& given, const Subject& subject,
+                                   const std::vector<Measured>& measured, double seconds) {
   const bool images = given.settings.images;
-  if (given.common.json) {
-    nlohmann::ordered_json json;
-    json["bytes"] = bytes;
-    json["points"] = info.num_points;
-    json["bits_per_point"] = bits_per_point(bytes, info.num_points);
-    json["bytes_by_type"] = bytes_by_type_json(info);
-    json["delta"] = given.settings.delta_degrees;
-    json["input"] = quality_json(measured[0], images);
-    if (measured.size() > 1) json["held_out"] = quality_json(measured[1], images);
-    json["seconds"] = seconds;
-    return print(json);
-  }
-  std::string out = text(
-      "%s: %s bytes, %s points, %.2f bits per point\n\nquality, delta %g degrees\n",
-      input_name(given.input).c_str(), grouped(bytes).c_str(), grouped(info.num_points).c_str(),
-      bits_per_point(bytes, info.num_points), given.settings.delta_degrees);
-  for (const Measured& m : measured) out += quality_text(m, images);
-  return print(out + "\n" + bytes_by_type_text(info, bytes));
+  nlohmann::ordered_json json;
+  json["bytes"] = subject.bytes;
+  json["points"] = subject.field.num_points();
+  json["bits_per_point"] = bits_per_point(subject.bytes, subject.field.num_points());
+  json["bytes_by_type"] = subject.bytes_by_type;
+  json["settings"] = subject.settings;
+  json["decode"] = subject.decode_seconds;
+  json["render"] = nullptr;
+  if (images) json["render"] = {{"seconds_per_image", measured[0].quality.render_seconds}};
+  for (const Measured& m : measured)
+    json[m.name == "input" ? "input" : "held_out"] = quality_json(m, images);
+  json["seconds"] = seconds;
+  return json;
+}
+
+Outcome report(const EvalOptions& given, const Subject& subject,
+               const std::vector<Measured>& measured, double seconds) {
+  if (given.common.json) return print(report_json(given, subject, measured, seconds));
+  const std::size_t points = subject.field.num_points();
+  std::string out = text("%s: %s bytes, %s points, %.2f bits per point\n\n",
+                         input_name(given.input).c_str(), grouped(subject.bytes).c_str(),
+                         grouped(points).c_str(), bits_per_point(subject.bytes, points));
+  for (const Measured& m : measured) out += quality_text(m, given.settings.images);
+  return print(out + "\n" + subject.bytes_text);
 }
 
 /// The floor of --min-psnr, on the held-out cameras, else on the input.
 Outcome check_floor(const EvalOptions& given, const std::vector<Measured>& measured) {
   if (!given.min_psnr) return Done{};
   const Measured& judged = measured.back();
-  if (judged.quality.point_psnr >= *given.min_psnr) return Done{};
+  if (judged.quality.points[0].psnr >= *given.min_psnr) return Done{};
   return Failure{kQualityFailed,
                  text("%s: point PSNR %.2f dB (%s) is below %g dB", input_name(given.input).c_str(),
-                      judged.quality.point_psnr, judged.name.c_str(), *given.min_psnr)};
+                      judged.quality.points[0].psnr, judged.name.c_str(), *given.min_psnr)};
 }
 
-Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const StreamInfo& info,
-                                               const LightField& field) {
+Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
-  SLF_TRY(const Capture capture, from(given.capture, load_capture(given.capture, options)));
+  SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
   warn(capture.warnings, given.common.quiet);
   if (capture.cameras.empty())
     return Failure{kInputInvalid, given.capture + ": has no cameras to compare with"};
-  const std::string split = given.split_given ? given.split : metadata_value(info, "split");
+  return capture;
+}
+
+Result<Subject, Failure> decode_slf(const EvalOptions& given,
+                                    std::span<const std::uint8_t> stream) {
+  const std::string name = input_name(given.input);
+  SLF_TRY(StreamInfo info, from(name, read_info(stream)));
+  DecodeSeconds seconds;
+  DecodeOptions options;
+  options.threads = given.common.threads;
+  options.seconds = &seconds;
+  Stopwatch watch;
+  SLF_TRY(LightField field, from(name, decode(stream, options)));
+  const nlohmann::ordered_json decode_seconds = {{"threads", given.common.threads},
+                                                 {"geometry", seconds.geometry},
+                                                 {"coefficients", seconds.coefficients},
+                                                 {"total", watch.lap()}};
+  return Subject{std::move(field),
+                 stream.size(),
+                 info.metadata,
+                 bytes_by_type_json(info),
+                 settings_json(info),
+                 decode_seconds,
+                 bytes_by_type_text(info, stream.size())};
+}
+
+Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
+                                               const Subject& subject) {
+  const std::string split =
+      given.split_given ? given.split : metadata_value(subject.metadata, "split");
   SLF_TRY(const std::vector<int> input, from(given.capture, split_cameras(capture, split)));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
   const std::size_t all = held_out.size();
@@ -112,7 +162,7 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const S
   EvaluateSettings settings = given.settings;
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
-  const ViewMaps maps(field, settings.threads);
+  const ViewMaps maps(subject.field, settings.threads);
   std::vector<Measured> measured;
   const std::vector<int>& judged = held_out;
   for (const std::vector<int>* cameras : {&input, &judged}) {
@@ -127,14 +177,12 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const S
 
 Outcome run_eval(const EvalOptions& given) {
   SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
-  SLF_TRY(const StreamInfo info, from(input_name(given.input), read_info(stream)));
-  DecodeOptions options;
-  options.threads = given.common.threads;
-  SLF_TRY(const LightField field, from(input_name(given.input), decode(stream, options)));
-  SLF_CHECK(require_view_maps(field, given.input));
+  SLF_TRY(const Capture capture, read_capture(given));
+  SLF_TRY(const Subject subject, decode_slf(given, stream));
+  SLF_CHECK(require_view_maps(subject.field, given.input));
   Stopwatch watch;
-  SLF_TRY(const auto measured, measure(given, info, field));
-  SLF_CHECK(report(given, info, stream.size(), measured, watch.lap()));
+  SLF_TRY(const auto measured, measure(given, capture, subject));
+  SLF_CHECK(report(given, subject, measured, watch.lap()));
   return check_floor(given, measured);
 }
 
@@ -156,8 +204,11 @@ void add_eval(CLI::App& program, Run& run) {
                    "Input images; default: what the file says it was made from")
       ->type_name("NAME")
       ->each([o = o.get()](const std::string&) { o->split_given = true; });
-  verb->add_option("--delta-eval", o->settings.delta_degrees,
-                   "A view is judged up to 90 - DELTA degrees from the normal; degrees")
+  verb->add_option("--delta-eval", o->settings.deltas_degrees,
+                   "Views up to 90 - DELTA degrees from the normal are judged, once for each DELTA "
+                   "of a list; degrees")
+      ->type_name("DELTA,...")
+      ->delimiter(',')
       ->capture_default_str()
       ->check(range(0, 90));
   verb->add_option("--depth-tolerance", o->settings.depth_tolerance,
@@ -166,7 +217,7 @@ void add_eval(CLI::App& program, Run& run) {
       ->check(range(0, 1000));
   verb->add_flag("--no-images", o->no_images, "Point PSNR alone: render no images");
   verb->add_option("--min-psnr", o->min_psnr,
-                   "Exit with code 8 if the held-out point PSNR is below; dB")
+                   "Exit with code 8 if the held-out point PSNR (of the first DELTA) is below; dB")
       ->check(range(0, 1000));
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);

@@ -77,8 +77,9 @@ Result<Capture, InputError> load_capture(const std::filesystem::path& path,
 /// error. Thread-safe on a const capture.
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 
-/// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else all but every
-/// fourth; "all" is every camera; "evaluation" is the named split, else every fourth.
+/// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else
+/// all but every fourth; "1/n" is every n-th of those that are not for evaluation; "all" is every
+/// camera; "evaluation" is the named split, else every fourth.
 /// @errors kInvalidArgument: no such split.
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture, const std::string& name);
 

@@ -12,13 +12,20 @@
 
 namespace slf {
 
+/// Where the time went, by stage.
+struct DecodeSeconds {
+  double geometry = 0;      ///< units, occupancy, positions, what is derived from them
+  double coefficients = 0;  ///< components, normals, the check of the digests
+};
+
 struct DecodeOptions {
   DecodeLimits limits;
   int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
                    ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
-  std::uint64_t max_bytes = 0;  ///< use only units that end within the first max_bytes; 0: all
-  int threads = 1;              ///< 0: all cores. The result does not depend on it
+  std::uint64_t max_bytes = 0;       ///< use only units that end within the first max_bytes; 0: all
+  int threads = 1;                   ///< 0: all cores. The result does not depend on it
+  DecodeSeconds* seconds = nullptr;  ///< filled where given
 };
 
 /// Decodes one SLF sequence held in memory.
