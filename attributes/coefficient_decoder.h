@@ -16,6 +16,14 @@ namespace slf {
 /// Functions of every group, ascending.
 using PlaneGroups = std::vector<std::vector<std::uint16_t>>;
 
+/// Planes of a group, ascending: 3 k + c of its functions.
+inline std::vector<std::size_t> planes_of(const std::vector<std::uint16_t>& functions) {
+  std::vector<std::size_t> planes;
+  for (const std::size_t k : functions)
+    for (std::size_t c = 0; c < 3; ++c) planes.push_back(3 * k + c);
+  return planes;
+}
+
 /// The entropy coding state of every group of a slice; it lives on from level range to level range.
 class CoefficientModels {
  public:

@@ -34,6 +34,12 @@ class BitReader {
     return failed_ ? 0 : (std::uint64_t{1} << zeros) - 1 + suffix;
   }
 
+  /// Signed Exp-Golomb: 0, 1, -1, 2, -2, ... for ue 0, 1, 2, 3, 4, ...
+  std::int64_t se(const char* element) {
+    const auto code = static_cast<std::int64_t>(ue(element));
+    return code % 2 != 0 ? code / 2 + 1 : -(code / 2);
+  }
+
   double f64(const char* element) { return std::bit_cast<double>(u(64, element)); }
 
   /// Fewer than 8 bits may follow, all zero. Spec 3.3.

@@ -27,6 +27,10 @@ class BitWriter {
     u(length, value + 1);
   }
 
+  void se(std::int64_t value) {  // |value| < 2^31
+    ue(static_cast<std::uint64_t>(value > 0 ? 2 * value - 1 : -2 * value));
+  }
+
   void f64(double value) { u(64, std::bit_cast<std::uint64_t>(value)); }
 
   void align() { pos_ = bytes_.size() * 8; }  // the padding bits are zero already

@@ -13,6 +13,10 @@ namespace slf {
 
 inline constexpr int kVersionMajor = 0, kVersionMinor = 1;
 
+/// Profiles that allow one tool more than the main one.
+inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
+inline constexpr std::uint32_t kTextureCoder = 2;  ///< sps_coefficient_coder
+
 /// Functions k .. k + length - 1 share group, shift and steps.
 struct PlaneRun {
   std::uint32_t sps_run_length_minus1 = 0;
@@ -40,12 +44,15 @@ struct SequenceParameterSet {
   std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
   std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
   std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
+  std::uint32_t sps_texture_bits = 0, sps_texture_cell_log2 = 0;
   std::vector<PlaneRun> runs;
   std::uint32_t sps_num_stages_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
+  bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }
+  int texture_bits() const { return 8 + 2 * static_cast<int>(sps_texture_bits); }
   std::uint32_t num_groups() const {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
   }
@@ -96,7 +103,7 @@ void sequence_parameter_set(V& v, Set& s) {
   v.require(s.sps_version_major == kVersionMajor, Errc::kUnsupported, "sps_version_major");
   v.require(s.sps_version_minor == kVersionMinor, Errc::kUnsupported, "sps_version_minor");
   v.u(4, "sps_profile", s.sps_profile, Range{0, 15});
-  v.require(s.sps_profile <= 1, Errc::kUnsupported, "sps_profile");
+  v.require(s.sps_profile <= kTextureProfile, Errc::kUnsupported, "sps_profile");
   v.u(4, "sps_level", s.sps_level, Range{0, 15});
   v.require(s.sps_level == 0, Errc::kUnsupported, "sps_level");
   v.u(5, "sps_grid_bits_minus1", s.sps_grid_bits_minus1, Range{0, 20});
@@ -110,7 +117,8 @@ void sequence_parameter_set(V& v, Set& s) {
   v.u(1, "sps_metres_flag", s.sps_metres_flag, Range{0, 1});
   if (s.sps_metres_flag) v.f64("sps_metres_per_unit", s.sps_metres_per_unit, true);
   v.u(2, "sps_geometry_coder", s.sps_geometry_coder, Range{0, 1});
-  v.require(s.sps_geometry_coder == s.sps_profile, Errc::kOutOfRange, "sps_geometry_coder");
+  v.require((s.sps_geometry_coder == 1) == (s.sps_profile == kDracoProfile), Errc::kOutOfRange,
+            "sps_geometry_coder");
   v.u(4, "sps_normal_bits", s.sps_normal_bits, Range{0, 12});
   v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kReserved, "sps_normal_bits");
   level_ranges(v, "sps_num_geometry_ranges_minus1", "sps_geometry_range_end",
@@ -133,11 +141,19 @@ void sequence_parameter_set(V& v, Set& s) {
     v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
     v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
   }
-  v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, 1});
+  v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, kTextureCoder});
+  v.require(s.has_texture() == (s.sps_profile == kTextureProfile), Errc::kOutOfRange,
+            "sps_coefficient_coder");
+  if (s.has_texture()) {
+    v.u(2, "sps_texture_bits", s.sps_texture_bits, Range{0, 2});
+    v.u(3, "sps_texture_cell_log2", s.sps_texture_cell_log2, Range{0, 7});
+  }
   v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
   v.u(3, "sps_num_stages_minus1", s.sps_num_stages_minus1, Range{0, 0});
   level_ranges(v, "sps_num_coefficient_ranges_minus1", "sps_coefficient_range_end",
                s.sps_num_coefficient_ranges_minus1, s.sps_coefficient_range_end, s.grid_bits());
+  v.require(!s.has_texture() || s.sps_num_coefficient_ranges_minus1 == 0, Errc::kOutOfRange,
+            "sps_num_coefficient_ranges_minus1");
   plane_table(v, s);
 }
 

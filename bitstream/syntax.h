@@ -28,6 +28,10 @@ struct ParseSyntax {
     store(element, value, static_cast<std::int64_t>(in.ue(element)), range);
   }
   template <class T>
+  void se(const char* element, T& value, Range range) {
+    store(element, value, in.se(element), range);
+  }
+  template <class T>
   void s8(const char* element, T& value, Range range) {  // two's complement
     store(element, value, static_cast<std::int8_t>(in.u(8, element)), range);
   }
@@ -66,6 +70,10 @@ struct WriteSyntax {
   template <class T>
   void ue(const char*, const T& value, Range) {
     out.ue(static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void se(const char*, const T& value, Range) {
+    out.se(value);
   }
   template <class T>
   void s8(const char*, const T& value, Range) {

@@ -1,5 +1,7 @@
 // One photograph of a capture, its mask in the alpha channel.
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "slf/capture.h"
 
@@ -7,13 +9,17 @@ namespace slf {
 
 namespace {
 
-Result<Image, InputError> read_of_size(const std::filesystem::path& file, const Camera& camera) {
-  SLF_TRY(Image image, read_image(file));
+Result<Image, InputError> of_size(Image image, const std::string& name, const Camera& camera) {
   if (image.width == camera.width && image.height == camera.height) return image;
   return InputError{Errc::kInvalidInput,
-                    file.string() + ": image of " + std::to_string(image.width) + " x " +
+                    name + ": image of " + std::to_string(image.width) + " x " +
                         std::to_string(image.height) + " pixels, calibrated as " +
                         std::to_string(camera.width) + " x " + std::to_string(camera.height)};
+}
+
+Result<Image, InputError> read_of_size(const std::filesystem::path& file, const Camera& camera) {
+  SLF_TRY(Image image, read_image(file));
+  return of_size(std::move(image), file.string(), camera);
 }
 
 // Alpha where both say so; masks are grey, so any of their colour channels will do.
@@ -35,10 +41,14 @@ Image with_mask(const Image& image, const Image& mask) {
 
 Result<Image, InputError> load_image(const Capture& capture, int camera) {
   const auto i = static_cast<std::size_t>(camera);
-  if (camera < 0 || i >= capture.cameras.size() || i >= capture.image_files.size())
+  const std::size_t images =
+      capture.images.empty() ? capture.image_files.size() : capture.images.size();
+  if (camera < 0 || i >= capture.cameras.size() || i >= images)
     return InputError{Errc::kInvalidArgument, "camera " + std::to_string(camera) +
                                                   ": the capture has " +
                                                   std::to_string(capture.cameras.size())};
+  if (!capture.images.empty())
+    return of_size(capture.images[i], capture.cameras[i].name, capture.cameras[i]);
   SLF_TRY(Image image, read_of_size(capture.image_files[i], capture.cameras[i]));
   if (i >= capture.mask_files.size() || capture.mask_files[i].empty()) return image;
   SLF_TRY(const Image mask, read_of_size(capture.mask_files[i], capture.cameras[i]));

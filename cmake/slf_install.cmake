@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 set(SLF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/slf)
 
 set_target_properties(slf_decoder PROPERTIES EXPORT_NAME decoder)
-install(TARGETS slf slf_decoder EXPORT slfTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${SLF_LIBRARIES} EXPORT slfTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/slf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT slfTargets NAMESPACE slf:: DESTINATION ${SLF_CMAKE_DIR})
 if(TARGET slf_program)

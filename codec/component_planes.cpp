@@ -81,6 +81,26 @@ std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,
   return steps;
 }
 
+std::vector<std::array<std::uint32_t, 3>> texture_steps(const Basis& basis,
+                                                        const std::vector<int>& shifts,
+                                                        std::span<const std::uint32_t> least,
+                                                        bool by_norm) {
+  const std::vector<double> norms = basis_norms(basis);
+  const auto weight = [&](std::size_t k) {
+    return std::ldexp(by_norm ? 1 / norms[k] : 1, shifts[k]);
+  };
+  double scale = 0;
+  for (std::size_t j = 0; j < least.size(); ++j) scale = std::max(scale, least[j] / weight(j / 3));
+  std::vector<std::array<std::uint32_t, 3>> steps;
+  for (std::size_t k = 0; k < shifts.size(); ++k) {
+    // The product may round to just below the least step it was made from.
+    const double step = std::ceil(scale * weight(k) * (1 - 1e-12));
+    const auto rounded = static_cast<std::uint32_t>(std::clamp(step, 1.0, kMostStep));
+    steps.push_back({rounded, rounded, rounded});
+  }
+  return steps;
+}
+
 std::vector<int> scale_groups(const Basis& basis) {
   const int extra_theta = std::max(basis.scales_theta - basis.scales_gamma, 0);
   const int extra_gamma = std::max(basis.scales_gamma - basis.scales_theta, 0);

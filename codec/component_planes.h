@@ -27,6 +27,13 @@ std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,
                                                           const std::vector<int>& shifts, double q,
                                                           bool by_norm);
 
+/// [K][3] Steps for a texture: uniform, or inverse to the norms, and the smallest of that kind that
+/// are nowhere below `least` ([3 K], texture_parameters.h).
+std::vector<std::array<std::uint32_t, 3>> texture_steps(const Basis& basis,
+                                                        const std::vector<int>& shifts,
+                                                        std::span<const std::uint32_t> least,
+                                                        bool by_norm);
+
 /// [K] The mean alone, then rectangles of scales: N = 1, 8, 32, 128, ... functions for s0 = s1 + 1.
 std::vector<int> scale_groups(const Basis& basis);
 

@@ -21,9 +21,20 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
       {"cameras", std::to_string(cameras)},
       {"observations", std::to_string(encoded.observations)},
       {"merged_points", std::to_string(encoded.merged)},
-      {"q", text(s.q)},
       {"steps", s.steps_by_norm ? "by-norm" : "uniform"},
   };
+  if (s.coefficients == CoefficientCoder::kTexture) {
+    metadata.insert(
+        metadata.end(),
+        {
+            {"texture_bits", std::to_string(s.texture.bits)},
+            {"texture_qp", s.texture.lossless ? "lossless" : std::to_string(s.texture.qp)},
+            {"texture_mode", s.texture.mode == TextureSettings::kIntra ? "intra" : "low-delay"},
+            {"texture_preset", s.texture.preset},
+        });
+  } else {
+    metadata.emplace_back("q", text(s.q));
+  }
   if (cameras > 0) {
     metadata.insert(metadata.end(),
                     {

@@ -7,6 +7,7 @@
 #include "bitstream/metadata.h"
 #include "codec/pack_parameters.h"
 #include "codec/slice_encoder.h"
+#include "codec/texture_parameters.h"
 #include "geometry/morton.h"
 #include "slf/encoder.h"
 #include "slf/parallel.h"
@@ -74,6 +75,21 @@ Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted,
   return units;
 }
 
+/// What a texture is coded with beside the steps, which have to fit its samples.
+Result<Done, InputError> choose_texture(const SortedField& sorted,
+                                        const std::vector<SliceCut>& cuts, int bits,
+                                        SequenceParameterSet& set) {
+  const auto steps = plane_steps(set);
+  const auto least = least_texture_steps(sorted.components, steps.size(), cuts, bits);
+  for (std::size_t j = 0; j < steps.size(); ++j)
+    if (steps[j] < least[j])
+      return InputError{Errc::kInvalidArgument,
+                        "steps: plane " + std::to_string(j) + " of the texture needs at least " +
+                            std::to_string(least[j]) + " with " + std::to_string(bits) + " bits"};
+  set.sps_texture_cell_log2 = static_cast<std::uint32_t>(texture_cell_log2(sorted.morton, cuts));
+  return Done{};
+}
+
 /// Signature, sequence, index, what is given, end.
 std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
                                    const std::vector<CodedUnit>& units, bool index) {
@@ -98,13 +114,15 @@ std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
 
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
                                                    const CodingParameters& parameters) {
-  SLF_TRY(const SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
-  SLF_TRY(SortedField sorted, sort_points(field));                          // 6.2
+  SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
+  SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
   const auto cuts =
       cut_slices(sorted.morton, field.header.grid.bits, parameters.max_slice_points);  // 7.3
   if (cuts.size() > kMaxSlices)
     return InputError{Errc::kInvalidArgument, "points per slice: more than 2^16 slices are needed"};
-  const SliceCoding coding{set, plane_groups(set), plane_steps(set), parameters.digest};
+  if (set.has_texture()) SLF_CHECK(choose_texture(sorted, cuts, parameters.texture.bits, set));
+  const SliceCoding coding{set, plane_groups(set), plane_steps(set), parameters.digest,
+                           parameters.texture};
   SLF_TRY(auto units, code_slices(sorted, cuts, coding, parameters.threads));  // 8.4 - 8.10
   if (!parameters.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata)});  // 7.8

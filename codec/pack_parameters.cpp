@@ -71,6 +71,17 @@ Result<Done, InputError> check_field(const LightField& field) {
   return Done{};
 }
 
+Result<Done, InputError> check_texture(const CodingParameters& p) {
+  const int bits = p.texture.bits;
+  if (p.geometry != GeometryCoder::kOctree)
+    return invalid("coefficients texture: the geometry is an octree");
+  if (p.coefficient_level_ends.size() > 1)
+    return invalid("coefficient level ends: a texture has all levels in one unit");
+  if (bits != 8 && bits != 10 && bits != 12) return invalid("texture bits: 8, 10 or 12");
+  if (p.texture.qp < 0 || p.texture.qp > 51) return invalid("texture qp: 0 to 51");
+  return Done{};
+}
+
 Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
   const auto functions = static_cast<std::size_t>(field.header.num_functions);
   if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
@@ -92,6 +103,7 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
     return invalid("level ends: ascending, the last the grid's bits");
   if (p.geometry == GeometryCoder::kDraco && p.geometry_level_ends.size() > 1)
     return invalid("geometry level ends: Draco codes all levels in one unit");
+  if (p.coefficients == CoefficientCoder::kTexture) SLF_CHECK(check_texture(p));
   if (!valid_metadata(p.metadata))
     return invalid("metadata: keys without a name, zero bytes, or over 1 MiB");
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
@@ -136,7 +148,9 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   SLF_CHECK(check_parameters(field, p));
   const LightFieldHeader& h = field.header;
   SequenceParameterSet set;
-  set.sps_profile = set.sps_geometry_coder = static_cast<std::uint32_t>(p.geometry);
+  const bool texture = p.coefficients == CoefficientCoder::kTexture && h.num_functions > 0;
+  set.sps_geometry_coder = static_cast<std::uint32_t>(p.geometry);
+  set.sps_profile = texture ? kTextureProfile : set.sps_geometry_coder;
   set.sps_grid_bits_minus1 = static_cast<std::uint32_t>(h.grid.bits - 1);
   set.sps_unit_grid_flag = h.grid.origin == Vec3{0, 0, 0} && h.grid.step == 1;
   set.sps_origin = h.grid.origin;
@@ -160,7 +174,8 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_transfer_idc = static_cast<std::uint32_t>(h.transfer);
   set.sps_gamma_min = h.gamma_min_q7;
   set.sps_gamma_max = h.gamma_max_q7;
-  set.sps_coefficient_coder = static_cast<std::uint32_t>(p.coefficients);
+  if (h.num_functions > 0) set.sps_coefficient_coder = static_cast<std::uint32_t>(p.coefficients);
+  if (texture) set.sps_texture_bits = static_cast<std::uint32_t>(p.texture.bits - 8) / 2;
   set.runs = runs_of(h, p);
   for (const PlaneRun& run : set.runs)
     set.sps_num_groups_minus1 = std::max(set.sps_num_groups_minus1, run.sps_plane_group);

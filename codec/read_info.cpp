@@ -58,7 +58,9 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.group = function_groups(set);
   info.step = function_steps(set);
   info.geometry_coder = set.sps_geometry_coder == 0 ? "octree" : "draco";
-  info.coefficient_coder = set.sps_coefficient_coder == 0 ? "vector" : "independent";
+  info.coefficient_coder =
+      std::array{"vector", "independent", "texture"}[set.sps_coefficient_coder];
+  if (set.has_texture()) info.texture_bits = set.texture_bits();
   bool has_metadata = false;
   for (const Unit& unit : units.units) {
     SLF_TRY(UnitInfo described, describe(unit, set));

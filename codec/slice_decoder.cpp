@@ -84,6 +84,7 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
     RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
     tree_ = std::move(top.tree);
     first_ = std::move(top.first);
+    if (plan.set.has_texture()) codes_ = codes;
   }
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -105,6 +106,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
   const std::size_t planes = plan.planes();
   if (planes == 0) return Done{};
   const SequenceParameterSet& set = plan.set;
+  if (set.has_texture()) return decode_texture_units(plan, components, threads);
   const std::uint32_t ranges = set.sps_num_coefficient_ranges_minus1 + 1;
   const std::uint32_t groups = set.num_groups();
   std::uint32_t expected = 0;  // units come by range, then group

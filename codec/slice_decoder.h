@@ -53,6 +53,7 @@ struct SliceDecoder {
   void drop() {
     positions.clear();
     tree_ = {};
+    codes_ = {};
   }
 
   std::vector<Voxel> positions;
@@ -61,8 +62,13 @@ struct SliceDecoder {
  private:
   Result<std::vector<std::uint64_t>> decode_octree(const SequencePlan& plan, int& depth);
   Result<std::vector<std::uint64_t>> decode_draco_unit();
+  /// Spec 8.11. In slice_texture_decoder.cpp.
+  Result<Done> decode_texture_units(const SequencePlan& plan, std::span<std::int32_t> components,
+                                    int threads);
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 
+  std::vector<std::uint64_t> codes_;  // Morton codes within the slice, for a texture alone; empty
+                                      // where the geometry is incomplete
   RahtTree tree_;                     // of the kept rows; empty where the geometry is incomplete
   std::vector<std::uint32_t> first_;  // [kept + 1] first point below each kept row
 };

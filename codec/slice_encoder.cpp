@@ -10,6 +10,7 @@
 #include "attributes/raht_tree.h"
 #include "codec/slice_decoder.h"
 #include "codec/slice_digest.h"
+#include "codec/slice_texture_encoder.h"
 #include "entropy/range_encoder.h"
 #include "geometry/draco_encoder.h"
 #include "geometry/morton.h"
@@ -134,7 +135,7 @@ void code_components(const SliceCut& cut, const SliceInput& input, const RahtTre
 /// What a decoder will get: the coefficients of `input.components`, reconstructed.
 std::array<std::uint8_t, 32> decoded_digest(const SliceInput& input, const RahtTree& tree,
                                             const SliceCoding& coding, int threads) {
-  if (!coding.steps.empty()) {
+  if (!coding.steps.empty() && !coding.set.has_texture()) {
     (void)dequantise(input.components, coding.steps);  // in range: fits_transform
     raht_inverse(tree, static_cast<int>(coding.steps.size()), input.components, threads);
   }
@@ -161,7 +162,12 @@ Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, Sli
   if (coding.set.sps_normal_bits > 0)
     code_normals(cut, input, static_cast<int>(coding.set.sps_normal_bits), units);
   const RahtTree tree = build_raht_tree(local);
-  if (!coding.steps.empty()) {
+  if (coding.set.has_texture()) {
+    SLF_TRY(const auto payloads, encode_slice_texture(cut, input, local, coding, threads));
+    for (std::uint32_t g = 0; g < payloads.size(); ++g)
+      units.push_back({UnitType::kCoefficients,
+                       slice_unit_payload({cut.header.slice_id, 0, g}, true, true, payloads[g])});
+  } else if (!coding.steps.empty()) {
     if (!fits_transform(input))
       return InputError{
           Errc::kInvalidArgument,

@@ -38,6 +38,7 @@ struct SliceCoding {
   PlaneGroups groups;
   std::vector<std::uint32_t> steps;  ///< [3 K]
   bool digest = true;
+  TextureSettings texture;
 };
 
 /// A unit ready to be written.

@@ -20,7 +20,8 @@ struct Case {
 };
 std::vector<Case> valid_cases();
 
-/// A stream that must be refused, with the error this project's decoder gives.
+/// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
+/// a component that this build lacks.
 struct RefusedCase {
   std::string id, purpose;
   std::vector<std::string> clauses;

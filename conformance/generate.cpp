@@ -95,11 +95,17 @@ void write(const fs::path& directory, const std::vector<std::uint8_t>& stream,
   std::ofstream(directory / "case.json", std::ios::binary) << manifest;
 }
 
+/// Names, on standard output, a case that needs a component this build lacks.
+bool leave_out(const char* part, const std::string& id, bool lacks_component) {
+  if (lacks_component) std::printf("left out: %s/%s\n", part, id.c_str());
+  return lacks_component;
+}
+
 bool write_case(const fs::path& root, const Case& c) {
   const auto packed = pack(c.field, c.parameters);
   if (!packed) {
     std::fprintf(stderr, "%s: %s\n", c.id.c_str(), packed.error().message.c_str());
-    return packed.error().code == Errc::kUnsupported;  // a build without Draco leaves that case out
+    return leave_out("streams", c.id, packed.error().code == Errc::kUnsupported);
   }
   const auto stream = altered(*packed, c);
   std::string text = description(c.id, c.clauses, c.purpose, stream) + "  \"expect\": [\n";
@@ -127,6 +133,7 @@ bool write_case(const fs::path& root, const Case& c) {
 }
 
 bool write_refused(const fs::path& root, const RefusedCase& c) {
+  if (c.stream.empty()) return leave_out("refused", c.id, true);
   const auto field = decode(c.stream);
   if (field) {
     // Metadata is read by read_info alone.

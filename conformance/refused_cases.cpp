@@ -17,6 +17,19 @@ struct EditableUnit {
   Bytes payload;
 };
 
+/// A texture of two groups; empty where this build has no x265.
+Bytes texture_stream(int bits) {
+  CodingParameters parameters;
+  parameters.coefficients = CoefficientCoder::kTexture;
+  parameters.step = {{8, 8, 8}, {8, 8, 8}};
+  parameters.group = {0, 1};
+  parameters.texture.bits = 8;
+  parameters.texture.qp = 38;
+  parameters.index = false;
+  auto stream = pack(field(sphere(bits), bits, 2, 600), parameters);
+  return stream ? *std::move(stream) : Bytes{};
+}
+
 Bytes base_stream(bool index) {
   LightField f = field(sphere(4), 4, 4);
   f.header.has_basis = true;
@@ -30,9 +43,9 @@ Bytes base_stream(bool index) {
   return *pack(f, parameters);
 }
 
-/// base_stream without an index, its units changed, with sound lengths, CRCs and unit count.
-Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
-  const Bytes base = base_stream(false);
+/// A stream without an index, its units changed, with sound lengths, CRCs and unit count.
+Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  if (base.empty()) return base;
   std::vector<EditableUnit> units;
   const Units split = *split_units(base);
   for (const Unit& unit : split.units)
@@ -51,6 +64,10 @@ Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
     ++count;
   }
   return stream;
+}
+
+Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  return edited(base_stream(false), edit);
 }
 
 /// The sequence header changed.
@@ -180,6 +197,41 @@ void add_slices(std::vector<RefusedCase>& cases) {
        }()});
 }
 
+void add_textures(std::vector<RefusedCase>& cases) {
+  const Bytes base = texture_stream(4);
+  const auto add = [&](const char* id, const char* purpose, const char* clause,
+                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+    cases.push_back({id, purpose, {clause}, edited(base, edit)});
+  };
+  add("texture-damaged", "a byte of a picture changed", "7.9", [](auto& units) {
+    auto& payload = first_of(units, UnitType::kCoefficients).payload;
+    payload[payload.size() - 20] ^= 0x5A;
+  });
+  add("texture-level-range", "a second level range", "7.6", [](auto& units) {
+    first_of(units, UnitType::kCoefficients).payload[0] ^= 0x50;  // ue 0, ue 0 to ue 0, ue 1
+  });
+  add("texture-picture-count", "a flag that is 0 where there is a picture", "7.6",
+      [](auto& units) { first_of(units, UnitType::kCoefficients).payload[1] ^= 0x80; });
+  add("texture-pictures-shorter", "pictures without their last bytes", "7.6", [](auto& units) {
+    auto& payload = first_of(units, UnitType::kCoefficients).payload;
+    payload.resize(payload.size() * 3 / 4);
+  });
+  add("texture-profile", "pictures in the main profile", "7.2", [](auto& units) {
+    units[0].payload[2] = static_cast<std::uint8_t>(units[0].payload[2] & 0x0F);
+  });
+  const Bytes larger = texture_stream(6);
+  add("texture-picture-size", "pictures of a larger atlas", "7.6", [&](auto& units) {
+    if (larger.empty()) return;
+    const Units split = *split_units(larger);
+    for (const Unit& unit : split.units)
+      if (unit.type == UnitType::kCoefficients) {
+        first_of(units, UnitType::kCoefficients)
+            .payload.assign(unit.payload.begin(), unit.payload.end());
+        return;
+      }
+  });
+}
+
 }  // namespace
 
 std::vector<RefusedCase> refused_cases() {
@@ -187,6 +239,7 @@ std::vector<RefusedCase> refused_cases() {
   add_framing(cases);
   add_headers(cases);
   add_slices(cases);
+  add_textures(cases);
   return cases;
 }
 

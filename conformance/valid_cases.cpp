@@ -218,6 +218,57 @@ void add_prefixes(std::vector<Case>& cases) {
   }
 }
 
+/// Small components: pictures of random samples are large.
+Case texture(const char* id, const char* purpose, std::vector<Voxel> voxels, int bits,
+             int functions, std::uint32_t step, int texture_bits) {
+  Case c{id,
+         purpose,
+         {"7.6", "8.11"},
+         field(std::move(voxels), bits, functions, 600),
+         with_steps(functions, step),
+         {},
+         {},
+         0,
+         false};
+  c.parameters.coefficients = CoefficientCoder::kTexture;
+  c.parameters.texture.bits = texture_bits;
+  c.parameters.texture.qp = 30;
+  for (int k = 0; k < functions; ++k) c.parameters.group.push_back(std::min(k, 1));
+  return c;
+}
+
+/// x265 3.5 decides the bytes of all but the last.
+void add_textures(std::vector<Case>& cases) {
+  Case intra =
+      texture("texture-intra-8", "every plane by itself; cells of two voxels; coarser levels",
+              sphere(5), 5, 2, 8, 8);
+  for (Voxel& v : intra.field.positions)
+    for (auto& c : v) c *= 2;
+  intra.field.header.grid.bits = 6;
+  intra.parameters.texture.mode = TextureSettings::kIntra;
+  intra.levels = {3, 5};
+  intra.groups = {1};
+  cases.push_back(intra);
+  cases.push_back(texture("texture-low-delay-10", "planes predicted from others; loose points",
+                          sphere(5, 3), 5, 3, 2, 10));
+  Case slices = texture("texture-12-slices", "12 bits, several slices, one without a level",
+                        sphere(6), 6, 2, 1, 12);
+  slices.field = field(sorted([] {
+                         auto voxels = sphere(5);
+                         voxels.push_back({63, 63, 63});
+                         return voxels;
+                       }()),
+                       6, 2, 600);
+  slices.parameters.max_slice_points = 700;
+  cases.push_back(slices);
+  Case constant = texture("texture-constant", "planes without pictures: no HEVC to decode",
+                          sphere(4), 4, 2, 1, 8);
+  for (std::size_t i = 0; i < constant.field.components.size(); ++i)
+    constant.field.components[i] = 1000 - 700 * static_cast<std::int32_t>(i % 6);
+  constant.levels = {2};
+  cases.push_back(constant);
+}
+
 }  // namespace
 
 std::vector<Case> valid_cases() {
@@ -226,6 +277,7 @@ std::vector<Case> valid_cases() {
   add_components(cases);
   add_structure(cases);
   add_prefixes(cases);
+  add_textures(cases);
   return cases;
 }
 

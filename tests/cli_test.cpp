@@ -35,7 +35,7 @@ TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
   const Ran help = slf("--help");
   EXPECT_EQ(help.code, 0);
   EXPECT_NE(help.out.find("130 cancelled"), std::string::npos);
-  for (const char* verb : {"synth", "encode", "pack", "decode", "render", "eval", "info"}) {
+  for (const char* verb : {"synth", "encode", "pack", "decode", "render", "eval", "igc", "info"}) {
     EXPECT_NE(help.out.find(verb), std::string::npos);
     const Ran of_verb = slf(std::string(verb) + " --help");
     EXPECT_EQ(of_verb.code, 0) << verb;
@@ -181,6 +181,22 @@ TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   expect_failure(slf("eval a.slf tiny --no-images --min-psnr 200 >/dev/null"), 8, "a.slf",
                  "below 200 dB");
   EXPECT_EQ(slf("eval a.slf tiny --no-images --min-psnr 10").code, 0);
+}
+
+TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
+  const auto coded =
+      slf("igc tiny -o a.igc --grid-bits 6 --functions 8 --qp 22 --speed fast --json");
+  if (coded.code == 6) GTEST_SKIP() << "SLF_X265 is not part of this build";
+  ASSERT_EQ(coded.code, 0) << coded.err;
+  const auto report = parsed(coded.out);
+  const auto quality = parsed(slf("eval a.igc tiny --json --no-images").out);
+  EXPECT_EQ(quality["bytes"], report["bytes"]);
+  EXPECT_EQ(quality["bytes_by_type"], report["bytes_by_type"]);
+  EXPECT_EQ(quality["points"], report["points"]);
+  EXPECT_GT(quality["held_out"]["points"][0]["psnr"], 15);
+  for (const char* stage : {"geometry", "images", "observe", "fit", "total"})
+    EXPECT_GT(quality["decode"][stage], 0) << stage;
+  expect_failure(slf("eval a.igc nowhere"), 3, "nowhere", "");
 }
 
 TEST_F(TinyCaptureTest, RendersOrbitsCamerasPairsAndSheets) {

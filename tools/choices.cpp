@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/options.h"
+
 namespace slf::tools {
 namespace {
 
@@ -46,8 +48,34 @@ CLI::Option* add_geometry_choice(CLI::App& verb, GeometryCoder& choice) {
 CLI::Option* add_coefficients_choice(CLI::App& verb, CoefficientCoder& choice) {
   return add_choice<CoefficientCoder>(
       verb, "--coefficients", choice,
-      {{"vector", CoefficientCoder::kVector}, {"independent", CoefficientCoder::kIndependent}},
-      "Coder of the components: planes of a group together, or each alone (paper)");
+      {{"vector", CoefficientCoder::kVector},
+       {"independent", CoefficientCoder::kIndependent},
+       {"texture", CoefficientCoder::kTexture}},
+      "Coder of the components: planes of a group together, or each alone (paper), or as pictures "
+      "by HEVC (paper's TMC)");
+}
+
+void add_texture_options(CLI::App& verb, TextureSettings& settings) {
+  const auto texture = [](CLI::Option* option) {
+    option->group("Texture (--coefficients texture)");
+  };
+  texture(verb.add_option("--texture-bits", settings.bits, "Bits of a sample: 8, 10 or 12")
+              ->capture_default_str()
+              ->check(CLI::IsMember({8, 10, 12})));
+  texture(verb.add_option("--texture-qp", settings.qp, "QP of HEVC; takes the place of -q")
+              ->capture_default_str()
+              ->check(whole_range(0, 51)));
+  texture(add_choice<TextureSettings::Mode>(
+      verb, "--texture-mode", settings.mode,
+      {{"intra", TextureSettings::kIntra}, {"low-delay", TextureSettings::kLowDelay}},
+      "Every plane by itself, or predicted from those before it"));
+  texture(verb.add_option("--texture-preset", settings.preset,
+                          "x265's, ultrafast to veryslow; beyond superfast bytes may differ from "
+                          "run to run")
+              ->type_name("NAME")
+              ->capture_default_str());
+  texture(verb.add_flag("--texture-lossless", settings.lossless,
+                        "Pictures without loss: what is lost is the rounding to samples"));
 }
 
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice) {
@@ -72,6 +100,32 @@ CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice) {
                              {"+z", UpAxis::kPlusZ},
                              {"-z", UpAxis::kMinusZ}},
                             "World axis that points up, instead of the capture's");
+}
+
+const char* igc_codec_name(IgcCodec codec) {
+  switch (codec) {
+    case IgcCodec::kHevcLowDelay:
+      return "hevc";
+    case IgcCodec::kHevcIntra:
+      return "hevc-intra";
+    case IgcCodec::kAv1:
+      return "av1";
+  }
+  return "";
+}
+
+CLI::Option* add_igc_codec_choice(CLI::App& verb, IgcCodec& choice) {
+  Words<IgcCodec> words;
+  for (const IgcCodec codec : {IgcCodec::kHevcLowDelay, IgcCodec::kHevcIntra, IgcCodec::kAv1})
+    words.emplace_back(igc_codec_name(codec), codec);
+  return add_choice<IgcCodec>(verb, "--codec", choice, words,
+                              "Coder of the images; hevc: low delay (paper)");
+}
+
+CLI::Option* add_igc_chroma_choice(CLI::App& verb, IgcChroma& choice) {
+  return add_choice<IgcChroma>(verb, "--chroma", choice,
+                               {{"420", IgcChroma::k420}, {"444", IgcChroma::k444}},
+                               "Chroma at half the resolution, or at the full one");
 }
 
 CLI::Option* add_steps_choice(CLI::App& verb, bool& by_norm) {

@@ -4,15 +4,22 @@
 #include <CLI/CLI.hpp>
 
 #include "slf/encoder.h"
+#include "slf/igc.h"
 #include "slf/types.h"
 
 namespace slf::tools {
 
 CLI::Option* add_geometry_choice(CLI::App& verb, GeometryCoder& choice);
 CLI::Option* add_coefficients_choice(CLI::App& verb, CoefficientCoder& choice);
+/// --texture-bits, --texture-qp, --texture-mode, --texture-preset and --texture-lossless.
+void add_texture_options(CLI::App& verb, TextureSettings& settings);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice);
 CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice);
+CLI::Option* add_igc_codec_choice(CLI::App& verb, IgcCodec& choice);
+CLI::Option* add_igc_chroma_choice(CLI::App& verb, IgcChroma& choice);
+/// As --codec spells it.
+const char* igc_codec_name(IgcCodec codec);
 /// --steps: true is by-norm.
 CLI::Option* add_steps_choice(CLI::App& verb, bool& by_norm);
 

@@ -20,13 +20,14 @@ CLI::Option* add(CLI::App& verb, const char* name, std::optional<T>& target, dou
   return verb.add_option(name, target, description)->default_str(shown(initial))->check(check);
 }
 
-void add_input_options(CLI::App& verb, EncodeOptions& o) {
+void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   verb.add_option("CAPTURE", o.capture,
                   "Directory with cameras.json, a COLMAP model or transforms.json; or one of those "
                   "files; or a coloured .ply alone (docs/captures.md)")
       ->type_name("")
       ->required();
-  verb.add_option("-o,--output", o.output, "The .slf file; - is standard output")
+  verb.add_option("-o,--output", o.output,
+                  std::string("The ") + file + " file; - is standard output")
       ->type_name("FILE")
       ->required();
   verb.add_option("--points", o.points, "PLY cloud to use in place of the capture's own")
@@ -87,35 +88,43 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
   fit(free);
 }
 
-void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
-  const auto coding = [](CLI::Option* option) { option->group("Coding"); };
-  auto* bits = add(verb, "--grid-bits", o.grid_bits, initial.grid_bits, "Voxel grid, bits per axis",
-                   whole_range(1, 21));
-  coding(bits);
+CLI::Option* coding(CLI::Option* option) { return option->group("Coding"); }
+
+void add_grid_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
+  auto* bits = coding(add(verb, "--grid-bits", o.grid_bits, initial.grid_bits,
+                          "Voxel grid, bits per axis", whole_range(1, 21)));
   coding(verb.add_option("--voxel-size", o.voxel_size,
                          "Voxel edge in world units, in place of --grid-bits")
              ->check(range(1e-12, 1e12))
              ->excludes(bits));
-  coding(add(verb, "-q,--quality", o.q, initial.q,
-             "Quantiser step Q in grey levels: smaller is better and larger", range(0.05, 4096)));
-  coding(
-      add_steps_choice(verb, o.by_norm)->each([&o](const std::string&) { o.steps_given = true; }));
-  coding(
-      add_colour_choice(verb, o.colour)->each([&o](const std::string&) { o.colour_given = true; }));
   coding(add_geometry_choice(verb, o.geometry)->each([&o](const std::string&) {
     o.geometry_given = true;
   }));
-  coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
-    o.coefficients_given = true;
-  }));
-  coding(add(verb, "--normal-bits", o.normal_bits, initial.normal_bits,
-             "Code normals with 4 to 12 bits per coordinate; 0: not", whole_range(0, 12)));
-  coding(add(verb, "--slice-points", o.slice_points, initial.max_slice_points,
-             "Most points of a slice", whole_range(1, 1 << 22)));
+  coding(
+      add_colour_choice(verb, o.colour)->each([&o](const std::string&) { o.colour_given = true; }));
   coding(
       verb.add_option("--metadata", o.metadata, "KEY=VALUE to store in the file; may be repeated")
           ->type_name("KEY=VALUE")
           ->expected(1, -1));
+}
+
+void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
+  coding(add(verb, "-q,--quality", o.q, initial.q,
+             "Quantiser step Q in grey levels: smaller is better and larger", range(0.05, 4096)));
+  coding(
+      add_steps_choice(verb, o.by_norm)->each([&o](const std::string&) { o.steps_given = true; }));
+  coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
+    o.coefficients_given = true;
+  }));
+  add_texture_options(verb, o.texture);
+  coding(add(verb, "--normal-bits", o.normal_bits, initial.normal_bits,
+             "Code normals with 4 to 12 bits per coordinate; 0: not", whole_range(0, 12)));
+  coding(add(verb, "--slice-points", o.slice_points, initial.max_slice_points,
+             "Most points of a slice", whole_range(1, 1 << 22)));
+}
+
+Failure usage(const EncodeOptions& given, const std::string& what) {
+  return {kUsage, std::string(given.verb) + ": " + what};
 }
 
 Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
@@ -123,7 +132,7 @@ Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
   if (given.functions) {
     const auto n = static_cast<unsigned>(*given.functions);
     if (!std::has_single_bit(n))
-      return Failure{kUsage, "encode: --functions " + std::to_string(n) + " is not a power of two"};
+      return usage(given, "--functions " + std::to_string(n) + " is not a power of two");
     const int scales = std::countr_zero(n);
     basis.scales_gamma = scales / 2;
     basis.scales_theta = scales - basis.scales_gamma;
@@ -139,7 +148,7 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
   for (const std::string& pair : given.metadata) {
     const std::size_t equals = pair.find('=');
     if (equals == 0 || equals == std::string::npos)
-      return Failure{kUsage, "encode: --metadata " + pair + " is not KEY=VALUE"};
+      return usage(given, "--metadata " + pair + " is not KEY=VALUE");
     metadata.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
   }
   return Done{};
@@ -153,10 +162,15 @@ void replace(U& setting, const std::optional<T>& given) {
 }  // namespace
 
 void add_encode_options(CLI::App& verb, EncodeOptions& o) {
+  add_view_map_options(verb, o, ".slf");
+  add_coding_options(verb, o, settings_of(Preset::kDefault));
+}
+
+void add_view_map_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   const EncoderSettings initial = settings_of(Preset::kDefault);
-  add_input_options(verb, o);
+  add_input_options(verb, o, file);
   add_preset_choice(verb, o.preset);
-  add_coding_options(verb, o, initial);
+  add_grid_options(verb, o, initial);
   add_observe_options(verb, o, initial);
   add_fit_options(verb, o, initial);
   add_threads(verb, o.common);
@@ -179,8 +193,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.normal_bits, given.normal_bits);
   replace(s.max_slice_points, given.slice_points);
   if (s.normal_bits > 0 && s.normal_bits < 4)
-    return Failure{
-        kUsage, "encode: --normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12"};
+    return usage(given, "--normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12");
   SLF_CHECK(resolve_basis(given, s.fit.basis));
   if (given.penalise_dc) s.fit.penalise_dc = true;
   if (given.free_dc) s.fit.penalise_dc = false;
@@ -189,6 +202,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   if (given.colour_given) s.colour = given.colour;
   if (given.geometry_given) s.geometry = given.geometry;
   if (given.coefficients_given) s.coefficients = given.coefficients;
+  s.texture = given.texture;
   SLF_CHECK(resolve_metadata(given, s.metadata));
   s.threads = given.common.threads;
   return s;

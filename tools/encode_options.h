@@ -1,4 +1,5 @@
-// The options of slf encode: a preset, and what is set apart from it.
+// The options of slf encode, most of them those of slf igc too: a preset, and what is set apart
+// from it.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,7 @@ namespace slf::tools {
 
 /// Empty where the command line says nothing: the preset decides.
 struct EncodeOptions {
+  const char* verb = "encode";  ///< for messages
   std::string capture, output, points, split;
   Preset preset = Preset::kDefault;
   std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
@@ -24,12 +26,18 @@ struct EncodeOptions {
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
+  TextureSettings texture;
   UpAxis up = UpAxis::kPlusZ;
   std::vector<std::string> metadata;  ///< key=value
   CommonOptions common;
 };
 
 void add_encode_options(CLI::App& verb, EncodeOptions& options);
+
+/// Those of them that lead to view maps: input, preset, grid, geometry, observation, fit, and -j,
+/// --quiet, --json.
+/// @param file  ".slf": what the output is
+void add_view_map_options(CLI::App& verb, EncodeOptions& options, const char* file);
 
 /// The preset's settings with everything that was given in its place.
 Result<EncoderSettings, Failure> resolved(const EncodeOptions& given);

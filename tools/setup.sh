@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building and testing need. Quick when all are there; safe to
-# repeat. As root, or through sudo.
+# Installs the Debian packages that building needs; with the argument `lab` also those of the tests
+# and of the RD laboratory (tools/rd). Quick when all are there; safe to repeat. As root, or through
+# sudo.
 set -euo pipefail
 
 packages=(
   g++ clang cmake ninja-build pkg-config
   zlib1g-dev libpng-dev libjpeg62-turbo-dev libdraco-dev
+  libde265-dev libx265-dev libaom-dev
   libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcli11-dev
-  libgtest-dev libgmock-dev
   python3 python3-numpy
 )
+if [[ "${1:-}" == lab ]]; then
+  packages+=(libgtest-dev libgmock-dev snakemake python3-scipy python3-matplotlib)
+fi
 
 missing=()
 for package in "${packages[@]}"; do

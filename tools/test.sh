@@ -4,8 +4,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-tools/setup.sh
+tools/setup.sh lab
 build=${BUILD_DIR:-build}
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLF_TESTS=ON "$@"
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLF_TESTS=ON -DSLF_X265=ON -DSLF_AV1=ON "$@"
 cmake --build "$build"
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)"

@@ -15,6 +15,7 @@ using Run = std::function<Outcome()>;
 
 void add_synth(CLI::App& program, Run& run);
 void add_encode(CLI::App& program, Run& run);
+void add_igc(CLI::App& program, Run& run);
 void add_pack(CLI::App& program, Run& run);
 void add_decode(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);

@@ -1,7 +1,7 @@
 // slf encode: photographs and points, or a coloured cloud, to an .slf file.
-#include <filesystem>
 #include <memory>
 
+#include "tools/capture_input.h"
 #include "tools/describe.h"
 #include "tools/encode_options.h"
 #include "tools/output.h"
@@ -11,16 +11,6 @@
 
 namespace slf::tools {
 namespace {
-
-/// The last component of the path, whatever it ends with; never more, so that no machine's paths
-/// get into a file.
-std::string last_name(const std::string& path) {
-  std::error_code ignored;
-  std::filesystem::path full = std::filesystem::weakly_canonical(path, ignored);
-  if (ignored) full = path;
-  return full.filename().empty() ? full.parent_path().filename().string()
-                                 : full.filename().string();
-}
 
 nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std::size_t cameras,
                                    double load) {
@@ -66,20 +56,6 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
   return out;
 }
 
-Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
-                                                const EncodeOptions& given) {
-  if (!capture.cameras.empty()) return from(given.capture, split_cameras(capture, given.split));
-  if (!given.split.empty())
-    return Failure{kUsage, "encode: --split " + given.split + ": the capture has no cameras"};
-  return std::vector<int>{};
-}
-
-/// What split_cameras made of "".
-std::string split_name(const Capture& capture, const std::string& given) {
-  if (!given.empty()) return given;
-  return capture.splits.count("dense") ? "dense" : "default";
-}
-
 Outcome run_encode(const EncodeOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
@@ -87,29 +63,19 @@ Outcome run_encode(const EncodeOptions& given) {
   SLF_CHECK(check_output(given.output));
   ProgressLine line(given.common.quiet);
   const Progress progress = line.callback();
-  Stopwatch watch;
-  if (progress) progress("load", 0);
-  CaptureOptions options;
-  options.points = given.points;
-  SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
-  if (given.up_given) capture.up = given.up;
-  line.clear();
-  warn(capture.warnings, given.common.quiet);
-  SLF_TRY(const std::vector<int> cameras, input_cameras(capture, given));
-  const double load = watch.lap();
-  settings.metadata.insert(settings.metadata.begin(), {"source", last_name(given.capture)});
-  if (!cameras.empty())
-    settings.metadata.insert(settings.metadata.begin() + 1,
-                             {"split", split_name(capture, given.split)});
-  SLF_TRY(const Encoded encoded, from(given.capture, encode(capture, cameras, settings, progress)));
+  SLF_TRY(const CaptureInput input, load_input(given, line));
+  settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
+  SLF_TRY(const Encoded encoded,
+          from(given.capture, encode(input.capture, input.cameras, settings, progress)));
   line.clear();
   warn(encoded.warnings, given.common.quiet);
   SLF_CHECK(save(given.output, encoded.stream.data(), encoded.stream.size()));
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
-    return print(report_json(encoded, info, cameras.size(), load));
+    return print(report_json(encoded, info, input.cameras.size(), input.seconds));
   }
-  if (!given.common.quiet) std::fputs(report_text(encoded, cameras.size(), load).c_str(), stderr);
+  if (!given.common.quiet)
+    std::fputs(report_text(encoded, input.cameras.size(), input.seconds).c_str(), stderr);
   return Done{};
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "slf/evaluate.h"
+#include "slf/igc.h"
 #include "tools/describe.h"
 #include "tools/options.h"
 #include "tools/progress.h"
@@ -145,6 +146,35 @@ Result<Subject, Failure> decode_slf(const EvalOptions& given,
                  bytes_by_type_text(info, stream.size())};
 }
 
+Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const Capture& capture,
+                                         std::span<const std::uint8_t> stream) {
+  IgcDecodeOptions options;
+  options.threads = given.common.threads;
+  ProgressLine line(given.common.quiet);
+  Stopwatch watch;
+  SLF_TRY(IgcDecoded decoded,
+          from(input_name(given.input), decode_igc(stream, capture, options, line.callback())));
+  const nlohmann::ordered_json decode_seconds = {
+      {"threads", given.common.threads},  {"geometry", decoded.seconds_geometry},
+      {"images", decoded.seconds_images}, {"observe", decoded.seconds_observe},
+      {"fit", decoded.seconds_fit},       {"total", watch.lap()}};
+  const nlohmann::ordered_json bytes = {{"geometry", decoded.bytes_geometry},
+                                        {"images", decoded.bytes_images},
+                                        {"parameters", decoded.bytes_parameters}};
+  nlohmann::ordered_json settings;
+  for (const auto& [key, value] : decoded.metadata) settings[key] = value;
+  std::string lines = "bytes by section\n";
+  for (const auto& [section, size] : bytes.items())
+    lines += text("  %-14s %12s\n", section.c_str(), grouped(size.get<std::uint64_t>()).c_str());
+  return Subject{std::move(decoded.light_field),
+                 stream.size(),
+                 decoded.metadata,
+                 bytes,
+                 std::move(settings),
+                 decode_seconds,
+                 std::move(lines)};
+}
+
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
                                                const Subject& subject) {
   const std::string split =
@@ -178,7 +208,8 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
 Outcome run_eval(const EvalOptions& given) {
   SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
   SLF_TRY(const Capture capture, read_capture(given));
-  SLF_TRY(const Subject subject, decode_slf(given, stream));
+  SLF_TRY(const Subject subject,
+          is_igc(stream) ? decode_igc_file(given, capture, stream) : decode_slf(given, stream));
   SLF_CHECK(require_view_maps(subject.field, given.input));
   Stopwatch watch;
   SLF_TRY(const auto measured, measure(given, capture, subject));
@@ -192,7 +223,7 @@ void add_eval(CLI::App& program, Run& run) {
   auto* verb =
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
-  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+  verb->add_option("FILE", o->input, "The .slf or .igc file; - is standard input")
       ->type_name("")
       ->required();
   verb->add_option("CAPTURE", o->capture, "The capture (see slf encode --help)")

@@ -100,7 +100,8 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
               info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
   out += header_text(info.header);
   out += text("  coders        %s geometry", info.geometry_coder.c_str());
-  out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients\n" : "\n";
+  out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";
+  out += info.texture_bits > 0 ? text(" of %d bits\n", info.texture_bits) : "\n";
   if (info.header.num_functions > 0) out += groups_text(info);
   out += "\n" + bytes_by_type_text(info, bytes);
   if (units) out += units_text(info);

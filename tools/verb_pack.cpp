@@ -23,6 +23,7 @@ struct PackOptions {
   std::uint32_t step = 1, slice_points = 1u << 20;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
+  TextureSettings texture;
   std::vector<int> levels;
   bool index = false, no_index = false, no_digest = false;
   CommonOptions common;
@@ -127,9 +128,11 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   CodingParameters parameters;
   parameters.geometry = given.geometry;
   parameters.coefficients = given.coefficients;
+  parameters.texture = given.texture;
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
-  parameters.coefficient_level_ends = given.levels;
+  if (given.coefficients != CoefficientCoder::kTexture)
+    parameters.coefficient_level_ends = given.levels;
   if (given.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
   parameters.max_slice_points = given.slice_points;
   parameters.digest = !given.no_digest;
@@ -214,6 +217,7 @@ void add_pack(CLI::App& program, Run& run) {
       ->type_name("FILE");
   add_geometry_choice(*verb, o->geometry);
   add_coefficients_choice(*verb, o->coefficients);
+  add_texture_options(*verb, o->texture);
   verb->add_option(
           "--levels", o->levels,
           "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")

@@ -45,12 +45,14 @@ struct PointCloud {
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< [P]; or empty
 };
 
-/// Cameras and cloud are in memory; images are read when they are needed (load_image).
+/// Cameras and cloud are in memory; images are read when they are needed (load_image), or in memory
+/// too where `images` has them.
 struct Capture {
   std::filesystem::path root;
   PointCloud cloud;
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
+  std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
   std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: 8-bit, 0 = not the object
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;

@@ -58,7 +58,8 @@ struct StreamInfo {
   std::vector<std::array<std::uint32_t, 3>>
       step;                       ///< [K][3] quantiser steps, integer component units
   std::string geometry_coder;     ///< "octree" or "draco"
-  std::string coefficient_coder;  ///< "vector" or "independent"
+  std::string coefficient_coder;  ///< "vector", "independent" or "texture"
+  int texture_bits = 0;           ///< of a sample; 0: no texture
   Metadata metadata;
   std::vector<UnitInfo> units;
   bool complete = false;  ///< the end unit is there

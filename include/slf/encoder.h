@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "slf/capture.h"
@@ -18,6 +19,20 @@ enum class GeometryCoder : std::uint8_t { kOctree = 0, kDraco = 1 };
 enum class CoefficientCoder : std::uint8_t {
   kVector = 0,       ///< per node over the planes of a group, with shared significance
   kIndependent = 1,  ///< each plane alone, one context set per plane: the paper's way
+  kTexture = 2,      ///< each plane a picture, coded by HEVC: the paper's second way. Spec 8.11
+};
+
+/// How planes become pictures. Needs x265 (SLF_X265), and libde265 for digests.
+struct TextureSettings {
+  enum Mode : std::uint8_t {
+    kIntra,     ///< every plane by itself
+    kLowDelay,  ///< predicted from the planes before it in its group
+  };
+  int bits = 10;  ///< of a sample: 8, 10 or 12
+  int qp = 22;    ///< of HEVC, 0 .. 51
+  Mode mode = kLowDelay;
+  std::string preset = "superfast";  ///< of x265. Slower ones do not always give the same bytes
+  bool lossless = false;             ///< the pictures, not the rounding to samples; qp is not used
 };
 
 /// How given integers become bytes. Same integers and parameters give the same bytes everywhere.
@@ -26,11 +41,12 @@ struct CodingParameters {
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   std::vector<int> group;  ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
   std::vector<std::array<std::uint32_t, 3>>
-      step;  ///< [K][3] >= 1, integer component units; empty: all 1
+      step;  ///< [K][3] >= 1, integer component units; empty: all 1. With kTexture that of a sample
   std::vector<int>
       coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
                                ///< the last is the grid's bits. Empty: one unit per group
   std::vector<int> geometry_level_ends;  ///< the same for geometry units
+  TextureSettings texture;               ///< where coefficients is kTexture
   std::uint32_t max_slice_points = 1u << 20;
   bool digest = true;
   bool index = true;
@@ -59,7 +75,8 @@ struct EncoderSettings {
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
-  int normal_bits = 0;  ///< 0: normals are not coded; 4 .. 12
+  TextureSettings texture;  ///< where coefficients is kTexture: its qp takes the place of q
+  int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
   std::uint32_t max_slice_points = 1u << 20;
   Metadata metadata;  ///< added to what the encoder itself records
   int threads = 0;

@@ -1,0 +1,112 @@
+#include "codec/fit_capture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/spacing.h"
+#include "codec/component_planes.h"
+#include "codec/stopwatch.h"
+#include "lightfield/octahedral.h"
+
+namespace slf {
+namespace {
+
+InputError invalid(std::string what) { return {Errc::kInvalidArgument, std::move(what)}; }
+
+ObservedPoints world_points(const VoxelCloud& cloud) {
+  ObservedPoints points;
+  for (const Voxel& v : cloud.positions) {
+    const Vec3 w = cloud.grid.world(v);
+    points.positions.push_back(
+        {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
+  }
+  points.normals = cloud.normals;
+  return points;
+}
+
+CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
+  CodedNormals normals{bits, {}};
+  if (bits > 0)
+    for (const auto& n : cloud.normals)
+      normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
+  return normals;
+}
+
+}  // namespace
+
+Result<Done, InputError> check_settings(const EncoderSettings& s) {
+  const Basis& b = s.fit.basis;
+  if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
+  if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
+  if (s.voxel_size == 0 && (s.grid_bits < 1 || s.grid_bits > 21))
+    return invalid("grid bits: 1 to 21");
+  if (b.order < 1 || b.order > 4) return invalid("order: 1 to 4");
+  if (b.scales_theta < 0 || b.scales_theta > 6 || b.scales_gamma < 0 || b.scales_gamma > 6)
+    return invalid("scales: 0 to 6");
+  if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
+    return invalid("delta: 0 to 90 degrees");
+  if (!(s.fit.lambda >= 0) || !std::isfinite(s.fit.lambda)) return invalid("lambda: 0 or more");
+  if (!(s.fit.beta >= 0) || !std::isfinite(s.fit.beta)) return invalid("beta: 0 or more");
+  if (s.fit.iterations < 0 || s.fit.iterations > 100) return invalid("iterations: 0 to 100");
+  if (s.fit.neighbours < 1 || s.fit.neighbours > 64) return invalid("neighbours: 1 to 64");
+  if (s.normal_bits != 0 && (s.normal_bits < 4 || s.normal_bits > 12))
+    return invalid("normal bits: 0, or 4 to 12");
+  return Done{};
+}
+
+Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
+                                                std::span<const int> cameras,
+                                                const EncoderSettings& settings) {
+  const bool needs_normals = !cameras.empty() || settings.normal_bits > 0;
+  if (!needs_normals || !capture.cloud.normals.empty())
+    return voxelise(capture.cloud, settings.grid_bits, settings.voxel_size);
+  PointCloud cloud = capture.cloud;
+  std::vector<Vec3> viewpoints;
+  for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
+  cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
+  return voxelise(cloud, settings.grid_bits, settings.voxel_size);
+}
+
+Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
+                                           const VoxelCloud& cloud, const EncoderSettings& settings,
+                                           const Progress& progress) {
+  Stopwatch watch;
+  CaptureFit fit;
+  const ObservedPoints points = world_points(cloud);
+  const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
+  SLF_TRY(const Observations seen,
+          observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
+  fit.observations = seen.colour.size();
+  for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
+    fit.unobserved_points += seen.first[p] == seen.first[p + 1];
+  fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
+  fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
+  fit.seconds_observe = watch.lap();
+  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, settings.fit, progress));
+  fit.seconds_fit = watch.lap();
+  return fit;
+}
+
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
+                         const EncoderSettings& settings) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header.grid = cloud.grid;
+  header.basis = settings.fit.basis;
+  header.num_functions = header.basis.num_functions();
+  header.colour = settings.colour;
+  header.transfer = settings.observe.transfer;
+  header.up = up;
+  header.gamma_min_q7 = fit.gamma_min_q7;
+  header.gamma_max_q7 = fit.gamma_max_q7;
+  to_coded_channels(fit.coefficients, header.colour, settings.threads);
+  header.shift =
+      component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
+                       std::min<std::size_t>(cloud.positions.size(), settings.max_slice_points));
+  field.components = to_components(fit.coefficients, header.shift, settings.threads);
+  field.positions = cloud.positions;
+  field.normals = coded_normals(cloud, settings.normal_bits);
+  return field;
+}
+
+}  // namespace slf

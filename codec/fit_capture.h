@@ -1,0 +1,40 @@
+// From a capture to an integer light field: the encoder's steps before coding. The decoder of
+// image-plus-geometry files (igc/) runs the same ones on what it decoded.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "slf/encoder.h"
+
+namespace slf {
+
+/// @errors kInvalidArgument: names the setting and its range.
+Result<Done, InputError> check_settings(const EncoderSettings& settings);
+
+/// The cloud on the grid. With normals, those of the capture or estimated ones, where cameras or
+/// settings.normal_bits need them. Errors as voxelise.
+Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
+                                                std::span<const int> cameras,
+                                                const EncoderSettings& settings);
+
+/// View maps in floating point.
+struct CaptureFit {
+  std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K = settings.fit.basis
+  int gamma_min_q7 = -127, gamma_max_q7 = 127;
+  std::size_t observations = 0, unobserved_points = 0;
+  double seconds_observe = 0, seconds_fit = 0;
+};
+
+/// View maps from what the cameras saw of a cloud with normals. Paper II, III-A. Errors as observe
+/// and fit_view_maps.
+Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
+                                           const VoxelCloud& cloud, const EncoderSettings& settings,
+                                           const Progress& progress);
+
+/// The integer light field, its shifts as fine as the coder takes them. Spec 6.3, 6.5.
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
+                         const EncoderSettings& settings);
+
+}  // namespace slf

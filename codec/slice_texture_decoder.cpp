@@ -1,0 +1,63 @@
+// Components of a slice whose planes are pictures. Spec 8.11.
+#include <optional>
+
+#include "codec/slice_decoder.h"
+#include "slf/parallel.h"
+#include "texture/texture_decoder.h"
+
+namespace slf {
+namespace {
+
+/// sum / n to nearest, halves away from zero. |sum| < 2^52.
+std::int32_t rounded_mean(std::int64_t sum, std::int64_t n) {
+  const std::int64_t magnitude = ((sum < 0 ? -sum : sum) + n / 2) / n;
+  return static_cast<std::int32_t>(sum < 0 ? -magnitude : magnitude);
+}
+
+/// Values of the points to those of the kept rows, in column `plane` of `components`.
+void store_plane(std::span<const std::int32_t> values, std::span<const std::uint32_t> first,
+                 std::size_t plane, std::size_t planes, std::span<std::int32_t> components) {
+  for (std::size_t row = 0; row + 1 < first.size(); ++row) {
+    std::int64_t sum = 0;
+    for (std::size_t p = first[row]; p < first[row + 1]; ++p) sum += values[p];
+    components[row * planes + plane] = rounded_mean(sum, first[row + 1] - first[row]);
+  }
+}
+
+}  // namespace
+
+Result<Done> SliceDecoder::decode_texture_units(const SequencePlan& plan,
+                                                std::span<std::int32_t> components, int threads) {
+  std::vector<const SliceUnit*> wanted;  // by group
+  std::uint32_t expected = 0;
+  for (const SliceUnit& unit : units) {
+    if (unit.type != UnitType::kCoefficients || codes_.empty()) continue;
+    if (unit.header.range != 0) return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
+    if (unit.header.group != expected || expected >= plan.set.num_groups())
+      return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
+    ++expected;
+    if (unit.header.group < plan.groups.size()) wanted.push_back(&unit);
+  }
+  partial = partial || expected < plan.set.num_groups();
+  if (wanted.empty()) return Done{};
+  SLF_TRY(const Atlas atlas, derive_atlas(codes_, static_cast<int>(header.slice_depth),
+                                          static_cast<int>(plan.set.sps_texture_cell_log2)));
+  std::vector<std::optional<Error>> errors(wanted.size());
+  parallel_ranges(wanted.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      const std::vector<std::size_t> planes = planes_of(plan.groups[g]);
+      std::vector<std::uint32_t> steps;
+      for (const std::size_t j : planes) steps.push_back(plan.steps[j]);
+      const auto store = [&](std::size_t i, std::span<const std::int32_t> values) {
+        store_plane(values, first_, planes[i], plan.planes(), components);
+      };
+      auto done = decode_texture(wanted[g]->payload, atlas, plan.set.texture_bits(), steps, store);
+      if (!done) errors[g] = done.error();
+    }
+  });
+  for (const auto& error : errors)
+    if (error) return *error;
+  return Done{};
+}
+
+}  // namespace slf

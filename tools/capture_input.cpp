@@ -1,0 +1,56 @@
+#include "tools/capture_input.h"
+
+#include <filesystem>
+#include <string>
+
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+/// The last component of the path, whatever it ends with; never more, so that no machine's paths
+/// get into a file.
+std::string last_name(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::path full = std::filesystem::weakly_canonical(path, ignored);
+  if (ignored) full = path;
+  return full.filename().empty() ? full.parent_path().filename().string()
+                                 : full.filename().string();
+}
+
+Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
+                                                const EncodeOptions& given) {
+  if (!capture.cameras.empty()) return from(given.capture, split_cameras(capture, given.split));
+  if (!given.split.empty())
+    return Failure{kUsage, std::string(given.verb) + ": --split " + given.split +
+                               ": the capture has no cameras"};
+  return std::vector<int>{};
+}
+
+/// What split_cameras made of "".
+std::string split_name(const Capture& capture, const std::string& given) {
+  if (!given.empty()) return given;
+  return capture.splits.count("dense") ? "dense" : "default";
+}
+
+}  // namespace
+
+Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line) {
+  Stopwatch watch;
+  if (const Progress progress = line.callback()) progress("load", 0);
+  CaptureOptions options;
+  options.points = given.points;
+  CaptureInput input;
+  SLF_TRY(input.capture, from(given.capture, load_capture(given.capture, options)));
+  if (given.up_given) input.capture.up = given.up;
+  line.clear();
+  warn(input.capture.warnings, given.common.quiet);
+  SLF_TRY(input.cameras, input_cameras(input.capture, given));
+  input.metadata.emplace_back("source", last_name(given.capture));
+  if (!input.cameras.empty())
+    input.metadata.emplace_back("split", split_name(input.capture, given.split));
+  input.seconds = watch.lap();
+  return input;
+}
+
+}  // namespace slf::tools
