@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "capture/nearest.h"
 #include "codec/fit_capture.h"
 #include "codec/stopwatch.h"
 #include "igc/igc_file.h"
@@ -11,6 +12,7 @@
 #include "igc/ycbcr.h"
 #include "slf/decoder.h"
 #include "slf/igc.h"
+#include "slf/parallel.h"
 #include "video/av1_codec.h"
 #include "video/hevc_decoder.h"
 
@@ -68,8 +70,24 @@ Result<Done, InputError> decode_images(Bytes section, const IgcParameters& param
                                                : decode_hevc(section, format, sink));
 }
 
-/// The decoded points as a voxel cloud, with estimated normals.
-VoxelCloud with_normals(LightField geometry, const Capture& capture, int threads) {
+/// Normals of the nearest captured points.
+std::vector<std::array<float, 3>> captured_normals(const PointCloud& captured,
+                                                   const PointCloud& points, int threads) {
+  const NearestPoints tree(captured.positions);
+  std::vector<std::array<float, 3>> normals(points.positions.size());
+  parallel_ranges(normals.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      std::uint32_t nearest = 0;
+      tree.nearest(points.positions[p], 1, &nearest, nullptr);
+      normals[p] = captured.normals[nearest];
+    }
+  });
+  return normals;
+}
+
+/// The decoded points as a voxel cloud, with normals.
+VoxelCloud with_normals(LightField geometry, const Capture& capture, const PointCloud& captured,
+                        const IgcDecodeOptions& options) {
   VoxelCloud cloud;
   cloud.grid = geometry.header.grid;
   cloud.positions = std::move(geometry.positions);
@@ -79,9 +97,13 @@ VoxelCloud with_normals(LightField geometry, const Capture& capture, int threads
     points.positions.push_back(
         {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
   }
+  if (!options.estimate_normals && !captured.normals.empty()) {
+    cloud.normals = captured_normals(captured, points, options.threads);
+    return cloud;
+  }
   std::vector<Vec3> viewpoints;
   for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
-  cloud.normals = estimate_normals(points, viewpoints, 16, threads);
+  cloud.normals = estimate_normals(points, viewpoints, 16, options.threads);
   return cloud;
 }
 
@@ -121,7 +143,7 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   decoded.seconds_images = watch.lap();
   EncoderSettings& settings = parameters.settings.slf;
   settings.threads = settings.observe.threads = settings.fit.threads = options.threads;
-  const VoxelCloud cloud = with_normals(std::move(geometry), capture, options.threads);
+  const VoxelCloud cloud = with_normals(std::move(geometry), capture, given.cloud, options);
   const double seconds_normals = watch.lap();
   SLF_TRY(CaptureFit fit, fit_capture(capture, order, cloud, settings, progress));
   decoded.seconds_observe = seconds_normals + fit.seconds_observe;

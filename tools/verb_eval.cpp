@@ -17,7 +17,7 @@ namespace {
 
 struct EvalOptions {
   std::string input, capture, points, split;
-  bool split_given = false, no_images = false;
+  bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
   std::optional<double> min_psnr;
   CommonOptions common;
@@ -149,6 +149,7 @@ Result<Subject, Failure> decode_slf(const EvalOptions& given,
 Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const Capture& capture,
                                          std::span<const std::uint8_t> stream) {
   IgcDecodeOptions options;
+  options.estimate_normals = given.estimate_normals;
   options.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
   Stopwatch watch;
@@ -246,6 +247,8 @@ void add_eval(CLI::App& program, Run& run) {
                    "Hidden if deeper than the depth buffer by more, in point spacings")
       ->capture_default_str()
       ->check(range(0, 1000));
+  verb->add_flag("--estimate-normals", o->estimate_normals,
+                 "An .igc file: normals from its points; default: the capture's, as a gift");
   verb->add_flag("--no-images", o->no_images, "Point PSNR alone: render no images");
   verb->add_option("--min-psnr", o->min_psnr,
                    "Exit with code 8 if the held-out point PSNR (of the first DELTA) is below; dB")

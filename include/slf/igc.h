@@ -47,7 +47,7 @@ struct IgcEncoded {
 /// full range; masks and alpha are not coded.
 ///
 /// Calibration (K, R, t) is not in the file: the decoder takes it from the capture, by camera name.
-/// Nor are normals, which it estimates. Both favour IGC in a comparison of bytes.
+/// Nor are normals, see IgcDecodeOptions. Both favour IGC in a comparison.
 /// @param cameras  indices into capture.cameras, at least one; all images of one size
 /// @errors kInvalidArgument: a setting out of range, no cameras. kInvalidInput: an image of another
 ///         size (names it). kUnsupported: x265 or libaom was left out of this build. Those of
@@ -59,6 +59,8 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
 
 struct IgcDecodeOptions {
   DecodeLimits limits;  ///< max_output_bytes: of the decoded images
+  bool estimate_normals = false;  ///< from the decoded points; else those of the capture's nearest
+                                  ///< points, where it has any, which no byte of the file pays for
   int threads = 0;
 };
 
@@ -74,8 +76,8 @@ struct IgcDecoded {
 bool is_igc(std::span<const std::uint8_t> stream);
 
 /// Decodes geometry and images, then observes and fits: the SLF is made here.
-/// @param capture  gives the calibration of the cameras that the file names, and nothing else: its
-///                 images, masks and points are not touched
+/// @param capture  gives the calibration of the cameras that the file names, and normals; its
+///                 images and masks are not touched
 /// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kInvalidInput: a damaged or foreign file,
 /// or
 ///         cameras that the capture does not have in that size. kLimitExceeded. kUnsupported: the
