@@ -42,6 +42,17 @@ SequenceParameterSet full_set() {
   return s;
 }
 
+SequenceParameterSet texture_set() {
+  SequenceParameterSet s = full_set();
+  s.sps_profile = kTextureProfile;
+  s.sps_coefficient_coder = kTextureCoder;
+  s.sps_texture_bits = 2;
+  s.sps_texture_cell_log2 = 7;
+  s.sps_num_coefficient_ranges_minus1 = 0;
+  s.sps_coefficient_range_end = {};
+  return s;
+}
+
 class SequenceParameterSetTest : public testing::TestWithParam<SetCase> {};
 
 TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
@@ -82,7 +93,8 @@ TEST_P(SequenceParameterSetTest, EveryFlippedBitGivesAValueOrAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
                          testing::Values(SetCase{"geometry_alone", {}},
-                                         SetCase{"everything", full_set()}),
+                                         SetCase{"everything", full_set()},
+                                         SetCase{"texture", texture_set()}),
                          [](const auto& set) { return set.param.name; });
 
 TEST(Spec_3_3_BitReader, ExpGolombCodesAreThoseOfTheTable) {
@@ -92,6 +104,41 @@ TEST(Spec_3_3_BitReader, ExpGolombCodesAreThoseOfTheTable) {
   for (std::uint64_t expected = 0; expected <= 4; ++expected) EXPECT_EQ(in.ue("test"), expected);
   in.trailing_bits("test");
   EXPECT_TRUE(in.ok());
+}
+
+TEST(Spec_3_3_BitReader, SignedCodesComeBackAndAlternate) {
+  BitWriter out;
+  const std::vector<std::int64_t> values = {0, 1, -1, 2, -2, (1 << 30) - 1, 1 - (1 << 30)};
+  for (const std::int64_t value : values) out.se(value);
+  const auto bytes = out.take();
+  EXPECT_EQ(bytes[0], 0b10100110);  // 1, 010, 011, 0...: the codes of 0, 1, 2
+  BitReader in(bytes);
+  for (const std::int64_t value : values) EXPECT_EQ(in.se("test"), value);
+  EXPECT_TRUE(in.ok());
+}
+
+TEST(Spec_7_2_Texture, ProfileAndCoderGoTogether) {
+  const auto error_of = [](const SequenceParameterSet& set) {
+    const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(set));
+    return std::string(parsed ? "" : parsed.error().element);
+  };
+  EXPECT_EQ(error_of(texture_set()), "");
+  SequenceParameterSet set = texture_set();
+  set.sps_profile = 0;
+  EXPECT_EQ(error_of(set), "sps_coefficient_coder");
+  set = full_set();
+  set.sps_profile = kTextureProfile;
+  EXPECT_EQ(error_of(set), "sps_coefficient_coder");
+  set = texture_set();
+  set.sps_texture_bits = 3;
+  EXPECT_EQ(error_of(set), "sps_texture_bits");
+  set = texture_set();
+  set.sps_geometry_coder = 1;
+  EXPECT_EQ(error_of(set), "sps_geometry_coder");
+  set = texture_set();
+  set.sps_num_coefficient_ranges_minus1 = 1;
+  set.sps_coefficient_range_end = {9};
+  EXPECT_EQ(error_of(set), "sps_num_coefficient_ranges_minus1");
 }
 
 TEST(Spec_3_3_BitReader, ARunOfZerosFailsAndDoesNotSpin) {

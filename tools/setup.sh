@@ -7,12 +7,12 @@ set -euo pipefail
 packages=(
   g++ clang cmake ninja-build pkg-config
   zlib1g-dev libpng-dev libjpeg62-turbo-dev libdraco-dev
-  libde265-dev libx265-dev libaom-dev
+  libde265-dev
   libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcli11-dev
   python3 python3-numpy
 )
 if [[ "${1:-}" == lab ]]; then
-  packages+=(libgtest-dev libgmock-dev snakemake python3-scipy python3-matplotlib)
+  packages+=(libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib)
 fi
 
 missing=()

@@ -40,6 +40,7 @@ def arguments():
     add("--dry-run", action="store_true", help="check and count, run nothing (captures are made)")
     add("--check", action="store_true", help="fail where a verdict differs from verdicts.json")
     add("--record", action="store_true", help="write the verdicts to verdicts.json")
+    add("--markdown", metavar="DIR", help="also write tables and figures as a Markdown page into DIR")
     return parser.parse_args()
 
 
@@ -126,6 +127,7 @@ def failures(out, plan):
 def finish(out, plan, options, seconds):
     """Table, plots, verdicts, report; then whether all is well."""
     import collect  # these need numpy and matplotlib; a refused manifest should not wait for them
+    import markdown
     import plot
     import report
     import verdicts
@@ -134,6 +136,8 @@ def finish(out, plan, options, seconds):
     judged = verdicts.judge(rows)
     write_json(out / "verdicts.json", judged)
     report.write(out, plan, rows, figures, judged, seconds)
+    if options.markdown:
+        markdown.write(options.markdown, out, plan, rows, figures, judged)
     for line in verdicts.lines(judged):
         print(line)
     print(f"rd.py: {out / 'report.html'}, {out / 'results.csv'}, {out / 'figures'}")

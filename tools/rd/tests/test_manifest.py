@@ -91,7 +91,7 @@ class Shipped(unittest.TestCase):
     def test_every_manifest_is_sound_and_the_sets_have_the_papers_labels(self):
         full = {manifest.read(path)[1]["label"] for path in (RD / "experiments").glob("*.json")}
         for label in ("delta_c", "order", "n_basis", "lambda", "beta", "recon_density_can", "recon_density_dice", "spatial_scalability",
-                      "fidelity_scalability_nbasis", "fidelity_scalability_qs", "recon_arb_can", "recon_arb_die", "rdcompare_can",
+                      "fidelity_scalability_nbasis", "fidelity_scalability_qs", "recon_arb_can", "recon_arb_die", "rdcompare_blender_can",
                       "rdcompare_die", "spline", "1dfit", "coef_dist"):
             self.assertIn("fig:" + label, full)
         self.assertIn("tab:time", full)
