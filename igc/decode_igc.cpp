@@ -117,6 +117,17 @@ Result<LightField, InputError> decode_geometry(Bytes section, const IgcDecodeOpt
   return geometry;
 }
 
+/// What the fit and the depth buffers will take.
+Result<Done, InputError> check_size(const IgcParameters& parameters, std::size_t points,
+                                    const DecodeLimits& limits) {
+  const EncoderSettings& s = parameters.settings.slf;
+  const double functions = s.fit.basis.num_functions(), scale = s.observe.occlusion_resolution;
+  const double view_maps = static_cast<double>(points) * (12 + 12 * functions);
+  const double depths = 4 * scale * scale * parameters.width * parameters.height;
+  if (std::max(view_maps, depths) <= static_cast<double>(limits.max_output_bytes)) return Done{};
+  return InputError{Errc::kLimitExceeded, "IGC file: view maps or depth buffers beyond the limit"};
+}
+
 }  // namespace
 
 bool is_igc(Bytes stream) {
@@ -137,6 +148,7 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   SLF_TRY(Capture capture, file_cameras(parameters, given, order));
   Stopwatch watch;
   SLF_TRY(LightField geometry, decode_geometry(sections.geometry, options));
+  SLF_CHECK(check_size(parameters, geometry.num_points(), options.limits));
   const UpAxis up = geometry.header.up;
   decoded.seconds_geometry = watch.lap();
   SLF_CHECK(decode_images(sections.images, parameters, options.limits, order, capture, progress));

@@ -1,6 +1,7 @@
 #include "texture/block_grid.h"
 
 #include <bit>
+#include <utility>
 
 namespace slf {
 namespace {

@@ -1,5 +1,6 @@
 // slf eval: quality of a file against its capture, by the one definition of slf/evaluate.h.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -195,8 +196,8 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   ProgressLine line(given.common.quiet);
   const ViewMaps maps(subject.field, settings.threads);
   std::vector<Measured> measured;
-  const std::vector<int>& judged = held_out;
-  for (const std::vector<int>* cameras : {&input, &judged}) {
+  for (const std::vector<int>* cameras :
+       std::array<const std::vector<int>*, 2>{&input, &held_out}) {
     if (cameras->empty()) continue;
     SLF_TRY(Quality quality,
             from(given.capture, evaluate(maps, capture, *cameras, settings, line.callback())));

@@ -11,6 +11,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kHeaderBytes = 2;
+constexpr std::size_t kMostUnitBytes = 0x7FFFFFFF;  // libde265 counts in int
 constexpr int kMostPadding = 63;  // samples of the coded size beyond the window: the largest block
 
 // nal_unit_type, H.265 table 7-1.
@@ -155,8 +156,8 @@ struct UnitCounts {
 Result<Done> check_unit(Bytes unit, const HevcFormat& expected, UnitCounts& counts) {
   const Error damaged{Errc::kOutOfRange, "hevc_nal_unit", 0};
   // forbidden_zero_bit, nuh_layer_id 0, nuh_temporal_id_plus1 not 0; payload.
-  if (unit.size() <= kHeaderBytes || (unit[0] & 0x81) != 0 || unit[1] >> 3 != 0 ||
-      (unit[1] & 7) == 0)
+  if (unit.size() <= kHeaderBytes || unit.size() > kMostUnitBytes || (unit[0] & 0x81) != 0 ||
+      unit[1] >> 3 != 0 || (unit[1] & 7) == 0)
     return damaged;
   const int type = unit_type(unit);
   if (is_skipped(type)) return Done{};

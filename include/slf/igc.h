@@ -44,7 +44,8 @@ struct IgcEncoded {
 
 /// Codes the photographs along a walk through neighbouring cameras with a video codec, and the
 /// voxelised points as an .slf stream without functions. Colours are coded as 8-bit BT.709 YCbCr of
-/// full range; masks and alpha are not coded.
+/// full range; masks and alpha are not coded, so
+/// captures that have them are not for this comparison.
 ///
 /// Calibration (K, R, t) is not in the file: the decoder takes it from the capture, by camera name.
 /// Nor are normals, see IgcDecodeOptions. Both favour IGC in a comparison.
@@ -52,13 +53,14 @@ struct IgcEncoded {
 /// @errors kInvalidArgument: a setting out of range, no cameras. kInvalidInput: an image of another
 ///         size (names it). kUnsupported: x265 or libaom was left out of this build. Those of
 ///         voxelise, load_image and pack.
-/// The same bytes for any thread count; the video codec runs on one thread.
+/// The video codec runs on one thread. HEVC in low delay: see video/hevc_encoder.h for what x265's
+/// slower presets do not promise.
 Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<const int> cameras,
                                           const IgcSettings& settings,
                                           const Progress& progress = {});
 
 struct IgcDecodeOptions {
-  DecodeLimits limits;  ///< max_output_bytes: of the decoded images
+  DecodeLimits limits;  ///< max_output_bytes: of the images, of the view maps, of depth buffers
   bool estimate_normals = false;  ///< from the decoded points; else those of the capture's nearest
                                   ///< points, where it has any, which no byte of the file pays for
   int threads = 0;
@@ -78,8 +80,7 @@ bool is_igc(std::span<const std::uint8_t> stream);
 /// Decodes geometry and images, then observes and fits: the SLF is made here.
 /// @param capture  gives the calibration of the cameras that the file names, and normals; its
 ///                 images and masks are not touched
-/// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kInvalidInput: a damaged or foreign file,
-/// or
+/// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kInvalidInput: a damaged or foreign file, or
 ///         cameras that the capture does not have in that size. kLimitExceeded. kUnsupported: the
 ///         video decoder was left out of this build. Those of observe and fit_view_maps.
 /// The same for any thread count of one binary.
