@@ -261,6 +261,21 @@ void add_textures(std::vector<Case>& cases) {
                        6, 2, 600);
   slices.parameters.max_slice_points = 700;
   cases.push_back(slices);
+  // Charts beyond the limit of extent, upright and lying, sparse, and too small.
+  std::vector<Voxel> shapes;
+  for (std::int32_t a = 0; a < 700; ++a)
+    for (std::int32_t b = 0; b < 10; ++b) shapes.push_back({3, b, a});
+  for (std::int32_t a = 0; a < 61; ++a)
+    for (std::int32_t b = 0; b < 7 + a % 5; ++b) shapes.push_back({100 + b, 100 + a, 9});
+  for (std::int32_t a = 0; a < 90; ++a) shapes.push_back({300 + a, 300 + a, 400});
+  for (std::int32_t a = 0; a < 15; ++a) shapes.push_back({500 + a % 4, 500 + a / 4, 800});
+  Case charts = texture("texture-charts", "limits of extent, of cells and of fill; boxes turned",
+                        sorted(std::move(shapes)), 10, 1, 4, 8);
+  for (std::size_t p = 0; p < charts.field.num_points(); ++p)
+    for (std::size_t c = 0; c < 3; ++c)
+      charts.field.components[3 * p + c] =
+          charts.field.positions[p][c] / 2 + static_cast<std::int32_t>(40 * c);
+  cases.push_back(charts);
   Case constant = texture("texture-constant", "planes without pictures: no HEVC to decode",
                           sphere(4), 4, 2, 1, 8);
   for (std::size_t i = 0; i < constant.field.components.size(); ++i)
