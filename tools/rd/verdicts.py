@@ -156,7 +156,7 @@ def density(rows):
     """At the finest Q, the Die loses more PSNR from dense to sparse cameras than the Can, by more than 0.1 dB."""
     drops = {}
     for name in ("can", "die"):
-        own = ok(rows, f"fig:rdcompare_{name}", codec="raht")
+        own = ok(rows, f"fig:rdcompare_{name}", codec="raht") or ok(rows, f"fig:rdcompare_blender_{name}", codec="raht")
         finest = min((r["rate"] for r in own), default=None)
         found = {r["split"]: psnr(r) for r in own if r["rate"] == finest}
         if not {"dense", "sparse"} <= set(found):
