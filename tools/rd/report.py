@@ -4,6 +4,7 @@ import html
 import os
 import pathlib
 import platform
+import re
 
 import tables
 
@@ -27,7 +28,7 @@ def text(value):
 
 
 def is_number(value):
-    return value[:1] in "+-0123456789" and value != "" and value[-1:] in "0123456789BM%"
+    return re.fullmatch(r"[+-]?[0-9.,]+( ?[kM]?B| ?%)?", value) is not None
 
 
 def table(header, lines):
