@@ -2,12 +2,12 @@
 #include "slf/decoder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "bitstream/index.h"
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
+#include "codec/stopwatch.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -114,11 +114,6 @@ Result<Done> decode_values(std::vector<SliceDecoder>& slices, const SequencePlan
   });
 }
 
-double seconds_between(std::chrono::steady_clock::time_point from,
-                       std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
 bool is_partial(const Units& units, const SequencePlan& plan,
                 const std::vector<SliceDecoder>& slices) {
   return !units.complete || !plan.whole ||
@@ -136,16 +131,16 @@ Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOpti
   SLF_TRY(auto slices, collect_slices(units, set));                    // 7.3
   SLF_TRY(const SequencePlan plan, plan_sequence(set, options));       // 8.2
   SLF_CHECK(check_limits(slices, plan, options.limits));               // 9
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
+  DecodeSeconds seconds;
   SLF_CHECK(decode_geometry(slices, plan, options.threads));  // 8.4 - 8.6
   drop_repeated_cells(slices);                                // 8.9
   LightField field = gather_points(slices, plan);             // 6.1, 6.2
-  const auto middle = std::chrono::steady_clock::now();
+  seconds.geometry = watch.lap();
   SLF_CHECK(decode_values(slices, plan, options.threads, field));  // 8.7 - 8.10, 7.9
   field.partial = is_partial(units, plan, slices);                 // 8.9
-  if (options.seconds != nullptr)
-    *options.seconds = {seconds_between(start, middle),
-                        seconds_between(middle, std::chrono::steady_clock::now())};
+  seconds.coefficients = watch.lap();
+  if (options.seconds != nullptr) *options.seconds = seconds;
   return field;
 }
 

@@ -1,4 +1,4 @@
-// Wall time of the steps of an encode, for reports.
+// Wall time of the steps of an encode or decode, for reports.
 #pragma once
 
 #include <chrono>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "tests/video_support.h"
 #include "video/av1_codec.h"
 #include "video/hevc_decoder.h"
 #include "video/hevc_encoder.h"
@@ -22,18 +23,6 @@
 
 namespace slf {
 namespace {
-
-#if SLF_WITH_X265 && SLF_WITH_HEVC
-#define SLF_NEEDS_HEVC() static_cast<void>(0)
-#else
-#define SLF_NEEDS_HEVC() GTEST_SKIP() << "needs x265 (SLF_X265) and libde265 (SLF_HEVC)"
-#endif
-
-#if SLF_WITH_AV1
-#define SLF_NEEDS_AV1() static_cast<void>(0)
-#else
-#define SLF_NEEDS_AV1() GTEST_SKIP() << "needs libaom (SLF_AV1)"
-#endif
 
 using Bytes = std::vector<std::uint8_t>;
 
