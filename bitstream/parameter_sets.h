@@ -41,6 +41,7 @@ struct SequenceParameterSet {
   std::uint32_t sps_num_functions = 0;
   std::uint32_t sps_basis_flag = 0;
   std::uint32_t sps_basis_idc = 0, sps_order_minus1 = 1, sps_scales_theta = 0, sps_scales_gamma = 0;
+  std::uint32_t sps_degree = 0;
   std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
   std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
   std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
@@ -53,6 +54,10 @@ struct SequenceParameterSet {
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
   bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }
   int texture_bits() const { return 8 + 2 * static_cast<int>(sps_texture_bits); }
+  std::uint32_t functions_of_basis() const {
+    return sps_basis_idc == 0 ? 1u << (sps_scales_theta + sps_scales_gamma)
+                              : (sps_degree + 1) * (sps_degree + 1);
+  }
   std::uint32_t num_groups() const {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
   }
@@ -129,13 +134,16 @@ void sequence_parameter_set(V& v, Set& s) {
   if (s.sps_num_functions == 0) return;
   v.u(1, "sps_basis_flag", s.sps_basis_flag, Range{0, 1});
   if (s.sps_basis_flag) {
-    v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 0});
-    v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
-    v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
-    v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
-    v.require(s.sps_num_functions == 1u << (s.sps_scales_theta + s.sps_scales_gamma),
-              Errc::kOutOfRange, "sps_num_functions");
-    v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 0});
+    v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 1});
+    if (s.sps_basis_idc == 0) {
+      v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
+      v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
+      v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
+    } else {
+      v.u(4, "sps_degree", s.sps_degree, Range{0, 10});
+    }
+    v.require(s.sps_num_functions == s.functions_of_basis(), Errc::kOutOfRange, "sps_num_functions");
+    v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 1});
     v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
     v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
     v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});

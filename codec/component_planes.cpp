@@ -15,6 +15,9 @@ constexpr double kTransformLimit = 1 << 27;  // attributes/quantiser.h
 constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
 constexpr std::size_t kPointGrain = 2048;
 
+/// 1, 8, 27, and the rest of the harmonics.
+int group_of_degree(int degree) { return degree == 0 ? 0 : degree <= 2 ? 1 : degree <= 5 ? 2 : 3; }
+
 /// 0 for the constant, k + 1 for a wavelet of scale k.
 int scale_of(unsigned index) { return static_cast<int>(std::bit_width(index)); }
 
@@ -102,6 +105,12 @@ std::vector<std::array<std::uint32_t, 3>> texture_steps(const Basis& basis,
 }
 
 std::vector<int> scale_groups(const Basis& basis) {
+  if (basis.id == BasisId::kHarmonics) {
+    std::vector<int> groups;
+    for (int l = 0; l <= basis.degree; ++l)
+      groups.insert(groups.end(), static_cast<std::size_t>(2 * l + 1), group_of_degree(l));
+    return groups;
+  }
   const int extra_theta = std::max(basis.scales_theta - basis.scales_gamma, 0);
   const int extra_gamma = std::max(basis.scales_gamma - basis.scales_theta, 0);
   std::vector<int> groups;

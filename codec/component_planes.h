@@ -34,7 +34,8 @@ std::vector<std::array<std::uint32_t, 3>> texture_steps(const Basis& basis,
                                                         std::span<const std::uint32_t> least,
                                                         bool by_norm);
 
-/// [K] The mean alone, then rectangles of scales: N = 1, 8, 32, 128, ... functions for s0 = s1 + 1.
+/// [K] The mean alone, then rectangles of scales: N = 1, 8, 32, 128, ... functions for s0 = s1 + 1;
+/// of harmonics degrees 1 - 2, 3 - 5, 6 and above.
 std::vector<int> scale_groups(const Basis& basis);
 
 }  // namespace slf

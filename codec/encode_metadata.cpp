@@ -12,6 +12,30 @@ std::string text(double value) {
   return {buffer, end};
 }
 
+void add_fit(const FitSettings& fit, Metadata& metadata) {
+  if (fit.basis.id == BasisId::kBspline)
+    metadata.emplace_back("order", std::to_string(fit.basis.order));
+  if (fit.method == FitMethod::kHierarchical) {
+    const HierarchySettings& h = fit.hierarchy;
+    metadata.insert(metadata.end(), {
+                                        {"fit", "hierarchical"},
+                                        {"block_log2", std::to_string(h.block_log2)},
+                                        {"block_strength", text(h.strength)},
+                                        {"block_growth", text(h.growth)},
+                                        {"point_penalty", text(h.point_penalty)},
+                                        {"point_growth", text(h.point_growth)},
+                                    });
+    return;
+  }
+  metadata.insert(metadata.end(), {
+                                      {"lambda", text(fit.lambda)},
+                                      {"beta", text(fit.beta)},
+                                      {"iterations", std::to_string(fit.iterations)},
+                                      {"neighbours", std::to_string(fit.neighbours)},
+                                      {"penalise_dc", fit.penalise_dc ? "yes" : "no"},
+                                  });
+}
+
 }  // namespace
 
 Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std::size_t cameras) {
@@ -41,14 +65,9 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
                         {"delta", text(s.observe.delta_degrees)},
                         {"occlusion_resolution", text(s.observe.occlusion_resolution)},
                         {"depth_tolerance", text(s.observe.depth_tolerance)},
-                        {"order", std::to_string(s.fit.basis.order)},
                         {"functions", std::to_string(s.fit.basis.num_functions())},
-                        {"lambda", text(s.fit.lambda)},
-                        {"beta", text(s.fit.beta)},
-                        {"iterations", std::to_string(s.fit.iterations)},
-                        {"neighbours", std::to_string(s.fit.neighbours)},
-                        {"penalise_dc", s.fit.penalise_dc ? "yes" : "no"},
                     });
+    add_fit(s.fit, metadata);
   }
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;

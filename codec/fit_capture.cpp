@@ -40,6 +40,8 @@ Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
   if (s.voxel_size == 0 && (s.grid_bits < 1 || s.grid_bits > 21))
     return invalid("grid bits: 1 to 21");
+  if (b.id == BasisId::kHarmonics && (b.degree < 0 || b.degree > 10))
+    return invalid("degree: 0 to 10");
   if (b.order < 1 || b.order > 4) return invalid("order: 1 to 4");
   if (b.scales_theta < 0 || b.scales_theta > 6 || b.scales_gamma < 0 || b.scales_gamma > 6)
     return invalid("scales: 0 to 6");
@@ -74,13 +76,18 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   CaptureFit fit;
   const ObservedPoints points = world_points(cloud);
   const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
-  SLF_TRY(const Observations seen,
+  SLF_TRY(Observations world,
           observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
+  const Observations seen =
+      in_frame(std::move(world), settings.fit.frame, cloud.positions, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     fit.unobserved_points += seen.first[p] == seen.first[p + 1];
-  fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
-  fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
+  // Harmonics go on smoothly beyond what was seen; B-splines are held there (spec 6.7).
+  if (settings.fit.basis.id == BasisId::kBspline) {
+    fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
+    fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
+  }
   fit.seconds_observe = watch.lap();
   SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, settings.fit, progress));
   fit.seconds_fit = watch.lap();
@@ -94,6 +101,7 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
   header.grid = cloud.grid;
   header.basis = settings.fit.basis;
   header.num_functions = header.basis.num_functions();
+  header.frame = settings.fit.frame;
   header.colour = settings.colour;
   header.transfer = settings.observe.transfer;
   header.up = up;

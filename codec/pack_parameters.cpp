@@ -51,6 +51,9 @@ Result<Done, InputError> check_field(const LightField& field) {
     return invalid("number of functions: 0 to 4096");
   if (field.components.size() != points * functions * 3)
     return invalid("components: not [points][functions][3]");
+  if (h.has_basis && h.basis.id == BasisId::kHarmonics &&
+      (h.basis.degree < 0 || h.basis.degree > 10))
+    return invalid("basis: degree 0 to 10");
   if (h.has_basis &&
       (h.basis.order < 1 || h.basis.order > 4 || h.basis.scales_theta < 0 ||
        h.basis.scales_theta > 6 || h.basis.scales_gamma < 0 || h.basis.scales_gamma > 6))
@@ -166,6 +169,7 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_num_functions = static_cast<std::uint32_t>(h.num_functions);
   set.sps_basis_flag = h.has_basis && h.num_functions > 0;
   set.sps_basis_idc = static_cast<std::uint32_t>(h.basis.id);
+  set.sps_degree = static_cast<std::uint32_t>(h.basis.degree);
   set.sps_order_minus1 = static_cast<std::uint32_t>(h.basis.order - 1);
   set.sps_scales_theta = static_cast<std::uint32_t>(h.basis.scales_theta);
   set.sps_scales_gamma = static_cast<std::uint32_t>(h.basis.scales_gamma);

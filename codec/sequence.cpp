@@ -23,7 +23,8 @@ LightFieldHeader header_of(const SequenceParameterSet& set) {
   header.has_basis = set.sps_basis_flag != 0;
   header.basis = {static_cast<BasisId>(set.sps_basis_idc),
                   static_cast<int>(set.sps_order_minus1) + 1,
-                  static_cast<int>(set.sps_scales_theta), static_cast<int>(set.sps_scales_gamma)};
+                  static_cast<int>(set.sps_scales_theta), static_cast<int>(set.sps_scales_gamma),
+                  static_cast<int>(set.sps_degree)};
   header.frame = static_cast<FrameId>(set.sps_frame_idc);
   header.colour = static_cast<ColourTransform>(set.sps_colour_idc);
   header.transfer = static_cast<Transfer>(set.sps_transfer_idc);

@@ -140,6 +140,11 @@ void add_headers(std::vector<RefusedCase>& cases) {
   add("basis-idc", "an unknown basis", [](auto& s) { s.sps_basis_idc = 5; });
   add("functions-do-not-match", "scales that give another number of functions",
       [](auto& s) { s.sps_scales_theta = 2; });
+  add("degree", "harmonics of a degree above 10",
+      [](auto& s) { s.sps_basis_idc = 1, s.sps_degree = 11; });
+  add("degree-does-not-match", "a degree that gives another number of functions",
+      [](auto& s) { s.sps_basis_idc = 1, s.sps_degree = 2; });
+  add("frame-idc", "an unknown frame", [](auto& s) { s.sps_frame_idc = 2; });
   add("colour-idc", "an unknown colour transform", [](auto& s) { s.sps_colour_idc = 6; });
   add("gamma-range", "a gamma range that descends",
       [](auto& s) { s.sps_gamma_min = 10, s.sps_gamma_max = -10; });

@@ -179,6 +179,21 @@ void add_structure(std::vector<Case>& cases) {
   basis.field.header.gamma_max_q7 = 90;
   basis.parameters.metadata = {{"source", "generated"}, {"note", "größer"}};
   cases.push_back(basis);
+  Case harmonics{"harmonics",
+                 "spherical harmonics in the reflected frame, a group per degree",
+                 {"6.3", "6.4", "7.2"},
+                 field(sphere(5), 5, 9),
+                 with_steps(9, 16),
+                 {},
+                 {},
+                 0,
+                 false};
+  harmonics.field.header.has_basis = true;
+  harmonics.field.header.basis = {BasisId::kHarmonics, 2, 0, 0, 2};
+  harmonics.field.header.frame = FrameId::kReflected;
+  harmonics.field.header.colour = ColourTransform::kOpponent;
+  harmonics.parameters.group = {0, 1, 1, 1, 2, 2, 2, 2, 2};
+  cases.push_back(harmonics);
   Case bare{"no-index-no-digest",
             "only what must be there",
             {"7.1"},

@@ -4,7 +4,7 @@
     radiance.py DIR POINT X Y Z     POINT: its number; X Y Z: towards the eye, any length
 
 Needs numpy alone and no part of slf: it evaluates the sum over the basis functions as the
-specification defines them (clause 6.3, after the paper's Eq. 4 to 6), slowly and plainly.
+specification defines them (clauses 6.3 to 6.7, B-splines after the paper's Eq. 4 to 6), slowly and plainly.
 """
 import json
 import math
@@ -52,20 +52,57 @@ def basis_values(basis, theta, gamma):
     return np.outer(elevation, azimuth).ravel()
 
 
+def harmonics(degree, x, y, z):
+    """[(degree + 1)^2] real spherical harmonics of mean square 1 (clause 6.3); function l * l + l + m."""
+    values = np.zeros((degree + 1) ** 2)
+    cosine, sine, diagonal = 1.0, 0.0, 1.0
+    for m in range(degree + 1):
+        before, legendre = 0.0, diagonal
+        for l in range(m, degree + 1):
+            norm = (-1) ** m * math.sqrt((1 if m == 0 else 2) * (2 * l + 1) * math.factorial(l - m) / math.factorial(l + m))
+            values[l * l + l + m] = norm * legendre * cosine
+            if m:
+                values[l * l + l - m] = norm * legendre * sine
+            before, legendre = legendre, ((2 * l + 1) * z * legendre - (l + m) * before) / (l - m + 1)
+        diagonal *= 2 * m + 1
+        cosine, sine = cosine * x - sine * y, sine * x + cosine * y
+    return values
+
+
+def surface_normal(positions, voxel):
+    """Normal, of either sign, of the points within 4 voxels (clause 6.6.1), unit length."""
+    near = positions[np.abs(positions - voxel).max(axis=1) <= 4].astype(np.int64) - voxel
+    near = near[(near ** 2).sum(axis=1) <= 16]
+    s = len(near) * near.T @ near - np.outer(near.sum(axis=0), near.sum(axis=0))
+    adjugate = np.array([np.cross(s[1], s[2]), np.cross(s[2], s[0]), np.cross(s[0], s[1])])
+    best = adjugate[np.argmax(np.diag(adjugate))]
+    return best / np.linalg.norm(best) if np.diag(adjugate).any() else np.array([0.0, 0.0, 1.0])
+
+
 def radiance(directory, point, direction):
     """World position [3] and R, G, B [3] on 0 .. 255 of one point towards `direction`."""
     with open(os.path.join(directory, "light_field.json")) as file:
         field = json.load(file)
-    voxel = np.load(os.path.join(directory, "positions.npy"), mmap_mode="r")[point]
+    positions = np.load(os.path.join(directory, "positions.npy"), mmap_mode="r")
+    voxel = positions[point]
     components = np.load(os.path.join(directory, "components.npy"), mmap_mode="r")[point]
     if not field["has_basis"]:
         sys.exit("these components have no meaning: the file was packed, not encoded")
+    direction = np.array(direction) / np.linalg.norm(direction)
+    if field["frame"] == "reflected":
+        normal = surface_normal(positions, voxel)
+        direction = 2 * (normal @ direction) * normal - direction
     x, y, z = direction
     theta = math.atan2(y, x)
     low, high = field["gamma_range"]  # directions beyond what the cameras saw repeat the last seen
-    gamma = min(max(z / math.sqrt(x * x + y * y + z * z), low), high)
+    gamma = min(max(z, low), high)
     coefficients = components / 2.0 ** np.array(field["shift"])[:, None]
-    channels = basis_values(field["basis"], theta, gamma) @ coefficients
+    if field["basis"]["id"] == "harmonics":
+        r = math.sqrt(1 - gamma * gamma)
+        values = harmonics(field["basis"]["degree"], r * math.cos(theta), r * math.sin(theta), gamma)
+    else:
+        values = basis_values(field["basis"], theta, gamma)
+    channels = values @ coefficients
     rgb = np.array(field["colour"]["to_rgb"]) @ channels
     world = np.array(field["grid"]["origin"]) + field["grid"]["step"] * voxel
     return world, np.clip(rgb, 0, 255)

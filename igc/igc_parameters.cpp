@@ -106,6 +106,15 @@ void settings_lines(V& v, P& s) {
   v.real("occlusion_resolution", slf.observe.occlusion_resolution);
   v.real("depth_tolerance", slf.observe.depth_tolerance);
   choice(v, "transfer", slf.observe.transfer, 1);
+  choice(v, "fit", slf.fit.method, 1);
+  choice(v, "basis", slf.fit.basis.id, 1);
+  choice(v, "frame", slf.fit.frame, 1);
+  v.whole("degree", slf.fit.basis.degree, 0, 10);
+  v.whole("block_log2", slf.fit.hierarchy.block_log2, 0, 21);
+  v.real("block_strength", slf.fit.hierarchy.strength);
+  v.real("block_growth", slf.fit.hierarchy.growth);
+  v.real("point_penalty", slf.fit.hierarchy.point_penalty);
+  v.real("point_growth", slf.fit.hierarchy.point_growth);
   v.whole("order", slf.fit.basis.order, 1, 4);
   v.whole("scales_theta", slf.fit.basis.scales_theta, 0, 6);
   v.whole("scales_gamma", slf.fit.basis.scales_gamma, 0, 6);

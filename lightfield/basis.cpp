@@ -1,8 +1,10 @@
 #include "lightfield/basis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "lightfield/harmonics.h"
 #include "slf/view_map.h"
 
 namespace slf {
@@ -77,6 +79,12 @@ std::array<float, 2> direction_of(const Vec3& v) {
 }
 
 double basis_value(const Basis& basis, int k, double theta, double gamma) {
+  if (basis.id == BasisId::kHarmonics) {
+    std::array<double, (kMaxDegree + 1) * (kMaxDegree + 1)> row;
+    const double r = std::sqrt(std::max(0.0, 1 - gamma * gamma));
+    Harmonics(basis.degree).evaluate({r * std::cos(theta), r * std::sin(theta), gamma}, row.data());
+    return row[static_cast<std::size_t>(k)];
+  }
   const int i0 = k & ((1 << basis.scales_theta) - 1);
   const int i1 = k >> basis.scales_theta;
   return wavelet_value(basis.order, i0, axis_of_theta(theta)) *

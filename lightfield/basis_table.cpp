@@ -82,6 +82,8 @@ double AxisTable::inner_product(int i, int j) const {
 }
 
 std::vector<double> basis_norms(const Basis& basis) {
+  if (basis.id == BasisId::kHarmonics)
+    return std::vector<double>(static_cast<std::size_t>(basis.num_functions()), 1.0);
   // (theta, gamma) is equal-area, so the mean over the sphere is the product of the axis means.
   const AxisTable theta(basis.order, basis.scales_theta), gamma(basis.order, basis.scales_gamma);
   std::vector<double> norms;

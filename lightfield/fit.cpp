@@ -4,9 +4,12 @@
 #include <limits>
 #include <string>
 
+#include "lightfield/fit_hierarchical.h"
 #include "lightfield/fit_neighbours.h"
 #include "lightfield/fit_step.h"
 #include "lightfield/fit_unobserved.h"
+#include "lightfield/frame.h"
+#include "lightfield/harmonics.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 
@@ -23,8 +26,19 @@ bool in_range(int value, int low, int high) { return value >= low && value <= hi
 
 Result<Done, InputError> check(const FitSettings& settings) {
   const Basis& basis = settings.basis;
-  if (basis.id != BasisId::kBspline || !in_range(basis.order, 1, 4))
-    return invalid("the order of the basis must be 1 .. 4");
+  const HierarchySettings& h = settings.hierarchy;
+  const auto sound = [](double value, double least) {
+    return value >= least && std::isfinite(value);
+  };
+  if (settings.method == FitMethod::kHierarchical &&
+      !(in_range(h.block_log2, 0, 21) && sound(h.strength, 1e-9) && sound(h.growth, 1) &&
+        sound(h.point_penalty, 1e-9) && sound(h.point_growth, 1)))
+    return invalid("block side 0 .. 21, strengths above 0, growths 1 or more");
+  if (basis.id == BasisId::kHarmonics && !in_range(basis.degree, 0, kMaxDegree))
+    return invalid("the degree of the basis must be 0 .. 10");
+  if (basis.id == BasisId::kHarmonics && settings.method == FitMethod::kPaper)
+    return invalid("the paper's fit takes B-splines, not harmonics");
+  if (!in_range(basis.order, 1, 4)) return invalid("the order of the basis must be 1 .. 4");
   if (!in_range(basis.scales_theta, 0, 6) || !in_range(basis.scales_gamma, 0, 6))
     return invalid("the scales of the basis must be 0 .. 6");
   if (!(settings.lambda >= 0 && std::isfinite(settings.lambda)))
@@ -59,6 +73,26 @@ void for_points(std::size_t points, int step, int steps, const FitSettings& sett
 
 }  // namespace
 
+Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
+                      int threads) {
+  const auto normals = frame_normals(frame, positions, threads);
+  if (normals.empty()) return observations;
+  parallel_ranges(positions.size(), kPointsPerRange, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t p = begin; p < end; ++p)
+                      for (auto i = observations.first[p]; i < observations.first[p + 1]; ++i)
+                        observations.direction[i] = to_frame(normals, p, observations.direction[i]);
+                  });
+  float low = 1, high = -1;
+  for (const auto& direction : observations.direction) {
+    low = std::min(low, direction[1]);
+    high = std::max(high, direction[1]);
+  }
+  observations.gamma_min = static_cast<double>(low);
+  observations.gamma_max = static_cast<double>(high);
+  return observations;
+}
+
 // Paper, Algorithm 1.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,
                                                      std::span<const Voxel> positions,
@@ -71,6 +105,11 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
       nearest_neighbours(positions, settings.neighbours, settings.threads);
   const UnobservedPoints unobserved(observations, positions, neighbours, settings.threads);
   const std::size_t size = 3 * static_cast<std::size_t>(settings.basis.num_functions());
+  if (settings.method == FitMethod::kHierarchical) {
+    auto coefficients = fit_hierarchical(observations, positions, settings, progress);
+    unobserved.fill(coefficients.data(), size, settings.threads);
+    return coefficients;
+  }
   // Without beta, or without a neighbour, Eq. 3 is Eq. 2.
   const int sweeps = settings.beta > 0 && neighbours.count > 0 ? settings.iterations : 0;
 

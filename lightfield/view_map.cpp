@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "lightfield/frame.h"
+#include "lightfield/harmonics.h"
 #include "lightfield/nodes.h"
 #include "slf/parallel.h"
 
@@ -54,11 +56,15 @@ std::array<float, 3> clamp_to_display(std::array<float, 3> rgb) {
 ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
-      normals_(light_field.normals) {
+      normals_(light_field.normals),
+      frame_normals_(frame_normals(header_.frame, positions_, threads)) {
+  if (header_.basis.id == BasisId::kHarmonics)
+    harmonics_ = std::make_shared<const Harmonics>(header_.basis.degree);
   assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
-  const NodeMap<float> map(header_.basis);
+  const bool spline = header_.basis.id == BasisId::kBspline;
+  const NodeMap<float> map(spline ? header_.basis : Basis{BasisId::kBspline, 2, 0, 0});
   const Dequantiser dequantiser(header_);
-  const std::size_t size = map.size();
+  const std::size_t size = 3 * static_cast<std::size_t>(header_.num_functions);
   assert(light_field.components.size() == num_points() * size);
   nodes_.resize(num_points() * size);
   mean_.resize(num_points());
@@ -66,7 +72,11 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     std::vector<float> coefficients(size), scratch(size);
     for (std::size_t p = begin; p < end; ++p) {
       dequantiser.apply(light_field.components.data() + p * size, coefficients.data());
-      map.to_nodes(coefficients.data(), nodes_.data() + p * size, scratch.data());
+      if (spline) {
+        map.to_nodes(coefficients.data(), nodes_.data() + p * size, scratch.data());
+      } else {
+        std::copy(coefficients.begin(), coefficients.end(), nodes_.data() + p * size);
+      }
       // Every other function has zero mean over the sphere.
       mean_[p] = clamp_to_display({coefficients[0], coefficients[1], coefficients[2]});
     }
@@ -76,15 +86,28 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
 std::array<float, 3> ViewMaps::radiance(std::size_t p, float theta, float gamma) const {
   const float low = static_cast<float>(header_.gamma_min_q7) / 127.0f;
   const float high = static_cast<float>(header_.gamma_max_q7) / 127.0f;
-  return clamp_to_display(radiance_unclamped(p, theta, std::min(std::max(gamma, low), high)));
+  auto direction = to_frame(frame_normals_, p, {theta, gamma});
+  direction[1] = std::min(std::max(direction[1], low), high);
+  return clamp_to_display(sum_of_functions(p, direction));
 }
 
 std::array<float, 3> ViewMaps::radiance_unclamped(std::size_t p, float theta, float gamma) const {
-  const NodeTaps taps =
-      node_taps(header_.basis, static_cast<double>(theta), static_cast<double>(gamma));
-  const float* nodes =
-      nodes_.data() + p * 3 * static_cast<std::size_t>(header_.basis.num_functions());
+  return sum_of_functions(p, to_frame(frame_normals_, p, {theta, gamma}));
+}
+
+std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
+                                                const std::array<float, 2>& direction) const {
   std::array<float, 3> rgb{0, 0, 0};
+  const float* nodes = nodes_.data() + p * 3 * static_cast<std::size_t>(header_.num_functions);
+  if (harmonics_) {
+    std::array<float, (kMaxDegree + 1) * (kMaxDegree + 1)> row;
+    harmonics_->evaluate(vector_of(direction), row.data());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(harmonics_->size()); ++k)
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] += row[k] * nodes[3 * k + c];
+    return rgb;
+  }
+  const NodeTaps taps = node_taps(header_.basis, static_cast<double>(direction[0]),
+                                  static_cast<double>(direction[1]));
   for (std::size_t t = 0; t < taps.count; ++t) {
     const auto weight = static_cast<float>(taps.weight[t]);
     for (std::size_t c = 0; c < 3; ++c) rgb[c] += weight * nodes[3 * taps.node[t] + c];

@@ -174,12 +174,15 @@ class Sequence:
         self.steps = []                     # three steps of each function
         if self.functions:
             if reader.u(1, "sps_basis_flag"):
-                checked(4, lambda v: v == 0, "sps_basis_idc")
-                reader.u(2, "sps_order_minus1")
-                scales = checked(3, lambda v: v <= 6, "sps_scales_theta")
-                scales += checked(3, lambda v: v <= 6, "sps_scales_gamma")
-                require(self.functions == 1 << scales, "sps_num_functions")
-                checked(3, lambda v: v == 0, "sps_frame_idc")
+                if checked(4, lambda v: v <= 1, "sps_basis_idc") == 0:
+                    reader.u(2, "sps_order_minus1")
+                    scales = checked(3, lambda v: v <= 6, "sps_scales_theta")
+                    scales += checked(3, lambda v: v <= 6, "sps_scales_gamma")
+                    require(self.functions == 1 << scales, "sps_num_functions")
+                else:
+                    degree = checked(4, lambda v: v <= 10, "sps_degree")
+                    require(self.functions == (degree + 1) ** 2, "sps_num_functions")
+                checked(3, lambda v: v <= 1, "sps_frame_idc")
                 checked(3, lambda v: v <= 1, "sps_colour_idc")
                 checked(2, lambda v: v <= 1, "sps_transfer_idc")
                 gamma_min, gamma_max = reader.s8("sps_gamma_min"), reader.s8("sps_gamma_max")

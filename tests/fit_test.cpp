@@ -156,12 +156,24 @@ struct Case {
   double tolerance = 1e-3;  // grey levels: what 8-bit colour and steps >= 0.05 cannot see
 };
 
+FitSettings paper_fit(const Basis& basis, int threads) {
+  FitSettings settings;
+  settings.basis = basis;
+  settings.threads = threads;
+  return settings;
+}
+
 class FitTest : public testing::TestWithParam<Case> {};
 
 TEST_P(FitTest, AgreesWithTheDenseSolveOfTheEquations) {
   const Case& test = GetParam();
   const Scene scene = random_scene(test.counts);
-  FitSettings settings{test.basis, test.lambda, test.beta, test.iterations, 3, test.penalise_dc, 2};
+  FitSettings settings = paper_fit(test.basis, 2);
+  settings.lambda = test.lambda;
+  settings.beta = test.beta;
+  settings.iterations = test.iterations;
+  settings.neighbours = 3;
+  settings.penalise_dc = test.penalise_dc;
   const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
   ASSERT_TRUE(fitted) << fitted.error().message;
   const auto expected = reference_fit(scene, settings);
@@ -224,7 +236,9 @@ TEST_P(LeastNormTest, LambdaZeroInterpolatesWithTheSmallestCoefficients) {
 
 TEST_P(LeastNormTest, LambdaZeroWithManyObservationsIsLeastSquares) {
   const Scene scene = random_scene({60});
-  FitSettings settings{kSmall, 0, 0, 3, 8, GetParam(), 1};
+  FitSettings settings = paper_fit(kSmall, 1);
+  settings.lambda = settings.beta = 0;
+  settings.penalise_dc = GetParam();
   const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
   ASSERT_TRUE(fitted);
   const Matrix expected =
@@ -253,7 +267,7 @@ TEST(FitViewMaps, DoesNotDependOnTheNumberOfThreads) {
   std::vector<int> counts(700, 0);
   for (std::size_t p = 0; p < counts.size(); ++p) counts[p] = static_cast<int>(p * 7 % 23);
   const Scene scene = random_scene(counts);
-  FitSettings settings{{BasisId::kBspline, 2, 2, 2}, 0.8, 1.3, 3, 8, false, 1};
+  FitSettings settings = paper_fit({BasisId::kBspline, 2, 2, 2}, 1);
   const auto one = fit_view_maps(scene.seen, scene.positions, settings);
   ASSERT_TRUE(one);
   for (const int threads : {2, 7}) {

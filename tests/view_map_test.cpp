@@ -117,6 +117,44 @@ TEST_P(ViewMapsTest, TheTransposedMapIsTheTranspose) {
   EXPECT_NEAR(forward, backward, 1e-10 * (1 + std::abs(forward)));
 }
 
+TEST(ViewMapsOfHarmonics, GiveTheSumOverTheFunctions) {
+  const LightField field =
+      random_field({BasisId::kHarmonics, 2, 0, 0, 6}, ColourTransform::kOpponent, 5);
+  const ViewMaps maps(field);
+  for (std::size_t p = 0; p < 5; ++p)
+    for (const auto& [theta, gamma] : {std::pair{0.3f, -0.2f}, {-3.0f, 0.99f}, {1.7f, -1.0f}}) {
+      const auto expected =
+          plain_sum(field, p, static_cast<double>(theta), static_cast<double>(gamma));
+      const auto rgb = maps.radiance_unclamped(p, theta, gamma);
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<double>(rgb[c]), expected[c], 1.0 / 16);
+    }
+}
+
+TEST(Spec_6_4_Frame, ReflectedIsTheGlobalOneAtTheMirroredDirection) {
+  // A plane: the normal is z, so a mirrored direction has its azimuth turned by half a circle.
+  LightField field = random_field({BasisId::kHarmonics, 2, 0, 0, 4}, ColourTransform::kNone, 0);
+  std::vector<Voxel> plane;
+  for (std::int32_t i = 0; i < 64; ++i)
+    plane.push_back(
+        {(i & 1) | (i >> 1 & 2) | (i >> 2 & 4), (i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4), 3});
+  const LightField values = random_field(field.header.basis, ColourTransform::kNone, 64);
+  field = values;
+  field.header.grid.bits = 3;
+  field.positions = plane;
+  const ViewMaps global(field);
+  field.header.frame = FrameId::kReflected;
+  const ViewMaps reflected(field);
+  for (std::size_t p = 0; p < 64; p += 7)
+    for (const auto& [theta, gamma] : {std::pair{0.3f, 0.2f}, {-2.0f, 0.9f}}) {
+      const float turned =
+          theta > 0 ? theta - std::numbers::pi_v<float> : theta + std::numbers::pi_v<float>;
+      const auto a = reflected.radiance_unclamped(p, theta, gamma);
+      const auto b = global.radiance_unclamped(p, turned, gamma);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.02);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     OrdersAndScales, ViewMapsTest,
     testing::Values(Shape{1, 0, 0}, Shape{2, 0, 0}, Shape{3, 0, 0}, Shape{4, 0, 0}, Shape{1, 4, 3},

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "texture/block_grid.h"
+#include "geometry/block_grid.h"
 
 namespace slf {
 

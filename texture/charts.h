@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "slf/types.h"
-#include "texture/block_grid.h"
+#include "geometry/block_grid.h"
 
 namespace slf {
 

@@ -85,6 +85,25 @@ CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice) {
       "Colour transform; paper: none");
 }
 
+CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice) {
+  return add_choice<FitMethod>(
+      verb, "--fit", choice,
+      {{"paper", FitMethod::kPaper}, {"hierarchical", FitMethod::kHierarchical}},
+      "Every point by itself and smoothed (paper), or with a prior from octree blocks");
+}
+
+CLI::Option* add_basis_choice(CLI::App& verb, BasisId& choice) {
+  return add_choice<BasisId>(
+      verb, "--basis", choice, {{"bspline", BasisId::kBspline}, {"harmonics", BasisId::kHarmonics}},
+      "B-spline wavelets (paper), or spherical harmonics, for the hierarchical fit");
+}
+
+CLI::Option* add_frame_choice(CLI::App& verb, FrameId& choice) {
+  return add_choice<FrameId>(verb, "--frame", choice,
+                             {{"global", FrameId::kGlobal}, {"reflected", FrameId::kReflected}},
+                             "Directions in world axes (paper), or mirrored at the surface");
+}
+
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice) {
   return add_choice<Preset>(verb, "--preset", choice,
                             {{"default", Preset::kDefault}, {"paper", Preset::kPaper}},

@@ -14,6 +14,9 @@ CLI::Option* add_coefficients_choice(CLI::App& verb, CoefficientCoder& choice);
 /// --texture-bits, --texture-qp, --texture-mode, --texture-preset and --texture-lossless.
 void add_texture_options(CLI::App& verb, TextureSettings& settings);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
+CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
+CLI::Option* add_basis_choice(CLI::App& verb, BasisId& choice);
+CLI::Option* add_frame_choice(CLI::App& verb, FrameId& choice);
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice);
 CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice);
 CLI::Option* add_igc_codec_choice(CLI::App& verb, IgcCodec& choice);

@@ -8,6 +8,8 @@
 namespace slf::tools {
 namespace {
 
+const char* name_of(FrameId frame) { return frame == FrameId::kReflected ? "reflected" : "global"; }
+
 const char* name_of(UpAxis up) {
   switch (up) {
     case UpAxis::kPlusX:
@@ -66,11 +68,15 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
   json["shift"] = h.shift;
   json["has_basis"] = h.has_basis && h.num_functions > 0;
   if (!h.has_basis || h.num_functions == 0) return json;
-  json["basis"] = {{"id", "bspline"},
-                   {"order", h.basis.order},
-                   {"scales_theta", h.basis.scales_theta},
-                   {"scales_gamma", h.basis.scales_gamma}};
-  json["frame"] = "global";
+  if (h.basis.id == BasisId::kHarmonics) {
+    json["basis"] = {{"id", "harmonics"}, {"degree", h.basis.degree}};
+  } else {
+    json["basis"] = {{"id", "bspline"},
+                     {"order", h.basis.order},
+                     {"scales_theta", h.basis.scales_theta},
+                     {"scales_gamma", h.basis.scales_gamma}};
+  }
+  json["frame"] = name_of(h.frame);
   json["colour"] = {{"transform", name_of(h.colour)}, {"to_rgb", colour_matrix(h.colour)}};
   json["transfer"] = name_of(h.transfer);
   json["gamma_range"] = {h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0};
@@ -87,9 +93,14 @@ std::string header_text(const LightFieldHeader& h) {
   if (!h.has_basis)
     return out + text("  planes        %d x 3 integers without a basis\n", h.num_functions);
   const auto [low, high] = std::minmax_element(h.shift.begin(), h.shift.end());
-  out +=
-      text("  basis         B-spline wavelets of order %d, %d x %d = %d functions, global frame\n",
-           h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma, h.num_functions);
+  if (h.basis.id == BasisId::kHarmonics) {
+    out += text("  basis         spherical harmonics of degree %d, %d functions, %s frame\n",
+                h.basis.degree, h.num_functions, name_of(h.frame));
+  } else {
+    out += text("  basis         B-spline wavelets of order %d, %d x %d = %d functions, %s frame\n",
+                h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma,
+                h.num_functions, name_of(h.frame));
+  }
   if (!h.shift.empty()) out += text("  shifts        %d to %d\n", *low, *high);
   out += text("  colour        transform %s, %s values; gamma %.3f to %.3f\n", name_of(h.colour),
               name_of(h.transfer), h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0);

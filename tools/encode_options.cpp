@@ -8,6 +8,8 @@
 namespace slf::tools {
 namespace {
 
+constexpr int kHierarchicalDegree = 8;
+
 std::string shown(double number) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
@@ -58,9 +60,34 @@ void add_observe_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings
       ->group("Observation (paper III-A)");
 }
 
+void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const HierarchySettings& s) {
+  const auto group = [](CLI::Option* option) {
+    return option->group("Hierarchical fit (--fit hierarchical)");
+  };
+  group(add_basis_choice(verb, o.basis)->each([&o](const std::string&) {
+    o.basis_given = true;
+  }))->default_str("harmonics");
+  group(add_frame_choice(verb, o.frame)->each([&o](const std::string&) {
+    o.frame_given = true;
+  }))->default_str("reflected");
+  group(add(verb, "--degree", o.degree, kHierarchicalDegree, "Degree of the harmonics",
+            whole_range(0, 10)));
+  group(add(verb, "--block-log2", o.block_log2, s.block_log2,
+            "Side of the finest blocks, 2^n voxels", whole_range(0, 21)));
+  group(add(verb, "--block-strength", o.block_strength, s.strength,
+            "Pull of a block towards the one above, per observation", range(1e-6, 1e6)));
+  group(add(verb, "--block-growth", o.block_growth, s.growth,
+            "Growth of its penalties with a function's fineness", range(1, 10)));
+  group(add(verb, "--point-penalty", o.point_penalty, s.point_penalty,
+            "Pull of a point towards its block", range(1e-6, 1e9)));
+  group(add(verb, "--point-growth", o.point_growth, s.point_growth, "Growth of its penalties",
+            range(1, 10)));
+}
+
 void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
   const FitSettings& s = initial.fit;
   const auto fit = [](CLI::Option* option) { option->group("View maps (paper II)"); };
+  fit(add_fit_choice(verb, o.fit)->each([&o](const std::string&) { o.fit_given = true; }));
   fit(add(verb, "--order", o.order, s.basis.order, "Order of the B-spline wavelets",
           whole_range(1, 4)));
   auto* functions =
@@ -86,6 +113,7 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
                    ->excludes(penalise);
   fit(penalise);
   fit(free);
+  add_hierarchy_options(verb, o, s.hierarchy);
 }
 
 CLI::Option* coding(CLI::Option* option) { return option->group("Coding"); }
@@ -123,8 +151,29 @@ void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings&
              "Most points of a slice", whole_range(1, 1 << 22)));
 }
 
+template <class T, class U>
+void replace(U& setting, const std::optional<T>& given) {
+  if (given) setting = *given;
+}
+
 Failure usage(const EncodeOptions& given, const std::string& what) {
   return {kUsage, std::string(given.verb) + ": " + what};
+}
+
+/// The hierarchical fit has defaults of its own for the basis and the frame.
+void resolve_fit(const EncodeOptions& given, FitSettings& fit) {
+  if (given.fit_given) fit.method = given.fit;
+  const bool hierarchical = given.fit_given && given.fit == FitMethod::kHierarchical;
+  if (hierarchical) fit.basis = {BasisId::kHarmonics, 2, 4, 3, kHierarchicalDegree};
+  if (hierarchical) fit.frame = FrameId::kReflected;
+  if (given.basis_given) fit.basis.id = given.basis;
+  if (given.frame_given) fit.frame = given.frame;
+  replace(fit.basis.degree, given.degree);
+  replace(fit.hierarchy.block_log2, given.block_log2);
+  replace(fit.hierarchy.strength, given.block_strength);
+  replace(fit.hierarchy.growth, given.block_growth);
+  replace(fit.hierarchy.point_penalty, given.point_penalty);
+  replace(fit.hierarchy.point_growth, given.point_growth);
 }
 
 Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
@@ -152,11 +201,6 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
     metadata.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
   }
   return Done{};
-}
-
-template <class T, class U>
-void replace(U& setting, const std::optional<T>& given) {
-  if (given) setting = *given;
 }
 
 }  // namespace
@@ -194,6 +238,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.max_slice_points, given.slice_points);
   if (s.normal_bits > 0 && s.normal_bits < 4)
     return usage(given, "--normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12");
+  resolve_fit(given, s.fit);
   SLF_CHECK(resolve_basis(given, s.fit.basis));
   if (given.penalise_dc) s.fit.penalise_dc = true;
   if (given.free_dc) s.fit.penalise_dc = false;

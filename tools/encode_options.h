@@ -17,11 +17,17 @@ struct EncodeOptions {
   std::string capture, output, points, split;
   Preset preset = Preset::kDefault;
   std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
+  std::optional<int> degree, block_log2;
+  std::optional<double> block_strength, block_growth, point_penalty, point_growth;
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
   std::optional<std::uint32_t> slice_points;
   std::vector<int> scales;
   bool penalise_dc = false, free_dc = false, linear = false;
   bool steps_given = false, by_norm = true;
+  bool fit_given = false, basis_given = false, frame_given = false;
+  FitMethod fit = FitMethod::kPaper;
+  BasisId basis = BasisId::kBspline;
+  FrameId frame = FrameId::kGlobal;
   bool colour_given = false, geometry_given = false, coefficients_given = false, up_given = false;
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;

@@ -52,28 +52,51 @@ Result<Observations, InputError> observe(const Capture& capture, std::span<const
                                          double spacing, const ObserveSettings& settings,
                                          const Progress& progress = {});
 
-/// Paper II, Eq. 2-3 and Algorithm 1.
+enum class FitMethod : std::uint8_t {
+  kPaper,         ///< paper II, Eq. 2-3 and Algorithm 1: ridge, then smoothing over neighbours
+  kHierarchical,  ///< a prior from octree blocks, which share what they reflect
+};
+
+/// The hierarchical fit: a point's view map is its mean colour, what its block and the blocks above
+/// have in common, and what is left. Functions count with mean square 1; the penalty of one grows
+/// with its fineness (the degree of a harmonic, the sum of the scales of a wavelet).
+struct HierarchySettings {
+  int block_log2 = 3;         ///< side of the finest blocks in voxels, 0 .. 21
+  double strength = 0.3;      ///< > 0: pull of a block towards the one above, per observation
+  double growth = 1.3;        ///< >= 1: of its penalties, 0.8 growth^fineness
+  double point_penalty = 4;   ///< > 0: pull of a point towards its block
+  double point_growth = 1.5;  ///< >= 1: of its penalties
+};
+
 struct FitSettings {
-  Basis basis;
-  double lambda = 0.8;       ///< λ >= 0 (0 is solved as a least-norm problem)
-  double beta = 1.3;         ///< β >= 0
-  int iterations = 3;        ///< T, 0 .. 100 Jacobi sweeps
-  int neighbours = 8;        ///< k nearest points, 1 .. 64, ties by Morton order, self excluded
-  bool penalise_dc = false;  ///< the paper: true. false leaves function 0 out of λ and β
+  FitMethod method = FitMethod::kPaper;
+  Basis basis;  ///< kPaper: B-splines alone
+  FrameId frame = FrameId::kGlobal;
+  double lambda = 0.8;          ///< kPaper: λ >= 0 (0 is solved as a least-norm problem)
+  double beta = 1.3;            ///< kPaper: β >= 0
+  int iterations = 3;           ///< kPaper: T, 0 .. 100 Jacobi sweeps
+  int neighbours = 8;           ///< k nearest points, 1 .. 64, ties by Morton order, self excluded
+  bool penalise_dc = false;     ///< the paper: true. false leaves function 0 out of λ and β
+  HierarchySettings hierarchy;  ///< kHierarchical
   int threads = 0;
 };
 
 /// Fits a view map to every point.
-/// @param positions  [P] voxels in Morton order (for the neighbours)
+/// @param positions  [P] voxels in Morton order
 /// @return [P][K][3] float, K = basis.num_functions(); RGB in the units of the observations.
 ///         Points without observations take the mean of their neighbours that have some (and, where
 ///         those have none either, of the nearest that has).
-/// The same for any thread count of one binary. Each point is factorised once for λ and once for
-/// λ + β, which all sweeps share, in the M x M dual form where it has fewer observations than
-/// functions.
+/// The same for any thread count of one binary. kPaper: each point is factorised once for λ and
+/// once for λ + β, which all sweeps share, in the M x M dual form where it has fewer observations
+/// than functions. kHierarchical: O(observations K^2) for the blocks' normal equations, O(K^3) a
+/// block, O(M^3 + M^2 K) a point; memory 4 K^2 bytes a block.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,
                                                      std::span<const Voxel> positions,
                                                      const FitSettings& settings,
                                                      const Progress& progress = {});
+
+/// The observations with their directions in the frame of each point (spec 6.4), gamma range too.
+Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
+                      int threads);
 
 }  // namespace slf

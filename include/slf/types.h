@@ -25,23 +25,31 @@ struct Grid {
 };
 
 /// Coded basis identifiers. Spec 6.3.
-enum class BasisId : std::uint8_t { kBspline = 0 };
+enum class BasisId : std::uint8_t { kBspline = 0, kHarmonics = 1 };
 
 /// The functions of direction a view map is a sum of. For kBspline the paper's periodic B-spline
 /// wavelets, as its equations give them (not normalised): function k = i1 * 2^s0 + i0 is
 /// w_i0(theta / 2 pi) * w_i1(gamma / 2).  Source: paper Eq. 4-6 with the readings of spec 6.3.
+/// For kHarmonics real spherical harmonics of mean square 1: function l * l + l + m is Y_lm.
 struct Basis {
   BasisId id = BasisId::kBspline;
-  int order = 2;         ///< o, 1 .. 4: constant, linear, quadratic, cubic
-  int scales_theta = 4;  ///< s0, 0 .. 6; 2^s0 functions of azimuth
-  int scales_gamma = 3;  ///< s1, 0 .. 6; 2^s1 functions of gamma = sin(elevation)
+  int order = 2;         ///< kBspline: o, 1 .. 4: constant, linear, quadratic, cubic
+  int scales_theta = 4;  ///< kBspline: s0, 0 .. 6; 2^s0 functions of azimuth
+  int scales_gamma = 3;  ///< kBspline: s1, 0 .. 6; 2^s1 functions of gamma = sin(elevation)
+  int degree = 0;        ///< kHarmonics: L, 0 .. 10
 
-  int num_functions() const { return 1 << (scales_theta + scales_gamma); }
+  int num_functions() const {
+    return id == BasisId::kHarmonics ? (degree + 1) * (degree + 1)
+                                     : 1 << (scales_theta + scales_gamma);
+  }
   bool operator==(const Basis&) const = default;
 };
 
 /// The frame in which directions are expressed. Spec 6.4.
-enum class FrameId : std::uint8_t { kGlobal = 0 };
+enum class FrameId : std::uint8_t {
+  kGlobal = 0,     ///< world axes
+  kReflected = 1,  ///< mirrored at the surface (6.6), which keeps a highlight in place along it
+};
 
 /// How the three coded channels give red, green and blue. Spec 6.5.
 enum class ColourTransform : std::uint8_t {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ std::vector<double> basis_norms(const Basis& basis);
 
 /// The 3 x 3 matrix that takes coded channels to R, G, B. Spec 6.5. Its transpose goes back.
 std::array<std::array<double, 3>, 3> colour_matrix(ColourTransform transform);
+
+class Harmonics;
 
 /// View maps ready to be looked at: for order o the coefficients of periodic B-splines of order o
 /// on a 2^s0 x 2^s1 grid, in R, G, B, so that one radiance takes o * o fetches whatever K.
@@ -47,7 +50,11 @@ class ViewMaps {
   LightFieldHeader header_;
   std::vector<Voxel> positions_;
   CodedNormals normals_;
-  std::vector<float> nodes_;  // [P][2^s0][2^s1][3]
+  std::array<float, 3> sum_of_functions(std::size_t p, const std::array<float, 2>& direction) const;
+
+  std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][K][3] harmonic coefficients
+  std::vector<std::array<float, 3>> frame_normals_;  // [P], or empty: global frame
+  std::shared_ptr<const Harmonics> harmonics_;       // where the basis is harmonics
   std::vector<std::array<float, 3>> mean_;
 };
 

@@ -1,4 +1,4 @@
-#include "texture/block_grid.h"
+#include "geometry/block_grid.h"
 
 #include <bit>
 #include <utility>

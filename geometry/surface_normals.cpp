@@ -1,0 +1,109 @@
+#include "geometry/surface_normals.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include "geometry/block_grid.h"
+#include "geometry/morton.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr int kSide = 4;  // cells of a block along an axis
+
+/// [cell][direction]: which cells of the block there lie within the radius, as bits.
+using Reach = std::array<std::array<std::uint64_t, 27>, 64>;
+
+const Reach& reach() {
+  static const auto table = [] {
+    auto reach = std::make_unique<Reach>();
+    for (std::uint64_t cell = 0; cell < 64; ++cell)
+      for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+          for (int x = -1; x <= 1; ++x) {
+            std::uint64_t bits = 0;
+            for (std::uint64_t other = 0; other < 64; ++other) {
+              const Voxel a = from_morton(cell), b = from_morton(other);
+              const int dx = b[0] - a[0] + kSide * x, dy = b[1] - a[1] + kSide * y,
+                        dz = b[2] - a[2] + kSide * z;
+              if (dx * dx + dy * dy + dz * dz <= kNormalRadiusSquared)
+                bits |= std::uint64_t{1} << other;
+            }
+            (*reach)[cell][static_cast<std::size_t>(direction_index(x, y, z))] = bits;
+          }
+    return reach;
+  }();
+  return *table;
+}
+
+/// Sums over points of 1, d and d d^T (xx, yy, zz, yz, xz, xy). A ball of radius 4 has 257 cells,
+/// so n <= 257, |sum d| < 2^11, sum d d < 2^13; the covariance n s - m m stays below 2^21 and the
+/// adjugate below 2^43.
+struct Moments {
+  std::int64_t n = 0;
+  std::array<std::int64_t, 3> m{};
+  std::array<std::int64_t, 6> s{};
+
+  void add(std::int64_t x, std::int64_t y, std::int64_t z) {
+    ++n;
+    m[0] += x, m[1] += y, m[2] += z;
+    s[0] += x * x, s[1] += y * y, s[2] += z * z;
+    s[3] += y * z, s[4] += x * z, s[5] += x * y;
+  }
+};
+
+std::array<std::int64_t, 3> normal_of(const Moments& sum) {
+  const auto covariance = [&](std::size_t at, std::size_t a, std::size_t b) {
+    return sum.n * sum.s[at] - sum.m[a] * sum.m[b];
+  };
+  const std::int64_t xx = covariance(0, 0, 0), yy = covariance(1, 1, 1), zz = covariance(2, 2, 2);
+  const std::int64_t yz = covariance(3, 1, 2), xz = covariance(4, 0, 2), xy = covariance(5, 0, 1);
+  const std::array<std::array<std::int64_t, 3>, 3> adjugate = {
+      {{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy},
+       {xz * yz - xy * zz, xx * zz - xz * xz, xy * xz - xx * yz},
+       {xy * yz - xz * yy, xy * xz - xx * yz, xx * yy - xy * xy}}};
+  std::size_t best = 0;
+  for (std::size_t a = 1; a < 3; ++a)
+    if (adjugate[a][a] > adjugate[best][best]) best = a;
+  if (adjugate[best][best] == 0) return {0, 0, 1};
+  return adjugate[best];
+}
+
+}  // namespace
+
+std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> positions,
+                                                         int threads) {
+  std::vector<std::uint64_t> codes;
+  codes.reserve(positions.size());
+  for (const Voxel& v : positions) codes.push_back(morton(v));
+  const int bits = codes.empty() ? 0 : (static_cast<int>(std::bit_width(codes.back())) + 2) / 3;
+  const BlockGrid grid(codes, bits);
+  const Reach& near = reach();
+  std::vector<std::array<std::int64_t, 3>> normals(positions.size());
+  parallel_ranges(positions.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::uint64_t cell = codes[p] & 63;
+      const Voxel at = from_morton(cell);
+      const auto& neighbours = grid.neighbours(grid.block_of(p));
+      Moments sum;
+      for (int d = 0; d < 27; ++d) {
+        const auto direction = static_cast<std::size_t>(d);
+        if (neighbours[direction] < 0) continue;
+        std::uint64_t cells = near[cell][direction] &
+                              grid.block(static_cast<std::size_t>(neighbours[direction])).cells;
+        const int x0 = (d % 3 - 1) * kSide - at[0], y0 = (d / 3 % 3 - 1) * kSide - at[1],
+                  z0 = (d / 9 - 1) * kSide - at[2];
+        for (; cells != 0; cells &= cells - 1) {
+          const Voxel v = from_morton(static_cast<std::uint64_t>(std::countr_zero(cells)));
+          sum.add(v[0] + x0, v[1] + y0, v[2] + z0);
+        }
+      }
+      normals[p] = normal_of(sum);
+    }
+  });
+  return normals;
+}
+
+}  // namespace slf

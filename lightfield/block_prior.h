@@ -1,0 +1,56 @@
+// What the surface around a point says about its view map: one solution per octree block, each
+// shrunk towards that of the block above it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slf/types.h"
+
+namespace slf {
+
+/// The rows of one point: M directions, K functions of mean square 1 (element 0 is 1), colours.
+struct PointRows {
+  std::size_t count = 0;         ///< M
+  std::vector<float> functions;  ///< [M][K]
+  std::vector<float> colours;    ///< [M][3]
+};
+
+/// Pooled normal equations of the blocks of a tree, in which every point keeps a mean colour of its
+/// own: rows and colours are taken less their means over the point.
+class BlockPrior {
+ public:
+  /// @param positions   Morton order, at least one
+  /// @param block_log2  side of the finest blocks
+  BlockPrior(std::span<const Voxel> positions, int block_log2, std::size_t functions);
+
+  std::size_t num_blocks() const { return first_.front().size() - 1; }
+  /// Points [first, last) of finest block b.
+  std::size_t first_point(std::size_t b) const { return first_.front()[b]; }
+
+  /// Adds what was seen of a point of finest block b. Blocks may be filled in parallel.
+  void add(std::size_t b, const PointRows& rows);
+  /// Sums of the coarser blocks; after all points were added.
+  void sum_up(int threads);
+
+  /// Solves from the root down: in each block the excess over its parent's solution x, of least
+  ///     |c - G (x + e)|^2 + sum_k strength * n * penalty_k e_k^2,   n observations in the block.
+  /// @param penalty  [K], > 0 but for element 0, which is not used
+  /// @return [num_blocks][K][3]; element 0 of each is 0
+  std::vector<float> solve(double strength, std::span<const double> penalty, int threads) const;
+
+ private:
+  struct Sums {
+    std::vector<float> matrix;  // [K-1][K-1], lower triangle
+    std::vector<float> right;   // [K-1][3]
+    double observations = 0;
+  };
+  std::size_t functions_;
+  std::vector<std::vector<std::size_t>>
+      first_;  // [levels, finest first][blocks + 1] points, or blocks of the finer level
+  std::vector<std::vector<Sums>> sums_;  // [levels][blocks]
+};
+
+}  // namespace slf

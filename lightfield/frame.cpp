@@ -1,0 +1,22 @@
+#include "lightfield/frame.h"
+
+#include "geometry/surface_normals.h"
+
+namespace slf {
+
+std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
+                                                int threads) {
+  std::vector<std::array<float, 3>> normals;
+  if (frame == FrameId::kGlobal) return normals;
+  normals.reserve(positions.size());
+  for (const auto& n : surface_normals(positions, threads)) {
+    const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]),
+                 z = static_cast<double>(n[2]);
+    const double length = std::sqrt(x * x + y * y + z * z);
+    normals.push_back({static_cast<float>(x / length), static_cast<float>(y / length),
+                       static_cast<float>(z / length)});
+  }
+  return normals;
+}
+
+}  // namespace slf

@@ -1,0 +1,41 @@
+// Directions in the frame of a point. Spec 6.4.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "slf/types.h"
+#include "slf/view_map.h"
+
+namespace slf {
+
+/// The unit vector of (theta, gamma).
+inline Vec3 vector_of(const std::array<float, 2>& direction) {
+  const double gamma = static_cast<double>(direction[1]);
+  const double r = std::sqrt(std::max(0.0, 1 - gamma * gamma));
+  const double theta = static_cast<double>(direction[0]);
+  return {r * std::cos(theta), r * std::sin(theta), gamma};
+}
+
+/// [P] unit normals, of either sign, that the frame mirrors at; empty for the global frame.
+/// @param positions  of all points of the light field, Morton order
+std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
+                                                int threads);
+
+/// World (theta, gamma) to those in the frame of a point: 2 (n . w) n - w, the same for either sign
+/// of n. No normals: the global frame.
+inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> normals,
+                                     std::size_t point, const std::array<float, 2>& world) {
+  if (normals.empty()) return world;
+  const auto& n = normals[point];
+  const Vec3 w = vector_of(world);
+  const double twice = 2 * (w[0] * double(n[0]) + w[1] * double(n[1]) + w[2] * double(n[2]));
+  return direction_of(
+      {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]});
+}
+
+}  // namespace slf

@@ -1,0 +1,31 @@
+// Real spherical harmonics. Spec 6.3 (basis 1).
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace slf {
+
+inline constexpr int kMaxDegree = 10;
+
+/// Evaluates all functions up to a degree along a direction by recursion. Function l * l + l + m,
+/// m = -l .. l, in the sign convention of 3-D Gaussian splatting files (Condon-Shortley), but of
+/// mean square 1 over the sphere: theirs times sqrt(4 pi). Function 0 is 1. Thread-safe.
+class Harmonics {
+ public:
+  /// @param degree  L, 0 .. kMaxDegree
+  explicit Harmonics(int degree);
+
+  int size() const { return (degree_ + 1) * (degree_ + 1); }
+
+  /// @param direction  unit length
+  /// @param row  receives size() values. Exact to 1e-12 in double, 1e-4 in float.
+  template <class Real>
+  void evaluate(const std::array<double, 3>& direction, Real* row) const;
+
+ private:
+  int degree_;
+  std::vector<double> norm_;  // [l * l + l + m], sign included
+};
+
+}  // namespace slf
