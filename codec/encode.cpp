@@ -3,6 +3,7 @@
 
 #include "codec/component_planes.h"
 #include "codec/encode_metadata.h"
+#include "codec/encode_to_target.h"
 #include "codec/fit_capture.h"
 #include "codec/stopwatch.h"
 #include "codec/texture_parameters.h"
@@ -52,36 +53,58 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
   return parameters;
 }
 
+/// What stays while a step is looked for, and what came out last.
+struct Job {
+  const Capture& capture;
+  std::span<const int> cameras;
+  EncoderSettings settings;
+  VoxelCloud cloud;
+  CaptureFit fit;
+  Encoded encoded;
+};
+
+/// Integers and bytes with the step q.
+Result<Done, InputError> code(Job& job, double q) {
+  job.encoded.q = job.settings.q = q;
+  const LightField field =
+      quantise_grid(job.cloud, job.fit, job.capture.up, job.settings);  // 6.3, 6.5
+  CodingParameters parameters = coding_parameters(field, job.settings);
+  parameters.metadata = encoder_metadata(job.settings, job.encoded, job.cameras.size());
+  SLF_TRY(job.encoded.stream, pack(field, parameters));  // spec 7, 8
+  return Done{};
+}
+
 }  // namespace
 
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& given, const Progress& progress) {
-  EncoderSettings settings = given;
+  Job job{capture, cameras, given, {}, {}, {}};
+  EncoderSettings& settings = job.settings;
+  Encoded& encoded = job.encoded;
   settings.observe.threads = settings.fit.threads = settings.threads;
   if (cameras.empty()) settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
   SLF_CHECK(check_settings(settings));
+  SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  Encoded encoded;
-  SLF_TRY(const VoxelCloud cloud, voxelise_capture(capture, cameras, settings));  // spec 6.1
-  encoded.points = cloud.positions.size();
-  encoded.merged = cloud.merged;
+  SLF_TRY(job.cloud, voxelise_capture(capture, cameras, settings));  // spec 6.1
+  encoded.points = job.cloud.positions.size();
+  encoded.merged = job.cloud.merged;
   encoded.seconds_voxelise = watch.lap();
-  SLF_TRY(CaptureFit fit,  // paper II, III-A
-          cameras.empty() ? colours_alone(cloud)
-                          : fit_capture(capture, cameras, cloud, settings, progress));
-  encoded.observations = fit.observations;
-  encoded.unobserved_points = fit.unobserved_points;
-  encoded.seconds_observe = fit.seconds_observe;
-  encoded.seconds_fit = fit.seconds_fit;
+  SLF_TRY(job.fit,  // paper II, III-A
+          cameras.empty() ? colours_alone(job.cloud)
+                          : fit_capture(capture, cameras, job.cloud, settings, progress));
+  encoded.observations = job.fit.observations;
+  encoded.unobserved_points = job.fit.unobserved_points;
+  encoded.seconds_observe = job.fit.seconds_observe;
+  encoded.seconds_fit = job.fit.seconds_fit;
   watch.lap();
   if (progress) progress("code", 0);
-  const LightField field = quantise_grid(cloud, std::move(fit), capture.up, settings);  // 6.3, 6.5
-  CodingParameters parameters = coding_parameters(field, settings);
-  parameters.metadata = encoder_metadata(settings, encoded, cameras.size());
-  SLF_TRY(encoded.stream, pack(field, parameters));  // spec 7, 8
+  const auto code_with = [&](double q) { return code(job, q); };
+  SLF_CHECK(has_target(settings) ? code_to_target(settings, capture, cameras, code_with, encoded)
+                                 : code_with(settings.q));
   encoded.seconds_code = watch.lap();
   if (progress) progress("code", 1);
-  return encoded;
+  return std::move(job.encoded);
 }
 
 }  // namespace slf

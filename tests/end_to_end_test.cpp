@@ -39,6 +39,14 @@ class EndToEnd : public testing::Test {
     return *std::move(result);
   }
 
+  static Result<Encoded, InputError> encoded_to(std::uint64_t bytes, double psnr) {
+    EncoderSettings settings;
+    settings.grid_bits = 6;
+    settings.target_bytes = bytes;
+    settings.target_psnr = psnr;
+    return encode(capture_, *split_cameras(capture_, "sparse"), settings);
+  }
+
   static double psnr(const Encoded& e, const char* split) {
     const auto field = decode(e.stream);
     EXPECT_TRUE(field);
@@ -102,6 +110,37 @@ TEST_F(EndToEnd, MoreBytesOfAFileAreNeverWorse) {
     EXPECT_GT(now, last) << groups << " groups";
     last = now;
   }
+}
+
+TEST_F(EndToEnd, TheTargetInBytesIsMetWithinOnePercent) {
+  for (const std::uint64_t target : {4000u, 12000u}) {
+    const auto e = encoded_to(target, 0);
+    ASSERT_TRUE(e) << e.error().message;
+    EXPECT_LE(e->stream.size(), target);
+    EXPECT_GE(e->stream.size(), target - target / 100);
+    EXPECT_TRUE(e->warnings.empty());
+  }
+}
+
+TEST_F(EndToEnd, TheTargetInDecibelsIsMetByTheFile) {
+  const auto e = encoded_to(0, 26);
+  ASSERT_TRUE(e) << e.error().message;
+  EXPECT_GE(psnr(*e, "sparse"), 26);
+  EXPECT_LE(psnr(*e, "sparse"), 26.06);
+}
+
+TEST_F(EndToEnd, ATargetThatCannotBeMetIsSaidAndTheNearestIsWritten) {
+  const auto small = encoded_to(10, 0);
+  ASSERT_TRUE(small);
+  ASSERT_EQ(small->warnings.size(), 1u);
+  EXPECT_EQ(small->q, 4096);
+  const auto good = encoded_to(0, 99);
+  ASSERT_TRUE(good);
+  EXPECT_EQ(good->warnings.size(), 1u);
+  EXPECT_LT(good->q, 0.2);
+  const auto both = encoded_to(1000, 30);
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().code, Errc::kInvalidArgument);
 }
 
 }  // namespace

@@ -137,8 +137,19 @@ void add_grid_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& i
 }
 
 void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
-  coding(add(verb, "-q,--quality", o.q, initial.q,
-             "Quantiser step Q in grey levels: smaller is better and larger", range(0.05, 4096)));
+  auto* q = coding(add(verb, "-q,--quality", o.q, initial.q,
+                       "Quantiser step Q in grey levels: smaller is better and larger",
+                       range(0.05, 4096)));
+  auto* bytes =
+      coding(verb.add_option("--target-bytes", o.target_bytes,
+                             "Find the Q that gives a file of 99 to 100 % of so many bytes")
+                 ->check(whole_range(1, 1LL << 40))
+                 ->excludes(q));
+  coding(verb.add_option("--target-psnr", o.target_psnr,
+                         "Find the Q that gives the input images' point PSNR, up to 0.05 dB more")
+             ->check(range(1, 100))
+             ->excludes(q)
+             ->excludes(bytes));
   coding(
       add_steps_choice(verb, o.by_norm)->each([&o](const std::string&) { o.steps_given = true; }));
   coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
@@ -227,6 +238,8 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.grid_bits, given.grid_bits);
   replace(s.voxel_size, given.voxel_size);
   replace(s.q, given.q);
+  replace(s.target_bytes, given.target_bytes);
+  replace(s.target_psnr, given.target_psnr);
   replace(s.observe.delta_degrees, given.delta);
   replace(s.observe.occlusion_resolution, given.occlusion_resolution);
   replace(s.observe.depth_tolerance, given.depth_tolerance);

@@ -20,6 +20,8 @@ struct EncodeOptions {
   std::optional<int> degree, block_log2;
   std::optional<double> block_strength, block_growth, point_penalty, point_growth;
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
+  std::optional<double> target_psnr;
+  std::optional<std::uint64_t> target_bytes;
   std::optional<std::uint32_t> slice_points;
   std::vector<int> scales;
   bool penalise_dc = false, free_dc = false, linear = false;

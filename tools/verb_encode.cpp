@@ -16,6 +16,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
                                    double load) {
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
+  json["q"] = e.q;
   json["points"] = e.points;
   json["merged"] = e.merged;
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
@@ -32,6 +33,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
       {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_fit + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
+  json["warnings"] = e.warnings;
   return json;
 }
 
