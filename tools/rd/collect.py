@@ -3,8 +3,8 @@ import csv
 import json
 import pathlib
 
-COLUMNS = ["experiment", "title", "capture", "split", "codec", "preset", "rate", "status", "reason", "key", "input_hash",
-           "commit", "program", "points", "cameras", "bytes"]
+COLUMNS = ["experiment", "title", "capture", "split", "codec", "preset", "variant", "rate", "status", "reason", "key",
+           "input_hash", "commit", "program", "points", "cameras", "bytes"]
 
 
 def load_rows(out, plan):
@@ -37,6 +37,12 @@ def size(row):
     return row["eval"].get("bytes")
 
 
+def size_without_geometry(row):
+    """Bytes of the file less those of the geometry unit; None where they are not told apart."""
+    geometry = (row["eval"].get("bytes_by_type") or {}).get("geometry")
+    return None if geometry is None else size(row) - geometry
+
+
 def seconds_columns(row):
     out = {f"encode_s.{stage}": value for stage, value in row["encode"].get("seconds", {}).items()}
     for stage, value in (row["eval"].get("decode") or {}).items():
@@ -47,8 +53,8 @@ def seconds_columns(row):
 
 def flat(row):
     """One row as the table has it: no nesting, one name per column."""
-    out = {key: row.get(key) for key in ("experiment", "title", "capture", "split", "codec", "preset", "rate", "status",
-                                         "reason", "input_hash", "commit", "program")}
+    out = {key: row.get(key) for key in ("experiment", "title", "capture", "split", "codec", "preset", "variant", "rate",
+                                         "status", "reason", "input_hash", "commit", "program")}
     out |= {"key": row["job"], "points": row["eval"].get("points"), "cameras": row["encode"].get("cameras"), "bytes": size(row)}
     settings = row["encode"].get("settings") or row["eval"].get("settings") or {}
     out |= {"set." + key.replace("_", "-"): value for key, value in {**row["options"], **settings}.items()}

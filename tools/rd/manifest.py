@@ -8,6 +8,7 @@ from located_json import load
 FIGURES = {
     "curves": ("captures", "rates", "grid"),  # one series per value of the grid, panels input and held out
     "deltas": ("captures", "rates", "grid"),  # one panel per evaluation angle
+    "ablation": ("captures", "rates", "variants"),  # as curves, and a table of every variant against the first
     "compare": ("captures", "rates"),         # one series per codec and preset, one column per split
     "time": ("captures", "rates"),            # table of decoding times
     "views": ("captures", "rates", "view"),   # photograph and renderings of one held-out view
@@ -20,9 +21,10 @@ FIGURES = {
 KEYS = {
     "label": (str, None), "title": (str, None), "figure": (str, None), "note": (str, ""),
     "captures": (list, []), "splits": (list, ["dense"]), "codecs": (list, ["raht"]), "presets": (list, ["paper"]),
-    "options": (dict, {}), "grid": (dict, {}), "rates": (dict, {}), "deltas": (list, [0, 10, 20, 30]),
+    "options": (dict, {}), "grid": (dict, {}), "variants": (dict, {}), "rates": (dict, {}), "deltas": (list, [0, 10, 20, 30]),
     "images": (bool, False), "view": (int, None), "orbit": (int, None),
 }
+VARIED = ("curves", "deltas", "ablation")  # the figures with one series per variant
 REQUIRED = ("label", "title", "figure")
 TYPE_NAMES = {str: "a string", list: "a list", dict: "an object", bool: "true or false", int: "a whole number"}
 LABEL = re.compile(r"(fig|tab):[a-z0-9_]+")
@@ -78,6 +80,31 @@ def _check_options(located, codecs):
         _check_list(grid, name, lambda item: _check_option(name, item, codecs, grid))
 
 
+def _check_variants(located, codecs):
+    variants = located.value["variants"]
+    if "grid" in located.value:
+        raise located.refuse("variants: there is a grid as well; one of the two is expected", "variants")
+    if located.value["figure"].value not in VARIED:
+        raise located.refuse(f"variants: only the figures {', '.join(VARIED)} show them", "variants")
+    if "presets" in located.value and len(located.value["presets"].value) > 1:
+        raise located.refuse("presets: beside variants one is expected; a variant may name another", "presets")
+    if len(variants.value) < 2:
+        raise variants.refuse("variants: two or more are expected; the first is what the others are compared with")
+    for name, item in variants.value.items():
+        if not name.strip():
+            raise variants.refuse("variants: a name is empty", name)
+        _check_type(item, dict, f"variant {name}")
+        for key, part in item.value.items():
+            if key == "preset":
+                _check_choice(part, opt.PRESETS, f"preset of {name}")
+            elif key == "options":
+                _check_type(part, dict, f"options of {name}")
+                for option, value in part.value.items():
+                    _check_option(option, value, codecs, part)
+            else:
+                raise item.refuse(f'variant {name}: unknown key "{key}"; there are preset, options', key)
+
+
 def _check_rates(located, codecs):
     rates = located.value["rates"]
     for codec, values in rates.value.items():
@@ -127,7 +154,7 @@ def check(located):
         raise located.value["label"].refuse("label: fig: or tab: and a name in lower case is expected")
     figure = located.value["figure"].value
     for key in FIGURES[figure]:
-        if key not in located.value:
+        if key not in located.value and not (key == "grid" and "variants" in located.value):
             raise located.refuse(f'figure "{figure}" needs the key "{key}"')
     lists = {"captures": _check_string, "splits": _check_string,
              "codecs": lambda item: _check_choice(item, opt.CODECS, "codecs"),
@@ -137,6 +164,8 @@ def check(located):
             _check_list(located, key, one)
     codecs = [item.value for item in located.value["codecs"].value] if "codecs" in located.value else KEYS["codecs"][1]
     _check_options(located, codecs)
+    if "variants" in located.value:
+        _check_variants(located, codecs)
     if "rates" in located.value:
         _check_rates(located, codecs)
     _check_numbers(located)

@@ -23,13 +23,16 @@ def write(directory, out, plan, rows, figures, judged):
     parts = ["# A full run, as it came out\n\n", "Written by `tools/rd/rd.py full --markdown`; what it means is in [experiments.md](../experiments.md).\n\n",
              f"Program {plan['slf']['version']}, commit {plan['slf']['commit'] or 'unknown'}; {report.machine()}; {len(plan['jobs'])} encodes, "
              f"{failed} rows without a result. One thread each, two at a time.\n\n", report.STAND_INS + "\n\n", "## The paper's findings\n\n",
-             verdict_table(judged), "## BD figures against IGC (HEVC low delay)\n\n",
-             "PCHIP; Akima in brackets. Negative rate: fewer bytes than IGC at equal point PSNR.\n\n", table(*tables.bd_table(rows))]
+             verdict_table(judged)]
+    header, lines = tables.bd_table(rows)
+    if lines:
+        parts += ["## BD figures against IGC (HEVC low delay)\n\n", tables.BD_NOTE + "\n\n", table(header, lines)]
     for experiment in plan["experiments"]:
         parts.append(f"## {experiment['label']} — {experiment['title']}\n\n" + (experiment["note"] + "\n\n" if experiment["note"] else ""))
         own = [row for row in rows if row["experiment"] == experiment["label"]]
-        if experiment["figure"] == "time":
-            parts.append(table(*tables.time_table(own)))
+        if experiment["figure"] in tables.OF_FIGURE:
+            make, note = tables.OF_FIGURE[experiment["figure"]]
+            parts.append((note + "\n\n" if note else "") + table(*make(own)))
         for files in figures.get(experiment["label"], []):
             shutil.copyfile(pathlib.Path(out) / files["png"], directory / pathlib.Path(files["png"]).name)
             parts.append(f"![{experiment['label']}]({pathlib.Path(files['png']).name})\n\n")

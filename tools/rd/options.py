@@ -32,6 +32,13 @@ class Choice:
             f"one of {', '.join(map(str, self.values))} is expected"
 
 
+class Flag:
+    """An option without a value: true gives it, false does not (and takes back a true of `options`)."""
+
+    def problem(self, value):
+        return None if isinstance(value, bool) else "true or false is expected"
+
+
 # The rate knob of each codec: option of the program and its range.
 RATES = {"raht": ("quality", Number(0.05, 4096)), "tmc": ("texture-qp", Number(0, 51, whole=True)),
          "tmc3": ("qp", Number(4, 51, whole=True)), "igc-hevc": ("qp", Number(0, 51, whole=True)),
@@ -52,6 +59,16 @@ OPTIONS = {
     "iterations": (Number(0, 100, whole=True), CODECS),
     "neighbours": (Number(1, 64, whole=True), CODECS),
     "dc": (Choice("penalise", "free"), CODECS),
+    "linear": (Flag(), CODECS),
+    "fit": (Choice("paper", "hierarchical"), CODECS),
+    "basis": (Choice("bspline", "harmonics"), CODECS),
+    "frame": (Choice("global", "reflected"), CODECS),
+    "degree": (Number(0, 10, whole=True), CODECS),
+    "block-log2": (Number(0, 21, whole=True), CODECS),
+    "block-strength": (Number(1e-6, 1e6), CODECS),
+    "block-growth": (Number(1, 10), CODECS),
+    "point-penalty": (Number(1e-6, 1e9), CODECS),
+    "point-growth": (Number(1, 10), CODECS),
     "steps": (Choice("by-norm", "uniform"), ("raht", "tmc")),
     "colour": (Choice("opponent", "none"), ("raht", "tmc")),
     "coefficients": (Choice("vector", "independent"), ("raht",)),
@@ -68,8 +85,12 @@ def words(options):
     """Command line words of options, in a fixed order."""
     out = []
     for name, value in sorted(options.items()):
-        text = f"{value:g}" if isinstance(value, float) else str(value)
-        out += [f"--{value}-dc"] if name == "dc" else ["--" + name.removeprefix("av1-"), text]
+        if name == "dc":
+            out.append(f"--{value}-dc")
+        elif isinstance(value, bool):
+            out += [f"--{name}"] if value else []
+        else:
+            out += ["--" + name.removeprefix("av1-"), f"{value:g}" if isinstance(value, float) else str(value)]
     return out
 
 

@@ -41,6 +41,15 @@ def job_key(job, programs):
     return digest([JOB_VERSION, settings, job["capture"]["hash"], used])
 
 
+def series(settings):
+    """[(variant or None, preset, grid values, options of its own)] in the manifest's order."""
+    presets = settings["presets"]
+    if settings["variants"]:
+        return [(name, own.get("preset", presets[0]), {}, own.get("options", {})) for name, own in settings["variants"].items()]
+    grid = [dict(zip(settings["grid"], values)) for values in itertools.product(*settings["grid"].values())]
+    return [(None, preset, values, values) for preset, values in itertools.product(presets, grid)]
+
+
 class Planner:
     """Collects experiments; `plan` is what Snakefile, collect.py and the plots read."""
 
@@ -92,21 +101,21 @@ class Planner:
         self.wanted.append((settings, points))
 
     def points(self, name, capture, split, slf_split, settings):
-        """Every (preset, codec, grid value, rate) of one capture and split."""
-        grid = [dict(zip(settings["grid"], values)) for values in itertools.product(*settings["grid"].values())]
+        """Every (series, codec, rate) of one capture and split."""
         out = []
-        for preset, codec, values in itertools.product(settings["presets"], settings["codecs"], grid):
+        for (variant, preset, values, given), codec in itertools.product(series(settings), settings["codecs"]):
             if codec == "tmc3" and not self.tmc3:
                 note = "skipped: codec tmc3 (--tmc3)"
                 self.notes += [note] if note not in self.notes else []
                 continue
-            options = {k: v for k, v in {**settings["options"], **values}.items() if codec in opt.OPTIONS[k][1]}
+            options = {k: v for k, v in {**settings["options"], **given}.items()
+                       if codec in opt.OPTIONS[k][1] and v is not False}  # a flag that is not given
             for rate in settings["rates"][codec]:
                 job = {"codec": codec, "preset": preset, "options": options, "rate": rate, "slf_split": slf_split,
                        "deltas": settings["deltas"], "images": settings["images"] or settings["figure"] == "time",
                        "capture": {k: capture[k] for k in ("directory", "points", "hash")}}
                 out.append({"capture": name, "split": split, "codec": codec, "preset": preset, "grid": values,
-                            "rate": rate, "job": job})
+                            "variant": variant, "rate": rate, "job": job})
         return out
 
     def plan(self):

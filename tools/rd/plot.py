@@ -60,11 +60,15 @@ def grid_text(values):
     return ", ".join(f"{SYMBOLS.get(k, k)} = {v:g}" if isinstance(v, (int, float)) else f"{k} {v}" for k, v in values.items())
 
 
+def setting_text(row):
+    return row["variant"] or grid_text(row["grid"])
+
+
 def grid_series(rows):
-    """[(text, rows)] by the value of the grid, in the manifest's order."""
+    """[(text, rows)] by the value of the grid or the variant, in the manifest's order."""
     groups = {}
     for row in rows:
-        groups.setdefault(grid_text(row["grid"]), []).append(row)
+        groups.setdefault(setting_text(row), []).append(row)
     return list(groups.items())
 
 
@@ -77,7 +81,7 @@ def note_empty(axis):
 
 
 def series_panels(axes, rows, panels):
-    """panels: [(cameras, delta, title)], one axis each; one series per value of the grid."""
+    """panels: [(cameras, delta, title)], one axis each; one series per value of the grid or variant."""
     groups = grid_series(rows)
     for axis, (cameras, delta, text) in zip(axes, panels):
         drawn = [curve(axis, part, cameras, delta, label=name, marker="osD^vXP*"[i % 8],
@@ -88,7 +92,8 @@ def series_panels(axes, rows, panels):
             note_empty(axis)
     axes[0].set_ylabel("point PSNR (dB)")
     if axes[-1].lines:
-        axes[-1].legend()
+        beside = {"loc": "center left", "bbox_to_anchor": (1, 0.5)} if rows[0]["variant"] else {}  # their names are long
+        axes[-1].legend(**beside)
 
 
 def draw_grid(out, experiment, rows, panels, width):
@@ -145,7 +150,7 @@ def draw(out, plan, rows):
     """{label: [{"png", "svg"}]} of every experiment; one that cannot be drawn has an empty list."""
     import drawings
     import pictures
-    kinds = {"curves": draw_curves, "deltas": draw_deltas, "compare": draw_compare, "views": pictures.draw_views,
+    kinds = {"curves": draw_curves, "ablation": draw_curves, "deltas": draw_deltas, "compare": draw_compare, "views": pictures.draw_views,
              "orbit": pictures.draw_orbit, "histogram": drawings.draw_histogram, "basis": drawings.draw_basis,
              "fit1d": drawings.draw_fit1d}
     figures = {}

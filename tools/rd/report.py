@@ -72,16 +72,16 @@ def bd_section(rows):
     header, lines = tables.bd_table(rows)
     if not lines:
         return ""
-    return ("<h2>BD figures against IGC (HEVC low delay)</h2>\n<p class='note'>Negative rate: fewer bytes than IGC at equal point PSNR. "
-            "PCHIP; Akima in brackets. Where curves do not overlap there is no figure but a reason.</p>\n" + table(header, lines))
+    return f"<h2>BD figures against IGC (HEVC low delay)</h2>\n<p class='note'>{text(tables.BD_NOTE)}</p>\n" + table(header, lines)
 
 
 def experiment_section(out, experiment, rows, figures):
     parts = [f"<h2 id='{text(experiment['label'])}'>{text(experiment['label'])} — {text(experiment['title'])}</h2>\n"]
     if experiment["note"]:
         parts.append(f"<p class='note'>{text(experiment['note'])}</p>\n")
-    if experiment["figure"] == "time":
-        parts.append(table(*tables.time_table(rows)))
+    if experiment["figure"] in tables.OF_FIGURE:
+        make, note = tables.OF_FIGURE[experiment["figure"]]
+        parts.append((f"<p class='note'>{text(note)}</p>\n" if note else "") + table(*make(rows)))
     parts += [picture(out, files, experiment["label"]) for files in figures]
     if experiment["captures"] and not rows:
         parts.append("<p>Skipped: no capture of it is here.</p>\n")

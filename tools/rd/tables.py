@@ -1,41 +1,95 @@
 """Tables of a run, as (header, lines) of plain text; report.py makes HTML of them."""
 from bd import NoFigure, bd_psnr, bd_rate
-from collect import psnr, size
-from plot import NAMES, bytes_text, grid_text
+from collect import psnr, size, size_without_geometry
+from plot import NAMES, bytes_text, setting_text
 
 STAGES = [("geometry", "Geometry decompression"), ("coefficients", "Coefficient decompression"),
           ("images", "Images decompression"), ("observe", "Observation"), ("fit", "SLF representation (fit)")]
+BD_NOTE = ("Negative rate: fewer bytes than IGC at equal point PSNR. PCHIP; Akima in brackets. Without geometry: each file's bytes less "
+           "those of its own geometry unit (an .igc file's is a whole stream, some 60 bytes more). Where curves do not overlap there is "
+           "no figure but a reason.")
+ABLATION_NOTE = ("BD-rate (PCHIP, percent) against the first variant of the same capture, cameras and codec; negative: fewer bytes at equal "
+                 "point PSNR. Bytes and dB are those at the middle rate (the lower of two). Seconds are means over the rates, one thread; × first: "
+                 "their ratio to the first variant's.")
 
 
-def _measured(rows, cameras):
-    points = [(size(r), psnr(r, cameras)) for r in rows if size(r) and psnr(r, cameras) is not None]
+def _measured(rows, cameras, measure=size):
+    points = [(measure(r), psnr(r, cameras)) for r in rows if measure(r) and psnr(r, cameras) is not None]
     return [p[0] for p in points], [p[1] for p in points]
 
 
-def _figure(measure, unit, *curves):
+def _figure(measure, unit, *curves, akima=True):
     """A BD figure by PCHIP (and Akima), or the reason why there is none."""
+    form = "+.1f" if unit == "%" else "+.2f"
     try:
-        return f"{measure(*curves):+.1f} {unit} ({measure(*curves, 'akima'):+.1f})" if unit == "%" else \
-            f"{measure(*curves):+.2f} {unit} ({measure(*curves, 'akima'):+.2f})"
+        return f"{measure(*curves):{form}} {unit}" + (f" ({measure(*curves, 'akima'):{form}})" if akima else "")
     except NoFigure as reason:
         return f"none: {reason}"
 
 
 def bd_table(rows, anchor="igc-hevc"):
-    """BD figures of every codec against one, per capture, density and preset, held out and input."""
-    header = ["capture", "cameras", "preset", "codec", "BD-rate, held out", "BD-PSNR, held out", "BD-rate, input", "BD-PSNR, input"]
+    """BD figures of every codec against one, per experiment, capture, density and preset, held out and input."""
+    header = ["experiment", "capture", "cameras", "preset", "codec"]
+    header += [f"{what}, {cameras}" for cameras in ("held out", "input") for what in ("BD-rate", "BD-rate without geometry", "BD-PSNR")]
     cases = {}
     for row in rows:
-        if row["experiment"].startswith("fig:rdcompare") and row["status"] == "ok":
-            cases.setdefault((row["capture"], row["split"], row["preset"]), {}).setdefault(row["codec"], []).append(row)
+        if row["experiment"].startswith("fig:rdcompare") and row["status"] == "ok" and not row["variant"]:
+            case = tuple(row[key] for key in ("experiment", "capture", "split", "preset"))
+            cases.setdefault(case, {}).setdefault(row["codec"], []).append(row)
     lines = []
-    for (capture, split, preset), codecs in cases.items():
+    for case, codecs in cases.items():
         for codec in (c for c in NAMES if c in codecs and c != anchor):
-            line = [capture, split, preset, NAMES[codec]]
+            line = [*case, NAMES[codec]]
             for cameras in ("held_out", "input"):
-                both = _measured(codecs.get(anchor, []), cameras) + _measured(codecs[codec], cameras)
-                line += [_figure(bd_rate, "%", *both), _figure(bd_psnr, "dB", *both)]
+                whole, less = (_measured(codecs.get(anchor, []), cameras, measure) + _measured(codecs[codec], cameras, measure)
+                               for measure in (size, size_without_geometry))
+                line += [_figure(bd_rate, "%", *whole), _figure(bd_rate, "%", *less), _figure(bd_psnr, "dB", *whole)]
             lines.append(line)
+    return header, lines
+
+
+def _seconds(rows):
+    """({rate: seconds of encoding}, {rate: seconds of decoding})"""
+    encode = {r["rate"]: r["encode"].get("seconds", {}).get("total") for r in rows}
+    decode = {r["rate"]: (r["eval"].get("decode") or {}).get("total") for r in rows}
+    return [{rate: s for rate, s in found.items() if s is not None} for found in (encode, decode)]
+
+
+def _mean_and_ratio(anchor, seconds):
+    """Cells; the ratio is over the rates that both have."""
+    both = anchor.keys() & seconds.keys()
+    base = sum(anchor[rate] for rate in both)
+    return [f"{sum(seconds.values()) / len(seconds):.3f}" if seconds else "–",
+            f"{sum(seconds[rate] for rate in both) / base:.2f}" if base else "–"]
+
+
+def _ablation_line(anchor, rows, middle):
+    """What stands behind the name of one variant; `rows` is `anchor` for the first."""
+    line = []
+    for cameras in ("held_out", "input"):
+        both = _measured(anchor, cameras) + _measured(rows, cameras)
+        line.append("–" if rows is anchor else _figure(bd_rate, "%", *both, akima=False))
+    at = next((r for r in rows if r["rate"] == middle and size(r)), None)
+    quality = at and psnr(at)
+    line += [f"{middle:g}", f"{size(at):,}" if at else "–", "–" if quality is None else f"{quality:.2f}"]
+    for base, seconds in zip(_seconds(anchor), _seconds(rows)):
+        line += _mean_and_ratio(base, seconds)
+    return line
+
+
+def ablation_table(rows):
+    """Every variant against the first of its capture, split and codec, in the manifest's order."""
+    header = ["capture", "cameras", "codec", "variant", "BD-rate, held out", "BD-rate, input", "rate option", "bytes", "held out dB",
+              "encode s", "× first", "decode s", "× first"]
+    cases = {}
+    for row in rows:
+        cases.setdefault((row["capture"], row["split"], row["codec"]), {}).setdefault(row["variant"], []).append(row)
+    lines = []
+    for (capture, split, codec), variants in cases.items():
+        anchor = next(iter(variants.values()))
+        rates = sorted(r["rate"] for r in anchor)
+        for name, own in variants.items():
+            lines.append([capture, split, NAMES[codec], name, *_ablation_line(anchor, own, rates[(len(rates) - 1) // 2])])
     return header, lines
 
 
@@ -64,10 +118,13 @@ def row_table(rows):
     for row in rows:
         image = (row["eval"].get("held_out") or {}).get("image") or {}
         number = lambda value, form: "" if value is None else format(value, form)  # noqa: E731
-        lines.append([row["capture"], row["split"], NAMES[row["codec"]], row["preset"], grid_text(row["grid"]), f"{row['rate']:g}",
+        lines.append([row["capture"], row["split"], NAMES[row["codec"]], row["preset"], setting_text(row), f"{row['rate']:g}",
                       number(row["eval"].get("points"), ","), number(size(row), ","), number(psnr(row, "input"), ".2f"),
                       number(psnr(row), ".2f"), number(image.get("psnr"), ".2f"), number(image.get("ssim"), ".4f"),
                       number(image.get("coverage"), ".4f"), number(row["encode"].get("seconds", {}).get("total"), ".2f"),
                       number((row["eval"].get("decode") or {}).get("total"), ".3f"), number(row["encode"].get("peak_memory_mib"), ".0f"),
                       row["status"] if row["status"] == "ok" else f"{row['status']}: {row['reason']}"])
     return header, lines
+
+
+OF_FIGURE = {"time": (time_table, ""), "ablation": (ablation_table, ABLATION_NOTE)}  # figure: (its table, a remark above it)

@@ -44,7 +44,7 @@ def encode(options, positional):
     bytes_ = int(BYTES[kind] * (8 / step) ** 0.9 * int(options.get("functions", 128)) ** 0.3)
     loss = sum(0.3 * abs(math.log2((float(options.get(k, v)) + 0.1) / (v + 0.1))) for k, v in PREFERS.items())
     loss += {"dense": 0, "intermediate": 0.7, "sparse": 2}.get(options["split"], 1) * (2 if "die" in positional[0] else 1)
-    pathlib.Path(options["o"]).write_text(json.dumps({"kind": kind, "bytes": bytes_, "psnr": 30 - loss - step / 16}))
+    pathlib.Path(options["o"]).write_text(json.dumps({"kind": kind, "fit": options.get("fit"), "bytes": bytes_, "psnr": 30 - loss - step / 16}))
     print(json.dumps({"bytes": bytes_, "points": 1000, "cameras": 4, "seconds": {"fit": 0.5, "total": 1.0},
                       "peak_memory_mib": 50.0, "settings": {k: v for k, v in options.items() if k != "o"}}))
 
@@ -77,12 +77,14 @@ def decode(options, positional):
     out.mkdir(parents=True)
     np.save(out / "components.npy", np.arange(-24, 24, dtype=np.int32).reshape(4, 4, 3))
     np.save(out / "positions.npy", np.arange(12, dtype=np.int32).reshape(4, 3))
+    harmonics = json.loads(pathlib.Path(positional[0]).read_text())["fit"] == "hierarchical"
+    basis = {"id": "harmonics", "degree": 1} if harmonics else {"order": 2, "scales_theta": 1, "scales_gamma": 1}
     (out / "light_field.json").write_text(json.dumps(
-        {"shift": [1, 1, 1, 1], "basis": {"order": 2, "scales_theta": 1, "scales_gamma": 1}, "gamma_range": [-1, 1],
+        {"shift": [1, 1, 1, 1], "basis": basis, "gamma_range": [-1, 1],
          "grid": {"origin": [0, 0, 0], "step": 0.1}, "colour": {"to_rgb": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}))
 
 
-FLAGS = {"json", "quiet", "no-images", "sheet", "penalise-dc", "free-dc", "list"}
+FLAGS = {"json", "quiet", "no-images", "sheet", "penalise-dc", "free-dc", "linear", "list"}
 
 
 def main(words):

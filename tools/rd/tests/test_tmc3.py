@@ -75,6 +75,12 @@ class Runs(Scratch):
         self.assertEqual(table.count(",tmc3,paper,"), 1)
         self.assertEqual(table.count("estimated"), 1)
 
+    def test_a_basis_that_the_estimate_does_not_know_fails_with_the_reason(self):
+        path = self.manifest(codecs=["tmc3"], rates={"tmc3": [22]}, grid={"order": [2]}, options={"fit": "hierarchical"})
+        code, _, said = self.rd(path, "--tmc3", FAKE_TMC3)
+        self.assertEqual(code, 1)
+        self.assertIn("1 failed: ValueError: the PSNR of tmc3 is estimated for B-splines in the global frame alone", said)
+
     def test_without_the_program_the_others_run(self):
         path = self.manifest(codecs=["raht", "tmc3"], rates={"raht": [8], "tmc3": [10]}, grid={"order": [2]})
         code, _, said = self.rd(path, "--dry-run")

@@ -8,7 +8,7 @@ from verdicts import AGREES, CONTRADICTS, UNDECIDED
 def row(experiment, bytes_, held_out, rate=8, capture="can", split="dense", codec="raht", inputs=None, **grid):
     points = [{"delta": 10, "psnr": held_out}] if not isinstance(held_out, dict) else [{"delta": d, "psnr": v} for d, v in held_out.items()]
     points_in = [{"delta": 10, "psnr": inputs if inputs is not None else points[0]["psnr"]}]
-    return {"experiment": experiment, "capture": capture, "split": split, "codec": codec, "preset": "paper", "grid": grid, "rate": rate,
+    return {"experiment": experiment, "capture": capture, "split": split, "codec": codec, "preset": "paper", "variant": None, "grid": grid, "rate": rate,
             "status": "ok", "encode": {}, "eval": {"bytes": bytes_, "held_out": {"points": points}, "input": {"points": points_in}}}
 
 
