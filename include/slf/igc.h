@@ -80,8 +80,7 @@ bool is_igc(std::span<const std::uint8_t> stream);
 /// Decodes geometry and images, then observes and fits: the SLF is made here.
 /// @param capture  gives the calibration of the cameras that the file names, and normals; its
 ///                 images and masks are not touched
-/// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kInvalidInput: a damaged or foreign file,
-/// or
+/// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kInvalidInput: a damaged or foreign file;
 ///         cameras that the capture does not have in that size. kLimitExceeded. kUnsupported: the
 ///         video decoder was left out of this build. Those of observe and fit_view_maps.
 /// The same for any thread count of one binary.
