@@ -1,15 +1,17 @@
 #include "attributes/coefficient_decoder.h"
 
-#include "attributes/quantiser.h"
 #include "entropy/range_decoder.h"
 
 namespace slf {
 
-CoefficientModels::CoefficientModels(const PlaneGroups& groups, std::size_t num_points,
-                                     std::size_t planes, bool vector) {
+CoefficientModels::CoefficientModels(const PlaneGroups& groups, const RahtTree& tree,
+                                     std::span<const std::uint64_t> morton,
+                                     std::span<const std::uint32_t> first, bool vector) {
+  if (vector) neighbours_ = find_coefficient_neighbours(tree, morton, first);
   for (const auto& functions : groups) {
+    empty_.push_back(functions.empty());
     if (vector) {
-      vector_.emplace_back(functions, num_points, planes);
+      vector_.emplace_back(functions, tree.size());
     } else {
       independent_.emplace_back(functions);
     }
@@ -24,20 +26,6 @@ Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, Coeffici
     return Error{Errc::kOutOfRange, "cu_magnitude", 0};
   if (cut) return Done{};
   return decoder.finish("cu_coefficients");
-}
-
-Result<Done> dequantise(std::span<std::int32_t> values, std::span<const std::uint32_t> steps) {
-  const std::size_t planes = steps.size();
-  for (std::size_t row = 0; row < values.size(); row += planes)
-    for (std::size_t j = 0; j < planes; ++j) {
-      std::int32_t& value = values[row + j];
-      if (value == 0) continue;
-      const std::int64_t product = std::int64_t{value} * steps[j];
-      if (product >= kCoefficientLimit || product <= -kCoefficientLimit)
-        return Error{Errc::kOutOfRange, "cu_magnitude", 0};
-      value = static_cast<std::int32_t>(product);
-    }
-  return Done{};
 }
 
 }  // namespace slf

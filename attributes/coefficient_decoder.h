@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "attributes/coefficient_layout.h"
+#include "attributes/coefficient_neighbours.h"
 #include "attributes/independent_coefficients.h"
 #include "attributes/vector_coefficients.h"
 #include "slf/error.h"
@@ -27,20 +28,25 @@ inline std::vector<std::size_t> planes_of(const std::vector<std::uint16_t>& func
 /// The entropy coding state of every group of a slice; it lives on from level range to level range.
 class CoefficientModels {
  public:
-  CoefficientModels(const PlaneGroups& groups, std::size_t num_points, std::size_t planes,
+  /// morton, first: as for find_coefficient_neighbours; for the vector coder alone.
+  CoefficientModels(const PlaneGroups& groups, const RahtTree& tree,
+                    std::span<const std::uint64_t> morton, std::span<const std::uint32_t> first,
                     bool vector);
 
   /// Codes rows order[begin .. end) of a group; see VectorCoefficients::code.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,
             std::size_t end) {
+    if (empty_[group]) return true;
     if (!vector_.empty())
-      return vector_[group].code(coder, rows, group > 0 ? &vector_[group - 1] : nullptr, begin,
-                                 end);
+      return vector_[group].code(coder, rows, neighbours_,
+                                 group > 0 ? &vector_[group - 1] : nullptr, begin, end);
     return independent_[group].code(coder, rows, begin, end);
   }
 
  private:
+  CoefficientNeighbours neighbours_;
+  std::vector<bool> empty_;                 // groups without functions to code
   std::vector<VectorCoefficients> vector_;  // one of the two is empty
   std::vector<IndependentCoefficients> independent_;
 };
@@ -50,10 +56,5 @@ class CoefficientModels {
 Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, CoefficientModels& models,
                                  const CoefficientRows& rows, std::size_t group, std::size_t begin,
                                  std::size_t end, bool cut);
-
-/// Multiplies every value by the step of its plane. Spec 8.7.4.
-/// @param steps  [planes]
-/// @errors kOutOfRange: a product of 2^27 or more.
-Result<Done> dequantise(std::span<std::int32_t> values, std::span<const std::uint32_t> steps);
 
 }  // namespace slf

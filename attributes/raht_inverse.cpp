@@ -1,5 +1,11 @@
 #include "attributes/raht_inverse.h"
 
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+#include "attributes/level_prediction.h"
+#include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
 #include "bitstream/multiversion.h"
 #include "slf/parallel.h"
@@ -8,44 +14,178 @@ namespace slf {
 namespace {
 
 /// Planes tested for zeros together: 192 bytes of a row, three cache lines.
-constexpr std::size_t kBlock = 48;
+constexpr std::size_t kBlock = kPredictionLanes;
 
-/// `lanes` of both rows of a merge. Most are zero in most merges.
-inline void inverse_merge(const Merge& m, std::int32_t* __restrict low,
-                          std::int32_t* __restrict high, std::size_t lanes) {
-  std::int32_t any = 0;
-  for (std::size_t j = 0; j < lanes; ++j) any |= low[j] | high[j];
-  if (any == 0) return;
+/// Step of every plane, and the largest quantised value below 2^27.
+struct Steps {
+  explicit Steps(std::span<const std::uint32_t> of_planes) {
+    for (const std::uint32_t s : of_planes) {
+      step.push_back(static_cast<std::int32_t>(s));
+      most.push_back(static_cast<std::int32_t>((kCoefficientLimit - 1) / s));
+    }
+  }
+  std::vector<std::int32_t> step, most;
+};
+
+/// `lanes` of both rows of a merge, `high` still quantised. Most are zero in most merges.
+/// Not zero: a coefficient is too large; it counts as 0.
+inline std::int32_t inverse_merge(const Merge& m, std::int32_t* __restrict low,
+                                  std::int32_t* __restrict high,
+                                  const std::int32_t* __restrict step,
+                                  const std::int32_t* __restrict most, std::size_t lanes) {
+  std::int32_t any_low = 0, any_high = 0, bad = 0;
+  for (std::size_t j = 0; j < lanes; ++j) any_low |= low[j], any_high |= high[j];
+  if ((any_low | any_high) == 0) return 0;
+  if (any_high == 0) {
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const std::int32_t mean = low[j];
+      low[j] = round_q30(std::int64_t{m.cos_q30} * mean);
+      high[j] = round_q30(std::int64_t{m.sin_q30} * mean);
+    }
+    return 0;
+  }
   for (std::size_t j = 0; j < lanes; ++j) {
-    const std::int32_t mean = low[j], difference = high[j];
+    const bool good = high[j] <= most[j] && high[j] >= -most[j];
+    bad |= !good;
+    const std::int32_t mean = low[j], difference = (good ? high[j] : 0) * step[j];
     low[j] = round_q30(std::int64_t{m.cos_q30} * mean - std::int64_t{m.sin_q30} * difference);
     high[j] = round_q30(std::int64_t{m.sin_q30} * mean + std::int64_t{m.cos_q30} * difference);
   }
+  return bad;
 }
 
+/// Planes begin .. end - 1 of everything.
+struct Range {
+  Lanes values;
+  const std::int32_t* step;
+  const std::int32_t* most;
+  std::size_t lanes;
+
+  Range(std::span<std::int32_t> all, const Steps& steps, std::size_t begin, std::size_t end)
+      : values{all.data() + begin, steps.step.size()},
+        step(steps.step.data() + begin),
+        most(steps.most.data() + begin),
+        lanes(end - begin) {}
+};
+
 SLF_MULTIVERSION
-void inverse_lanes(std::span<const Merge> merges, std::int32_t* values, std::size_t stride,
-                   std::size_t lanes) {
+std::int32_t inverse_lanes(std::span<const Merge> merges, const Range& range, std::size_t first,
+                           std::size_t lanes) {
+  std::int32_t bad = 0;
   for (const Merge& m : merges) {
-    std::int32_t* low = values + m.left * stride;
-    std::int32_t* high = values + m.right * stride;
-    std::size_t j = 0;
-    for (; j + kBlock <= lanes; j += kBlock) inverse_merge(m, low + j, high + j, kBlock);
-    if (j < lanes) inverse_merge(m, low + j, high + j, lanes - j);
+    std::int32_t* low = range.values.row(m.left);
+    std::int32_t* high = range.values.row(m.right);
+    std::size_t j = first;
+    for (; j + kBlock <= first + lanes; j += kBlock)
+      bad |= inverse_merge(m, low + j, high + j, range.step + j, range.most + j, kBlock);
+    if (j < first + lanes)
+      bad |= inverse_merge(m, low + j, high + j, range.step + j, range.most + j, first + lanes - j);
   }
+  return bad;
+}
+
+/// Row 0 holds the mean of all, which no merge dequantises.
+std::int32_t dequantise_mean(const Range& range) {
+  std::int32_t bad = 0;
+  for (std::size_t j = 0; j < range.lanes; ++j) {
+    std::int32_t& value = range.values.first[j];
+    const bool good = value <= range.most[j] && value >= -range.most[j];
+    bad |= !good;
+    value = good ? value * range.step[j] : 0;
+  }
+  return bad;
+}
+
+/// Spec 8.7.6. merges: of the level.
+std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
+                           std::uint32_t mode, const Range& range, Lanes means) {
+  if (mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
+  level_means(level, range.values, means, range.lanes);
+  std::int32_t bad = 0;
+  NodePrediction plan;
+  Corrections corrections;
+  for (std::size_t n = 0, merge = 0; n < level.nodes.size(); ++n) {
+    if (!level.branches(n)) continue;
+    plan_node(level, n, mode, plan);
+    const auto own = merges.subspan(merge, plan.children - 1);
+    merge += own.size();
+    for (std::size_t j = 0; j < range.lanes; j += kBlock) {
+      const std::size_t lanes = std::min(kBlock, range.lanes - j);
+      const Lanes values{range.values.first + j, range.values.stride};
+      predict_children(plan, values, {means.first + j, means.stride}, lanes, corrections);
+      bad |= inverse_lanes(own, range, j, lanes);
+      add_corrections(plan, corrections, values, lanes);
+    }
+  }
+  return bad;
+}
+
+/// Whole rows on one thread: merges of a level follow one another in memory.
+template <class Body>
+bool over_planes(std::size_t planes, int threads, const Body& body) {
+  const auto parts =
+      static_cast<std::size_t>(thread_count(threads, (planes + kBlock - 1) / kBlock));
+  const std::size_t grain = ((planes + parts - 1) / parts + kBlock - 1) / kBlock * kBlock;
+  std::atomic<bool> good = true;
+  parallel_ranges(planes, grain, threads, [&](std::size_t begin, std::size_t end) {
+    if (body(begin, end) != 0) good = false;
+  });
+  return good;
+}
+
+Error too_large() { return {Errc::kOutOfRange, "cu_magnitude", 0}; }
+
+/// Runs of planes with the same mode on a level, neighbours joined.
+std::vector<PredictedPlanes> runs_of_level(std::span<const PredictedPlanes> planes,
+                                           std::size_t level) {
+  std::vector<PredictedPlanes> runs;
+  for (const PredictedPlanes& p : planes) {
+    const std::uint8_t mode = level < p.modes.size() ? p.modes[level] : std::uint8_t{0};
+    if (!runs.empty() && runs.back().modes[0] == mode) {
+      runs.back().end = p.end;
+    } else {
+      runs.push_back({p.begin, p.end, {mode}});
+    }
+  }
+  return runs;
 }
 
 }  // namespace
 
-void raht_inverse(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads) {
-  const auto stride = static_cast<std::size_t>(planes);
-  // Whole rows on one thread: merges are depth first, so rows follow one another in memory.
-  const auto parts =
-      static_cast<std::size_t>(thread_count(threads, (stride + kBlock - 1) / kBlock));
-  const std::size_t grain = ((stride + parts - 1) / parts + kBlock - 1) / kBlock * kBlock;
-  parallel_ranges(stride, grain, threads, [&](std::size_t begin, std::size_t end) {
-    inverse_lanes(tree.merges, values.data() + begin, stride, end - begin);
+Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
+                          std::span<std::int32_t> values, int threads) {
+  const Steps table(steps);
+  const bool good = over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
+    const Range range(values, table, begin, end);
+    return dequantise_mean(range) | inverse_lanes(tree.merges, range, 0, range.lanes);
   });
+  if (!good) return too_large();
+  return Done{};
+}
+
+Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& levels,
+                                    std::span<const PredictedPlanes> planes,
+                                    std::span<const std::uint32_t> steps,
+                                    std::span<std::int32_t> values, int threads) {
+  const Steps table(steps);
+  bool good = dequantise_mean(Range(values, table, 0, steps.size())) == 0;
+  for (int l = 0; l < levels.count(); ++l) {
+    const TransformLevel& level = levels.next();
+    const std::span<const Merge> merges =
+        std::span(tree.merges)
+            .subspan(level.nodes.size() - 1, level.child_rows.size() - 1 - level.nodes.size());
+    for (const PredictedPlanes& run : runs_of_level(planes, static_cast<std::size_t>(l))) {
+      const std::size_t width = run.end - run.begin;
+      const auto means = std::make_unique_for_overwrite<std::int32_t[]>(
+          run.modes[0] == 0 ? 0 : level.means.size() * width);
+      good &= over_planes(width, threads, [&](std::size_t begin, std::size_t end) {
+        const Range range(values, table, run.begin + begin, run.begin + end);
+        return inverse_level(level, merges, run.modes[0], range, {means.get() + begin, width});
+      });
+    }
+  }
+  if (!good) return too_large();
+  return Done{};
 }
 
 std::int32_t node_mean(std::int32_t value, std::uint32_t weight) {

@@ -1,16 +1,37 @@
-// Inverse transform and the means of coarser levels. Spec 8.8, 8.9.
+// Dequantisation, inverse transform with prediction, and the means of coarser levels. Spec 8.7.4,
+// 8.7.6, 8.8, 8.9.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "attributes/raht_tree.h"
+#include "attributes/transform_levels.h"
+#include "slf/error.h"
 
 namespace slf {
 
-/// Values are [rows][planes], row-major; transform coefficients in, values out, in place. Every
-/// |coefficient| is below 2^27, which bounds every intermediate below 2^31 (spec 8.8.2).
-void raht_inverse(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads);
+/// Planes that follow one another and are predicted alike.
+struct PredictedPlanes {
+  std::size_t begin = 0, end = 0;
+  std::vector<std::uint8_t> modes;  ///< [levels] cu_prediction, 0 where none; empty: all 0
+};
+
+/// Values are [rows][planes], row-major; quantised coefficients in, values out, in place.
+/// @param steps  [planes]
+/// @errors kOutOfRange: a coefficient of 2^27 or more; the values are then of no meaning. The limit
+///         bounds every intermediate below 2^31 (spec 8.8.2).
+Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
+                          std::span<std::int32_t> values, int threads);
+
+/// The same, a level at a time, children predicted.
+/// @param levels  of the same points, at level 0
+/// @param planes  ascending, covering all
+Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& levels,
+                                    std::span<const PredictedPlanes> planes,
+                                    std::span<const std::uint32_t> steps,
+                                    std::span<std::int32_t> values, int threads);
 
 /// The mean of a node of `weight` points, from the value raht_inverse leaves in its row.
 std::int32_t node_mean(std::int32_t value, std::uint32_t weight);

@@ -51,6 +51,18 @@ std::vector<std::uint32_t> coding_order(const std::vector<std::uint8_t>& split) 
   return order;
 }
 
+/// Merges by octree level, coarsest first, otherwise in their order.
+std::vector<Merge> by_level(const std::vector<Merge>& merges,
+                            const std::vector<std::uint8_t>& split) {
+  std::array<std::size_t, kSplits / 3 + 2> begin{};
+  const auto level = [&](const Merge& m) { return kSplits / 3u - split[m.right] / 3u; };
+  for (const Merge& m : merges) ++begin[level(m) + 1];
+  for (std::size_t l = 1; l < begin.size(); ++l) begin[l] += begin[l - 1];
+  std::vector<Merge> sorted(merges.size());
+  for (const Merge& m : merges) sorted[begin[level(m)]++] = m;
+  return sorted;
+}
+
 }  // namespace
 
 std::uint64_t isqrt(std::uint64_t n) {
@@ -97,6 +109,7 @@ RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
       open.push_back({below, node.first, node.merge});
     }
   }
+  tree.merges = by_level(tree.merges, tree.split);
   return tree;
 }
 

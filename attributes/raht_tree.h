@@ -17,7 +17,8 @@ struct Merge {
 };
 
 struct RahtTree {
-  std::vector<Merge> merges;          ///< [P - 1] parents before children, depth first
+  std::vector<Merge> merges;          ///< [P - 1] by octree level, then by node, parents before
+                                      ///< children
   std::vector<std::uint8_t> split;    ///< [P] Morton bit that row's merge joins; 255 for row 0
   std::vector<std::uint32_t> parent;  ///< [P] row whose merge is next above row's; 0 at the top
   std::vector<std::uint32_t> order;  ///< [P] rows in coding order: row 0, then by split descending,

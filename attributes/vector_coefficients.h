@@ -1,167 +1,252 @@
-// Coefficients of one plane group, a vector per node: significance of the node, of blocks of eight
-// functions, of values, then magnitudes. Written once for decoder and encoder. Spec 8.7.2.
+// Coefficients of one plane group, a vector per node: is it all zero, then every value. Each
+// decision is predicted from the vectors around it. Written once for decoder and encoder. Spec
+// 8.7.2.
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstdint>
-#include <span>
+#include <cstdlib>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "attributes/coefficient_layout.h"
-#include "entropy/adaptive_bit.h"
-#include "entropy/binarisation.h"
+#include "attributes/coefficient_magnitude_model.h"
+#include "attributes/coefficient_neighbours.h"
+#include "attributes/coefficient_sign_model.h"
+#include "entropy/log_class.h"
+#include "entropy/mixed_bit.h"
 
 namespace slf {
 
 class VectorCoefficients {
  public:
   /// functions: the group's, ascending.
-  VectorCoefficients(std::vector<std::uint16_t> functions, std::size_t num_points,
-                     std::size_t planes)
+  VectorCoefficients(std::vector<std::uint16_t> functions, std::size_t num_points)
       : functions_(std::move(functions)),
-        zeros_(planes, 0),
-        nonzeros_(num_points, 0),
-        activity_(planes, 4096),
-        node_(kLevelClasses * 27),
-        block_(16 * 2 * 2 * 3),
-        value_(2 * kLevelClasses * kActivities * 5 * 4 * 4),
-        magnitude_(kActivities * 3) {}
+        width_(3 * functions_.size()),
+        sum_(num_points),
+        vector_of_(num_points),
+        vectors_(width_),
+        activity_(width_, functions_.size() > 1 ? kFirstActivity : 0),
+        parents_(width_),
+        beside_(width_) {}
 
   /// Codes rows order[begin .. end). `lower`: the group before this one, or nullptr.
   /// Returns false where the decoder met a value no encoder writes.
   template <class Coder>
-  bool code(Coder& coder, const CoefficientRows& rows, const VectorCoefficients* lower,
-            std::size_t begin, std::size_t end) {
-    const RahtTree& tree = rows.tree;
+  bool code(Coder& coder, const CoefficientRows& rows, const CoefficientNeighbours& neighbours,
+            const VectorCoefficients* lower, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t row = tree.order[i];
-      const std::uint32_t parent = tree.parent[row];
-      const std::uint32_t previous = i > 1 ? tree.order[i - 1] : 0;
-      const bool beside = previous != 0 && tree.split[previous] == tree.split[row];
-      const Around around{parent != 0 ? rows.row(parent) : zeros_.data(),
-                          beside ? rows.row(previous) : zeros_.data(), level_class(tree, row)};
-      const std::uint32_t context =
-          ((around.level * 3 + few(parent != 0 ? nonzeros_[parent] : 0u)) * 3 +
-           few(beside ? nonzeros_[previous] : 0u)) *
-              3 +
-          few(lower != nullptr ? lower->nonzeros_[row] : 0u);
-      const bool any = !Coder::kDecodes && has_any(rows.row(row), 0, functions_.size());
-      if (!coder.bit(node_[context], kLimit, any)) continue;
-      if (!code_node(coder, around, rows.row(row), row)) return false;
+      const std::uint32_t row = rows.tree.order[i];
+      const Around around = around_of(rows.tree, neighbours, i);
+      const std::uint32_t below = lower != nullptr ? log_class(lower->sum_[row], 15) : 0;
+      const bool any = !Coder::kDecodes && has_any(rows.row(row));
+      if (!code_node(coder, around, below, any)) continue;
+      if (!code_vector(coder, around, row, rows.row(row))) return false;
     }
     return true;
   }
 
  private:
-  static constexpr std::uint32_t kLimit = 255;
-  static constexpr std::size_t kBlock = 8;  // functions
-  static constexpr std::uint32_t kActivities = 12;
+  static constexpr std::size_t kParents = 3;  // parent, its parent, and that one's
+  static constexpr std::size_t kAround = 7;   // and the faces towards lower x, y, z; the previous
+  static constexpr std::uint32_t kTopSplit = 44;
+  static constexpr std::int32_t kLargest = 4095;  // magnitudes are kept for contexts up to this
+  static constexpr std::int32_t kFirstActivity = 16;
 
-  /// Where a node stands: coefficients of its parent and of the node before it, zeros where none.
+  /// The rows around one, 0 where there is none, and what their magnitudes say of its own.
   struct Around {
-    const std::int32_t* parent;
-    const std::int32_t* previous;
-    std::uint32_t level;
+    std::array<std::uint32_t, kAround> row{};
+    std::array<std::uint32_t, kAround> weight{};  // 8 fractional bits; 0 also for a zero vector
+    bool any_beside = false;
+    std::uint32_t same_axis = 0;      // nearest of the parents whose split is along the same axis
+    std::uint32_t split = kTopSplit;  // at most
+    std::uint32_t axis = 2;           // 0 .. 2, of the split
+    std::uint32_t scale_class = 0;
   };
 
-  static std::uint32_t few(std::uint32_t count) { return count == 0 ? 0 : count < 3 ? 1 : 2; }
-  static std::uint32_t size_class(std::int32_t value) {
-    return value == 0 ? 0 : value == 1 || value == -1 ? 1 : 2;
+  struct ValueModels {
+    CoefficientMagnitudeModel magnitude;
+    CoefficientSignModel sign;
+  };
+
+  /// Of the values of a vector so far.
+  struct Progress {
+    std::uint32_t sum = 0;       // of magnitudes
+    std::uint64_t activity = 0;  // of their planes
+  };
+
+  Around around_of(const RahtTree& tree, const CoefficientNeighbours& neighbours,
+                   std::size_t i) const {
+    const std::uint32_t row = tree.order[i];
+    Around around;
+    around.scale_class = log_class(neighbours.scale[row] >> 5, 23);
+    if (row == 0) return around;
+    around.split = std::min<std::uint32_t>(tree.split[row], kTopSplit);
+    around.axis = tree.split[row] % 3u;
+    std::uint32_t up = row;
+    for (std::size_t k = 0; k < kParents; ++k) {
+      around.row[k] = up = tree.parent[up];
+      if (up != 0 && around.same_axis == 0 && (tree.split[up] - tree.split[row]) % 3 == 0)
+        around.same_axis = up;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      around.row[kParents + axis] = neighbours.faces[row][axis];
+    const std::uint32_t previous = tree.order[i - 1];
+    if (tree.split[previous] == tree.split[row]) around.row[kAround - 1] = previous;
+    set_weights(neighbours, row, around);
+    return around;
   }
 
-  bool has_any(const std::int32_t* row, std::size_t first, std::size_t last) const {
-    for (std::size_t f = first; f < last; ++f) {
-      const std::int32_t* v = row + 3u * functions_[f];
-      if ((v[0] | v[1] | v[2]) != 0) return true;
+  /// A difference between means is as likely large here as there; coefficients are differences
+  /// times scale.
+  void set_weights(const CoefficientNeighbours& neighbours, std::uint32_t row,
+                   Around& around) const {
+    constexpr std::array<std::uint32_t, kAround> kShares = {2, 2, 1, 3, 3, 3, 1};
+    constexpr std::uint32_t kParentShares = 5;
+    constexpr std::uint32_t kMostWeight = 32767;  // times 7 * kLargest stays below 2^31
+    std::uint32_t shares_beside = 0;
+    for (std::size_t k = kParents; k < kAround; ++k)
+      if (around.row[k] != 0) shares_beside += kShares[k];
+    around.any_beside = shares_beside > 0;
+    for (std::size_t k = 0; k < kAround; ++k) {
+      if (sum_[around.row[k]] == 0) continue;  // the sum of row 0 stays 0
+      const std::uint32_t shares = k < kParents ? kParentShares : shares_beside;
+      around.weight[k] = std::min(
+          kShares[k] * neighbours.scale[row] * 256 / (neighbours.scale[around.row[k]] * shares),
+          kMostWeight);
     }
+  }
+
+  bool has_any(const std::int32_t* values) const {
+    for (const std::size_t function : functions_)
+      if ((values[3 * function] | values[3 * function + 1] | values[3 * function + 2]) != 0)
+        return true;
     return false;
   }
 
   template <class Coder>
-  bool code_node(Coder& coder, const Around& around, std::int32_t* values, std::uint32_t row) {
-    std::uint32_t count = 0;  // non-zero values of the node so far
-    for (std::size_t first = 0; first < functions_.size(); first += kBlock) {
-      const std::size_t last = std::min(first + kBlock, functions_.size());
-      const bool implied = count == 0 && last == functions_.size();  // the node is not all zero
-      if (!implied) {
-        const std::uint32_t context =
-            ((static_cast<std::uint32_t>(std::min<std::size_t>(first / kBlock, 15)) * 2 +
-              has_any(around.parent, first, last)) *
-                 2 +
-             has_any(around.previous, first, last)) *
-                3 +
-            few(count);
-        const bool any = !Coder::kDecodes && has_any(values, first, last);
-        if (!coder.bit(block_[context], kLimit, any)) continue;
-      }
-      if (!code_block(coder, around, values, first, last, count)) return false;
+  bool code_node(Coder& coder, const Around& around, std::uint32_t below, bool any) {
+    std::uint32_t parents = 0, beside = 0;
+    std::array<std::uint32_t, kAround> size;
+    for (std::size_t k = 0; k < kAround; ++k) {
+      const std::uint32_t sum = sum_[around.row[k]];
+      (k < kParents ? parents : beside) +=
+          around.weight[k] * std::min<std::uint32_t>(sum, kLargest);
+      size[k] = log_class(sum, 4);
     }
-    nonzeros_[row] = static_cast<std::uint8_t>(std::min(count, 255u));
-    return true;
+    const std::uint32_t expected = (parents + (around.any_beside ? beside : parents)) / 2;
+    const std::array<std::uint32_t, 4> contexts = {
+        log_class(expected >> 4, 47) * 16 + below, around.split * 24 + around.scale_class,
+        (((size[0] * 5 + size[1]) * 5 + size[2]) * 5 + size[6]) * 3 + around.axis,
+        (((size[3] * 5 + size[4]) * 5 + size[5]) * 3 + around.axis) * 4 + std::min(below, 3u)};
+    return node_.code(coder, contexts, around.split, any) != 0;
   }
 
   template <class Coder>
-  bool code_block(Coder& coder, const Around& around, std::int32_t* values, std::size_t first,
-                  std::size_t last, std::uint32_t& count) {
-    for (std::size_t f = first; f < last; ++f) {
-      const std::size_t plane0 = 3u * functions_[f];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t j = plane0 + c;
-        const std::uint32_t beside = size_class(around.parent[j]) + size_class(around.previous[j]);
-        // The same function's earlier channels; for the first, the function before.
-        const std::uint32_t sibling =
-            c == 0
-                ? (f > first ? size_class(values[3u * functions_[f - 1]]) : 3u)
-                : std::min(size_class(values[plane0]) + (c == 2 ? size_class(values[j - 1]) : 0u),
-                           3u);
-        if (!code_value(coder, values[j], j, around.level, beside, c == 0, sibling, count))
-          return false;
-      }
+  bool code_vector(Coder& coder, const Around& around, std::uint32_t row, std::int32_t* values) {
+    if (models_ == nullptr) models_ = std::make_unique<ValueModels>();
+    expect(around);
+    const std::size_t place = vectors_.size();
+    vectors_.resize(place + width_);
+    Progress progress;
+    for (std::size_t f = 0; f < functions_.size(); ++f)
+      if (!code_function(coder, around, f, values + 3u * functions_[f], &vectors_[place], progress))
+        return false;
+    if (row == 0) return true;  // the mean of all says nothing of differences
+    vector_of_[row] = static_cast<std::uint32_t>(place / width_);
+    sum_[row] = static_cast<std::uint16_t>(std::min(progress.sum, 65535u));
+    return true;
+  }
+
+  /// Expected magnitudes of all planes at once: most vectors around are zero.
+  void expect(const Around& around) {
+    std::fill(parents_.begin(), parents_.end(), 0u);
+    std::fill(beside_.begin(), beside_.end(), 0u);
+    for (std::size_t k = 0; k < kAround; ++k) {
+      if (around.weight[k] == 0) continue;
+      const std::int16_t* vector = kept_vector(around.row[k]);
+      std::uint32_t* sums = k < kParents ? parents_.data() : beside_.data();
+      for (std::size_t j = 0; j < width_; ++j)
+        sums[j] += around.weight[k] * static_cast<std::uint32_t>(std::abs(int{vector[j]}));
+    }
+    if (!around.any_beside) beside_ = parents_;
+  }
+
+  template <class Coder>
+  bool code_function(Coder& coder, const Around& around, std::size_t f, std::int32_t* values,
+                     std::int16_t* own, Progress& progress) {
+    MagnitudeEvidence evidence{};
+    evidence.split = std::min(around.split, 24u);
+    evidence.scale_class = around.scale_class;
+    evidence.functions_before = functions_before(f, own);
+    SignEvidence signs = signs_around(around, f, own);
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::size_t j = 3 * f + c;
+      const auto activity = static_cast<std::uint32_t>(activity_[j]);
+      evidence.channel = signs.channel = c;
+      evidence.parents = parents_[j];
+      evidence.beside = beside_[j];
+      evidence.expected[c] = (parents_[j] + beside_[j]) / 2 + (activity >> 5);
+      evidence.vector_ratio = log_class(
+          (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 47);
+      evidence.first = progress.sum == 0;
+      const bool nonzero = evidence.first && j + 1 == width_;  // the vector is not all zero
+      const std::uint32_t magnitude = models_->magnitude.code(
+          coder, evidence, nonzero, static_cast<std::uint32_t>(std::abs(values[c])));
+      if (magnitude == CoefficientMagnitudeModel::kDamaged) return false;
+      const auto kept =
+          static_cast<std::int32_t>(std::min(magnitude, static_cast<std::uint32_t>(kLargest)));
+      evidence.magnitude[c] = static_cast<std::uint32_t>(kept);
+      progress.sum += static_cast<std::uint32_t>(kept);
+      progress.activity += activity;
+      if (functions_.size() > 1) activity_[j] += (std::min(kept, 7) * 4096 - activity_[j]) >> 6;
+      if (magnitude == 0) continue;
+      const bool negative = models_->sign.code(coder, signs, values[c] < 0);
+      const auto size = static_cast<std::int32_t>(magnitude);
+      if (Coder::kDecodes) values[c] = negative ? -size : size;
+      own[j] = static_cast<std::int16_t>(negative ? -kept : kept);
     }
     return true;
   }
 
-  template <class Coder>
-  bool code_value(Coder& coder, std::int32_t& value, std::size_t plane, std::uint32_t level,
-                  std::uint32_t beside, bool first_channel, std::uint32_t sibling,
-                  std::uint32_t& count) {
-    const std::uint32_t activity = activity_class(plane);
-    const std::uint32_t so_far = count < 2 ? count : count < 5 ? 2 : 3;
-    const std::uint32_t context =
-        ((((first_channel * kLevelClasses + level) * kActivities + activity) * 5 + beside) * 4 +
-         sibling) *
-            4 +
-        so_far;
-    const unsigned nonzero = coder.bit(value_[context], kLimit, !Coder::kDecodes && value != 0);
-    // Moves 1/32 of the way: the share of non-zeros among the values coded.
-    activity_[plane] += ((nonzero ? 65535 : 0) - activity_[plane]) >> 5;
-    if (!nonzero) return true;
-    const std::uint32_t magnitude =
-        code_magnitude(coder, magnitude_[activity * 3 + std::min(beside, 2u)], kLimit,
-                       static_cast<std::uint32_t>(value < 0 ? -value : value));
-    const bool negative = coder.raw(1, value < 0);
-    if (magnitude == 0) return false;
-    if (Coder::kDecodes)
-      value =
-          negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
-    ++count;
-    return true;
+  /// Sizes of channel 0 of the two functions before.
+  static std::uint32_t functions_before(std::size_t f, const std::int16_t* own) {
+    const auto size = [&](std::size_t function, int most) {
+      return static_cast<std::uint32_t>(std::min(std::abs(int{own[3 * function]}), most));
+    };
+    if (f == 0) return 16;
+    return size(f - 1, 3) + 4 * (f == 1 ? 3 : size(f - 2, 2));
   }
 
-  std::uint32_t activity_class(std::size_t plane) const {
-    const auto width =  // 0 .. 16
-        static_cast<int>(std::bit_width(static_cast<std::uint32_t>(activity_[plane])));
-    return static_cast<std::uint32_t>(std::clamp(width - 5, 0, static_cast<int>(kActivities) - 1));
+  SignEvidence signs_around(const Around& around, std::size_t f, const std::int16_t* own) const {
+    const auto at = [&](std::uint32_t row) { return kept_vector(row) + 3 * f; };
+    return {own + 3 * f,
+            at(around.row[0]),
+            at(around.row[1]),
+            at(around.same_axis),
+            {at(around.row[3]), at(around.row[4]), at(around.row[5])},
+            at(around.row[6]),
+            around.axis,
+            0};
+  }
+
+  const std::int16_t* kept_vector(std::uint32_t row) const {
+    return &vectors_[vector_of_[row] * width_];
   }
 
   std::vector<std::uint16_t> functions_;
-  std::vector<std::int32_t> zeros_;  // [planes] stands for a parent or neighbour that is not there
-  std::vector<std::uint8_t> nonzeros_;  // [P] non-zero values of the group, 255 for more
-  std::vector<std::int32_t> activity_;  // [planes] of 65536
-  std::vector<AdaptiveBit> node_, block_, value_;
-  std::vector<MagnitudeContexts> magnitude_;
+  std::size_t width_;                     // planes of the group
+  std::vector<std::uint16_t> sum_;        // [P] of a row's magnitudes, 65535 for more
+  std::vector<std::uint32_t> vector_of_;  // [P] place of a row's vector, 0: all zero
+  std::vector<std::int16_t> vectors_;     // [..][width] values within +-kLargest; the first is zero
+  std::vector<std::int32_t> activity_;    // [width] running mean of min(magnitude, 7), in 1/4096
+  // [width] expected magnitudes, 8 fractional bits: what is above the row, and beside it, implies.
+  std::vector<std::uint32_t> parents_, beside_;
+  MixedBit<4, kTopSplit + 1> node_{{48 * 16, 45 * 24, 625 * 3, 125 * 3 * 4}};
+  std::unique_ptr<ValueModels> models_;  // made for the first vector that is not zero
 };
 
 }  // namespace slf

@@ -11,7 +11,7 @@
 
 namespace slf {
 
-inline constexpr int kVersionMajor = 0, kVersionMinor = 1;
+inline constexpr int kVersionMajor = 0, kVersionMinor = 2;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
@@ -45,9 +45,11 @@ struct SequenceParameterSet {
   std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
   std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
   std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
+  std::uint32_t sps_prediction_flag = 0;
   std::uint32_t sps_texture_bits = 0, sps_texture_cell_log2 = 0;
   std::vector<PlaneRun> runs;
-  std::uint32_t sps_num_stages_minus1 = 0;
+  std::uint32_t sps_transform_flag = 0, sps_num_stages_minus1 = 0;
+  std::uint32_t sps_num_transforms_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
 
@@ -58,8 +60,19 @@ struct SequenceParameterSet {
     return sps_basis_idc == 0 ? 1u << (sps_scales_theta + sps_scales_gamma)
                               : (sps_degree + 1) * (sps_degree + 1);
   }
+  std::uint32_t num_transforms() const {
+    return sps_transform_flag ? sps_num_transforms_minus1 + 1 : 0;
+  }
   std::uint32_t num_groups() const {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
+  }
+  /// Levels of a coefficient range that there is; 0 for others.
+  std::uint32_t coefficient_levels(std::uint32_t range) const {
+    if (range > sps_num_coefficient_ranges_minus1) return 0;
+    const auto end = [&](std::uint32_t r) {
+      return r < sps_num_coefficient_ranges_minus1 ? sps_coefficient_range_end[r] : grid_bits();
+    };
+    return end(range) - (range == 0 ? 0 : end(range - 1));
   }
 };
 
@@ -153,12 +166,17 @@ void sequence_parameter_set(V& v, Set& s) {
   v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, kTextureCoder});
   v.require(s.has_texture() == (s.sps_profile == kTextureProfile), Errc::kOutOfRange,
             "sps_coefficient_coder");
+  if (!s.has_texture()) v.u(1, "sps_prediction_flag", s.sps_prediction_flag, Range{0, 1});
   if (s.has_texture()) {
     v.u(2, "sps_texture_bits", s.sps_texture_bits, Range{0, 2});
     v.u(3, "sps_texture_cell_log2", s.sps_texture_cell_log2, Range{0, 7});
   }
   v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
-  v.u(3, "sps_num_stages_minus1", s.sps_num_stages_minus1, Range{0, 0});
+  v.u(1, "sps_transform_flag", s.sps_transform_flag, Range{0, s.has_texture() ? 0 : 1});
+  v.u(2, "sps_num_stages_minus1", s.sps_num_stages_minus1, Range{0, 0});
+  if (s.sps_transform_flag)
+    v.u(4, "sps_num_transforms_minus1", s.sps_num_transforms_minus1,
+        Range{0, s.sps_num_groups_minus1});
   level_ranges(v, "sps_num_coefficient_ranges_minus1", "sps_coefficient_range_end",
                s.sps_num_coefficient_ranges_minus1, s.sps_coefficient_range_end, s.grid_bits());
   v.require(!s.has_texture() || s.sps_num_coefficient_ranges_minus1 == 0, Errc::kOutOfRange,
@@ -191,16 +209,45 @@ void slice_header(V& v, Header& h, std::uint32_t grid_bits) {
 /// Spec 7.4 - 7.6, 7.9: what stands before the payload of a unit that belongs to a slice.
 struct SliceUnitHeader {
   std::uint32_t slice_id = 0;
-  std::uint32_t range = 0;  ///< geometry and coefficient units
-  std::uint32_t group = 0;  ///< coefficient units
+  std::uint32_t range = 0;                   ///< geometry and coefficient units
+  std::uint32_t group = 0;                   ///< coefficient units
+  std::vector<std::uint32_t> cu_prediction;  ///< coefficient units: [levels of the range], or none
 };
 
 // Spec 7.4  geometry_unit( ), 7.5 normals_unit( ), 7.6 coefficient_unit( ), 7.9 digest_unit( )
 template <class V, class Header>
-void slice_unit_header(V& v, Header& h, bool has_range, bool has_group) {
+void slice_unit_header(V& v, Header& h, bool has_range, bool has_group,
+                       const SequenceParameterSet& set) {
   v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
   if (has_range) v.ue("level_range", h.range, Range{0, 20});
   if (has_group) v.ue("plane_group", h.group, Range{0, 15});
+  if (!has_group || set.sps_prediction_flag == 0) return;
+  v.resize("cu_prediction", h.cu_prediction, set.coefficient_levels(h.range));
+  for (auto& mode : h.cu_prediction) v.u(2, "cu_prediction", mode, Range{0, 3});
+}
+
+/// Spec 7.11: what stands before the matrix of a transform across planes.
+struct TransformHeader {
+  std::uint32_t tr_first_group = 0, tr_num_groups_minus1 = 0;
+  std::uint32_t tr_joint_flag = 0;
+  std::uint32_t tr_rank_minus1 = 0;
+  std::uint32_t tr_colour_flag = 0;
+  std::array<std::array<std::int32_t, 3>, 3> tr_colour{{{512, 0, 0}, {0, 512, 0}, {0, 0, 512}}};
+};
+
+// Spec 7.11  transform_unit( ). The caller knows the functions of the groups.
+template <class V, class Header>
+void transform_header(V& v, Header& h, std::uint32_t num_groups) {
+  v.ue("tr_first_group", h.tr_first_group, Range{0, std::int64_t{num_groups} - 1});
+  v.ue("tr_num_groups_minus1", h.tr_num_groups_minus1,
+       Range{0, std::int64_t{num_groups} - 1 - h.tr_first_group});
+  v.u(1, "tr_joint_flag", h.tr_joint_flag, Range{0, 1});
+  v.ue("tr_rank_minus1", h.tr_rank_minus1, Range{0, 4095});
+  if (h.tr_joint_flag) return;
+  v.u(1, "tr_colour_flag", h.tr_colour_flag, Range{0, 1});
+  if (!h.tr_colour_flag) return;
+  for (auto& row : h.tr_colour)
+    for (auto& entry : row) v.se("tr_colour", entry, Range{-512, 512});
 }
 
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);

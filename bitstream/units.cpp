@@ -69,6 +69,8 @@ const char* unit_name(UnitType type) {
       return "metadata";
     case UnitType::kDigest:
       return "digest";
+    case UnitType::kTransform:
+      return "transform";
     case UnitType::kEnd:
       return "end";
   }

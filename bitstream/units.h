@@ -23,6 +23,7 @@ enum class UnitType : std::uint8_t {
   kIndex = 6,
   kMetadata = 7,
   kDigest = 8,
+  kTransform = 9,
   kEnd = 15,
 };
 

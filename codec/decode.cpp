@@ -8,13 +8,15 @@
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
 #include "codec/stopwatch.h"
+#include "codec/transform_units.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-Result<SequencePlan> plan_sequence(const SequenceParameterSet& set, const DecodeOptions& options) {
-  SequencePlan plan{set, {}, {}, static_cast<int>(set.grid_bits()), true};
+Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
+                                   const DecodeOptions& options) {
+  SequencePlan plan{set, {}, {}, {}, static_cast<int>(set.grid_bits()), true};
   if (options.levels < 0 || options.levels > plan.levels)
     return Error{Errc::kInvalidArgument, "levels", 0};
   if (options.groups < 0 || options.groups > static_cast<int>(set.num_groups()))
@@ -22,13 +24,11 @@ Result<SequencePlan> plan_sequence(const SequenceParameterSet& set, const Decode
   if (plan.planes() > options.limits.max_planes)
     return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
   if (options.levels > 0) plan.levels = options.levels;
-  plan.groups.resize(options.groups > 0 ? static_cast<std::size_t>(options.groups)
-                                        : set.num_groups());
+  plan.groups = plane_groups(set);
+  SLF_TRY(plan.transforms, collect_transforms(units, set, plan.groups));  // 7.11
+  if (options.groups > 0) plan.groups.resize(static_cast<std::size_t>(options.groups));
+  plan.groups = coded_groups(std::move(plan.groups), plan.transforms);
   plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups();
-  const auto groups = function_groups(set);
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (const auto g = static_cast<std::size_t>(groups[k]); g < plan.groups.size())
-      plan.groups[g].push_back(static_cast<std::uint16_t>(k));
   for (const auto& step : function_steps(set))
     plan.steps.insert(plan.steps.end(), step.begin(), step.end());
   return plan;
@@ -125,12 +125,12 @@ bool is_partial(const Units& units, const SequencePlan& plan,
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
   if (stream.size() > options.limits.max_stream_bytes)
     return Error{Errc::kLimitExceeded, "stream", 0};
-  SLF_TRY(const Units units, split_units(stream, options.max_bytes));  // 7.1
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));       // 7.2
-  SLF_CHECK(check_index(units));                                       // 7.7
-  SLF_TRY(auto slices, collect_slices(units, set));                    // 7.3
-  SLF_TRY(const SequencePlan plan, plan_sequence(set, options));       // 8.2
-  SLF_CHECK(check_limits(slices, plan, options.limits));               // 9
+  SLF_TRY(const Units units, split_units(stream, options.max_bytes));    // 7.1
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));         // 7.2
+  SLF_CHECK(check_index(units));                                         // 7.7
+  SLF_TRY(auto slices, collect_slices(units, set));                      // 7.3
+  SLF_TRY(const SequencePlan plan, plan_sequence(units, set, options));  // 8.2
+  SLF_CHECK(check_limits(slices, plan, options.limits));                 // 9
   Stopwatch watch;
   DecodeSeconds seconds;
   SLF_CHECK(decode_geometry(slices, plan, options.threads));  // 8.4 - 8.6

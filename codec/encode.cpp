@@ -1,4 +1,6 @@
 // The encoder's main path: photographs and points to bytes. The last step is codec/pack.cpp.
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "codec/component_planes.h"
@@ -29,6 +31,8 @@ std::vector<int> level_ends(int bits) {
   return {bits - 2, bits - 1, bits};
 }
 
+constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
+
 CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {
   const LightFieldHeader& header = field.header;
   const bool texture = settings.coefficients == CoefficientCoder::kTexture;
@@ -42,12 +46,19 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
                     least_texture_steps(field, settings.max_slice_points, settings.texture.bits),
                     settings.steps_by_norm)
               : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
+  parameters.transform = settings.transform;
+  for (auto& step : parameters.step)
+    for (std::size_t c = texture ? 3 : 1; c < 3; ++c)
+      step[c] = static_cast<std::uint32_t>(
+          std::lround(std::clamp(step[c] * settings.chroma_step, 1.0, kMostStep)));
   if (settings.preset != Preset::kPaper) {  // the paper codes all in one unit
     parameters.group = scale_groups(header.basis);
     if (!texture) parameters.coefficient_level_ends = level_ends(header.grid.bits);
     if (settings.geometry == GeometryCoder::kOctree)
       parameters.geometry_level_ends = level_ends(header.grid.bits);
   }
+  parameters.predict = settings.predict;
+  parameters.rdo = settings.rdo;
   parameters.max_slice_points = settings.max_slice_points;
   parameters.threads = settings.threads;
   return parameters;

@@ -17,14 +17,17 @@ void add_fit(const FitSettings& fit, Metadata& metadata) {
     metadata.emplace_back("order", std::to_string(fit.basis.order));
   if (fit.method == FitMethod::kHierarchical) {
     const HierarchySettings& h = fit.hierarchy;
-    metadata.insert(metadata.end(), {
-                                        {"fit", "hierarchical"},
-                                        {"block_log2", std::to_string(h.block_log2)},
-                                        {"block_strength", text(h.strength)},
-                                        {"block_growth", text(h.growth)},
-                                        {"point_penalty", text(h.point_penalty)},
-                                        {"point_growth", text(h.point_growth)},
-                                    });
+    metadata.insert(metadata.end(),
+                    {
+                        {"fit", "hierarchical"},
+                        {"block_log2", std::to_string(h.block_log2)},
+                        {"block_strength", text(h.strength)},
+                        {"block_growth", text(h.growth)},
+                        {"point_penalty", text(h.point_penalty)},
+                        {"point_growth", text(h.point_growth)},
+                        {"environment_degree", std::to_string(fit.environment.degree)},
+                        {"environment_radius", text(fit.environment.radius)},
+                    });
     return;
   }
   metadata.insert(metadata.end(), {
@@ -58,6 +61,10 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
         });
   } else {
     metadata.emplace_back("q", text(s.q));
+    if (s.transform != TransformMode::kNone)
+      metadata.emplace_back("klt",
+                            s.transform == TransformMode::kFunctions ? "functions" : "joint");
+    if (s.chroma_step != 1) metadata.emplace_back("chroma_step", text(s.chroma_step));
   }
   if (cameras > 0) {
     metadata.insert(metadata.end(),

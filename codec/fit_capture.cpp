@@ -51,6 +51,7 @@ Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (!(s.fit.beta >= 0) || !std::isfinite(s.fit.beta)) return invalid("beta: 0 or more");
   if (s.fit.iterations < 0 || s.fit.iterations > 100) return invalid("iterations: 0 to 100");
   if (s.fit.neighbours < 1 || s.fit.neighbours > 64) return invalid("neighbours: 1 to 64");
+  if (!(s.chroma_step >= 0.1 && s.chroma_step <= 10)) return invalid("chroma step: 0.1 to 10");
   if (s.normal_bits != 0 && (s.normal_bits < 4 || s.normal_bits > 12))
     return invalid("normal bits: 0, or 4 to 12");
   return Done{};

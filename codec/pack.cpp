@@ -1,16 +1,22 @@
 // The coder's main path, from integers to bytes. Mirrors codec/decode.cpp.
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
+#include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
+#include "codec/sequence.h"
 #include "codec/slice_encoder.h"
 #include "codec/texture_parameters.h"
+#include "codec/transform_units.h"
 #include "geometry/morton.h"
 #include "slf/encoder.h"
 #include "slf/parallel.h"
+#include "slf/view_map.h"
 
 namespace slf {
 namespace {
@@ -90,6 +96,38 @@ Result<Done, InputError> choose_texture(const SortedField& sorted,
   return Done{};
 }
 
+/// Transforms across planes where they pay, with their units. Components have the steps of the
+/// transform's first function, in whose units they are.
+Result<Done, InputError> choose_transforms(const LightField& field, const SortedField& sorted,
+                                           const std::vector<SliceCut>& cuts,
+                                           CodingParameters parameters, SequenceParameterSet& set,
+                                           SliceCoding& coding, std::vector<CodedUnit>& units) {
+  const LightFieldHeader& header = field.header;
+  std::vector<double> weights(set.sps_num_functions, 1);
+  if (header.has_basis) weights = basis_norms(header.basis);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    weights[k] = std::pow(std::ldexp(weights[k], header.shift.empty() ? 0 : -header.shift[k]), 2);
+  coding.transforms =
+      derive_transforms({sorted.morton, sorted.components, cuts}, coding.groups, weights,
+                        coding.steps, parameters.transform, parameters.threads);
+  if (coding.transforms.empty()) return Done{};
+  parameters.step = function_steps(set);
+  std::vector<PlaneTransform> inverse;
+  for (const ForwardTransform& transform : coding.transforms) {
+    inverse.push_back(transform.inverse);
+    for (const std::uint16_t k : transform.inverse.functions)
+      parameters.step[k] = parameters.step[transform.inverse.functions[0]];
+  }
+  SLF_TRY(set, sequence_of(field, parameters));
+  set.sps_transform_flag = 1;
+  set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(coding.transforms.size() - 1);
+  for (const ForwardTransform& transform : coding.transforms)
+    units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups())});
+  coding.steps = plane_steps(set);
+  coding.groups = coded_groups(std::move(coding.groups), inverse);
+  return Done{};
+}
+
 /// Signature, sequence, index, what is given, end.
 std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
                                    const std::vector<CodedUnit>& units, bool index) {
@@ -121,9 +159,14 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
   if (cuts.size() > kMaxSlices)
     return InputError{Errc::kInvalidArgument, "points per slice: more than 2^16 slices are needed"};
   if (set.has_texture()) SLF_CHECK(choose_texture(sorted, cuts, parameters.texture.bits, set));
-  const SliceCoding coding{set, plane_groups(set), plane_steps(set), parameters.digest,
-                           parameters.texture};
-  SLF_TRY(auto units, code_slices(sorted, cuts, coding, parameters.threads));  // 8.4 - 8.10
+  SliceCoding coding{
+      set,           plane_groups(set), {}, plane_steps(set), parameters.digest, parameters.texture,
+      parameters.rdo};
+  std::vector<CodedUnit> units;
+  if (parameters.transform != TransformMode::kNone && field.header.num_functions > 0)
+    SLF_CHECK(choose_transforms(field, sorted, cuts, parameters, set, coding, units));  // 7.11
+  SLF_TRY(auto slices, code_slices(sorted, cuts, coding, parameters.threads));  // 8.4 - 8.10
+  std::move(slices.begin(), slices.end(), std::back_inserter(units));
   if (!parameters.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata)});  // 7.8
   return assemble(set, units, parameters.index);                                  // 7.1, 7.7

@@ -107,6 +107,9 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
   if (p.geometry == GeometryCoder::kDraco && p.geometry_level_ends.size() > 1)
     return invalid("geometry level ends: Draco codes all levels in one unit");
   if (p.coefficients == CoefficientCoder::kTexture) SLF_CHECK(check_texture(p));
+  if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid("rdo: 0 to 1");
+  if (p.coefficients == CoefficientCoder::kTexture && p.transform != TransformMode::kNone)
+    return invalid("transform: a texture has none");
   if (!valid_metadata(p.metadata))
     return invalid("metadata: keys without a name, zero bytes, or over 1 MiB");
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
@@ -179,6 +182,7 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_gamma_min = h.gamma_min_q7;
   set.sps_gamma_max = h.gamma_max_q7;
   if (h.num_functions > 0) set.sps_coefficient_coder = static_cast<std::uint32_t>(p.coefficients);
+  set.sps_prediction_flag = p.predict && !texture && h.num_functions > 0;
   if (texture) set.sps_texture_bits = static_cast<std::uint32_t>(p.texture.bits - 8) / 2;
   set.runs = runs_of(h, p);
   for (const PlaneRun& run : set.runs)
@@ -187,14 +191,6 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_num_coefficient_ranges_minus1 =
       static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());
   return set;
-}
-
-PlaneGroups plane_groups(const SequenceParameterSet& set) {
-  PlaneGroups groups(set.num_groups());
-  const auto group = function_groups(set);
-  for (std::size_t k = 0; k < group.size(); ++k)
-    groups[static_cast<std::size_t>(group[k])].push_back(static_cast<std::uint16_t>(k));
-  return groups;
 }
 
 std::vector<std::uint32_t> plane_steps(const SequenceParameterSet& set) {

@@ -11,7 +11,6 @@ namespace slf {
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& parameters);
 
-PlaneGroups plane_groups(const SequenceParameterSet& set);
 std::vector<std::uint32_t> plane_steps(const SequenceParameterSet& set);  ///< [3 K]
 
 }  // namespace slf

@@ -11,6 +11,8 @@ EncoderSettings settings_of(Preset preset) {
     settings.steps_by_norm = false;
     settings.colour = ColourTransform::kNone;
     settings.coefficients = CoefficientCoder::kIndependent;
+    settings.predict = false;
+    settings.rdo = 0;
   }
   return settings;
 }

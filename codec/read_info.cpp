@@ -3,6 +3,7 @@
 #include "bitstream/metadata.h"
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
+#include "codec/transform_units.h"
 #include "slf/decoder.h"
 
 namespace slf {
@@ -24,12 +25,13 @@ Result<UnitInfo> describe(const Unit& unit, const SequenceParameterSet& set) {
              coefficients = unit.type == UnitType::kCoefficients;
   if (geometry || coefficients || unit.type == UnitType::kNormals ||
       unit.type == UnitType::kDigest) {
-    SLF_TRY(const SliceUnit read, read_slice_unit(unit));
+    SLF_TRY(const SliceUnit read, read_slice_unit(unit, set));
     info.slice = static_cast<int>(read.header.slice_id);
     if (geometry) set_levels(info, set.sps_geometry_range_end, read.header.range, set.grid_bits());
     if (coefficients)
       set_levels(info, set.sps_coefficient_range_end, read.header.range, set.grid_bits());
     if (coefficients) info.group = static_cast<int>(read.header.group);
+    info.prediction.assign(read.header.cu_prediction.begin(), read.header.cu_prediction.end());
   } else if (unit.type == UnitType::kSlice) {
     SLF_TRY(const SliceHeader header, parse_slice_header(unit.payload, set.grid_bits()));
     info.slice = static_cast<int>(header.slice_id);
@@ -57,6 +59,12 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.num_groups = static_cast<int>(set.num_groups());
   info.group = function_groups(set);
   info.step = function_steps(set);
+  SLF_TRY(const auto transforms, collect_transforms(units, set, plane_groups(set)));
+  for (const PlaneTransform& t : transforms)
+    info.transforms.push_back({static_cast<int>(t.first_group),
+                               static_cast<int>(t.first_group + t.num_groups - 1),
+                               static_cast<int>(t.functions.size()), static_cast<int>(t.rank),
+                               t.lanes == 1, t.colour != PlaneTransform::kNoColour});
   info.geometry_coder = set.sps_geometry_coder == 0 ? "octree" : "draco";
   info.coefficient_coder =
       std::array{"vector", "independent", "texture"}[set.sps_coefficient_coder];

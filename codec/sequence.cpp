@@ -54,6 +54,14 @@ std::vector<std::array<std::uint32_t, 3>> function_steps(const SequenceParameter
   return step;
 }
 
+PlaneGroups plane_groups(const SequenceParameterSet& set) {
+  PlaneGroups groups(set.num_groups());
+  const auto group = function_groups(set);
+  for (std::size_t k = 0; k < group.size(); ++k)
+    groups[static_cast<std::size_t>(group[k])].push_back(static_cast<std::uint16_t>(k));
+  return groups;
+}
+
 Grid coarser_grid(const Grid& grid, int levels) {
   const std::int32_t cells = 1 << (grid.bits - levels);
   Grid coarse = grid;

@@ -11,6 +11,7 @@ LightFieldHeader header_of(const SequenceParameterSet& set);
 
 /// group and steps of every function, from the runs of the plane table.
 std::vector<int> function_groups(const SequenceParameterSet& set);
+PlaneGroups plane_groups(const SequenceParameterSet& set);
 std::vector<std::array<std::uint32_t, 3>> function_steps(const SequenceParameterSet& set);
 
 /// The grid of the coarser voxels that `levels` of a grid's levels give: their centres.

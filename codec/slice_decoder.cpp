@@ -4,6 +4,7 @@
 
 #include "attributes/normal_model.h"
 #include "attributes/raht_inverse.h"
+#include "codec/sequence.h"
 #include "codec/slice_digest.h"
 #include "entropy/range_decoder.h"
 #include "geometry/draco_decoder.h"
@@ -84,7 +85,7 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
     RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
     tree_ = std::move(top.tree);
     first_ = std::move(top.first);
-    if (plan.set.has_texture()) codes_ = codes;
+    codes_ = codes;
   }
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -101,6 +102,42 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
   }
 }
 
+/// cu_prediction to the levels of the slice; what is said of levels above its cube has no meaning.
+void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_level,
+                             std::uint32_t grid_bits, std::vector<std::uint8_t>& modes) const {
+  const std::size_t above = grid_bits - header.slice_depth, count = unit.cu_prediction.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::size_t level = end_level - count + i; level >= above)
+      modes[level - above] = static_cast<std::uint8_t>(unit.cu_prediction[i]);
+}
+
+/// Spec 8.7.4 - 8.7.6, 8.8.
+Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupModes& modes,
+                                       std::span<std::int32_t> components, int threads) const {
+  std::vector<std::uint32_t> steps = plan.steps;
+  for (const PlaneTransform& transform : plan.transforms) {
+    SLF_CHECK(expand_components(transform, plan.steps, components, threads));
+    for (const std::size_t j : planes_of(transform.functions)) steps[j] = 1;
+  }
+  const auto is_predicted = [](const auto& levels) {
+    return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
+  };
+  if (std::none_of(modes.begin(), modes.end(), is_predicted))
+    return raht_inverse(tree_, steps, components, threads);
+  const std::vector<int> group = function_groups(plan.set);
+  std::vector<PredictedPlanes> planes;
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const auto g = static_cast<std::size_t>(group[k]);
+    const bool same = k > 0 && group[k] == group[k - 1];
+    if (!same) planes.push_back({3 * k, 3 * k, {}});
+    planes.back().end = 3 * k + 3;
+    if (!same && g < modes.size()) planes.back().modes = modes[g];
+  }
+  TransformLevels levels(codes_, static_cast<int>(header.slice_depth),
+                         static_cast<int>(plan.set.grid_bits()) - plan.levels);
+  return raht_inverse_predicted(tree_, levels, planes, steps, components, threads);
+}
+
 Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
                                              std::span<std::int32_t> components, int threads) {
   const std::size_t planes = plan.planes();
@@ -111,8 +148,9 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
   const std::uint32_t groups = set.num_groups();
   std::uint32_t expected = 0;  // units come by range, then group
   if (tree_.size() > 0) {
-    CoefficientModels models(plan.groups, tree_.size(), planes, set.sps_coefficient_coder == 0);
+    CoefficientModels models(plan.groups, tree_, codes_, first_, set.sps_coefficient_coder == 0);
     const CoefficientRows rows{tree_, components, planes};
+    GroupModes modes(plan.groups.size(), std::vector<std::uint8_t>(header.slice_depth, 0));
     for (const SliceUnit& unit : units) {
       if (unit.type != UnitType::kCoefficients) continue;
       if (unit.header.range * groups + unit.header.group != expected ||
@@ -132,11 +170,11 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
       const std::uint32_t end_level =
           range_end(set.sps_coefficient_range_end, unit.header.range, set.grid_bits());
       const bool cut = static_cast<int>(end_level) > plan.levels;
+      set_modes(unit.header, end_level, set.grid_bits(), modes[unit.header.group]);
       SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin,
                                     order_at(end_level), cut));
     }
-    SLF_CHECK(dequantise(components, plan.steps));
-    raht_inverse(tree_, static_cast<int>(planes), components, threads);
+    SLF_CHECK(reconstruct(plan, modes, components, threads));
     if (plan.kept_levels_only())
       for (std::size_t row = 0; row + 1 < first_.size(); ++row)
         for (std::size_t j = 0; j < planes; ++j) {

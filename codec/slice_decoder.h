@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
+#include "attributes/plane_transform.h"
 #include "attributes/raht_tree.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
@@ -25,7 +26,8 @@ struct SliceUnit {
 /// What a decode needs to know of the sequence.
 struct SequencePlan {
   SequenceParameterSet set;
-  PlaneGroups groups;                ///< those to decode
+  PlaneGroups groups;  ///< those to decode; functions that components stand in
+  std::vector<PlaneTransform> transforms;
   std::vector<std::uint32_t> steps;  ///< [3 K]
   int levels = 0;                    ///< octree levels to keep, 1 .. grid_bits
   bool whole = true;                 ///< no levels or groups are left out: digests are checked
@@ -65,10 +67,15 @@ struct SliceDecoder {
   /// Spec 8.11. In slice_texture_decoder.cpp.
   Result<Done> decode_texture_units(const SequencePlan& plan, std::span<std::int32_t> components,
                                     int threads);
+  using GroupModes = std::vector<std::vector<std::uint8_t>>;  // [groups][levels] cu_prediction
+  void set_modes(const SliceUnitHeader& unit, std::uint32_t end_level, std::uint32_t grid_bits,
+                 std::vector<std::uint8_t>& modes) const;
+  Result<Done> reconstruct(const SequencePlan& plan, const GroupModes& modes,
+                           std::span<std::int32_t> components, int threads) const;
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 
-  std::vector<std::uint64_t> codes_;  // Morton codes within the slice, for a texture alone; empty
-                                      // where the geometry is incomplete
+  std::vector<std::uint64_t> codes_;  // Morton codes within the slice of all points; empty where
+                                      // the geometry is incomplete
   RahtTree tree_;                     // of the kept rows; empty where the geometry is incomplete
   std::vector<std::uint32_t> first_;  // [kept + 1] first point below each kept row
 };

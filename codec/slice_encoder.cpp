@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
+#include "attributes/coefficient_quantiser.h"
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_forward.h"
-#include "attributes/raht_inverse.h"
 #include "attributes/raht_tree.h"
+#include "codec/sequence.h"
 #include "codec/slice_decoder.h"
 #include "codec/slice_digest.h"
 #include "codec/slice_texture_encoder.h"
@@ -15,7 +17,6 @@
 #include "geometry/draco_encoder.h"
 #include "geometry/morton.h"
 #include "geometry/octree_encoder.h"
-#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -49,10 +50,11 @@ void cut_cube(std::span<const std::uint64_t> morton, std::size_t begin, std::siz
 }
 
 std::vector<std::uint8_t> slice_unit_payload(const SliceUnitHeader& header, bool has_range,
-                                             bool has_group, std::span<const std::uint8_t> body) {
+                                             bool has_group, const SequenceParameterSet& set,
+                                             std::span<const std::uint8_t> body) {
   BitWriter out;
   WriteSyntax write{out};
-  slice_unit_header(write, header, has_range, has_group);
+  slice_unit_header(write, header, has_range, has_group, set);
   out.append(body);
   return out.take();
 }
@@ -80,18 +82,18 @@ Result<Done, InputError> code_geometry(const SliceCut& cut, const SliceInput& in
     payloads.push_back(std::move(*draco));
   }
   for (std::uint32_t r = 0; r < payloads.size(); ++r)
-    units.push_back({UnitType::kGeometry,
-                     slice_unit_payload({cut.header.slice_id, r, 0}, true, false, payloads[r])});
+    units.push_back({UnitType::kGeometry, slice_unit_payload({cut.header.slice_id, r, 0, {}}, true,
+                                                             false, set, payloads[r])});
   return Done{};
 }
 
-void code_normals(const SliceCut& cut, const SliceInput& input, int bits,
+void code_normals(const SliceCut& cut, const SliceInput& input, const SequenceParameterSet& set,
                   std::vector<CodedUnit>& units) {
   RangeEncoder encoder;
-  NormalModel model(bits);
+  NormalModel model(static_cast<int>(set.sps_normal_bits));
   for (auto normal : input.normals) model.code(encoder, normal);
-  units.push_back({UnitType::kNormals, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false,
-                                                          encoder.finish())});
+  units.push_back({UnitType::kNormals, slice_unit_payload({cut.header.slice_id, 0, 0, {}}, false,
+                                                          false, set, encoder.finish())});
 }
 
 /// sqrt(P) times the largest component is what the mean of all could reach. Spec 8.8.2.
@@ -103,19 +105,35 @@ bool fits_transform(const SliceInput& input) {
   return largest < kCoefficientLimit && largest * root < kCoefficientLimit;
 }
 
-void code_components(const SliceCut& cut, const SliceInput& input, const RahtTree& tree,
-                     const SliceCoding& coding, int threads, std::vector<CodedUnit>& units) {
+/// cu_prediction of the levels of a range; those above the slice's cube are 0.
+std::vector<std::uint32_t> modes_of_range(const SequenceParameterSet& set, const SliceHeader& slice,
+                                          std::uint32_t range,
+                                          const std::vector<std::uint8_t>& modes) {
+  std::vector<std::uint32_t> coded(set.coefficient_levels(range), 0);
+  const std::uint32_t end = range_end(set.sps_coefficient_range_end, range, set.grid_bits());
+  for (std::size_t i = 0; i < coded.size(); ++i) {
+    const std::size_t level = end - coded.size() + i, above = set.grid_bits() - slice.slice_depth;
+    if (level >= above) coded[i] = modes[level - above];
+  }
+  return coded;
+}
+
+/// Returns the components that a decoder will get.
+Result<std::vector<std::int32_t>, InputError> code_components(
+    const SliceCut& cut, const SliceInput& input, std::span<const std::uint64_t> morton,
+    const RahtTree& tree, const SliceCoding& coding, int threads, std::vector<CodedUnit>& units) {
   const SequenceParameterSet& set = coding.set;
   const std::size_t planes = coding.steps.size();
   raht_forward(tree, static_cast<int>(planes), input.components, threads);
-  parallel_ranges(tree.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row)
-      for (std::size_t j = 0; j < planes; ++j) {
-        std::int32_t& value = input.components[row * planes + j];
-        value = quantise(value, coding.steps[j]);
-      }
-  });
-  CoefficientModels models(coding.groups, tree.size(), planes, set.sps_coefficient_coder == 0);
+  Quantised quantised = quantise_coefficients(
+      {tree, morton, static_cast<int>(cut.header.slice_depth), plane_groups(set), coding.groups,
+       coding.transforms, coding.steps, set.sps_prediction_flag != 0, coding.rdo},
+      input.components, threads);
+  if (!quantised.fits)
+    return InputError{Errc::kInvalidArgument, "transform: its steps are too large"};
+  std::vector<std::uint32_t> first(tree.size() + 1);  // every row is a point
+  std::iota(first.begin(), first.end(), 0u);
+  CoefficientModels models(coding.groups, tree, morton, first, set.sps_coefficient_coder == 0);
   const CoefficientRows rows{tree, input.components, planes};
   std::size_t begin = 0;
   for (std::uint32_t r = 0; r <= set.sps_num_coefficient_ranges_minus1; ++r) {
@@ -125,21 +143,14 @@ void code_components(const SliceCut& cut, const SliceInput& input, const RahtTre
     for (std::uint32_t g = 0; g < coding.groups.size(); ++g) {
       RangeEncoder encoder;
       models.code(encoder, rows, g, begin, end);
-      units.push_back({UnitType::kCoefficients, slice_unit_payload({cut.header.slice_id, r, g},
-                                                                   true, true, encoder.finish())});
+      const SliceUnitHeader header{cut.header.slice_id, r, g,
+                                   modes_of_range(set, cut.header, r, quantised.modes[g])};
+      units.push_back(
+          {UnitType::kCoefficients, slice_unit_payload(header, true, true, set, encoder.finish())});
     }
     begin = end;
   }
-}
-
-/// What a decoder will get: the coefficients of `input.components`, reconstructed.
-std::array<std::uint8_t, 32> decoded_digest(const SliceInput& input, const RahtTree& tree,
-                                            const SliceCoding& coding, int threads) {
-  if (!coding.steps.empty() && !coding.set.has_texture()) {
-    (void)dequantise(input.components, coding.steps);  // in range: fits_transform
-    raht_inverse(tree, static_cast<int>(coding.steps.size()), input.components, threads);
-  }
-  return slice_digest(input.positions, input.components, input.normals);
+  return std::move(quantised.values);
 }
 
 }  // namespace
@@ -159,25 +170,28 @@ Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, Sli
   std::vector<std::uint64_t> local(input.morton.begin(), input.morton.end());
   for (auto& code : local) code &= inside;
   SLF_CHECK(code_geometry(cut, input, local, coding.set, units));
-  if (coding.set.sps_normal_bits > 0)
-    code_normals(cut, input, static_cast<int>(coding.set.sps_normal_bits), units);
-  const RahtTree tree = build_raht_tree(local);
+  if (coding.set.sps_normal_bits > 0) code_normals(cut, input, coding.set, units);
+  std::vector<std::int32_t> decoded;
   if (coding.set.has_texture()) {
     SLF_TRY(const auto payloads, encode_slice_texture(cut, input, local, coding, threads));
     for (std::uint32_t g = 0; g < payloads.size(); ++g)
-      units.push_back({UnitType::kCoefficients,
-                       slice_unit_payload({cut.header.slice_id, 0, g}, true, true, payloads[g])});
+      units.push_back(
+          {UnitType::kCoefficients, slice_unit_payload({cut.header.slice_id, 0, g, {}}, true, true,
+                                                       coding.set, payloads[g])});
   } else if (!coding.steps.empty()) {
     if (!fits_transform(input))
       return InputError{
           Errc::kInvalidArgument,
           "components: the largest, times the root of the number of points, reaches 2^27"};
-    code_components(cut, input, tree, coding, threads, units);
+    SLF_TRY(decoded,
+            code_components(cut, input, local, build_raht_tree(local), coding, threads, units));
   }
   if (coding.digest) {
-    const auto digest = decoded_digest(input, tree, coding, threads);
-    units.push_back(
-        {UnitType::kDigest, slice_unit_payload({cut.header.slice_id, 0, 0}, false, false, digest)});
+    const auto digest = slice_digest(
+        input.positions,
+        decoded.empty() ? std::span<const std::int32_t>(input.components) : decoded, input.normals);
+    units.push_back({UnitType::kDigest, slice_unit_payload({cut.header.slice_id, 0, 0, {}}, false,
+                                                           false, coding.set, digest)});
   }
   return units;
 }

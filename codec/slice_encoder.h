@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
+#include "attributes/forward_transform.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
 #include "slf/encoder.h"
@@ -35,10 +36,12 @@ struct SliceInput {
 /// What all slices share.
 struct SliceCoding {
   const SequenceParameterSet& set;
-  PlaneGroups groups;
+  PlaneGroups groups;  ///< functions that components stand in
+  std::vector<ForwardTransform> transforms;
   std::vector<std::uint32_t> steps;  ///< [3 K]
   bool digest = true;
   TextureSettings texture;
+  double rdo = 0;  ///< CodingParameters
 };
 
 /// A unit ready to be written.

@@ -43,13 +43,13 @@ Result<SequenceParameterSet> find_sequence(const Units& units) {
   return parse_sequence_parameter_set(units.units.front().payload);
 }
 
-Result<SliceUnit> read_slice_unit(const Unit& unit) {
+Result<SliceUnit> read_slice_unit(const Unit& unit, const SequenceParameterSet& set) {
   BitReader in(unit.payload);
   ParseSyntax parse{in};
   SliceUnit read{unit.type, {}, {}, unit.offset};
   slice_unit_header(parse, read.header,
                     unit.type == UnitType::kGeometry || unit.type == UnitType::kCoefficients,
-                    unit.type == UnitType::kCoefficients);
+                    unit.type == UnitType::kCoefficients, set);
   read.payload = in.align_and_rest("alignment_zero_bits");
   if (!in.ok()) return in.error();
   return read;
@@ -75,7 +75,7 @@ Result<std::vector<SliceDecoder>> collect_slices(const Units& units,
       slices.back().header = header;
     } else if (unit.type == UnitType::kGeometry || unit.type == UnitType::kNormals ||
                unit.type == UnitType::kCoefficients || unit.type == UnitType::kDigest) {
-      SLF_TRY(SliceUnit read, read_slice_unit(unit));
+      SLF_TRY(SliceUnit read, read_slice_unit(unit, set));
       if (slices.empty() || read.header.slice_id != slices.size() - 1) return here;
       if (!follows(slices.back().units, read, set))
         return Error{Errc::kOutOfRange, "unit_type", unit.offset * 8};

@@ -15,8 +15,8 @@ namespace slf {
 ///         one follows; those of parse_sequence_parameter_set.
 Result<SequenceParameterSet> find_sequence(const Units& units);
 
-/// Reads the slice id, level range and group that a unit of a slice begins with.
-Result<SliceUnit> read_slice_unit(const Unit& unit);
+/// Reads the header that a unit of a slice begins with.
+Result<SliceUnit> read_slice_unit(const Unit& unit, const SequenceParameterSet& set);
 
 /// Slices in stream order, each with its units. Checks order: cubes ascending and disjoint, ids
 /// counting up from 0, units after their slice unit.

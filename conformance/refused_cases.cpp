@@ -237,6 +237,40 @@ void add_textures(std::vector<RefusedCase>& cases) {
   });
 }
 
+void add_transforms(std::vector<RefusedCase>& cases) {
+  CodingParameters parameters;
+  parameters.step.assign(8, {100, 100, 100});
+  parameters.transform = TransformMode::kFunctions;
+  parameters.index = false;
+  const Bytes base = *pack(field(sphere(5), 5, 8), parameters);
+  const auto add = [&](const char* id, const char* purpose, const char* clause,
+                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+    cases.push_back({id, purpose, {clause}, edited(base, edit)});
+  };
+  add("transform-missing", "fewer transform units than stated", "7.11",
+      [](auto& units) { units.erase(units.begin() + 1); });
+  add("transform-late", "a transform unit after the slices", "7.1", [](auto& units) {
+    const EditableUnit transform = units[1];
+    units.insert(units.end() - 1, transform);
+  });
+  add("transform-rank", "more components than functions", "7.11", [](auto& units) {
+    BitWriter out;
+    WriteSyntax write{out};
+    TransformHeader header;
+    header.tr_rank_minus1 = 8;
+    transform_header(write, header, 1);
+    units[1].payload = out.take();
+  });
+  add("transform-shorter", "a matrix without its last bytes", "8.3.1",
+      [](auto& units) { units[1].payload.resize(units[1].payload.size() / 2); });
+  add("transform-and-texture", "a texture with a transform", "7.2", [](auto& units) {
+    auto set = *parse_sequence_parameter_set(units[0].payload);
+    set.sps_profile = kTextureProfile;
+    set.sps_coefficient_coder = kTextureCoder;
+    units[0].payload = write_sequence_parameter_set(set);
+  });
+}
+
 }  // namespace
 
 std::vector<RefusedCase> refused_cases() {
@@ -245,6 +279,7 @@ std::vector<RefusedCase> refused_cases() {
   add_headers(cases);
   add_slices(cases);
   add_textures(cases);
+  add_transforms(cases);
   return cases;
 }
 

@@ -74,6 +74,23 @@ void add_components(std::vector<Case>& cases) {
     c.parameters.geometry_level_ends = {3, 6};
     cases.push_back(c);
   }
+  for (const bool surface : {true, false}) {
+    Case c{surface ? "prediction" : "prediction-full-cube",
+           "levels predicted from coarser ones, three groups, several slices",
+           {"7.6", "8.7.6", "8.8", "8.9"},
+           field(surface ? sphere(6) : lattice(16, 16, 16), surface ? 6 : 4, 12),
+           with_steps(12, 40),
+           {1, 3, 4},
+           {1, 2},
+           0,
+           false};
+    c.parameters.rdo = surface ? 0.3 : 0;
+    for (int k = 0; k < 12; ++k) c.parameters.group.push_back(k == 0 ? 0 : k % 2 + 1);
+    c.parameters.coefficient_level_ends =
+        surface ? std::vector<int>{4, 5, 6} : std::vector<int>{2, 4};
+    c.parameters.max_slice_points = surface ? 3000 : 1u << 20;
+    cases.push_back(c);
+  }
   Case steps{"unequal-steps",
              "steps and shifts per function and channel",
              {"7.2", "8.7.4"},
@@ -106,6 +123,25 @@ void add_components(std::vector<Case>& cases) {
             false};
   std::fill(zero.field.components.begin(), zero.field.components.end(), 0);
   cases.push_back(zero);
+}
+
+void add_transforms(std::vector<Case>& cases) {
+  for (const bool joint : {false, true}) {
+    Case c{joint ? "transform-joint" : "transform-functions",
+           "transforms across planes, of lower rank, over three groups",
+           {"7.11", "8.7.5", "8.9"},
+           field(sphere(6), 6, 24),
+           with_steps(24, 250),
+           {4, 5},
+           {1, 2},
+           0,
+           false};
+    c.parameters.transform = joint ? TransformMode::kJoint : TransformMode::kFunctions;
+    for (int k = 0; k < 24; ++k) c.parameters.group.push_back(k == 0 ? 0 : k < 5 ? 1 : 2);
+    c.parameters.coefficient_level_ends = {4, 5, 6};
+    c.parameters.max_slice_points = 5000;
+    cases.push_back(c);
+  }
 }
 
 void add_structure(std::vector<Case>& cases) {
@@ -305,6 +341,7 @@ std::vector<Case> valid_cases() {
   std::vector<Case> cases;
   add_geometry(cases);
   add_components(cases);
+  add_transforms(cases);
   add_structure(cases);
   add_prefixes(cases);
   add_textures(cases);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "lightfield/environment.h"
 #include "lightfield/fit_hierarchical.h"
 #include "lightfield/fit_neighbours.h"
 #include "lightfield/fit_step.h"
@@ -34,6 +35,11 @@ Result<Done, InputError> check(const FitSettings& settings) {
       !(in_range(h.block_log2, 0, 21) && sound(h.strength, 1e-9) && sound(h.growth, 1) &&
         sound(h.point_penalty, 1e-9) && sound(h.point_growth, 1)))
     return invalid("block side 0 .. 21, strengths above 0, growths 1 or more");
+  const EnvironmentSettings& e = settings.environment;
+  if (settings.method == FitMethod::kHierarchical &&
+      !(in_range(e.degree, 0, kMaxEnvironmentDegree) && sound(e.strength, 1e-9) &&
+        (e.radius == 0 || sound(e.radius, kLeastEnvironmentRadius))))
+    return invalid("environment: degree 0 .. 16, radius 0 or 2 and more, strength above 0");
   if (basis.id == BasisId::kHarmonics && !in_range(basis.degree, 0, kMaxDegree))
     return invalid("the degree of the basis must be 0 .. 10");
   if (basis.id == BasisId::kHarmonics && settings.method == FitMethod::kPaper)

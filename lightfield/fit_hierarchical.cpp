@@ -3,9 +3,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "lightfield/block_prior.h"
 #include "lightfield/direction_rows.h"
+#include "lightfield/environment_fit.h"
+#include "lightfield/environment_projection.h"
+#include "lightfield/frame.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -38,6 +43,56 @@ void read_rows(const Observations& seen, std::size_t point, const DirectionRows&
   }
 }
 
+/// What the environment tells of the points.
+class EnvironmentPrior {
+ public:
+  EnvironmentPrior(const Observations& seen, std::span<const Voxel> positions,
+                   const DirectionRows& basis, const FitSettings& settings)
+      : positions_(positions), box_(positions), frame_(settings.frame) {
+    if (settings.environment.degree == 0) return;
+    normals_ = frame_normals(FrameId::kReflected, positions, settings.threads);
+    light_ = fit_environment(seen, positions, normals_, settings);
+    if (!light_) return;
+    auto outward = normals_;
+    for (std::size_t p = 0; p < outward.size(); ++p) {
+      double towards_cameras = 0;  // the cosine of the reflected direction is that of the view
+      for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j) {
+        const Vec3 v = vector_of(seen.direction[j]);
+        for (std::size_t a = 0; a < 3; ++a) towards_cameras += v[a] * double(outward[p][a]);
+      }
+      if (towards_cameras < 0)
+        for (float& x : outward[p]) x = -x;
+    }
+    projected_ = project_environment(*light_, positions, outward, frame_, basis, settings.threads);
+  }
+
+  /// What is left of the colours of point p.
+  void subtract(const Observations& seen, std::size_t p, PointRows& rows) const {
+    if (!light_) return;
+    const Vec3 at = box_(positions_[p]);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const auto& d = seen.direction[static_cast<std::size_t>(seen.first[p]) + i];
+      const auto light =
+          (*light_)(at, vector_of(frame_ == FrameId::kReflected ? d : to_frame(normals_, p, d)));
+      for (std::size_t c = 0; c < 3; ++c) rows.colours[3 * i + c] -= light[c];
+    }
+  }
+
+  /// [P][K][3] its part of the view maps; zeros where there is none.
+  std::vector<float> take_projected(std::size_t size) {
+    if (!light_) projected_.assign(size, 0.0f);
+    return std::move(projected_);
+  }
+
+ private:
+  std::span<const Voxel> positions_;
+  ObjectBox box_;
+  FrameId frame_;
+  std::vector<std::array<float, 3>> normals_;
+  std::optional<Environment> light_;
+  std::vector<float> projected_;
+};
+
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
 /// @param coefficients  [K][3] m before, a after
 void solve_point(const PointRows& rows, std::span<const float> inverse_penalty,
@@ -68,6 +123,7 @@ std::vector<float> fit_hierarchical(const Observations& observations,
                                     const Progress& progress) {
   const HierarchySettings& h = settings.hierarchy;
   const DirectionRows basis(settings.basis);
+  EnvironmentPrior environment(observations, positions, basis, settings);
   BlockPrior prior(positions, h.block_log2, basis.size());
   const auto for_points = [&](double from, double to, const auto& body) {
     parallel_ranges(
@@ -77,6 +133,7 @@ std::vector<float> fit_hierarchical(const Observations& observations,
           for (std::size_t b = begin; b < end; ++b)
             for (std::size_t p = prior.first_point(b); p < prior.first_point(b + 1); ++p) {
               read_rows(observations, p, basis, rows);
+              environment.subtract(observations, p, rows);
               if (rows.count > 0) body(b, p, rows);
             }
         },
@@ -96,12 +153,13 @@ std::vector<float> fit_hierarchical(const Observations& observations,
     inverse.push_back(static_cast<float>(1 / p));
   inverse[0] = 0;
   const std::size_t size = 3 * basis.size();
-  std::vector<float> coefficients(positions.size() * size, 0.0f);
+  std::vector<float> coefficients = environment.take_projected(positions.size() * size);
   for_points(0.5, 1, [&](std::size_t b, std::size_t p, const PointRows& rows) {
+    std::vector<float> rest(blocks.data() + b * size, blocks.data() + (b + 1) * size);
+    solve_point(rows, inverse, rest.data());
     float* of_point = coefficients.data() + p * size;
-    std::copy_n(blocks.data() + b * size, size, of_point);
-    solve_point(rows, inverse, of_point);
-    for (std::size_t i = 0; i < size; ++i) of_point[i] /= static_cast<float>(basis.norms()[i / 3]);
+    for (std::size_t i = 0; i < size; ++i)
+      of_point[i] = (of_point[i] + rest[i]) / static_cast<float>(basis.norms()[i / 3]);
   });
   return coefficients;
 }

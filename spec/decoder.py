@@ -25,7 +25,7 @@ import numpy as np
 
 import hevc
 
-SEQUENCE, SLICE, GEOMETRY, NORMALS, COEFFICIENTS, INDEX, METADATA, DIGEST, END = 1, 2, 3, 4, 5, 6, 7, 8, 15
+SEQUENCE, SLICE, GEOMETRY, NORMALS, COEFFICIENTS, INDEX, METADATA, DIGEST, TRANSFORM, END = 1, 2, 3, 4, 5, 6, 7, 8, 9, 15
 MAX_VALUES = 1 << 28
 
 
@@ -106,6 +106,11 @@ def morton(x, y, z):
     return code
 
 
+def from_morton(code):
+    """6.2: the position of a Morton code."""
+    return tuple(sum((code >> 3 * i + axis & 1) << i for i in range(21)) for axis in range(3))
+
+
 # ---- 7 Syntax
 
 def read_units(data):
@@ -150,7 +155,7 @@ class Sequence:
             return value
 
         checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 1, "sps_version_minor")
+        checked(8, lambda v: v == 2, "sps_version_minor")
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
@@ -170,8 +175,10 @@ class Sequence:
         require(self.functions <= 4096, "sps_num_functions")
         self.coefficient_bounds = [0]
         self.texture = profile == 2
+        self.prediction = False
         self.groups = []                    # functions of each group
         self.steps = []                     # three steps of each function
+        self.num_transforms, self.transforms = 0, []
         if self.functions:
             if reader.u(1, "sps_basis_flag"):
                 if checked(4, lambda v: v <= 1, "sps_basis_idc") == 0:
@@ -193,14 +200,21 @@ class Sequence:
             if coder == 2:
                 self.texture_bits = 8 + 2 * checked(2, lambda v: v <= 2, "sps_texture_bits")
                 self.texture_cell_log2 = reader.u(3, "sps_texture_cell_log2")
+            else:
+                self.prediction = bool(reader.u(1, "sps_prediction_flag"))
             self.groups = [[] for _ in range(reader.u(4, "sps_num_groups_minus1") + 1)]
-            checked(3, lambda v: v == 0, "sps_num_stages_minus1")
+            if checked(1, lambda v: coder != 2 or v == 0, "sps_transform_flag"):
+                self.num_transforms = 1
+            checked(2, lambda v: v == 0, "sps_num_stages_minus1")
+            if self.num_transforms:
+                self.num_transforms += checked(4, lambda v: v < len(self.groups), "sps_num_transforms_minus1")
             self.coefficient_bounds = self.level_ranges(reader, "coefficient")
             require(coder != 2 or len(self.coefficient_bounds) == 2, "sps_num_coefficient_ranges_minus1")
             while len(self.steps) < self.functions:
                 self.plane_run(reader)
         reader.trailing_bits("sps_trailing_bits")
         require(profile != 1, "sps_profile (Draco geometry is not supported)")
+        self.coded = list(self.groups)      # those whose planes hold coefficients or components
 
     def level_ranges(self, reader, kind):
         """7.2: the first level of every range, and grid_bits after the last."""
@@ -226,6 +240,66 @@ class Sequence:
         for _ in range(length):
             self.groups[group].append(len(self.steps))
             self.steps.append(steps * 3 if equal else steps)
+
+
+class Transform:
+    """7.11: a transform across planes."""
+
+    def __init__(self, sequence, payload):
+        """7.11: parses the unit, and takes the functions without components from those coded."""
+        reader = BitReader(payload)
+        self.first = reader.ue("tr_first_group")
+        before = sequence.transforms[-1].end if sequence.transforms else 0
+        require(before <= self.first < len(sequence.groups), "tr_first_group")
+        self.end = self.first + reader.ue("tr_num_groups_minus1") + 1
+        require(self.end <= len(sequence.groups), "tr_num_groups_minus1")
+        functions = [k for group in sequence.groups[self.first:self.end] for k in group]
+        self.joint = reader.u(1, "tr_joint_flag")
+        rank = reader.ue("tr_rank_minus1") + 1
+        self.colour = np.eye(3, dtype=np.int64) * 512
+        if not self.joint and reader.u(1, "tr_colour_flag"):
+            self.colour = np.array([reader.se("tr_colour") for _ in range(9)], np.int64).reshape(3, 3)
+            require(abs(self.colour).max() <= 512, "tr_colour")
+        lanes = 1 if self.joint else 3
+        rows, columns = len(functions) * 3 // lanes, rank * 3 // lanes
+        require(rank <= len(functions) and rows * columns <= 1 << 20, "tr_rank_minus1")
+        self.planes = np.array([3 * k + c for k in functions for c in range(3)])
+        self.components = self.planes[:3 * rank]
+        self.matrix = self.read_matrix(ArithmeticDecoder(reader.rest("tr_matrix")), rows, columns)
+        for g in range(self.first, self.end):
+            sequence.coded[g], rank = sequence.groups[g][:rank], max(rank - len(sequence.groups[g]), 0)
+
+    @staticmethod
+    def read_matrix(decoder, rows, columns):
+        """7.11: the entries, [rows, columns], with 14 fractional bits."""
+        nonzero, magnitudes = Contexts(16), [MagnitudeContexts() for _ in range(16)]
+        matrix = np.zeros((rows, columns), np.int64)
+        for column in range(columns):
+            precision = decoder.raw(4)
+            require(precision <= 14, "tr_matrix")
+            expected = (16 << precision) // math.isqrt(rows)
+            for row in range(rows):
+                context, value = min(expected.bit_length(), 15), 0
+                if decoder.adaptive(nonzero, context, 255):
+                    value = decoder.magnitude(magnitudes[context], 255)
+                    entry = value << 14 - precision
+                    require(entry <= 1 << 20, "tr_matrix")
+                    matrix[row, column] = -entry if decoder.raw(1) else entry
+                expected = (3 * expected + 16 * value) // 4
+        decoder.finish("tr_matrix")
+        return matrix
+
+    def expand(self, values):
+        """8.7.5: components to coefficients, in place."""
+        lanes = 1 if self.joint else 3
+        components = values[:, self.components].reshape(len(values), -1, lanes)
+        values[:, self.components] = 0
+        if not self.joint:
+            components = components @ self.colour.T + 256 >> 9
+            require((abs(components) < 1 << 27).all(), "cu_coefficients")
+        expanded = np.einsum("kr,prc->pkc", self.matrix, components) + (1 << 13) >> 14
+        require((abs(expanded) < 1 << 27).all(), "cu_coefficients")
+        values[:, self.planes] = expanded.reshape(len(values), -1)
 
 
 def check_index(payload, following):
@@ -350,11 +424,15 @@ class ArithmeticDecoder:
         for value in range(1, 15):
             if not self.adaptive(contexts.more, value - 1, limit):
                 return value
+        return 14 + self.exp_golomb(contexts.prefix, limit)
+
+    def exp_golomb(self, prefix, limit):
+        """8.3.4: the rest of a magnitude, 1 or more."""
         length = 0
-        while self.adaptive(contexts.prefix, length, limit):
+        while self.adaptive(prefix, length, limit):
             length += 1
             require(length < 28, "magnitude")
-        return 14 + (1 << length) + self.raw(length)
+        return (1 << length) + self.raw(length)
 
 
 TABLE_A1 = [int(word) for word in """
@@ -383,6 +461,43 @@ def stretch_table():
 
 SQUASH = [squash(x) for x in range(-2815, 2816)]
 STRETCH = stretch_table()
+
+
+class MixedDecision:
+    """8.3.5: a decision in several contexts at a time."""
+
+    def __init__(self, sizes, sets):
+        """8.3.5: the initial state."""
+        self.contexts = [Contexts(size) for size in sizes]
+        self.weights = [[85200 // len(sizes)] * (len(sizes) + 1) for _ in range(sets)]
+
+    def decode(self, decoder, indices, chosen):
+        """8.3.5: a decision with the weights of set `chosen`; everything adapts."""
+        inputs = []
+        for contexts, i in zip(self.contexts, indices):
+            inputs.append(STRETCH[contexts.probability[i] >> 10] if contexts.count[i] else 0)
+        inputs.append(256)
+        weights = self.weights[chosen]
+        mixed = sum(w * x for w, x in zip(weights, inputs)) >> 16
+        p = SQUASH[min(max(mixed, -2815), 2815) + 2815]
+        bit = decoder.decide(min(max(p, 1), 65535))
+        error = ((bit << 16) - p) * 40
+        for i, x in enumerate(inputs):
+            weights[i] = min(max(weights[i] + (x * error + (1 << 19) >> 20), -(1 << 22)), 1 << 22)
+        target = (1 << 22) - 1 if bit else 0
+        for contexts, i in zip(self.contexts, indices):
+            before, count = contexts.probability[i], contexts.count[i]
+            contexts.probability[i] = before + ((target - before) * RATES[count] >> 16)
+            contexts.count[i] = min(count + 1, 255)
+        return bit
+
+
+def size_class(n, most):
+    """8.3.6: cls(n, most)."""
+    if n >= 4:
+        width = n.bit_length()
+        n = 4 * (width - 2) + (n >> width - 3 & 3)
+    return min(n, most)
 
 
 # ---- 8.4 Octree geometry
@@ -592,6 +707,7 @@ class TransformTree:
     def __init__(self, codes):
         """8.6.1: split, left, first row after the merge, and parent of every row; 8.6.3: coding order."""
         count = len(codes)
+        self.codes = codes
         self.split = [3 * 21] + [(codes[r] ^ codes[r - 1]).bit_length() - 1 for r in range(1, count)]
         self.left = [0] * count
         self.end = [count] * count
@@ -610,6 +726,24 @@ class TransformTree:
             else:
                 self.parent[r] = end
         self.order = [0] + sorted(range(1, count), key=lambda r: (-self.split[r], r))
+        self.codes = codes
+        self.row_of_cell = {(self.split[r], codes[r] >> self.split[r] + 1): r for r in range(1, count)}
+        self.scale = [256] + [self.scale_of(r) for r in range(1, count)]
+
+    def scale_of(self, r):
+        """8.7.2: the scale of the merge of row r."""
+        left, right = r - self.left[r], self.end[r] - r
+        return math.isqrt(left * right * 2**16 // (left + right))
+
+    def faces(self, r):
+        """8.7.2: the rows of the same split beside row r towards lower x, y, z, 0 where there is none."""
+        split, rows = self.split[r], []
+        cell = self.codes[r] >> split + 1 << split + 1
+        for axis in range(3):
+            along = sum(1 << bit for bit in range(axis, 63, 3) if bit > split)
+            beside = (cell & along) - 1 & along | cell & ~along
+            rows.append(self.row_of_cell.get((split, beside >> split + 1), 0) if cell & along else 0)
+        return rows
 
     def rotation(self, r):
         """8.6.2: c and s of the merge of row r."""
@@ -630,14 +764,7 @@ def round30(x):
 
 # ---- 8.7 Coefficients
 
-def few(n):
-    """8.7.2: few(n)."""
-    return 0 if n == 0 else 1 if n <= 2 else 2
-
-
-def size(v):
-    """8.7.2: size(v)."""
-    return min(abs(v), 2)
+SHARES = [2, 2, 1, 3, 3, 3, 1]              # of the rows around, 8.7.2
 
 
 class VectorCoder:
@@ -646,66 +773,152 @@ class VectorCoder:
     def __init__(self, functions, tree, group_before):
         """8.7.1: its contexts and other state."""
         self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
-        self.node = Contexts(13 * 3 * 3 * 3)
-        self.block = Contexts(16 * 2 * 2 * 3)
-        self.nonzero = Contexts(2 * 13 * 12 * 5 * 4 * 4)
-        self.magnitudes = [MagnitudeContexts() for _ in range(12 * 3)]
-        self.activity = [4096] * self.planes
-        self.count = [0] * len(tree.split)
+        self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4], 45)
+        self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)], 96)
+        self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27], 9)
+        self.prefix = [Contexts(28) for _ in range(12)]
+        self.activity = [16 if functions > 1 else 0] * self.planes
+        self.sums = [0] * len(tree.split)
         self.quantised = {}                 # of rows that are not all zero
+        self.kept = {0: [0] * self.planes}  # the same without row 0, within -4095 .. 4095
 
     def decode(self, decoder, rows):
         """8.7.2: rows in coding order; a row whose node decision is 0 has no coefficients."""
-        split, zeros, last = self.tree.split, [0] * self.planes, 0
+        last = 0
         for r in rows:
-            level = min(split[r] // 3, 11) if r else 12
-            parent = self.tree.parent[r]
-            previous = last if split[last] == split[r] else 0
+            split = min(self.tree.split[r], 44) if r else 44
+            above, beside, same_axis = self.around(r, last)
             last = r
-            # row 0 does not count as a parent or previous row
-            count_parent = self.count[parent] if parent else 0
-            count_previous = self.count[previous] if previous else 0
-            count_before = self.group_before.count[r] if self.group_before else 0
-            context = ((level * 3 + few(count_parent)) * 3 + few(count_previous)) * 3 + few(count_before)
-            if decoder.adaptive(self.node, context, 255):
-                beside = [self.quantised.get(row, zeros) if row else zeros for row in (parent, previous)]
-                self.quantised[r] = self.decode_row(decoder, r, level, *beside)
+            self.weigh(r, above, beside)
+            self.axis = self.tree.split[r] % 3 if r else 2
+            if self.decode_node(decoder, r, split):
+                self.decode_row(decoder, r, split, same_axis)
 
-    def decode_row(self, decoder, r, level, parent, previous):
-        """8.7.2, 2: the blocks of a row."""
-        values, count = [0] * self.planes, 0
-        blocks = (self.planes + 23) // 24
-        for block in range(blocks):
-            begin, end = 24 * block, min(24 * block + 24, self.planes)
-            if block < blocks - 1 or count:
-                context = (min(block, 15) * 2 + any(parent[begin:end])) * 2 + any(previous[begin:end])
-                if not decoder.adaptive(self.block, context * 3 + few(count), 255):
-                    continue
-            for j in range(begin, end):
-                beside = size(parent[j]) + size(previous[j])
-                values[j] = self.decode_value(decoder, values, j, begin, level, beside, count)
-                count += values[j] != 0
-        self.count[r] = min(count, 255)
-        return values
+    def around(self, r, last):
+        """8.7.2: A0 - A2, A3 - A6, and the nearest of the first three that has the same axis."""
+        if r == 0:
+            return [0] * 3, [0] * 4, 0
+        tree = self.tree
+        above = [tree.parent[r]]
+        above += [tree.parent[above[0]], tree.parent[tree.parent[above[0]]]]
+        aligned = [row for row in above if row and (tree.split[row] - tree.split[r]) % 3 == 0]
+        previous = last if last and tree.split[last] == tree.split[r] else 0
+        return above, tree.faces(r) + [previous], aligned[0] if aligned else 0
 
-    def decode_value(self, decoder, values, j, begin, level, beside, count):
-        """8.7.2, 3 and 4: one coefficient."""
+    def weigh(self, r, above, beside):
+        """8.7.2: w_k; the rows that are there; whether there is one beside."""
+        self.rows = above + beside
+        self.any_beside = any(beside)
+        shares_beside = sum(share for share, row in zip(SHARES[3:], beside) if row)
+        self.weights = []
+        for k, row in enumerate(self.rows):
+            weight = 0
+            if self.sums[row]:
+                divisor = self.tree.scale[row] * (5 if k < 3 else shares_beside)
+                weight = min(SHARES[k] * self.tree.scale[r] * 256 // divisor, 32767)
+            self.weights.append(weight)
+        self.scale_class = size_class(self.tree.scale[r] >> 5, 23)
+
+    def expected(self, magnitudes):
+        """8.7.2: `up` and `side` for the magnitudes of the seven rows."""
+        products = [w * m for w, m in zip(self.weights, magnitudes)]
+        up = sum(products[:3])
+        return up, sum(products[3:]) if self.any_beside else up
+
+    def decode_node(self, decoder, r, split):
+        """8.7.2, 1: is the vector not all zero?"""
+        sums = [self.sums[row] for row in self.rows]
+        z = [size_class(n, 4) for n in sums]
+        below = size_class(self.group_before.sums[r], 15) if self.group_before else 0
+        return self.node.decode(decoder, [
+            size_class(sum(self.expected([min(n, 4095) for n in sums])) // 2 >> 4, 47) * 16 + below,
+            split * 24 + self.scale_class,
+            (((z[0] * 5 + z[1]) * 5 + z[2]) * 5 + z[6]) * 3 + self.axis,
+            (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
+
+    def decode_row(self, decoder, r, split, same_axis):
+        """8.7.2, 2 - 4: the values of a row."""
+        values, kept = [0] * self.planes, [0] * self.planes
+        around = [self.kept.get(row, self.kept[0]) for row in self.rows + [same_axis]]
+        total = activity_total = 0
+        for j in range(self.planes):
+            if j % 3 == 0:
+                expected = []
+            activity = self.activity[j]
+            up, side = self.expected([abs(row[j]) for row in around[:7]])
+            expected.append((up + side) // 2 + (activity >> 5))
+            ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
+            contexts = self.magnitude_contexts(kept, j, min(split, 24), (up, side), expected, ratio)
+            magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total)
+            if magnitude:
+                negative = self.decode_sign(decoder, kept, j, around)
+                values[j] = -magnitude if negative else magnitude
+                kept[j] = min(max(values[j], -4095), 4095)
+            total += abs(kept[j])
+            activity_total += activity
+            if self.planes > 3:
+                self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
+        self.quantised[r] = values
+        if r:
+            self.kept[r], self.sums[r] = kept, min(total, 65535)
+
+    def magnitude_contexts(self, kept, j, split, means, expected, ratio):
+        """8.7.2, 2: the contexts of a magnitude."""
         channel = j % 3
-        activity = max(0, min(self.activity[j].bit_length() - 5, 11))
+        earlier = [abs(v) for v in kept[j - channel:j]]
+        by_channel = [size_class((2 * m + 1) * 8 * (expected[channel] + 16) // (e + 16), 47)
+                      for m, e in zip(earlier, expected)]
+        channels = 0
         if channel == 0:
-            sibling = size(values[j - 3]) if j > begin else 3
+            other = 16
+            if j:
+                other = min(abs(kept[j - 3]), 3) + 4 * (min(abs(kept[j - 6]), 2) if j > 3 else 3)
         elif channel == 1:
-            sibling = size(values[j - 1])
+            other, channels = size_class(earlier[0], 15), by_channel[0]
         else:
-            sibling = min(3, size(values[j - 2]) + size(values[j - 1]))
-        n = count if count <= 1 else 2 if count <= 4 else 3
-        context = ((((channel == 0) * 13 + level) * 12 + activity) * 5 + beside) * 4 + sibling
-        bit = decoder.adaptive(self.nonzero, context * 4 + n, 255)
-        self.activity[j] += ((65535 if bit else 0) - self.activity[j]) >> 5
-        if not bit:
-            return 0
-        magnitude = decoder.magnitude(self.magnitudes[activity * 3 + min(beside, 2)], 255)
-        return -magnitude if decoder.raw(1) else magnitude
+            other = min(earlier[1], 3) * 16 + size_class(earlier[0], 15)
+            channels = by_channel[1] // 2 * 24 + by_channel[0] // 2
+        level = size_class(expected[channel] >> 4, 47)
+        up, side = [size_class(mean >> 4, 39) // 2 for mean in means]
+        contexts = [split * 24 + self.scale_class, other, up * 20 + side, min(level // 2, 19) * 64 + other,
+                    channels, ratio // 3 * 16 + level // 3]
+        return [(context * 3 + channel) * 16 for context in contexts]
+
+    def decode_magnitude(self, decoder, contexts, j, expected, total):
+        """8.7.2, 3: a magnitude."""
+        chosen = (j % 3 if total else 3 + j % 3) * 16
+        implied = total == 0 and j == self.planes - 1
+        for magnitude in range(1 if implied else 0, 15):
+            if not self.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
+                return magnitude
+        prefix = self.prefix[min(size_class(expected >> 8, 47) // 4, 11)]
+        return 14 + decoder.exp_golomb(prefix, 255)
+
+    def decode_sign(self, decoder, kept, j, around):
+        """8.7.2, 4: is the value negative?"""
+        channel, first = j % 3, j - j % 3
+        parent, grandparent, _, *faces, previous, same_axis = around
+
+        def sign(v):
+            return 1 if v > 0 else 2 if v < 0 else 0
+
+        def strong(v):
+            return sign(v) + (2 if abs(v) > 1 else 0)
+
+        def product(row, earlier):
+            a, b = row[first + earlier], row[j]
+            return (1 if a * b > 0 else 2) if earlier < channel and a and b else 0
+        own = [sign(kept[first + c]) if c < channel else 0 for c in range(2)]
+        place = self.axis * 3 + channel
+        f = [sign(row[j]) for row in faces]
+        return self.negative.decode(decoder, [
+            ((own[0] * 3 + product(parent, 0)) * 3 + product(grandparent, 0)) * 9 +
+            product(previous, 0) * 3 + channel,
+            ((f[0] * 3 + f[1]) * 3 + f[2]) * 9 + place,
+            (((own[0] * 3 + own[1]) * 3 + product(parent, 0)) * 3 + product(parent, 1)) * 9 +
+            product(previous, 1) * 3 + channel,
+            (((strong(same_axis[j]) * 5 + strong(parent[j])) * 5 + strong(previous[j])) * 3 + own[0]) * 9 +
+            place], channel * 3 + own[0])
 
 
 class IndependentCoder:
@@ -731,21 +944,107 @@ class IndependentCoder:
 def reconstruct(sequence, coders, points):
     """8.7.4: coefficients by row and plane; those of groups without a coder are 0 (8.9)."""
     coefficients = np.zeros((points, 3 * sequence.functions), np.int64)
-    for functions, coder in zip(sequence.groups, coders):
+    for functions, coder in zip(sequence.coded, coders):
         planes = [(3 * k + c, sequence.steps[k][c]) for k in functions for c in range(3)]
         for r, values in coder.quantised.items():
             for (plane, step), value in zip(planes, values):
                 require(abs(value * step) < 1 << 27, "cu_coefficients")
                 coefficients[r, plane] = value * step
+    for transform in sequence.transforms:
+        if transform.first < len(coders):
+            transform.expand(coefficients)
     return coefficients
+
+
+def round25(x):
+    """8.7.6: division by 2^25, to nearest, ties away from zero."""
+    return x + (1 << 24) - (x < 0) >> 25
+
+
+class Prediction:
+    """8.7.6: the corrections of the children of a level, for planes of one mode."""
+
+    def __init__(self, codes, depth, level, mode):
+        """8.7.6: the nodes of the level and of the one below, by their cells."""
+        self.codes, self.mode, self.side = codes, mode, 1 << (depth - 1 - level)
+        self.sums = [(0, 0, 0)]             # of the positions before a row
+        for code in codes:
+            self.sums.append(tuple(s + v for s, v in zip(self.sums[-1], from_morton(code))))
+        self.nodes, self.children = [self.cells(3 * (depth - below)) for below in (level, level + 1)]
+        self.order = {cell: i for i, cell in enumerate(self.nodes)}
+
+    def cells(self, bits):
+        """8.7.6: first row and end of every node, by cell, in Morton order."""
+        cell = [code >> bits for code in self.codes]
+        first = [r for r in range(len(cell)) if r == 0 or cell[r] != cell[r - 1]]
+        return {from_morton(cell[r]): (r, end) for r, end in zip(first, first[1:] + [len(cell)])}
+
+    def closeness(self, *nodes):
+        """8.7.6: q of two nodes."""
+        centres = [[16 * (after - before) // ((end - r) * self.side)
+                    for before, after in zip(self.sums[r], self.sums[end])] for r, end in nodes]
+        square = 51 + sum((x - y) ** 2 for x, y in zip(*centres))
+        return (1 << 24) // square if self.mode == 1 else (1 << 30) // square ** 2
+
+    @staticmethod
+    def mean(values, node):
+        """8.7.6: the mean of a node."""
+        value = round30(values[node[0]] * math.isqrt(2**60 // (node[1] - node[0])))
+        return np.clip(value, 1 - 2**17, 2**17 - 1)
+
+    def difference(self, cell, child, values, before):
+        """8.7.6: d of a child."""
+        node, here, terms = self.nodes[cell], self.children[child], []
+        for mask in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)):
+            step = [(2 * (x & 1) - 1) * m for x, m in zip(child, mask)]
+            beside = tuple(x + s for x, s in zip(child, step))
+            other = tuple(x + s for x, s in zip(cell, step))
+            if other not in self.nodes:
+                continue
+            if self.order[other] < self.order[cell] and beside in self.children:
+                terms.append((self.closeness(here, self.children[beside]), self.mean(values, self.children[beside])))
+            else:
+                terms.append((self.closeness(here, self.nodes[other]), self.mean(before, self.nodes[other])))
+        total = self.closeness(here, node) + sum(q for q, _ in terms)
+        own = self.mean(before, node)
+        return sum([4096 * q // total * (term - own) for q, term in terms], 0 * own) >> 6
+
+    def correct(self, values, before):
+        """8.7.6: corrects the children, branching nodes in Morton order; before holds the values of the level."""
+        for cell in self.nodes:
+            children = [tuple(2 * x + c for x, c in zip(cell, child)) for child in CHILDREN]
+            children = [child for child in children if child in self.children]
+            if len(children) < 2:
+                continue
+            d = [self.difference(cell, child, values, before) for child in children]
+            rows = [self.children[child] for child in children]
+            weights = [end - r for r, end in rows]
+            common = round30(sum((w << 30) // sum(weights) * x for w, x in zip(weights, d)))
+            for (r, _), w, x in zip(rows, weights, d):
+                root = math.isqrt(w << 38)
+                root -= root >> 2 if self.mode == 2 else 0
+                values[r] = np.clip(values[r] + round25((x - common) * root), -2**29, 2**29)
 
 
 # ---- 8.8 Inverse transform
 
-def inverse_transform(values, tree, shift):
-    """8.8.1: undoes the merges from the top down, those of split >= 3 shift (8.9), a split at a time."""
+def inverse_level(values, tree, depth, level, modes):
+    """8.8.1, 8.7.6: the merges of a level, and the corrections; modes are those of the planes."""
+    before = values.copy() if any(modes) else None
+    undo_merges(values, tree, 3 * (depth - level), 3 * (depth - 1 - level))
+    for mode in sorted(set(modes) - {0}):
+        planes = [j for j, m in enumerate(modes) if m == mode]
+        some = values[:, planes]
+        Prediction(tree.codes, depth, level, mode).correct(some, before[:, planes])
+        values[:, planes] = some
+
+
+def undo_merges(values, tree, above, least):
+    """8.8.1: undoes the merges of least <= split < above from the top down, a split at a time."""
     begin = 1
-    while begin < len(tree.order) and tree.split[tree.order[begin]] >= 3 * shift:
+    while begin < len(tree.order) and tree.split[tree.order[begin]] >= above:
+        begin += 1
+    while begin < len(tree.order) and tree.split[tree.order[begin]] >= least:
         end, split = begin, tree.split[tree.order[begin]]
         while end < len(tree.order) and tree.split[tree.order[end]] == split:
             end += 1
@@ -780,6 +1079,7 @@ class Slice:
         self.id, self.cube_end = slice_id, cube + (1 << 3 * self.depth)
         self.octree = Octree(self.points)
         self.tree = self.digest = self.normals = None
+        self.modes = {}                     # cu_prediction by (group, level of the grid)
         self.coders = []                    # of each group; arrays [P, planes] of components for textures
         self.atlas = None
         self.expected = self.unit_order()
@@ -810,6 +1110,9 @@ class Slice:
         if unit_type == COEFFICIENTS and self.sequence.texture:
             self.decode_textures(reader, numbers[1])
             return
+        if unit_type == COEFFICIENTS and self.sequence.prediction:
+            for level in range(*self.sequence.coefficient_bounds[numbers[0]:numbers[0] + 2]):
+                self.modes[numbers[1], level] = reader.u(2, "cu_prediction")
         element = {GEOMETRY: "gu_occupancy", NORMALS: "nu_normals"}.get(unit_type, "cu_coefficients")
         decoder = ArithmeticDecoder(reader.rest(element))
         if unit_type == GEOMETRY:
@@ -834,9 +1137,20 @@ class Slice:
         """8.7.1: the rows of a level range, the functions of a group."""
         if group == len(self.coders):
             before = self.coders[-1] if self.coders else None
-            self.coders.append(self.sequence.coder(len(self.sequence.groups[group]), self.tree, before))
+            self.coders.append(self.sequence.coder(len(self.sequence.coded[group]), self.tree, before))
         begin, end = [g - self.top for g in self.sequence.coefficient_bounds[level_range:level_range + 2]]
-        self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
+        if self.sequence.coded[group]:
+            self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
+
+    def inverse_transform(self, values, coders, shift):
+        """8.8: level by level, the modes of 8.7.6 by plane; levels below those kept stay as they are (8.9)."""
+        groups = self.sequence.groups[:len(coders)]
+        for level in range(self.depth - shift):
+            modes = [0] * (3 * self.sequence.functions)
+            for group, functions in enumerate(groups):
+                for k in functions:
+                    modes[3 * k:3 * k + 3] = [self.modes.get((group, level + self.top), 0)] * 3
+            inverse_level(values, self.tree, self.depth, level, modes)
 
     def decode_textures(self, reader, group):
         """7.6: flags, offsets and pictures of the planes of a group; 8.11.6: the components."""
@@ -882,7 +1196,7 @@ class Slice:
             values = texture_components(sequence, coders, self.points)
         else:
             values = reconstruct(sequence, coders, self.points)
-            inverse_transform(values, self.tree, shift)
+            self.inverse_transform(values, coders, shift)
         normals = np.zeros((self.points, 2), np.int64) if self.normals is None else self.normals
         if shift:
             first = [r for r in range(self.points) if r == 0 or self.tree.split[r] >= 3 * shift]
@@ -900,6 +1214,11 @@ class Slice:
 
 
 # ---- 8.10 Normals
+
+def size(v):
+    """8.10: size(v)."""
+    return min(abs(v), 2)
+
 
 def decode_normals(decoder, points, bits):
     """8.10: two coordinates a point, as residuals to the point before."""
@@ -1118,6 +1437,7 @@ def decode(data, levels, groups):
             parts.append(current.output(levels, groups))
             cube_end, current = current.cube_end, None
         if unit_type == SLICE:
+            require(len(sequence.transforms) == sequence.num_transforms, "sps_num_transforms_minus1")
             current = Slice(sequence, slices, BitReader(payload), cube_end)
             slices += 1
             values += current.points * 3 * sequence.functions
@@ -1125,6 +1445,9 @@ def decode(data, levels, groups):
         elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST):
             require(current, "slice_id")
             current.read_unit(unit_type, payload)
+        elif unit_type == TRANSFORM:
+            require(not slices and len(sequence.transforms) < sequence.num_transforms, "unit_type (transform)")
+            sequence.transforms.append(Transform(sequence, payload))
         elif unit_type == INDEX:
             check_index(payload, units[number + 1:])
         elif unit_type == METADATA:

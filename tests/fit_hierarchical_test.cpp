@@ -97,6 +97,7 @@ TEST_P(HierarchicalFit, AgreesWithTheDenseSolvesOfTheDefinition) {
   s.method = FitMethod::kHierarchical;
   s.basis = GetParam().basis;
   s.hierarchy = {1, 0.2, 1.4, 3, 1.6};
+  s.environment.degree = 0;
   // Eight blocks of side 2 in a cube of side 4: two levels.
   std::vector<Voxel> positions;
   for (std::int32_t i = 0; i < 64; i += 5) positions.push_back({i & 3, i >> 2 & 3, i >> 4});
@@ -138,6 +139,7 @@ FitSettings harmonics_settings(FrameId frame) {
   s.method = FitMethod::kHierarchical;
   s.basis = {BasisId::kHarmonics, 2, 0, 0, 4};
   s.frame = frame;
+  s.environment.degree = 0;  // tests/environment_test.cpp
   return s;
 }
 
@@ -225,6 +227,9 @@ TEST(HierarchicalFitProperties, SettingsOutOfRangeAreRefused) {
   EXPECT_TRUE(refused([](FitSettings& s) { s.hierarchy.strength = 0; }));
   EXPECT_TRUE(refused([](FitSettings& s) { s.hierarchy.growth = 0.5; }));
   EXPECT_TRUE(refused([](FitSettings& s) { s.hierarchy.point_penalty = std::nan(""); }));
+  EXPECT_TRUE(refused([](FitSettings& s) { s.environment.degree = 17; }));
+  EXPECT_TRUE(refused([](FitSettings& s) { s.environment.radius = 1; }));
+  EXPECT_TRUE(refused([](FitSettings& s) { s.environment.strength = 0; }));
   EXPECT_TRUE(refused([](FitSettings& s) { s.method = FitMethod::kPaper; }));
 }
 

@@ -74,7 +74,8 @@ TEST_P(RahtTreeTest, InverseGivesBackTheValuesToARoundingPerLevel) {
   std::vector<std::int32_t> threaded = values;
   raht_forward(tree, planes, threaded, 7);
   EXPECT_EQ(threaded, transformed);
-  raht_inverse(tree, planes, transformed, 2);
+  const std::vector<std::uint32_t> steps(planes, 1);
+  ASSERT_TRUE(raht_inverse(tree, steps, transformed, 2));
   for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(transformed[i], values[i], 5);
 }
 
@@ -109,10 +110,26 @@ TEST(Spec_8_8_2_Bounds, TheLargestCoefficientsDoNotOverflow) {
   const RahtTree tree = build_raht_tree(path);
   for (const std::int32_t limit : {(1 << 27) - 1, -(1 << 27) + 1}) {
     std::vector<std::int32_t> values(path.size(), limit);
-    raht_inverse(tree, 1, values, 1);  // UBSan watches
+    ASSERT_TRUE(raht_inverse(tree, std::vector<std::uint32_t>{1}, values, 1));  // UBSan watches
     double energy = 0;
     for (const auto v : values) energy += std::pow(v, 2.0);
     EXPECT_NEAR(energy / (64 * std::pow(limit, 2.0)), 1, 1e-6);
+  }
+}
+
+TEST(Spec_8_7_4_Reconstruction, CoefficientsOf2To27AreRefusedInEveryRow) {
+  const RahtTree tree = build_raht_tree(std::vector<std::uint64_t>{0, 1, 2});
+  const std::vector<std::uint32_t> steps = {1, 1000};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::int32_t most = ((1 << 27) - 1) / static_cast<std::int32_t>(steps[i % 2]);
+    for (const std::int32_t sign : {1, -1}) {
+      std::vector<std::int32_t> values(6, 0);
+      values[i] = sign * most;
+      EXPECT_TRUE(raht_inverse(tree, steps, values, 1));
+      values.assign(6, 0);
+      values[i] = sign * (most + 1);
+      EXPECT_FALSE(raht_inverse(tree, steps, values, 1));
+    }
   }
 }
 

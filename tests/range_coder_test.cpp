@@ -4,7 +4,9 @@
 #include <random>
 
 #include "entropy/binarisation.h"
+#include "entropy/log_class.h"
 #include "entropy/logistic.h"
+#include "entropy/mixed_bit.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
 
@@ -142,6 +144,50 @@ TEST(Spec_8_3_4_Magnitude, AnEndlessPrefixIsRefusedNotFollowed) {
   RangeDecoder decoder(zeros);
   MagnitudeContexts contexts;
   EXPECT_EQ(code_magnitude(decoder, contexts, 255, 0), 0u);
+}
+
+TEST(Spec_8_3_4_ExpGolomb, RoundTripsFromOneToTheLargest) {
+  RangeEncoder encoder;
+  PrefixContexts written;
+  const std::vector<std::uint32_t> values = {1, 2, 3, 4, 7, 8, 1000, 1u << 27, (1u << 28) - 1};
+  for (const std::uint32_t v : values) EXPECT_EQ(code_exp_golomb(encoder, written, 255, v), v);
+  const auto bytes = encoder.finish();
+  RangeDecoder decoder(bytes);
+  PrefixContexts read;
+  for (const std::uint32_t v : values) EXPECT_EQ(code_exp_golomb(decoder, read, 255, 0), v);
+  EXPECT_TRUE(decoder.finish("test"));
+}
+
+TEST(Spec_8_3_5_MixedDecision, IsCodedByTheModelThatKnows) {
+  std::mt19937 random(6);
+  std::vector<std::array<std::uint32_t, 2>> contexts;
+  std::vector<unsigned> bits;
+  for (int i = 0; i < 4000; ++i) {
+    bits.push_back(random() % 2);
+    contexts.push_back({bits.back(), static_cast<std::uint32_t>(random() % 16)});  // truth, noise
+  }
+  RangeEncoder encoder;
+  MixedBit<2, 1> written({2, 16});
+  for (std::size_t i = 0; i < bits.size(); ++i) written.code(encoder, contexts[i], 0, bits[i]);
+  const auto bytes = encoder.finish();
+  EXPECT_LT(bytes.size(), 4000 / 8 / 20);
+  RangeDecoder decoder(bytes);
+  MixedBit<2, 1> read({2, 16});
+  for (std::size_t i = 0; i < bits.size(); ++i)
+    ASSERT_EQ(read.code(decoder, contexts[i], 0, 0), bits[i]);
+  EXPECT_TRUE(decoder.finish("test"));
+}
+
+TEST(Spec_8_3_6_Classes, AreFourAnOctaveAndAscending) {
+  const std::vector<std::uint32_t> first = {0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12};
+  for (std::uint32_t n = 0; n < first.size(); ++n) EXPECT_EQ(log_class(n, 47), first[n]) << n;
+  for (int bit = 3; bit < 64; ++bit) {
+    const std::uint64_t octave = std::uint64_t{1} << bit;
+    EXPECT_EQ(log_class(octave, 1000), log_class(octave - 1, 1000) + 1) << bit;
+    EXPECT_EQ(log_class(octave, 1000), log_class(octave >> 1, 1000) + 4) << bit;
+  }
+  EXPECT_EQ(log_class(~std::uint64_t{0}, 47), 47u);
+  EXPECT_EQ(log_class(3, 2), 2u);
 }
 
 }  // namespace

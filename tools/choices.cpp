@@ -78,11 +78,33 @@ void add_texture_options(CLI::App& verb, TextureSettings& settings) {
                         "Pictures without loss: what is lost is the rounding to samples"));
 }
 
+CLI::Option* add_predict_choice(CLI::App& verb, bool& choice) {
+  return add_choice<bool>(verb, "--predict", choice, {{"on", true}, {"off", false}},
+                          "Predict finer levels from coarser ones where that pays; paper: off");
+}
+
+CLI::Option* add_rdo(CLI::App& verb, double& strength) {
+  return verb
+      .add_option("--rdo", strength,
+                  "Quantise by distortion and rate, 0 to 1; 0: to the nearest (paper)")
+      ->capture_default_str()
+      ->check(range(0, 1));
+}
+
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice) {
   return add_choice<ColourTransform>(
       verb, "--colour", choice,
       {{"opponent", ColourTransform::kOpponent}, {"none", ColourTransform::kNone}},
       "Colour transform; paper: none");
+}
+
+CLI::Option* add_klt_choice(CLI::App& verb, TransformMode& choice) {
+  return add_choice<TransformMode>(
+      verb, "--klt", choice,
+      {{"off", TransformMode::kNone},
+       {"functions", TransformMode::kFunctions},
+       {"joint", TransformMode::kJoint}},
+      "Code what is not correlated: over functions, and channels; or over all planes jointly");
 }
 
 CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice) {

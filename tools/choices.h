@@ -13,6 +13,10 @@ CLI::Option* add_geometry_choice(CLI::App& verb, GeometryCoder& choice);
 CLI::Option* add_coefficients_choice(CLI::App& verb, CoefficientCoder& choice);
 /// --texture-bits, --texture-qp, --texture-mode, --texture-preset and --texture-lossless.
 void add_texture_options(CLI::App& verb, TextureSettings& settings);
+/// --predict on|off.
+CLI::Option* add_predict_choice(CLI::App& verb, bool& choice);
+CLI::Option* add_rdo(CLI::App& verb, double& strength);
+CLI::Option* add_klt_choice(CLI::App& verb, TransformMode& choice);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
 CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
 CLI::Option* add_basis_choice(CLI::App& verb, BasisId& choice);

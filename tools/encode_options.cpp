@@ -60,7 +60,8 @@ void add_observe_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings
       ->group("Observation (paper III-A)");
 }
 
-void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const HierarchySettings& s) {
+void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const FitSettings& fit) {
+  const HierarchySettings& s = fit.hierarchy;
   const auto group = [](CLI::Option* option) {
     return option->group("Hierarchical fit (--fit hierarchical)");
   };
@@ -82,6 +83,12 @@ void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const HierarchySett
             "Pull of a point towards its block", range(1e-6, 1e9)));
   group(add(verb, "--point-growth", o.point_growth, s.point_growth, "Growth of its penalties",
             range(1, 10)));
+  group(add(verb, "--environment-degree", o.environment_degree, fit.environment.degree,
+            "Degree of the light about the object that its surface reflects; 0: none",
+            whole_range(0, 16)));
+  group(add(verb, "--environment-radius", o.environment_radius, fit.environment.radius,
+            "Where that light is, in halves of the object's longest side; 0: by cross-validation",
+            range(0, 1e6)));
 }
 
 void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
@@ -113,7 +120,7 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
                    ->excludes(penalise);
   fit(penalise);
   fit(free);
-  add_hierarchy_options(verb, o, s.hierarchy);
+  add_hierarchy_options(verb, o, s);
 }
 
 CLI::Option* coding(CLI::Option* option) { return option->group("Coding"); }
@@ -155,7 +162,14 @@ void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings&
   coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
     o.coefficients_given = true;
   }));
+  coding(add_klt_choice(verb, o.klt));
+  coding(add(verb, "--chroma-step", o.chroma_step, initial.chroma_step,
+             "Steps of the second and third channel, over those of the first", range(0.1, 10)));
   add_texture_options(verb, o.texture);
+  coding(add_predict_choice(verb, o.predict)->each([&o](const std::string&) {
+    o.predict_given = true;
+  }));
+  coding(o.rdo_option = add_rdo(verb, o.rdo));
   coding(add(verb, "--normal-bits", o.normal_bits, initial.normal_bits,
              "Code normals with 4 to 12 bits per coordinate; 0: not", whole_range(0, 12)));
   coding(add(verb, "--slice-points", o.slice_points, initial.max_slice_points,
@@ -185,6 +199,8 @@ void resolve_fit(const EncodeOptions& given, FitSettings& fit) {
   replace(fit.hierarchy.growth, given.block_growth);
   replace(fit.hierarchy.point_penalty, given.point_penalty);
   replace(fit.hierarchy.point_growth, given.point_growth);
+  replace(fit.environment.degree, given.environment_degree);
+  replace(fit.environment.radius, given.environment_radius);
 }
 
 Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
@@ -261,6 +277,10 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   if (given.geometry_given) s.geometry = given.geometry;
   if (given.coefficients_given) s.coefficients = given.coefficients;
   s.texture = given.texture;
+  if (given.predict_given) s.predict = given.predict;
+  if (given.rdo_option != nullptr && given.rdo_option->count() > 0) s.rdo = given.rdo;
+  s.transform = given.klt;
+  replace(s.chroma_step, given.chroma_step);
   SLF_CHECK(resolve_metadata(given, s.metadata));
   s.threads = given.common.threads;
   return s;

@@ -17,8 +17,8 @@ struct EncodeOptions {
   std::string capture, output, points, split;
   Preset preset = Preset::kDefault;
   std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
-  std::optional<int> degree, block_log2;
-  std::optional<double> block_strength, block_growth, point_penalty, point_growth;
+  std::optional<int> degree, block_log2, environment_degree;
+  std::optional<double> block_strength, block_growth, point_penalty, point_growth, environment_radius;
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
   std::optional<double> target_psnr;
   std::optional<std::uint64_t> target_bytes;
@@ -30,11 +30,16 @@ struct EncodeOptions {
   FitMethod fit = FitMethod::kPaper;
   BasisId basis = BasisId::kBspline;
   FrameId frame = FrameId::kGlobal;
+  TransformMode klt = TransformMode::kNone;
+  std::optional<double> chroma_step;
   bool colour_given = false, geometry_given = false, coefficients_given = false, up_given = false;
   ColourTransform colour = ColourTransform::kOpponent;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   TextureSettings texture;
+  bool predict_given = false, predict = EncoderSettings{}.predict;
+  double rdo = EncoderSettings{}.rdo;
+  CLI::Option* rdo_option = nullptr;
   UpAxis up = UpAxis::kPlusZ;
   std::vector<std::string> metadata;  ///< key=value
   CommonOptions common;

@@ -25,8 +25,20 @@ nlohmann::ordered_json units_json(const StreamInfo& info) {
     if (unit.slice >= 0) entry["slice"] = unit.slice;
     if (unit.group >= 0) entry["group"] = unit.group;
     if (unit.level_first >= 0) entry["levels"] = {unit.level_first, unit.level_last};
+    if (!unit.prediction.empty()) entry["prediction"] = unit.prediction;
     list.push_back(std::move(entry));
   }
+  return list;
+}
+
+nlohmann::ordered_json transforms_json(const StreamInfo& info) {
+  auto list = nlohmann::ordered_json::array();
+  for (const TransformInfo& t : info.transforms)
+    list.push_back({{"groups", {t.first_group, t.last_group}},
+                    {"functions", t.functions},
+                    {"coded_functions", t.coded_functions},
+                    {"joint", t.joint},
+                    {"colour", t.colour}});
   return list;
 }
 
@@ -46,6 +58,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes) {
   json["groups"] = info.num_groups;
   json["group"] = info.group;
   json["step"] = info.step;
+  json["transforms"] = transforms_json(info);
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["units"] = units_json(info);
   json["metadata"] = metadata_json(info.metadata);
@@ -60,6 +73,8 @@ std::string units_text(const StreamInfo& info) {
     if (unit.slice >= 0) out += text("  slice %d", unit.slice);
     if (unit.group >= 0) out += text("  group %d", unit.group);
     if (unit.level_first >= 0) out += text("  levels %d to %d", unit.level_first, unit.level_last);
+    for (std::size_t i = 0; i < unit.prediction.size(); ++i)
+      out += text(i == 0 ? "  prediction %d" : " %d", unit.prediction[i]);
     out += '\n';
   }
   return out;
@@ -103,6 +118,12 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
   out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";
   out += info.texture_bits > 0 ? text(" of %d bits\n", info.texture_bits) : "\n";
   if (info.header.num_functions > 0) out += groups_text(info);
+  for (const TransformInfo& t : info.transforms)
+    out += text("  transform     groups %d to %d, %d of %d functions coded, %s\n", t.first_group,
+                t.last_group, t.coded_functions, t.functions,
+                t.joint    ? "joint"
+                : t.colour ? "with channels"
+                           : "channels alike");
   out += "\n" + bytes_by_type_text(info, bytes);
   if (units) out += units_text(info);
   if (!info.metadata.empty()) out += "\nmetadata\n";

@@ -24,7 +24,10 @@ struct PackOptions {
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   TextureSettings texture;
+  TransformMode klt = TransformMode::kNone;
   std::vector<int> levels;
+  bool predict = CodingParameters{}.predict;
+  double rdo = CodingParameters{}.rdo;
   bool index = false, no_index = false, no_digest = false;
   CommonOptions common;
 };
@@ -129,6 +132,9 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   parameters.geometry = given.geometry;
   parameters.coefficients = given.coefficients;
   parameters.texture = given.texture;
+  parameters.predict = given.predict;
+  parameters.rdo = given.rdo;
+  parameters.transform = given.klt;
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
   if (given.coefficients != CoefficientCoder::kTexture)
@@ -217,7 +223,10 @@ void add_pack(CLI::App& program, Run& run) {
       ->type_name("FILE");
   add_geometry_choice(*verb, o->geometry);
   add_coefficients_choice(*verb, o->coefficients);
+  add_klt_choice(*verb, o->klt);
   add_texture_options(*verb, o->texture);
+  add_predict_choice(*verb, o->predict);
+  add_rdo(*verb, o->rdo);
   verb->add_option(
           "--levels", o->levels,
           "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")

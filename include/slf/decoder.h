@@ -46,6 +46,15 @@ struct UnitInfo {
   std::uint64_t offset = 0;  ///< of its first byte in the stream
   std::uint64_t bytes = 0;   ///< with its header and CRC
   int slice = -1, group = -1, level_first = -1, level_last = -1;  ///< -1: does not apply
+  std::vector<int> prediction;  ///< coefficients: of each level, 0 .. 3; empty: the stream has none
+};
+
+/// A transform across planes (spec 8.7.5).
+struct TransformInfo {
+  int first_group = 0, last_group = 0;
+  int functions = 0, coded_functions = 0;  ///< in whose planes components stand
+  bool joint = false;                      ///< over channels and functions at once
+  bool colour = false;                     ///< else: has a matrix of its own for the channels
 };
 
 struct StreamInfo {
@@ -56,7 +65,8 @@ struct StreamInfo {
   int num_groups = 0;
   std::vector<int> group;  ///< [K]
   std::vector<std::array<std::uint32_t, 3>>
-      step;                       ///< [K][3] quantiser steps, integer component units
+      step;  ///< [K][3] quantiser steps, integer component units
+  std::vector<TransformInfo> transforms;
   std::string geometry_coder;     ///< "octree" or "draco"
   std::string coefficient_coder;  ///< "vector", "independent" or "texture"
   int texture_bits = 0;           ///< of a sample; 0: no texture

@@ -22,6 +22,13 @@ enum class CoefficientCoder : std::uint8_t {
   kTexture = 2,      ///< each plane a picture, coded by HEVC: the paper's second way. Spec 8.11
 };
 
+/// Transforms across planes, derived from the components (Karhunen-Loeve) and coded. Spec 8.7.5.
+enum class TransformMode : std::uint8_t {
+  kNone,
+  kFunctions,  ///< one matrix over functions for all channels, and one over channels
+  kJoint,      ///< one matrix over all planes: for many planes, whose matrix is a small share
+};
+
 /// How planes become pictures. Needs x265 (SLF_X265), and libde265 for digests.
 struct TextureSettings {
   enum Mode : std::uint8_t {
@@ -35,18 +42,24 @@ struct TextureSettings {
   bool lossless = false;             ///< the pictures, not the rounding to samples; qp is not used
 };
 
-/// How given integers become bytes. Same integers and parameters give the same bytes everywhere.
+/// How given integers become bytes. Same integers and parameters give the same bytes everywhere;
+/// with a transform, which is found in floating point, from one binary.
 struct CodingParameters {
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   std::vector<int> group;  ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
   std::vector<std::array<std::uint32_t, 3>>
       step;  ///< [K][3] >= 1, integer component units; empty: all 1. With kTexture that of a sample
+  /// Not with kTexture. What a transform codes has the steps of its first function: function 0, or
+  /// the first outside group 0
+  TransformMode transform = TransformMode::kNone;
   std::vector<int>
       coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
                                ///< the last is the grid's bits. Empty: one unit per group
   std::vector<int> geometry_level_ends;  ///< the same for geometry units
-  TextureSettings texture;               ///< where coefficients is kTexture
+  bool predict = true;      ///< coarser levels predict finer ones where that pays. Spec 8.7.6
+  double rdo = 0;           ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
+  TextureSettings texture;  ///< where coefficients is kTexture
   std::uint32_t max_slice_points = 1u << 20;
   bool digest = true;
   bool index = true;
@@ -75,9 +88,13 @@ struct EncoderSettings {
   double target_psnr = 0;          ///< > 0: point PSNR of the input images, dB, in place of q
   bool steps_by_norm = true;       ///< step_k = Q / (2 ||b_k||); false: Q for every plane
   ColourTransform colour = ColourTransform::kOpponent;
+  TransformMode transform = TransformMode::kNone;  ///< not with kTexture
+  double chroma_step = 1;  ///< 0.1 .. 10: channels 1 and 2 have steps this much larger
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   TextureSettings texture;  ///< where coefficients is kTexture: its qp takes the place of q
+  bool predict = true;      ///< CodingParameters
+  double rdo = 0;           ///< CodingParameters
   int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
   std::uint32_t max_slice_points = 1u << 20;
   Metadata metadata;  ///< added to what the encoder itself records

@@ -64,8 +64,18 @@ struct HierarchySettings {
   int block_log2 = 3;         ///< side of the finest blocks in voxels, 0 .. 21
   double strength = 0.3;      ///< > 0: pull of a block towards the one above, per observation
   double growth = 1.3;        ///< >= 1: of its penalties, 0.8 growth^fineness
-  double point_penalty = 4;   ///< > 0: pull of a point towards its block
+  double point_penalty = 12;  ///< > 0: pull of a point towards its block
   double point_growth = 1.5;  ///< >= 1: of its penalties
+};
+
+/// What the object reflects, of the hierarchical fit: light on a sphere about it, one for all
+/// points, taken before the blocks take the rest. It tells what cameras between those of the
+/// capture see.
+struct EnvironmentSettings {
+  int degree = 16;         ///< of the harmonics of the light, 1 .. 16; 0: no environment
+  double radius = 0;       ///< of the sphere, 2 or more halves of the object's longest side; 0: the
+                           ///< best on held-out input cameras, or none if none is better
+  double strength = 0.01;  ///< > 0: pull towards no light, per observation
 };
 
 struct FitSettings {
@@ -78,6 +88,7 @@ struct FitSettings {
   int neighbours = 8;           ///< k nearest points, 1 .. 64, ties by Morton order, self excluded
   bool penalise_dc = false;     ///< the paper: true. false leaves function 0 out of λ and β
   HierarchySettings hierarchy;  ///< kHierarchical
+  EnvironmentSettings environment;  ///< kHierarchical
   int threads = 0;
 };
 

@@ -1,0 +1,300 @@
+#include "attributes/coefficient_quantiser.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "attributes/level_prediction.h"
+#include "attributes/quantiser.h"
+#include "attributes/raht_arithmetic.h"
+#include "attributes/rate_model.h"
+#include "attributes/row_quantiser.h"
+#include "bitstream/multiversion.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kLanes = kPredictionLanes;
+
+/// Spec 8.8.1 of one row pair.
+SLF_MULTIVERSION
+void inverse_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
+                  std::size_t lanes) {
+  for (std::size_t j = 0; j < lanes; ++j) {
+    const std::int32_t a = low[j], b = high[j];
+    low[j] = round_q30(std::int64_t{m.cos_q30} * a - std::int64_t{m.sin_q30} * b);
+    high[j] = round_q30(std::int64_t{m.sin_q30} * a + std::int64_t{m.cos_q30} * b);
+  }
+}
+
+SLF_MULTIVERSION
+void forward_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
+                  std::size_t lanes) {
+  for (std::size_t j = 0; j < lanes; ++j) {
+    const std::int32_t a = low[j], b = high[j];
+    low[j] = round_q30(std::int64_t{m.cos_q30} * a + std::int64_t{m.sin_q30} * b);
+    high[j] = round_q30(std::int64_t{m.cos_q30} * b - std::int64_t{m.sin_q30} * a);
+  }
+}
+
+/// How often each small magnitude came in a plane, and the squared error.
+struct Histogram {
+  std::array<std::uint32_t, 17> count{};
+  std::uint64_t long_bits_q8 = 0, distortion_q12 = 0;
+
+  void add(std::uint32_t error, std::uint32_t magnitude, std::uint32_t step) {
+    ++count[std::min(magnitude, 16u)];
+    if (magnitude >= 16) long_bits_q8 += 2 * log2_q8(magnitude - 15) + 256;
+    const std::uint64_t e = std::min<std::uint64_t>(std::uint64_t{64} * error / step, 1u << 20);
+    distortion_q12 += e * e;
+  }
+  /// Bits by the plane's own statistics, and distortion at 0.15 squared steps a bit; 256ths.
+  std::uint64_t cost_q8() const {
+    std::uint64_t total = 0, bits = long_bits_q8;
+    for (const std::uint32_t n : count) total += n;
+    for (std::size_t i = 0; i < count.size(); ++i)
+      if (count[i] > 0)
+        bits += count[i] * std::uint64_t{log2_q8(total) - log2_q8(count[i])} +
+                (i > 0 ? count[i] * 256u : 0u);
+    return bits + distortion_q12 * 20 / (3 * 16);
+  }
+};
+
+class LevelQuantiser {
+ public:
+  LevelQuantiser(const QuantiserInput& input, std::span<std::int32_t> coefficients,
+                 std::span<std::int32_t> values, int threads)
+      : input_(input),
+        coefficients_(coefficients),
+        values_(values),
+        planes_(input.steps.size()),
+        threads_(threads),
+        levels_(input.morton, input.depth, 0) {
+    for (const auto& functions : input.coded)
+      rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
+    own_step_.assign(input.steps.begin(), input.steps.end());
+    for (const ForwardTransform& transform : input.transforms) {
+      finders_.emplace_back(transform, input.steps);
+      for (const std::size_t j : planes_of(transform.inverse.functions)) own_step_[j] = 1;
+    }
+    code_whole_row(0);
+  }
+
+  bool fits() const { return fits_; }
+
+  /// Chosen modes of the groups on the next level, which is coded with them.
+  std::vector<std::uint8_t> next_level() {
+    level_ = &levels_.next();
+    merges_ = std::span(input_.tree.merges)
+                  .subspan(level_->nodes.size() - 1,
+                           level_->child_rows.size() - 1 - level_->nodes.size());
+    if (input_.predict) {
+      means_.resize(level_->means.size() * planes_);
+      level_means(*level_, {values_.data(), planes_}, {means_.data(), planes_}, planes_);
+    }
+    const std::vector<std::uint8_t> modes =
+        input_.predict && level_->nodes.size() > 1
+            ? choose_modes()
+            : std::vector<std::uint8_t>(input_.groups.size(), 0);
+    std::vector<std::uint8_t> of_plane(planes_);
+    for (std::size_t g = 0; g < modes.size(); ++g)
+      for (const std::size_t j : planes_of(input_.groups[g])) of_plane[j] = modes[g];
+    if (!needs_whole_rows()) {
+      parallel_ranges(planes_, kLanes, threads_, [&](std::size_t begin, std::size_t end) {
+        code(begin, end, of_plane, nullptr);
+      });
+    } else {
+      code(0, planes_, of_plane, nullptr);
+    }
+    return modes;
+  }
+
+ private:
+  using Plans = std::array<NodePrediction, kPredictionModes - 1>;  // of mode 1 and up
+
+  std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
+    return quantised * static_cast<std::int32_t>(input_.steps[plane]);
+  }
+
+  bool needs_whole_rows() const { return input_.rdo > 0 || !finders_.empty(); }
+
+  /// Coefficients of all planes of a row to quantised ones, and what a decoder makes of them.
+  void code_whole_row(std::uint32_t row) {
+    std::int32_t* coefficients = coefficients_.data() + row * planes_;
+    std::int32_t* values = values_.data() + row * planes_;
+    for (ComponentFinder& finder : finders_) finder.find(coefficients);
+    const std::uint32_t parent = input_.tree.parent[row];
+    for (RowQuantiser& group : rows_)
+      group.quantise_row(coefficients, row,
+                         parent != 0 ? coefficients_.data() + parent * planes_ : nullptr, parent);
+    for (std::size_t j = 0; j < planes_; ++j)
+      values[j] = coefficients[j] * static_cast<std::int32_t>(own_step_[j]);
+    for (const ForwardTransform& transform : input_.transforms)
+      fits_ = expand_row(transform.inverse, input_.steps, values, sums_) && fits_;
+  }
+
+  /// Tries every mode on all planes; a group takes the one that its planes together like best.
+  std::vector<std::uint8_t> choose_modes() {
+    std::vector<std::int32_t> parents(level_->nodes.size() * planes_);
+    for (std::size_t n = 0; n < level_->nodes.size(); ++n)
+      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[n] * planes_), planes_,
+                  parents.begin() + static_cast<std::ptrdiff_t>(n * planes_));
+    std::array<std::vector<Histogram>, kPredictionModes> tried;
+    for (std::uint8_t mode = 0; mode < kPredictionModes; ++mode) {
+      tried[mode].resize(planes_);
+      const std::vector<std::uint8_t> same(planes_, mode);
+      parallel_ranges(planes_, kLanes, threads_, [&](std::size_t begin, std::size_t end) {
+        code(begin, end, same, tried[mode].data());
+        for (std::size_t n = 0; n < level_->nodes.size(); ++n)
+          std::copy_n(
+              parents.begin() + static_cast<std::ptrdiff_t>(n * planes_ + begin), end - begin,
+              values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[n] * planes_ + begin));
+      });
+    }
+    std::vector<std::uint8_t> modes;
+    for (const auto& functions : input_.groups) {
+      std::array<std::uint64_t, kPredictionModes> cost{};
+      for (std::size_t mode = 0; mode < kPredictionModes; ++mode)
+        for (const std::size_t j : planes_of(functions)) cost[mode] += tried[mode][j].cost_q8();
+      cost[0] -= cost[0] / 256;  // a tie costs the decoder nothing
+      modes.push_back(
+          static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin()));
+    }
+    return modes;
+  }
+
+  /// Codes planes begin .. end - 1 of the level, or tries to: then coefficients stay as they are.
+  void code(std::size_t begin, std::size_t end, const std::vector<std::uint8_t>& modes,
+            Histogram* tried) {
+    Plans plans;
+    const NodePrediction& plan = plans[0];  // any has the rows
+    const auto used = [&](std::uint8_t mode) {
+      return mode == kWide || std::find(modes.begin(), modes.end(), mode) != modes.end();
+    };
+    const std::size_t lanes = end - begin;
+    std::vector<std::int32_t> transformed(8 * lanes);  // predicted coefficients
+    std::vector<Corrections> corrections((lanes + kLanes - 1) / kLanes);
+    for (std::size_t n = 0, merge = 0; n < level_->nodes.size(); ++n) {
+      if (!level_->branches(n)) continue;
+      for (std::uint8_t mode = kWide; mode < kPredictionModes; ++mode)
+        if (used(mode)) plan_node(*level_, n, mode, plans[mode - 1u]);
+      const std::span<const Merge> own = merges_.subspan(merge, plan.children - 1);
+      merge += own.size();
+      const bool predicted = predict(plans, begin, end, modes, corrections);
+      if (predicted) transform(plan, own, corrections, lanes, transformed);
+      for (const Merge& m : own) {
+        const std::size_t child = child_of(plan, m.right);
+        code_row(m.right, begin, lanes, predicted ? &transformed[child * lanes] : nullptr, tried);
+      }
+      for (const Merge& m : own)
+        inverse_rows(m, values_.data() + m.left * planes_ + begin,
+                     values_.data() + m.right * planes_ + begin, lanes);
+      if (predicted)
+        for (std::size_t j = 0; j < lanes; j += kLanes)
+          add_corrections(plan, corrections[j / kLanes], {values_.data() + begin + j, planes_},
+                          std::min(kLanes, lanes - j));
+    }
+  }
+
+  static std::size_t child_of(const NodePrediction& plan, std::uint32_t row) {
+    std::size_t i = 0;
+    while (plan.child[i].row != row) ++i;
+    return i;
+  }
+
+  /// False: no plane is predicted.
+  bool predict(const Plans& plans, std::size_t begin, std::size_t end,
+               const std::vector<std::uint8_t>& modes, std::vector<Corrections>& corrections) {
+    bool any = false;
+    for (std::size_t j = begin; j < end; ++j) any |= modes[j] != 0;
+    if (!any) return false;
+    for (auto& block : corrections)
+      for (auto& child : block) child.fill(0);
+    for (std::size_t block = 0; block < corrections.size(); ++block) {
+      const std::size_t block_end = std::min(end, begin + (block + 1) * kLanes);
+      std::size_t j = begin + block * kLanes;
+      while (j < block_end) {  // lanes of one mode
+        const std::size_t first = j;
+        while (j < block_end && modes[j] == modes[first]) ++j;
+        if (modes[first] == 0) continue;
+        Corrections some;
+        const NodePrediction& plan = plans[modes[first] - 1u];
+        predict_children(plan, {values_.data() + first, planes_}, {means_.data() + first, planes_},
+                         j - first, some);
+        for (std::size_t i = 0; i < plan.children; ++i)
+          std::copy_n(some[i].begin(), j - first,
+                      corrections[block][i].begin() +
+                          static_cast<std::ptrdiff_t>(first - begin - block * kLanes));
+      }
+    }
+    return true;
+  }
+
+  void transform(const NodePrediction& plan, std::span<const Merge> own,
+                 const std::vector<Corrections>& corrections, std::size_t lanes,
+                 std::vector<std::int32_t>& transformed) const {
+    for (std::size_t i = 0; i < plan.children; ++i)
+      for (std::size_t j = 0; j < lanes; ++j)
+        transformed[i * lanes + j] = corrections[j / kLanes][i][j % kLanes];
+    for (std::size_t m = own.size(); m-- > 0;)
+      forward_rows(own[m], &transformed[child_of(plan, own[m].left) * lanes],
+                   &transformed[child_of(plan, own[m].right) * lanes], lanes);
+  }
+
+  void code_row(std::uint32_t row, std::size_t begin, std::size_t lanes,
+                const std::int32_t* predicted, Histogram* tried) {
+    std::int32_t* coefficient = coefficients_.data() + row * planes_ + begin;
+    std::int32_t* value = values_.data() + row * planes_ + begin;
+    if (tried != nullptr) {
+      for (std::size_t j = 0; j < lanes; ++j) {
+        const std::int32_t residual = coefficient[j] - (predicted != nullptr ? predicted[j] : 0);
+        const std::uint32_t step = input_.steps[begin + j];
+        const std::int32_t quantised = quantise(residual, step);
+        value[j] = dequantised(begin + j, quantised);
+        tried[begin + j].add(static_cast<std::uint32_t>(std::abs(residual - value[j])),
+                             static_cast<std::uint32_t>(std::abs(quantised)), step);
+      }
+      return;
+    }
+    if (predicted != nullptr)
+      for (std::size_t j = 0; j < lanes; ++j) coefficient[j] -= predicted[j];
+    if (needs_whole_rows()) return code_whole_row(row);
+    for (std::size_t j = 0; j < lanes; ++j) {
+      coefficient[j] = quantise(coefficient[j], input_.steps[begin + j]);
+      value[j] = dequantised(begin + j, coefficient[j]);
+    }
+  }
+
+  const QuantiserInput& input_;
+  std::span<std::int32_t> coefficients_, values_;
+  std::size_t planes_;
+  int threads_;
+  TransformLevels levels_;
+  const TransformLevel* level_ = nullptr;
+  std::span<const Merge> merges_;
+  std::vector<RowQuantiser> rows_;
+  std::vector<ComponentFinder> finders_;
+  std::vector<std::uint32_t> own_step_;  // [planes] 1 where a transform dequantises
+  std::vector<std::int32_t> means_;
+  std::vector<std::int64_t> sums_;
+  bool fits_ = true;
+};
+
+}  // namespace
+
+Quantised quantise_coefficients(const QuantiserInput& input, std::span<std::int32_t> coefficients,
+                                int threads) {
+  Quantised out;
+  out.values.resize(coefficients.size());
+  out.modes.resize(input.groups.size());
+  LevelQuantiser quantiser(input, coefficients, out.values, threads);
+  for (int level = 0; level < input.depth; ++level) {
+    const auto modes = quantiser.next_level();
+    for (std::size_t g = 0; g < modes.size(); ++g) out.modes[g].push_back(modes[g]);
+  }
+  out.fits = quantiser.fits();
+  return out;
+}
+
+}  // namespace slf

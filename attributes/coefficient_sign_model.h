@@ -1,0 +1,61 @@
+// The sign of a value of a vector, predicted from the signs around it: an edge that runs on gives
+// neighbouring differences the same sign, and the colours of a picture change together. Written
+// once for decoder and encoder. Spec 8.7.2.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "entropy/mixed_bit.h"
+
+namespace slf {
+
+/// Values of one function in the rows around, channel by channel; all three exist.
+struct SignEvidence {
+  const std::int16_t* own;  ///< earlier channels of the value itself
+  const std::int16_t* parent;
+  const std::int16_t* grandparent;
+  const std::int16_t* same_axis;  ///< the nearest above whose split is along the same axis
+  std::array<const std::int16_t*, 3> faces;
+  const std::int16_t* previous;
+  std::uint32_t axis;     ///< 0 .. 2
+  std::uint32_t channel;  ///< 0 .. 2
+};
+
+class CoefficientSignModel {
+ public:
+  /// Codes a sign, true for negative.
+  template <class Coder>
+  bool code(Coder& coder, const SignEvidence& e, bool negative) {
+    const std::uint32_t c = e.channel;
+    const std::uint32_t own0 = c > 0 ? sign(e.own[0]) : 0, own1 = c > 1 ? sign(e.own[1]) : 0;
+    const std::uint32_t place = e.axis * 3 + c;
+    const std::array<std::uint32_t, 4> contexts = {
+        ((own0 * 3 + product(e.parent, 0, c)) * 3 + product(e.grandparent, 0, c)) * 9 +
+            product(e.previous, 0, c) * 3 + c,
+        ((sign(e.faces[0][c]) * 3 + sign(e.faces[1][c])) * 3 + sign(e.faces[2][c])) * 9 + place,
+        (((own0 * 3 + own1) * 3 + product(e.parent, 0, c)) * 3 + product(e.parent, 1, c)) * 9 +
+            product(e.previous, 1, c) * 3 + c,
+        (((strong_sign(e.same_axis[c]) * 5 + strong_sign(e.parent[c])) * 5 +
+          strong_sign(e.previous[c])) *
+             3 +
+         own0) * 9 +
+            place};
+    return negative_.code(coder, contexts, c * 3 + own0, negative) != 0;
+  }
+
+ private:
+  static std::uint32_t sign(std::int32_t value) { return value > 0 ? 1 : value < 0 ? 2 : 0; }
+  static std::uint32_t strong_sign(std::int32_t value) {
+    return sign(value) + (value > 1 || value < -1 ? 2 : 0);
+  }
+  /// Of an earlier channel and channel c: 1 alike, 2 opposite, 0 where one is 0 or not earlier.
+  static std::uint32_t product(const std::int16_t* values, std::uint32_t earlier, std::uint32_t c) {
+    if (earlier >= c || values[earlier] == 0 || values[c] == 0) return 0;
+    return (values[earlier] > 0) == (values[c] > 0) ? 1 : 2;
+  }
+
+  MixedBit<4, 9> negative_{{243, 243, 729, 125 * 27}};
+};
+
+}  // namespace slf

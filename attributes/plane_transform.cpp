@@ -1,0 +1,104 @@
+#include "attributes/plane_transform.h"
+
+#include <atomic>
+
+#include "attributes/quantiser.h"
+#include "bitstream/multiversion.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kRowGrain = 1024;
+
+/// sums[i] += component * column[i]. |component| < 2^27, |column[i]| <= 2^20, fewer than 2^12
+/// columns of as many rows (their product is at most 2^20): below 2^59.
+SLF_MULTIVERSION
+void add_column(const std::int32_t* column, std::int32_t component, std::int64_t* sums,
+                std::size_t rows) {
+  for (std::size_t i = 0; i < rows; ++i) sums[i] += std::int64_t{column[i]} * component;
+}
+
+/// False where a component reaches 2^27.
+bool dequantise_components(const PlaneTransform& t, std::span<const std::uint32_t> steps,
+                           std::int32_t* row) {
+  bool fits = true;
+  for (std::size_t c = 0; c < t.columns(); ++c)
+    for (std::size_t j = t.plane(c); j < t.plane(c) + t.lanes; ++j) {
+      if (row[j] == 0) continue;
+      const std::int64_t product = std::int64_t{row[j]} * steps[j];
+      const bool good = product < kCoefficientLimit && product > -kCoefficientLimit;
+      row[j] = static_cast<std::int32_t>(good ? product : 0);
+      fits = fits && good;
+    }
+  return fits;
+}
+
+/// The channels of the components of a row. False where a value is out of range.
+bool mix_channels(const PlaneTransform& t, std::int32_t* row) {
+  bool fits = true;
+  for (std::size_t c = 0; c < t.columns(); ++c) {
+    std::int32_t* v = row + t.plane(c);
+    if ((v[0] | v[1] | v[2]) == 0) continue;
+    std::array<std::int64_t, 3> mixed{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& m = t.colour[i];
+      mixed[i] = (std::int64_t{m[0]} * v[0] + std::int64_t{m[1]} * v[1] +
+                  std::int64_t{m[2]} * v[2] + (1 << (PlaneTransform::kColourBits - 1))) >>
+                 PlaneTransform::kColourBits;
+      fits = fits && mixed[i] < kCoefficientLimit && mixed[i] > -kCoefficientLimit;
+    }
+    for (std::size_t i = 0; i < 3; ++i) v[i] = static_cast<std::int32_t>(fits ? mixed[i] : 0);
+  }
+  return fits;
+}
+
+/// One row, one lane. False where a value is out of range.
+bool expand_lane(const PlaneTransform& t, std::int32_t* row, std::size_t lane,
+                 std::vector<std::int64_t>& sums) {
+  const std::size_t rows = t.rows();
+  bool any = false;
+  for (std::size_t c = 0; c < t.columns(); ++c) {
+    const std::int32_t component = row[t.plane(c) + lane];
+    if (component == 0) continue;
+    if (!any) sums.assign(rows, 1 << (PlaneTransform::kFractionBits - 1));
+    any = true;
+    add_column(&t.matrix[c * rows], component, sums.data(), rows);
+  }
+  if (!any) return true;
+  bool fits = true;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::int64_t value = sums[i] >> PlaneTransform::kFractionBits;
+    fits = fits && value < kCoefficientLimit && value > -kCoefficientLimit;
+    row[t.plane(i) + lane] = static_cast<std::int32_t>(fits ? value : 0);
+  }
+  return fits;
+}
+
+}  // namespace
+
+bool expand_row(const PlaneTransform& t, std::span<const std::uint32_t> steps, std::int32_t* row,
+                std::vector<std::int64_t>& sums) {
+  bool fits = dequantise_components(t, steps, row);
+  if (t.lanes == 3 && t.colour != PlaneTransform::kNoColour) fits = mix_channels(t, row) && fits;
+  for (std::size_t lane = 0; lane < t.lanes; ++lane) fits = expand_lane(t, row, lane, sums) && fits;
+  return fits;
+}
+
+Result<Done> expand_components(const PlaneTransform& transform,
+                               std::span<const std::uint32_t> steps, std::span<std::int32_t> values,
+                               int threads) {
+  std::atomic<bool> fits{true};
+  const std::size_t planes = steps.size();
+  parallel_ranges(values.size() / planes, kRowGrain, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<std::int64_t> sums;
+                    for (std::size_t row = begin; row < end; ++row)
+                      if (!expand_row(transform, steps, values.data() + row * planes, sums))
+                        fits = false;
+                  });
+  if (!fits) return Error{Errc::kOutOfRange, "cu_magnitude", 0};
+  return Done{};
+}
+
+}  // namespace slf

@@ -1,0 +1,94 @@
+#include "attributes/transform_levels.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "geometry/morton.h"
+
+namespace slf {
+
+TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped)
+    : depth_(depth), dropped_(std::min(dropped, depth)) {
+  std::array<std::int64_t, 3> sum{};
+  for (std::size_t p = 0; p < morton.size(); ++p) {
+    const std::uint64_t code = morton[p] >> (3 * dropped_);
+    if (codes_.empty() || code != codes_.back()) {
+      codes_.push_back(code);
+      first_.push_back(static_cast<std::uint32_t>(p));
+      sums_.push_back(sum);
+    }
+    const Voxel v = from_morton(morton[p]);
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += v[a];
+  }
+  first_.push_back(static_cast<std::uint32_t>(morton.size()));
+  sums_.push_back(sum);
+  rows_.resize(static_cast<std::size_t>(count()) + 1);
+  for (std::size_t row = 0; row < codes_.size(); ++row) {
+    const int differs =
+        row == 0 ? 0 : static_cast<int>(std::bit_width(codes_[row] ^ codes_[row - 1]));
+    const int level = row == 0 ? 0 : count() - (differs - 1) / 3;  // its first as a node of its own
+    for (auto l = static_cast<std::size_t>(level); l < rows_.size(); ++l)
+      rows_[l].push_back(static_cast<std::uint32_t>(row));
+  }
+  for (auto& rows : rows_) rows.push_back(static_cast<std::uint32_t>(codes_.size()));
+}
+
+const TransformLevel& TransformLevels::next() {
+  ++level_;
+  if (level_ == 0) {
+    current_.nodes = octree_root();
+    current_.rows = std::move(rows_[0]);
+  } else {
+    current_.nodes = octree_children(current_.nodes, true);
+    current_.rows = std::move(current_.child_rows);
+  }
+  current_.child_rows = std::move(rows_[static_cast<std::size_t>(level_) + 1]);
+  current_.places = places_of(current_.rows);
+  current_.child_places = places_of(current_.child_rows);
+  OctreeLevel& nodes = current_.nodes;
+  const int below = 3 * (count() - level_ - 1);
+  std::uint32_t child = 0;
+  nodes.first_child.resize(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes.first_child[n] = child;
+    for (; current_.child_rows[child] < current_.rows[n + 1]; ++child)
+      nodes.occupancy[n] = static_cast<std::uint8_t>(
+          nodes.occupancy[n] | 1u << (codes_[current_.child_rows[child]] >> below & 7));
+  }
+  mark_means();
+  return current_;
+}
+
+/// Branching nodes and their neighbours: fewer than 27 per merge, however deep the tree.
+void TransformLevels::mark_means() {
+  const OctreeLevel& nodes = current_.nodes;
+  std::vector<bool> needed(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (current_.branches(n))
+      for (const std::int32_t neighbour : nodes.neighbours[n])
+        if (neighbour >= 0) needed[static_cast<std::size_t>(neighbour)] = true;
+  current_.means.clear();
+  current_.slot.resize(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    current_.slot[n] = static_cast<std::uint32_t>(current_.means.size());
+    if (needed[n]) current_.means.push_back(static_cast<std::uint32_t>(n));
+  }
+}
+
+std::vector<NodePlace> TransformLevels::places_of(const std::vector<std::uint32_t>& rows) const {
+  const int side_log2 = depth_ - level_ - 1;
+  std::vector<NodePlace> places(rows.size() - 1);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const std::uint32_t row = rows[n], end = rows[n + 1];
+    NodePlace& place = places[n];
+    place.weight = first_[end] - first_[row];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t sum = (sums_[end][a] - sums_[row][a]) << 4;
+      place.centre[a] = static_cast<std::int32_t>(
+          place.weight == 1 ? sum >> side_log2 : sum / (std::int64_t{place.weight} << side_log2));
+    }
+  }
+  return places;
+}
+
+}  // namespace slf

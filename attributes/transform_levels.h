@@ -1,0 +1,58 @@
+// The octree levels of a transform tree: which rows are nodes, and where they lie. Spec 8.7.6.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/octree_levels.h"
+
+namespace slf {
+
+/// Where the points of a node are.
+struct NodePlace {
+  std::array<std::int32_t, 3> centre;  ///< mean position, in sixteenths of the side of a child
+  std::uint32_t weight;                ///< number of points
+};
+
+/// A level and the level below it. A node's row is that of its first point.
+struct TransformLevel {
+  OctreeLevel nodes;                      ///< the level's nodes, with neighbours
+  std::vector<std::uint32_t> rows;        ///< [nodes + 1] row of each, and the number of rows
+  std::vector<std::uint32_t> child_rows;  ///< [children + 1] the same of the level below
+  std::vector<NodePlace> places, child_places;
+  std::vector<std::uint32_t> means;  ///< nodes whose mean a prediction needs, ascending
+  std::vector<std::uint32_t> slot;   ///< [nodes] place in `means`; undefined for others
+
+  /// A node of one child has no merge, and nothing of it is predicted.
+  bool branches(std::size_t n) const {
+    return (nodes.occupancy[n] & (nodes.occupancy[n] - 1)) != 0;
+  }
+};
+
+/// Goes down the levels, O(rows) each.
+class TransformLevels {
+ public:
+  /// morton: of all points of the slice, ascending, of `depth` levels; the rows are the nodes of
+  /// the first depth - dropped levels (RahtTop), at least the root.
+  TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped);
+
+  int count() const { return depth_ - dropped_; }
+  std::size_t rows() const { return codes_.size(); }
+  /// Begins with level 0; called count() times.
+  const TransformLevel& next();
+
+ private:
+  void mark_means();
+  std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
+
+  int depth_, dropped_, level_ = -1;
+  std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels
+  std::vector<std::uint32_t> first_;               // [rows + 1] first point
+  std::vector<std::array<std::int64_t, 3>> sums_;  // [rows + 1] of the positions of points before
+  std::vector<std::vector<std::uint32_t>> rows_;   // [levels + 1] TransformLevel::rows
+  TransformLevel current_;
+};
+
+}  // namespace slf

@@ -1,0 +1,280 @@
+#include "codec/derive_transforms.h"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "attributes/raht_forward.h"
+#include "codec/transform_units.h"
+#include "entropy/range_encoder.h"
+
+namespace slf {
+namespace {
+
+using Samples = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Square = Eigen::MatrixXd;
+using Square3 = Eigen::Matrix3d;
+
+constexpr double kMostWork = 4294967296.0;  // samples n^2
+/// Squared steps of distortion that a bit of a value is worth, and bits of a value of one step.
+constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
+/// The same for a bit of the matrix. Lower: what falls outside its span is lost at every quality,
+/// and by measurement dropping components earlier saves less than a larger step does.
+constexpr double kSquaredStepsPerMatrixBit = 0.025;
+/// Quantised to zero below this many steps, about.
+constexpr double kZeroBelow = 0.6;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// What one transform is derived from, in units of the step.
+struct Statistics {
+  Samples samples;     // [vectors][n] of coefficients, by norm
+  double scale = 1;    // vectors there are for every one sampled
+  double largest = 0;  // root of the greatest energy of a slice: no component is above it
+};
+
+/// Rate and distortion of values of `size` steps, in squared steps.
+double cost(double size) {
+  if (size < kZeroBelow) return size * size;
+  return 0.08 + kSquaredStepsPerBit * (kBitsOfValue + 2 * std::log2(size / kZeroBelow));
+}
+
+class Derivation {
+ public:
+  Derivation(const TransformInput& input, const std::vector<double>& weights,
+             const std::vector<std::uint32_t>& steps, int threads)
+      : input_(input), weights_(weights), steps_(steps), threads_(threads) {}
+
+  /// Nothing in `transform.matrix` where it does not pay.
+  ForwardTransform derive(PlaneTransform shape) {
+    ForwardTransform forward;
+    forward.inverse = std::move(shape);
+    PlaneTransform& t = forward.inverse;
+    t.rank = t.functions.size();
+    unit_ = std::sqrt(weights_[t.functions[0]]);
+    step_ = steps_[t.plane(0)];
+    for (std::size_t i = 0; i < t.rows(); ++i)
+      forward.weights.push_back(weights_[t.functions[t.lanes == 3 ? i : i / 3]] / (unit_ * unit_));
+    Statistics s = collect(t, forward.weights);
+    if (!(s.largest * step_ < double{1 << 25}) || s.samples.rows() == 0) return forward;
+    if (t.lanes == 3) choose_colour(t, forward, s.samples);
+    choose_columns(forward, s);
+    return forward;
+  }
+
+ private:
+  /// Coefficients of the transform's planes of every slice.
+  Statistics collect(const PlaneTransform& t, const std::vector<double>& weights) const {
+    Statistics s;
+    const std::size_t planes = 3 * t.functions.size(), all = steps_.size(), n = t.rows();
+    const double vectors = static_cast<double>(input_.morton.size() * t.lanes);
+    const auto stride = static_cast<std::size_t>(
+        std::max(1.0, std::ceil(vectors * static_cast<double>(n * n) / kMostWork)));
+    s.scale = static_cast<double>(stride);
+    std::vector<float> rows;
+    for (const SliceCut& cut : input_.cuts) {
+      const std::size_t points = cut.end - cut.begin;
+      std::vector<std::int32_t> values(points * planes);
+      for (std::size_t p = 0; p < points; ++p)
+        for (std::size_t j = 0; j < planes; ++j)
+          values[p * planes + j] =
+              input_.components[(cut.begin + p) * all + 3u * t.functions[j / 3] + j % 3];
+      const std::uint64_t inside = (std::uint64_t{1} << (3 * cut.header.slice_depth)) - 1;
+      std::vector<std::uint64_t> local(points);
+      for (std::size_t p = 0; p < points; ++p) local[p] = input_.morton[cut.begin + p] & inside;
+      raht_forward(build_raht_tree(local), static_cast<int>(planes), values, threads_);
+      double energy = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const double v = values[i] / step_;
+        energy += weights[i % planes * n / planes] * v * v;
+      }
+      s.largest = std::max(s.largest, std::sqrt(energy));
+      // Row 0, the mean, is one of them: it must not fall outside a span of lower rank. It counts
+      // once, the others for those between them.
+      for (std::size_t p = 0; p < points; p += p == 0 ? 1 : stride)
+        for (std::size_t lane = 0; lane < t.lanes; ++lane)
+          for (std::size_t i = 0; i < n; ++i)
+            rows.push_back(static_cast<float>(values[p * planes + i * t.lanes + lane] *
+                                              std::sqrt(weights[i] / (p == 0 ? s.scale : 1)) /
+                                              step_));
+    }
+    s.samples = Eigen::Map<const Samples>(rows.data(), index(rows.size() / n), index(n));
+    return s;
+  }
+
+  /// Channels that are not correlated, where they cost less than those given; in place.
+  static void choose_colour(PlaneTransform& t, ForwardTransform& forward, Samples& samples) {
+    forward.colour = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    Square3 covariance = Square3::Zero();
+    const Eigen::Index rows = samples.rows() / 3, n = samples.cols();
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Eigen::Matrix<double, 3, Eigen::Dynamic> v =
+          samples.middleRows(3 * r, 3).cast<double>();
+      covariance += v * v.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Square3> solver(covariance);
+    Square3 coded;
+    for (int i = 0; i < 3; ++i)
+      for (int d = 0; d < 3; ++d) {
+        const double v = solver.eigenvectors()(i, 2 - d);  // largest first
+        coded(i, d) = std::round(v * (1 << PlaneTransform::kColourBits));
+      }
+    const Square3 matrix = coded / double{1 << PlaneTransform::kColourBits};
+    const Square3 inverse = matrix.inverse();
+    double before = 0, after = 0;
+    Samples mixed(samples.rows(), n);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Eigen::Matrix<float, 3, Eigen::Dynamic> v = samples.middleRows(3 * r, 3);
+      const Eigen::Matrix<float, 3, Eigen::Dynamic> m = inverse.cast<float>() * v;
+      mixed.middleRows(3 * r, 3) = m;
+      for (Eigen::Index i = 0; i < 3; ++i)
+        for (Eigen::Index k = 0; k < n; ++k) {
+          before += cost(std::abs(double{v(i, k)}));
+          after += cost(std::abs(double{m(i, k)}));
+        }
+    }
+    if (after >= before) return;
+    samples = std::move(mixed);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t d = 0; d < 3; ++d) {
+        t.colour[i][d] = static_cast<std::int32_t>(coded(static_cast<int>(i), static_cast<int>(d)));
+        forward.colour[i][d] = inverse(static_cast<int>(i), static_cast<int>(d));
+      }
+  }
+
+  /// Eigenvectors that save more than their columns cost, rounded as finely as their energy asks.
+  void choose_columns(ForwardTransform& forward, const Statistics& s) const {
+    PlaneTransform& t = forward.inverse;
+    const std::size_t n = t.rows(), per_function = 3 / t.lanes;
+    Square covariance = Square::Zero(index(n), index(n));
+    constexpr Eigen::Index kBlock = 512;
+    for (Eigen::Index r = 0; r < s.samples.rows(); r += kBlock) {
+      const auto block = s.samples.middleRows(r, std::min(kBlock, s.samples.rows() - r));
+      covariance += (block.transpose() * block).cast<double>();
+    }
+    const Eigen::SelfAdjointEigenSolver<Square> solver(covariance);
+    const Square vectors = solver.eigenvectors().rowwise().reverse();
+    const std::vector<double> saved = savings(s, vectors);
+    const double root = std::sqrt(static_cast<double>(n));
+    double reach = 0;  // of the rounding of an entry of the matrix, against one of the eigenvector
+    for (const double w : forward.weights) reach += w / static_cast<double>(n);
+    reach = std::sqrt(reach);
+    std::vector<std::size_t> kept;
+    for (std::size_t c = 0; c < n; ++c) {
+      const double energy = std::max(s.scale * solver.eigenvalues()(index(n - 1 - c)), 1e-9);
+      // The rounding of a column costs about a squared step over all rows, or an eighth of what is
+      // in it, whichever is finer.
+      const int finest = static_cast<int>(std::ceil(std::log2(reach * std::sqrt(energy)))) - 1;
+      const int least = static_cast<int>(std::ceil(std::log2(reach * root))) + 1;
+      const int bits = std::clamp(std::max(finest, least), 0, PlaneTransform::kFractionBits);
+      const double column = static_cast<double>(n) *
+                            std::max(1.0, std::log2(4.1 / root * std::ldexp(1 / reach, bits)));
+      if (n > 3 && saved[c] < column) continue;
+      kept.push_back(c);
+      forward.precision.push_back(
+          static_cast<std::uint8_t>(n > 3 ? bits : std::min(bits, PlaneTransform::kColourBits)));
+    }
+    while (kept.size() % per_function != 0) {  // whole functions: drop what is over
+      kept.pop_back();
+      forward.precision.pop_back();
+    }
+    if (kept.empty()) return;
+    t.rank = kept.size() / per_function;
+    t.matrix.assign(n * kept.size(), 0);
+    Square coded(index(n), index(kept.size()));
+    for (std::size_t c = 0; c < kept.size(); ++c)
+      for (std::size_t i = 0; i < n; ++i) {
+        const int bits = forward.precision[c];
+        const double entry = vectors(index(i), index(kept[c])) / std::sqrt(forward.weights[i]);
+        const double limit = std::ldexp(64, bits);
+        const auto m = static_cast<std::int32_t>(
+            std::lround(std::clamp(std::ldexp(entry, bits), -limit, limit)));
+        t.matrix[c * n + i] = m * (1 << (PlaneTransform::kFractionBits - bits));
+        coded(index(i), index(c)) = std::ldexp(m, -bits) * std::sqrt(forward.weights[i]);
+      }
+    invert(coded, forward);
+  }
+
+  /// Bits that each component is worth: its energy, less what is left of it when it is coded.
+  static std::vector<double> savings(const Statistics& s, const Square& vectors) {
+    std::vector<double> saved(static_cast<std::size_t>(vectors.cols()), 0);
+    const Samples basis = vectors.cast<float>();
+    constexpr Eigen::Index kBlock = 512;
+    for (Eigen::Index r = 0; r < s.samples.rows(); r += kBlock) {
+      const Samples block = s.samples.middleRows(r, std::min(kBlock, s.samples.rows() - r)) * basis;
+      for (Eigen::Index i = 0; i < block.rows(); ++i)
+        for (Eigen::Index c = 0; c < block.cols(); ++c) {
+          const double size = std::abs(double{block(i, c)});
+          if (size >= kZeroBelow)
+            saved[static_cast<std::size_t>(c)] +=
+                s.scale * (size * size - cost(size)) / kSquaredStepsPerMatrixBit;
+        }
+    }
+    return saved;
+  }
+
+  /// Weighted least squares of the columns.
+  static void invert(const Square& coded, ForwardTransform& forward) {
+    const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(coded).pseudoInverse();
+    forward.gain = inverse.rowwise().norm().maxCoeff();
+    forward.matrix.clear();
+    for (Eigen::Index c = 0; c < inverse.rows(); ++c)
+      for (Eigen::Index i = 0; i < inverse.cols(); ++i)
+        forward.matrix.push_back(inverse(c, i) *
+                                 std::sqrt(forward.weights[static_cast<std::size_t>(i)]));
+  }
+
+  const TransformInput& input_;
+  const std::vector<double>& weights_;
+  const std::vector<std::uint32_t>& steps_;
+  int threads_;
+  double unit_ = 1, step_ = 1;
+};
+
+}  // namespace
+
+std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
+                                                const PlaneGroups& groups,
+                                                const std::vector<double>& weights,
+                                                const std::vector<std::uint32_t>& steps,
+                                                TransformMode mode, int threads) {
+  std::vector<ForwardTransform> transforms;
+  Derivation derivation(input, weights, steps, threads);
+  for (std::size_t first = 0; first < groups.size(); ++first) {
+    PlaneTransform shape;
+    shape.first_group = first;
+    shape.num_groups = first == 0 ? 1 : groups.size() - 1;
+    shape.functions = functions_of_groups(groups, first, shape.num_groups);
+    shape.lanes = mode == TransformMode::kJoint ? 1 : 3;
+    ForwardTransform forward = derivation.derive(std::move(shape));
+    const bool nothing =
+        forward.inverse.rows() == 1 && forward.inverse.colour == PlaneTransform::kNoColour;
+    if (!nothing && !forward.inverse.matrix.empty()) transforms.push_back(std::move(forward));
+    if (first == 1) break;
+  }
+  return transforms;
+}
+
+std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
+                                          std::uint32_t num_groups) {
+  PlaneTransform t = transform.inverse;
+  TransformHeader header;
+  header.tr_first_group = static_cast<std::uint32_t>(t.first_group);
+  header.tr_num_groups_minus1 = static_cast<std::uint32_t>(t.num_groups - 1);
+  header.tr_joint_flag = t.lanes == 1;
+  header.tr_rank_minus1 = static_cast<std::uint32_t>(t.rank - 1);
+  header.tr_colour_flag = t.colour != PlaneTransform::kNoColour;
+  header.tr_colour = t.colour;
+  BitWriter out;
+  WriteSyntax write{out};
+  transform_header(write, header, num_groups);
+  RangeEncoder encoder;
+  code_matrix(encoder, t, transform.precision);
+  out.append(encoder.finish());
+  return out.take();
+}
+
+}  // namespace slf

@@ -1,0 +1,231 @@
+// Transforms across planes: spec 7.11 and 8.7.5, and what the encoder makes of them.
+#include "attributes/plane_transform.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <span>
+
+#include "bitstream/parameter_sets.h"
+#include "bitstream/units.h"
+#include "entropy/range_decoder.h"
+#include "entropy/range_encoder.h"
+#include "slf/decoder.h"
+#include "slf/encoder.h"
+#include "tests/field_support.h"
+
+namespace slf {
+namespace {
+
+PlaneTransform random_transform(std::size_t functions, std::size_t rank, std::size_t lanes,
+                                std::vector<std::uint8_t>& precision) {
+  PlaneTransform t;
+  for (std::size_t k = 0; k < functions; ++k) t.functions.push_back(static_cast<std::uint16_t>(k));
+  t.rank = rank;
+  t.lanes = lanes;
+  std::mt19937 random(5);
+  for (std::size_t c = 0; c < t.columns(); ++c) {
+    precision.push_back(static_cast<std::uint8_t>(random() % 15));
+    for (std::size_t r = 0; r < t.rows(); ++r) {
+      const int shift = PlaneTransform::kFractionBits - precision.back();
+      const std::int32_t entry = PlaneTransform::kEntryLimit >> shift >> (random() % 21);
+      t.matrix.push_back((random() & 1 ? entry : -entry) * (1 << shift));
+    }
+  }
+  return t;
+}
+
+TEST(Spec_7_11_Matrix, IsLosslessAndNoTruncationGivesIt) {
+  for (const std::size_t lanes : {1u, 3u}) {
+    std::vector<std::uint8_t> precision;
+    PlaneTransform t = random_transform(9, 4, lanes, precision);
+    RangeEncoder encoder;
+    ASSERT_TRUE(code_matrix(encoder, t, precision));
+    const auto bytes = encoder.finish();
+    PlaneTransform decoded = t;
+    decoded.matrix.clear();
+    RangeDecoder decoder(bytes);
+    ASSERT_TRUE(code_matrix(decoder, decoded, {}));
+    EXPECT_TRUE(decoder.finish("tr_matrix"));
+    EXPECT_EQ(decoded.matrix, t.matrix);
+    for (std::size_t size = 0; size + 4 < bytes.size(); ++size) {
+      RangeDecoder cut(std::span<const std::uint8_t>(bytes).first(size));
+      const bool sound = code_matrix(cut, decoded, {}) && cut.finish("tr_matrix");
+      EXPECT_FALSE(sound && decoded.matrix == t.matrix) << size;
+    }
+  }
+}
+
+TEST(Spec_8_7_5_Expansion, IsTheRoundedProductOfChannelsAndMatrix) {
+  PlaneTransform t;
+  t.functions = {2, 0};
+  t.rank = 1;
+  t.colour = {{{512, 0, 0}, {0, 0, 512}, {0, -256, 0}}};
+  t.matrix = {1 << 14, -(1 << 13)};
+  std::vector<std::int32_t> values = {9, 9, 9, 5, 5, 5, 3, 7, -4};
+  ASSERT_TRUE(expand_components(t, std::vector<std::uint32_t>(9, 1), values, 1));
+  // Channels 3, -4, -3.5 to -3; halves up.
+  EXPECT_EQ(values, (std::vector<std::int32_t>{-1, 2, 2, 5, 5, 5, 3, -4, -3}));
+}
+
+TEST(Spec_8_7_5_Expansion, RefusesValuesOfTwoToThe27) {
+  PlaneTransform t;
+  t.functions = {0, 1};
+  t.rank = 2;
+  t.matrix = {PlaneTransform::kEntryLimit, 0, 0, 1 << 14};
+  for (const std::int32_t component : {1 << 21, -(1 << 21), (1 << 27) - 1}) {
+    std::vector<std::int32_t> values = {component, 0, 0, 0, 0, 0};
+    EXPECT_FALSE(expand_components(t, std::vector<std::uint32_t>(6, 1), values, 1));
+  }
+  std::vector<std::int32_t> values = {(1 << 21) - 1, 0, 0, (1 << 27) - 1, 0, 0};
+  EXPECT_TRUE(expand_components(t, std::vector<std::uint32_t>(6, 1), values, 1));
+}
+
+/// Planes that are mixtures of a few, and noise.
+LightField mixed_field(int functions, const std::vector<Voxel>& voxels, int bits) {
+  LightField field = test::make_field(voxels, bits, functions, 4000);
+  std::mt19937 random(3);
+  std::vector<std::int32_t> mixture;
+  for (int k = 0; k < functions; ++k)
+    mixture.push_back(static_cast<std::int32_t>(random() % 9) - 4);
+  for (std::size_t p = 0; p < field.num_points(); ++p)
+    for (std::size_t k = 1; k < mixture.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        field.components[(p * mixture.size() + k) * 3 + c] =
+            mixture[k] * field.components[p * mixture.size() * 3] / 8 +
+            static_cast<std::int32_t>(random() % 7);
+  return field;
+}
+
+CodingParameters with_transform(TransformMode mode, int functions, std::uint32_t step) {
+  CodingParameters parameters;
+  parameters.transform = mode;
+  parameters.step.assign(static_cast<std::size_t>(functions), {step, step, step});
+  return parameters;
+}
+
+double mean_square(const LightField& a, const LightField& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.components.size(); ++i) {
+    const double d = a.components[i] - b.components[i];
+    sum += d * d;
+  }
+  return sum / static_cast<double>(a.components.size());
+}
+
+class TransformModes : public testing::TestWithParam<TransformMode> {};
+
+TEST_P(TransformModes, CostFewerBytesAtNoLargerErrorWherePlanesAreAlike) {
+  const LightField field = mixed_field(16, test::sphere_cloud(7), 7);
+  CodingParameters parameters = with_transform(TransformMode::kNone, 16, 32);
+  const auto plain = pack(field, parameters);
+  parameters.transform = GetParam();
+  const auto transformed = pack(field, parameters);
+  ASSERT_TRUE(plain && transformed);
+  EXPECT_LT(transformed->size(), plain->size() * 8 / 10);
+  const auto a = decode(*plain), b = decode(*transformed);
+  ASSERT_TRUE(a && b) << to_string(b.error());  // the digest holds: the encoder knows what we get
+  EXPECT_LT(mean_square(*b, field), 2 * mean_square(*a, field));
+  const auto info = read_info(*transformed);
+  ASSERT_TRUE(info);
+  ASSERT_FALSE(info->transforms.empty());
+  EXPECT_EQ(info->transforms[0].joint, GetParam() == TransformMode::kJoint);
+}
+
+TEST_P(TransformModes, GroupsAndLevelsCanBeLeftOutAndThreadsAndSlicesDoNotMatter) {
+  const LightField field = mixed_field(12, test::sphere_cloud(6), 6);
+  CodingParameters parameters = with_transform(GetParam(), 12, 16);
+  parameters.group = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  parameters.coefficient_level_ends = {4, 5, 6};
+  parameters.max_slice_points = 1000;
+  parameters.threads = 1;
+  const auto stream = pack(field, parameters);
+  ASSERT_TRUE(stream);
+  parameters.threads = 3;
+  EXPECT_EQ(*pack(field, parameters), *stream);
+  double before = 1e30;
+  for (int groups = 1; groups <= 4; ++groups) {
+    DecodeOptions options;
+    options.groups = groups;
+    const auto decoded = decode(*stream, options);
+    ASSERT_TRUE(decoded) << to_string(decoded.error());
+    const double error = mean_square(*decoded, field);
+    EXPECT_LE(error, before * 1.01) << groups;
+    before = error;
+    options.levels = 3;
+    EXPECT_TRUE(decode(*stream, options));
+  }
+}
+
+TEST_P(TransformModes, EveryShapeOfCloudGoesThrough) {
+  for (const auto& cloud : test::clouds_of_every_shape()) {
+    const LightField field = mixed_field(5, cloud.voxels, cloud.bits);
+    const auto stream = pack(field, with_transform(GetParam(), 5, 4));
+    ASSERT_TRUE(stream) << cloud.name;
+    const auto decoded = decode(*stream);
+    ASSERT_TRUE(decoded) << cloud.name << to_string(decoded.error());
+    // What is dropped costs no more than its column would: a few squared steps a point.
+    EXPECT_LT(mean_square(*decoded, field), 4 * 4 * 4) << cloud.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spec_8_7_5, TransformModes,
+                         testing::Values(TransformMode::kFunctions, TransformMode::kJoint),
+                         [](const auto& mode) {
+                           return mode.param == TransformMode::kJoint ? "joint" : "functions";
+                         });
+
+/// A stream with one transform, without its end unit and the index.
+std::vector<Unit> units_with_transform(std::vector<std::uint8_t>& stream) {
+  const LightField field = mixed_field(8, test::sphere_cloud(4), 4);
+  CodingParameters parameters = with_transform(TransformMode::kFunctions, 8, 8);
+  parameters.index = false;
+  stream = *pack(field, parameters);
+  std::vector<Unit> units = split_units(stream)->units;
+  units.pop_back();
+  return units;
+}
+
+std::vector<std::uint8_t> stream_of(const std::vector<Unit>& units) {
+  std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
+  for (const Unit& unit : units) append_unit(stream, unit.type, unit.payload);
+  return stream;
+}
+
+TEST(Spec_7_11_Hazards, MissingRepeatedAndLateUnitsAreRefused) {
+  std::vector<std::uint8_t> stream;
+  const auto units = units_with_transform(stream);
+  ASSERT_EQ(units[1].type, UnitType::kTransform);
+  EXPECT_TRUE(decode(stream_of(units)));
+  auto missing = units, repeated = units, late = units;
+  missing.erase(missing.begin() + 1);
+  repeated.insert(repeated.begin() + 1, units[1]);
+  late.push_back(units[1]);
+  for (const auto& changed : {missing, repeated, late}) EXPECT_FALSE(decode(stream_of(changed)));
+}
+
+TEST(Spec_7_11_Hazards, NoDamagedByteGivesAnotherLightField) {
+  std::vector<std::uint8_t> stream;
+  auto units = units_with_transform(stream);
+  const auto sound = decode(stream);
+  ASSERT_TRUE(sound);
+  const std::vector<std::uint8_t> whole(units[1].payload.begin(), units[1].payload.end());
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const unsigned flip : {0x01u, 0x80u, 0xFFu}) {
+      auto damaged = whole;
+      damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ flip);
+      units[1].payload = damaged;
+      // Refused, at the latest by the digest; or what changed was a factor of zeros.
+      const auto field = decode(stream_of(units));
+      EXPECT_TRUE(!field || field->components == sound->components) << at;
+    }
+}
+
+TEST(Spec_7_2_Hazards, ATextureHasNoTransform) {
+  CodingParameters parameters = with_transform(TransformMode::kFunctions, 4, 8);
+  parameters.coefficients = CoefficientCoder::kTexture;
+  EXPECT_FALSE(pack(test::make_field(test::sphere_cloud(4), 4, 4), parameters));
+}
+
+}  // namespace
+}  // namespace slf
