@@ -46,7 +46,7 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
                     least_texture_steps(field, settings.max_slice_points, settings.texture.bits),
                     settings.steps_by_norm)
               : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
-  parameters.transform = settings.transform;
+  if (!texture) parameters.transform = settings.transform;
   for (auto& step : parameters.step)
     for (std::size_t c = texture ? 3 : 1; c < 3; ++c)
       step[c] = static_cast<std::uint32_t>(

@@ -136,7 +136,7 @@ TEST_F(PackTest, RefusesArraysThatDoNotFitTogether) {
 
 TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   const Ran encoded =
-      slf("encode tiny -o a.slf --grid-bits 6 --functions 32 --normal-bits 6 "
+      slf("encode tiny -o a.slf --grid-bits 6 --fit paper --functions 32 --normal-bits 6 "
           "--metadata title=can --json");
   ASSERT_EQ(encoded.code, 0) << encoded.err;
   const auto report = parsed(encoded.out);

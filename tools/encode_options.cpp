@@ -8,8 +8,6 @@
 namespace slf::tools {
 namespace {
 
-constexpr int kHierarchicalDegree = 8;
-
 std::string shown(double number) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
@@ -71,7 +69,7 @@ void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const FitSettings& 
   group(add_frame_choice(verb, o.frame)->each([&o](const std::string&) {
     o.frame_given = true;
   }))->default_str("reflected");
-  group(add(verb, "--degree", o.degree, kHierarchicalDegree, "Degree of the harmonics",
+  group(add(verb, "--degree", o.degree, fit.basis.degree, "Degree of the harmonics",
             whole_range(0, 10)));
   group(add(verb, "--block-log2", o.block_log2, s.block_log2,
             "Side of the finest blocks, 2^n voxels", whole_range(0, 21)));
@@ -95,10 +93,10 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
   const FitSettings& s = initial.fit;
   const auto fit = [](CLI::Option* option) { option->group("View maps (paper II)"); };
   fit(add_fit_choice(verb, o.fit)->each([&o](const std::string&) { o.fit_given = true; }));
-  fit(add(verb, "--order", o.order, s.basis.order, "Order of the B-spline wavelets",
+  fit(add(verb, "--order", o.order, FitSettings{}.basis.order, "Order of the B-spline wavelets",
           whole_range(1, 4)));
   auto* functions =
-      add(verb, "--functions", o.functions, s.basis.num_functions(),
+      add(verb, "--functions", o.functions, FitSettings{}.basis.num_functions(),
           "N, functions per view map: a power of two; s0 = s1 or s1 + 1", whole_range(1, 4096));
   fit(functions);
   auto* scales = verb.add_option("--scales", o.scales,
@@ -162,7 +160,7 @@ void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings&
   coding(add_coefficients_choice(verb, o.coefficients)->each([&o](const std::string&) {
     o.coefficients_given = true;
   }));
-  coding(add_klt_choice(verb, o.klt));
+  coding(add_klt_choice(verb, o.klt)->each([&o](const std::string&) { o.klt_given = true; }));
   coding(add(verb, "--chroma-step", o.chroma_step, initial.chroma_step,
              "Steps of the second and third channel, over those of the first", range(0.1, 10)));
   add_texture_options(verb, o.texture);
@@ -185,12 +183,10 @@ Failure usage(const EncodeOptions& given, const std::string& what) {
   return {kUsage, std::string(given.verb) + ": " + what};
 }
 
-/// The hierarchical fit has defaults of its own for the basis and the frame.
+/// Each fit has defaults of its own for the basis and the frame.
 void resolve_fit(const EncodeOptions& given, FitSettings& fit) {
-  if (given.fit_given) fit.method = given.fit;
-  const bool hierarchical = given.fit_given && given.fit == FitMethod::kHierarchical;
-  if (hierarchical) fit.basis = {BasisId::kHarmonics, 2, 4, 3, kHierarchicalDegree};
-  if (hierarchical) fit.frame = FrameId::kReflected;
+  if (given.fit_given && given.fit != fit.method)
+    fit = given.fit == FitMethod::kHierarchical ? FitSettings::hierarchical() : FitSettings{};
   if (given.basis_given) fit.basis.id = given.basis;
   if (given.frame_given) fit.frame = given.frame;
   replace(fit.basis.degree, given.degree);
@@ -279,7 +275,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   s.texture = given.texture;
   if (given.predict_given) s.predict = given.predict;
   if (given.rdo_option != nullptr && given.rdo_option->count() > 0) s.rdo = given.rdo;
-  s.transform = given.klt;
+  if (given.klt_given) s.transform = given.klt;
   replace(s.chroma_step, given.chroma_step);
   SLF_CHECK(resolve_metadata(given, s.metadata));
   s.threads = given.common.threads;

@@ -27,10 +27,11 @@ struct EncodeOptions {
   bool penalise_dc = false, free_dc = false, linear = false;
   bool steps_given = false, by_norm = true;
   bool fit_given = false, basis_given = false, frame_given = false;
-  FitMethod fit = FitMethod::kPaper;
-  BasisId basis = BasisId::kBspline;
-  FrameId frame = FrameId::kGlobal;
-  TransformMode klt = TransformMode::kNone;
+  FitMethod fit = FitMethod::kHierarchical;
+  BasisId basis = BasisId::kHarmonics;
+  FrameId frame = FrameId::kReflected;
+  bool klt_given = false;
+  TransformMode klt = TransformMode::kFunctions;
   std::optional<double> chroma_step;
   bool colour_given = false, geometry_given = false, coefficients_given = false, up_given = false;
   ColourTransform colour = ColourTransform::kOpponent;

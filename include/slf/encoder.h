@@ -82,13 +82,13 @@ struct EncoderSettings {
   int grid_bits = 9;      ///< 1 .. 21
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   ObserveSettings observe;
-  FitSettings fit;
+  FitSettings fit = FitSettings::hierarchical();
   double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
   std::uint64_t target_bytes = 0;  ///< > 0: of the file, in place of q, which is the first guess
   double target_psnr = 0;          ///< > 0: point PSNR of the input images, dB, in place of q
   bool steps_by_norm = true;       ///< step_k = Q / (2 ||b_k||); false: Q for every plane
   ColourTransform colour = ColourTransform::kOpponent;
-  TransformMode transform = TransformMode::kNone;  ///< not with kTexture
+  TransformMode transform = TransformMode::kFunctions;  ///< none where coefficients is kTexture
   double chroma_step = 1;  ///< 0.1 .. 10: channels 1 and 2 have steps this much larger
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;

@@ -90,6 +90,15 @@ struct FitSettings {
   HierarchySettings hierarchy;  ///< kHierarchical
   EnvironmentSettings environment;  ///< kHierarchical
   int threads = 0;
+
+  /// Harmonics of degree 10 in the reflected frame: the default preset's.
+  static FitSettings hierarchical() {
+    FitSettings settings;
+    settings.method = FitMethod::kHierarchical;
+    settings.basis = {BasisId::kHarmonics, 2, 0, 0, 10};
+    settings.frame = FrameId::kReflected;
+    return settings;
+  }
 };
 
 /// Fits a view map to every point.
