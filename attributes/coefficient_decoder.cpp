@@ -1,5 +1,6 @@
 #include "attributes/coefficient_decoder.h"
 
+#include "bitstream/multiversion.h"
 #include "entropy/range_decoder.h"
 
 namespace slf {
@@ -18,6 +19,7 @@ CoefficientModels::CoefficientModels(const PlaneGroups& groups, const RahtTree& 
   }
 }
 
+SLF_MULTIVERSION_ALL
 Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, CoefficientModels& models,
                                  const CoefficientRows& rows, std::size_t group, std::size_t begin,
                                  std::size_t end, bool cut) {

@@ -14,8 +14,12 @@ struct CoefficientRows {
   const RahtTree& tree;
   std::span<std::int32_t> values;
   std::size_t planes;
+  std::span<std::uint8_t> nonzero = {};  ///< [P] 1: not all of a row is zero; empty: not asked for
 
   std::int32_t* row(std::size_t r) const { return values.data() + r * planes; }
+  void set_nonzero(std::size_t r) const {
+    if (!nonzero.empty()) nonzero[r] = 1;
+  }
 };
 
 /// The levels a row's difference belongs to, finest 0; the mean of all has a class of its own.

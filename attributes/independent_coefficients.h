@@ -21,9 +21,14 @@ class IndependentCoefficients {
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::int32_t* row = rows.row(rows.tree.order[i]);
+      std::int32_t any = 0;
       for (std::size_t f = 0; f < functions_.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c)
-          if (!code_value(coder, planes_[3 * f + c], row[3u * functions_[f] + c])) return false;
+        for (std::size_t c = 0; c < 3; ++c) {
+          std::int32_t& value = row[3u * functions_[f] + c];
+          if (!code_value(coder, planes_[3 * f + c], value)) return false;
+          any |= value;
+        }
+      if (any != 0) rows.set_nonzero(rows.tree.order[i]);
     }
     return true;
   }

@@ -6,6 +6,7 @@
 #include "attributes/raht_arithmetic.h"
 #include "attributes/raht_tree.h"
 #include "bitstream/multiversion.h"
+#include "bitstream/prefetch.h"
 
 namespace slf {
 namespace {
@@ -59,9 +60,8 @@ std::uint32_t closeness(const NodePlace& a, const NodePlace& b, std::uint32_t mo
   return mode == kWide ? (1u << 24) / square : (1u << 30) / (square * square);
 }
 
-SLF_MULTIVERSION
-void accumulate(std::int32_t* __restrict sum, const std::int32_t* __restrict source,
-                const NodePrediction::Term& term, std::size_t lanes) {
+inline void accumulate(std::int32_t* __restrict sum, const std::int32_t* __restrict source,
+                       const NodePrediction::Term& term, std::size_t lanes) {
   const std::int32_t weight = term.weight;
   if (term.root_q30 == 0) {
     for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * source[j];
@@ -79,8 +79,7 @@ inline std::int32_t round_q25(std::int64_t x) {
   return static_cast<std::int32_t>((bits + (1u << 24) - (bits >> 63)) >> 25);
 }
 
-SLF_MULTIVERSION
-void finish_prediction(const NodePrediction& plan, std::size_t lanes, Corrections& out) {
+inline void finish_prediction(const NodePrediction& plan, std::size_t lanes, Corrections& out) {
   std::array<std::int64_t, kPredictionLanes> total{};
   for (std::size_t i = 0; i < plan.children; ++i)
     for (std::size_t j = 0; j < lanes; ++j)
@@ -93,27 +92,25 @@ void finish_prediction(const NodePrediction& plan, std::size_t lanes, Correction
   }
 }
 
-SLF_MULTIVERSION
-void mean_row(const std::int32_t* __restrict value, std::int64_t root_q30,
-              std::int32_t* __restrict mean, std::size_t lanes) {
+inline void mean_row(const std::int32_t* __restrict value, std::int64_t root_q30,
+                     std::int32_t* __restrict mean, std::size_t lanes) {
   for (std::size_t j = 0; j < lanes; ++j) mean[j] = clamped(round_q30(value[j] * root_q30));
 }
 
-SLF_MULTIVERSION
-void subtract_own(std::int32_t* __restrict sum, const std::int32_t* __restrict own,
-                  std::int32_t others, std::size_t lanes) {
+inline void subtract_own(std::int32_t* __restrict sum, const std::int32_t* __restrict own,
+                         std::int32_t others, std::size_t lanes) {
   for (std::size_t j = 0; j < lanes; ++j) sum[j] = (sum[j] - others * own[j]) >> 6;
 }
 
-SLF_MULTIVERSION
-void add_row(std::int32_t* __restrict value, const std::int32_t* __restrict correction,
-             std::size_t lanes) {
+inline void add_row(std::int32_t* __restrict value, const std::int32_t* __restrict correction,
+                    std::size_t lanes) {
   for (std::size_t j = 0; j < lanes; ++j)
     value[j] = std::clamp(value[j] + correction[j], -kPredictedLimit, kPredictedLimit);
 }
 
 }  // namespace
 
+SLF_MULTIVERSION_ALL
 void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
                NodePrediction& plan) {
   const OctreeLevel& nodes = level.nodes;
@@ -160,13 +157,18 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
   }
 }
 
+SLF_MULTIVERSION_ALL
 void level_means(const TransformLevel& level, Lanes values, Lanes means, std::size_t lanes) {
+  constexpr std::size_t kAhead = 4;  // rows that nothing of has been read yet
   for (std::size_t i = 0; i < level.means.size(); ++i) {
     const std::uint32_t n = level.means[i], row = level.rows[n];
+    if (i + kAhead < level.means.size())
+      prefetch_row(values.row(level.rows[level.means[i + kAhead]]), lanes);
     mean_row(values.row(row), roots_of(level.places[n].weight).reciprocal_q30, means.row(i), lanes);
   }
 }
 
+SLF_MULTIVERSION_ALL
 void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
                       Corrections& out) {
   for (std::size_t i = 0; i < plan.children; ++i) {
@@ -182,6 +184,7 @@ void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std
   finish_prediction(plan, lanes, out);
 }
 
+SLF_MULTIVERSION_ALL
 void add_corrections(const NodePrediction& plan, const Corrections& corrections, Lanes values,
                      std::size_t lanes) {
   for (std::size_t i = 0; i < plan.children; ++i)

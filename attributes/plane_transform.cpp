@@ -4,12 +4,14 @@
 
 #include "attributes/quantiser.h"
 #include "bitstream/multiversion.h"
+#include "bitstream/prefetch.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
 constexpr std::size_t kRowGrain = 1024;
+constexpr std::size_t kAhead = 8;  // rows
 
 /// sums[i] += component * column[i]. |component| < 2^27, |column[i]| <= 2^20, fewer than 2^12
 /// columns of as many rows (their product is at most 2^20): below 2^59.
@@ -23,8 +25,8 @@ void add_column(const std::int32_t* column, std::int32_t component, std::int64_t
 bool dequantise_components(const PlaneTransform& t, std::span<const std::uint32_t> steps,
                            std::int32_t* row) {
   bool fits = true;
-  for (std::size_t c = 0; c < t.columns(); ++c)
-    for (std::size_t j = t.plane(c); j < t.plane(c) + t.lanes; ++j) {
+  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c)
+    for (std::size_t j = t.plane(c), end = j + t.lanes; j < end; ++j) {
       if (row[j] == 0) continue;
       const std::int64_t product = std::int64_t{row[j]} * steps[j];
       const bool good = product < kCoefficientLimit && product > -kCoefficientLimit;
@@ -37,7 +39,7 @@ bool dequantise_components(const PlaneTransform& t, std::span<const std::uint32_
 /// The channels of the components of a row. False where a value is out of range.
 bool mix_channels(const PlaneTransform& t, std::int32_t* row) {
   bool fits = true;
-  for (std::size_t c = 0; c < t.columns(); ++c) {
+  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c) {
     std::int32_t* v = row + t.plane(c);
     if ((v[0] | v[1] | v[2]) == 0) continue;
     std::array<std::int64_t, 3> mixed{};
@@ -53,26 +55,31 @@ bool mix_channels(const PlaneTransform& t, std::int32_t* row) {
   return fits;
 }
 
-/// One row, one lane. False where a value is out of range.
-bool expand_lane(const PlaneTransform& t, std::int32_t* row, std::size_t lane,
-                 std::vector<std::int64_t>& sums) {
-  const std::size_t rows = t.rows();
+/// sum / 2^kFractionBits is within the limit, of all.
+SLF_MULTIVERSION
+bool sums_fit(const std::int64_t* sums, std::size_t rows) {
+  constexpr std::int64_t kLeast = (1 - kCoefficientLimit) * (1 << PlaneTransform::kFractionBits);
+  constexpr std::int64_t kMost = kCoefficientLimit * (1 << PlaneTransform::kFractionBits) - 1;
+  std::int64_t bad = 0;  // negative: one is not
+  for (std::size_t i = 0; i < rows; ++i) bad |= (sums[i] - kLeast) | (kMost - sums[i]);
+  return bad >= 0;
+}
+
+/// The values of a row in one lane, before rounding down. False where one is out of range.
+bool sum_lane(const PlaneTransform& t, const std::int32_t* row, std::size_t lane,
+              std::span<std::int64_t> sums) {
+  std::fill(sums.begin(), sums.end(), 0);
   bool any = false;
-  for (std::size_t c = 0; c < t.columns(); ++c) {
+  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c) {
     const std::int32_t component = row[t.plane(c) + lane];
     if (component == 0) continue;
-    if (!any) sums.assign(rows, 1 << (PlaneTransform::kFractionBits - 1));
+    if (!any) std::fill(sums.begin(), sums.end(), 1 << (PlaneTransform::kFractionBits - 1));
     any = true;
-    add_column(&t.matrix[c * rows], component, sums.data(), rows);
+    add_column(&t.matrix[c * sums.size()], component, sums.data(), sums.size());
   }
-  if (!any) return true;
-  bool fits = true;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::int64_t value = sums[i] >> PlaneTransform::kFractionBits;
-    fits = fits && value < kCoefficientLimit && value > -kCoefficientLimit;
-    row[t.plane(i) + lane] = static_cast<std::int32_t>(fits ? value : 0);
-  }
-  return fits;
+  if (!any || sums_fit(sums.data(), sums.size())) return true;
+  std::fill(sums.begin(), sums.end(), 0);
+  return false;
 }
 
 }  // namespace
@@ -81,22 +88,42 @@ bool expand_row(const PlaneTransform& t, std::span<const std::uint32_t> steps, s
                 std::vector<std::int64_t>& sums) {
   bool fits = dequantise_components(t, steps, row);
   if (t.lanes == 3 && t.colour != PlaneTransform::kNoColour) fits = mix_channels(t, row) && fits;
-  for (std::size_t lane = 0; lane < t.lanes; ++lane) fits = expand_lane(t, row, lane, sums) && fits;
+  const std::size_t rows = t.rows();
+  sums.resize(t.lanes * rows);
+  for (std::size_t lane = 0; lane < t.lanes; ++lane)
+    fits = sum_lane(t, row, lane, std::span(sums).subspan(lane * rows, rows)) && fits;
+  const auto value = [&](std::size_t i) {
+    return static_cast<std::int32_t>(sums[i] >> PlaneTransform::kFractionBits);
+  };
+  if (t.lanes == 3) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      std::int32_t* function = row + t.plane(i);
+      function[0] = value(i);
+      function[1] = value(rows + i);
+      function[2] = value(2 * rows + i);
+    }
+  } else {
+    for (std::size_t i = 0; i < rows; ++i) row[t.plane(i)] = value(i);
+  }
   return fits;
 }
 
 Result<Done> expand_components(const PlaneTransform& transform,
                                std::span<const std::uint32_t> steps, std::span<std::int32_t> values,
-                               int threads) {
+                               int threads, std::span<const std::uint8_t> nonzero) {
   std::atomic<bool> fits{true};
   const std::size_t planes = steps.size();
-  parallel_ranges(values.size() / planes, kRowGrain, threads,
-                  [&](std::size_t begin, std::size_t end) {
-                    std::vector<std::int64_t> sums;
-                    for (std::size_t row = begin; row < end; ++row)
-                      if (!expand_row(transform, steps, values.data() + row * planes, sums))
-                        fits = false;
-                  });
+  const auto is_zero = [&](std::size_t row) { return !nonzero.empty() && nonzero[row] == 0; };
+  parallel_ranges(
+      values.size() / planes, kRowGrain, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int64_t> sums;
+        for (std::size_t row = begin; row < end; ++row) {
+          if (const std::size_t next = row + kAhead; next < end && !is_zero(next))
+            prefetch_row(&values[next * planes], planes);
+          if (!is_zero(row) && !expand_row(transform, steps, &values[row * planes], sums))
+            fits = false;
+        }
+      });
   if (!fits) return Error{Errc::kOutOfRange, "cu_magnitude", 0};
   return Done{};
 }

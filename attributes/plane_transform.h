@@ -45,15 +45,16 @@ struct PlaneTransform {
 
 /// Replaces the quantised components of a row by the values of the functions.
 /// @param steps  [planes]; sums  scratch
-/// Returns false where a value reaches 2^27; it counts as 0.
+/// Returns false where a value reaches 2^27; its lane counts as 0.
 bool expand_row(const PlaneTransform& transform, std::span<const std::uint32_t> steps,
                 std::int32_t* row, std::vector<std::int64_t>& sums);
 
 /// The same for all rows of values, [P][planes].
+/// @param nonzero  [P] 0: the row is zero; empty: any may be other
 /// @errors kOutOfRange: a value of 2^27 or more.
 Result<Done> expand_components(const PlaneTransform& transform,
                                std::span<const std::uint32_t> steps, std::span<std::int32_t> values,
-                               int threads);
+                               int threads, std::span<const std::uint8_t> nonzero = {});
 
 /// Codes the matrix, column by column, entries in 2^-precision[column]. Written once for decoder
 /// and encoder. Spec 7.11. Returns false where the decoder met a value no encoder writes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <memory>
 
 #include "attributes/level_prediction.h"
@@ -96,26 +97,45 @@ std::int32_t dequantise_mean(const Range& range) {
   return bad;
 }
 
-/// Spec 8.7.6. merges: of the level.
-std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
-                           std::uint32_t mode, const Range& range, Lanes means) {
-  if (mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
-  level_means(level, range.values, means, range.lanes);
+/// Planes begin .. end - 1 of a range.
+struct Run {
+  std::size_t begin, end;
+  std::uint32_t mode;
+};
+
+/// Spec 8.7.6: a node, its own merges.
+std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<const Merge> own,
+                          const Run& run, const Range& range, Lanes means) {
+  if (run.mode == 0) return inverse_lanes(own, range, run.begin, run.end - run.begin);
   std::int32_t bad = 0;
   NodePrediction plan;
   Corrections corrections;
+  plan_node(level, n, run.mode, plan);
+  for (std::size_t j = run.begin; j < run.end; j += kBlock) {
+    const std::size_t lanes = std::min(kBlock, run.end - j);
+    const Lanes values{range.values.first + j, range.values.stride};
+    predict_children(plan, values, {means.first + j, means.stride}, lanes, corrections);
+    bad |= inverse_lanes(own, range, j, lanes);
+    add_corrections(plan, corrections, values, lanes);
+  }
+  return bad;
+}
+
+/// Spec 8.7.6. merges: of the level. Node by node, not run by run: a level does not fit the cache.
+std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
+                           std::span<const Run> runs, const Range& range, Lanes means) {
+  if (runs.size() == 1 && runs[0].mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
+  for (const Run& run : runs)
+    if (run.mode != 0)
+      level_means(level, {range.values.first + run.begin, range.values.stride},
+                  {means.first + run.begin, means.stride}, run.end - run.begin);
+  std::int32_t bad = 0;
   for (std::size_t n = 0, merge = 0; n < level.nodes.size(); ++n) {
     if (!level.branches(n)) continue;
-    plan_node(level, n, mode, plan);
-    const auto own = merges.subspan(merge, plan.children - 1);
-    merge += own.size();
-    for (std::size_t j = 0; j < range.lanes; j += kBlock) {
-      const std::size_t lanes = std::min(kBlock, range.lanes - j);
-      const Lanes values{range.values.first + j, range.values.stride};
-      predict_children(plan, values, {means.first + j, means.stride}, lanes, corrections);
-      bad |= inverse_lanes(own, range, j, lanes);
-      add_corrections(plan, corrections, values, lanes);
-    }
+    const auto children = static_cast<std::size_t>(std::popcount(level.nodes.occupancy[n]));
+    for (const Run& run : runs)
+      bad |= inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means);
+    merge += children - 1;
   }
   return bad;
 }
@@ -136,18 +156,27 @@ bool over_planes(std::size_t planes, int threads, const Body& body) {
 Error too_large() { return {Errc::kOutOfRange, "cu_magnitude", 0}; }
 
 /// Runs of planes with the same mode on a level, neighbours joined.
-std::vector<PredictedPlanes> runs_of_level(std::span<const PredictedPlanes> planes,
-                                           std::size_t level) {
-  std::vector<PredictedPlanes> runs;
+std::vector<Run> runs_of_level(std::span<const PredictedPlanes> planes, std::size_t level) {
+  std::vector<Run> runs;
   for (const PredictedPlanes& p : planes) {
-    const std::uint8_t mode = level < p.modes.size() ? p.modes[level] : std::uint8_t{0};
-    if (!runs.empty() && runs.back().modes[0] == mode) {
+    const std::uint32_t mode = level < p.modes.size() ? p.modes[level] : 0u;
+    if (!runs.empty() && runs.back().mode == mode) {
       runs.back().end = p.end;
     } else {
-      runs.push_back({p.begin, p.end, {mode}});
+      runs.push_back({p.begin, p.end, mode});
     }
   }
   return runs;
+}
+
+/// The parts of runs within begin .. end - 1, counted from begin.
+std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t end) {
+  std::vector<Run> clipped;
+  for (const Run& run : runs)
+    if (run.begin < end && run.end > begin)
+      clipped.push_back(
+          {std::max(run.begin, begin) - begin, std::min(run.end, end) - begin, run.mode});
+  return clipped;
 }
 
 }  // namespace
@@ -169,20 +198,25 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<std::int32_t> values, int threads) {
   const Steps table(steps);
   bool good = dequantise_mean(Range(values, table, 0, steps.size())) == 0;
+  std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
+  std::size_t capacity = 0;
   for (int l = 0; l < levels.count(); ++l) {
     const TransformLevel& level = levels.next();
     const std::span<const Merge> merges =
         std::span(tree.merges)
             .subspan(level.nodes.size() - 1, level.child_rows.size() - 1 - level.nodes.size());
-    for (const PredictedPlanes& run : runs_of_level(planes, static_cast<std::size_t>(l))) {
-      const std::size_t width = run.end - run.begin;
-      const auto means = std::make_unique_for_overwrite<std::int32_t[]>(
-          run.modes[0] == 0 ? 0 : level.means.size() * width);
-      good &= over_planes(width, threads, [&](std::size_t begin, std::size_t end) {
-        const Range range(values, table, run.begin + begin, run.begin + end);
-        return inverse_level(level, merges, run.modes[0], range, {means.get() + begin, width});
-      });
+    const std::vector<Run> runs = runs_of_level(planes, static_cast<std::size_t>(l));
+    std::size_t width = 0;  // planes up to the last predicted one
+    for (const Run& run : runs)
+      if (run.mode != 0) width = run.end;
+    if (level.means.size() * width > capacity) {
+      capacity = level.means.size() * width;
+      means = std::make_unique_for_overwrite<std::int32_t[]>(capacity);
     }
+    good &= over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
+      return inverse_level(level, merges, clip(runs, begin, end), Range(values, table, begin, end),
+                           {means.get() + std::min(begin, width), width});
+    });
   }
   if (!good) return too_large();
   return Done{};

@@ -39,6 +39,24 @@ std::int32_t root_of_share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<std::int32_t>(isqrt(((part << 40) / whole) << 20));
 }
 
+/// Cosine and sine of merges; most are of few points, and are worked out once.
+class Shares {
+ public:
+  std::array<std::int32_t, 2> of(std::uint64_t left, std::uint64_t right) {
+    if (left >= kSmall || right >= kSmall) return compute(left, right);
+    auto& known = small_[left * kSmall + right];
+    if (known[0] == 0) known = compute(left, right);
+    return known;
+  }
+
+ private:
+  static constexpr std::size_t kSmall = 32;
+  static std::array<std::int32_t, 2> compute(std::uint64_t left, std::uint64_t right) {
+    return {root_of_share(left, left + right), root_of_share(right, left + right)};
+  }
+  std::array<std::array<std::int32_t, 2>, kSmall * kSmall> small_{};
+};
+
 /// Rows by split descending, ascending within: a counting sort.
 std::vector<std::uint32_t> coding_order(const std::vector<std::uint8_t>& split) {
   std::array<std::uint32_t, kSplits + 1> begin{};
@@ -93,13 +111,14 @@ RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
     std::uint32_t merge, first, end;  // the merge's row; the points it joins
   };
   std::vector<Open> open;
+  Shares shares;
   if (children.root != kNone) open.push_back({children.root, 0, static_cast<std::uint32_t>(count)});
   while (!open.empty()) {
     const Open node = open.back();
     open.pop_back();
     const std::uint64_t left = node.merge - node.first, right = node.end - node.merge;
-    tree.merges.push_back({node.first, node.merge, root_of_share(left, left + right),
-                           root_of_share(right, left + right)});
+    const auto [cosine, sine] = shares.of(left, right);
+    tree.merges.push_back({node.first, node.merge, cosine, sine});
     if (const std::uint32_t below = children.right[node.merge]; below != kNone) {
       tree.parent[below] = node.merge;
       open.push_back({below, node.merge, node.end});

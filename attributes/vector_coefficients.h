@@ -44,6 +44,7 @@ class VectorCoefficients {
       const std::uint32_t below = lower != nullptr ? log_class(lower->sum_[row], 15) : 0;
       const bool any = !Coder::kDecodes && has_any(rows.row(row));
       if (!code_node(coder, around, below, any)) continue;
+      rows.set_nonzero(row);
       if (!code_vector(coder, around, row, rows.row(row))) return false;
     }
     return true;
@@ -135,7 +136,7 @@ class VectorCoefficients {
       const std::uint32_t sum = sum_[around.row[k]];
       (k < kParents ? parents : beside) +=
           around.weight[k] * std::min<std::uint32_t>(sum, kLargest);
-      size[k] = log_class(sum, 4);
+      size[k] = std::min<std::uint32_t>(sum, 4);
     }
     const std::uint32_t expected = (parents + (around.any_beside ? beside : parents)) / 2;
     const std::array<std::uint32_t, 4> contexts = {

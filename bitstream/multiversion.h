@@ -5,6 +5,9 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define SLF_MULTIVERSION __attribute__((target_clones("arch=x86-64-v3", "default")))
+// With what the function calls.
+#define SLF_MULTIVERSION_ALL SLF_MULTIVERSION __attribute__((flatten))
 #else
 #define SLF_MULTIVERSION
+#define SLF_MULTIVERSION_ALL
 #endif

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bitstream/huge_pages.h"
 #include "bitstream/index.h"
 #include "codec/sequence.h"
 #include "codec/slice_units.h"
@@ -88,7 +89,7 @@ LightField gather_points(const std::vector<SliceDecoder>& slices, const Sequence
   field.header.grid = coarser_grid(field.header.grid, plan.levels);
   for (const SliceDecoder& slice : slices)
     field.positions.insert(field.positions.end(), slice.positions.begin(), slice.positions.end());
-  field.components.assign(field.num_points() * plan.planes(), 0);
+  assign_zeros(field.components, field.num_points() * plan.planes());
   field.normals.bits = static_cast<int>(plan.set.sps_normal_bits);
   field.normals.octahedral.assign(field.normals.bits > 0 ? field.num_points() : 0, {});
   return field;

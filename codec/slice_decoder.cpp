@@ -113,10 +113,11 @@ void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_leve
 
 /// Spec 8.7.4 - 8.7.6, 8.8.
 Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupModes& modes,
-                                       std::span<std::int32_t> components, int threads) const {
+                                       const CoefficientRows& rows, int threads) const {
+  const std::span<std::int32_t> components = rows.values;
   std::vector<std::uint32_t> steps = plan.steps;
   for (const PlaneTransform& transform : plan.transforms) {
-    SLF_CHECK(expand_components(transform, plan.steps, components, threads));
+    SLF_CHECK(expand_components(transform, plan.steps, components, threads, rows.nonzero));
     for (const std::size_t j : planes_of(transform.functions)) steps[j] = 1;
   }
   const auto is_predicted = [](const auto& levels) {
@@ -149,7 +150,8 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
   std::uint32_t expected = 0;  // units come by range, then group
   if (tree_.size() > 0) {
     CoefficientModels models(plan.groups, tree_, codes_, first_, set.sps_coefficient_coder == 0);
-    const CoefficientRows rows{tree_, components, planes};
+    std::vector<std::uint8_t> nonzero(tree_.size(), 0);
+    const CoefficientRows rows{tree_, components, planes, nonzero};
     GroupModes modes(plan.groups.size(), std::vector<std::uint8_t>(header.slice_depth, 0));
     for (const SliceUnit& unit : units) {
       if (unit.type != UnitType::kCoefficients) continue;
@@ -174,7 +176,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
       SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin,
                                     order_at(end_level), cut));
     }
-    SLF_CHECK(reconstruct(plan, modes, components, threads));
+    SLF_CHECK(reconstruct(plan, modes, rows, threads));
     if (plan.kept_levels_only())
       for (std::size_t row = 0; row + 1 < first_.size(); ++row)
         for (std::size_t j = 0; j < planes; ++j) {

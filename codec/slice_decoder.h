@@ -71,7 +71,7 @@ struct SliceDecoder {
   void set_modes(const SliceUnitHeader& unit, std::uint32_t end_level, std::uint32_t grid_bits,
                  std::vector<std::uint8_t>& modes) const;
   Result<Done> reconstruct(const SequencePlan& plan, const GroupModes& modes,
-                           std::span<std::int32_t> components, int threads) const;
+                           const CoefficientRows& rows, int threads) const;
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 
   std::vector<std::uint64_t> codes_;  // Morton codes within the slice of all points; empty where

@@ -4,6 +4,7 @@
 #include <bit>
 #include <vector>
 
+#include "bitstream/multiversion.h"
 #include "bitstream/sha256.h"
 
 namespace slf {
@@ -17,9 +18,33 @@ void hash_little_endian(Sha256& sha, const Integer* values, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       std::array<std::uint8_t, sizeof(Integer)> bytes;
       for (std::size_t b = 0; b < sizeof(Integer); ++b)
-        bytes[b] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(values[i]) >> (8 * b));
+        bytes[b] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(values[i]) >> (8 * b));
       sha.update(bytes);
     }
+  }
+}
+
+/// Odd, so that no single wrong value goes unseen; powers, so that no few wrong values of
+/// neighbouring planes cancel, as they would with multipliers in arithmetic progression.
+std::vector<std::uint32_t> plane_multipliers(std::size_t planes) {
+  constexpr std::uint32_t kRatio = 0x9E3779B5;
+  std::vector<std::uint32_t> multipliers(planes, kRatio);
+  for (std::size_t j = 1; j < planes; ++j) multipliers[j] = multipliers[j - 1] * kRatio;
+  return multipliers;
+}
+
+/// SHA-256 over every component would take as long as the inverse transform.
+SLF_MULTIVERSION
+void hash_rows(const std::int32_t* __restrict components,
+               std::span<const std::uint32_t> multipliers, std::span<std::uint64_t> hashes) {
+  const std::uint32_t* __restrict multiplier = multipliers.data();
+  const std::size_t planes = multipliers.size();
+  for (std::uint64_t& hash : hashes) {
+    std::uint64_t sum = 0;
+    for (std::size_t j = 0; j < planes; ++j)
+      sum += std::uint64_t{static_cast<std::uint32_t>(components[j])} * multiplier[j];
+    hash = sum;
+    components += planes;
   }
 }
 
@@ -30,7 +55,9 @@ std::array<std::uint8_t, 32> slice_digest(std::span<const Voxel> positions,
                                           std::span<const std::array<std::uint16_t, 2>> normals) {
   Sha256 sha;
   hash_little_endian(sha, positions.data()->data(), positions.size() * 3);
-  hash_little_endian(sha, components.data(), components.size());
+  std::vector<std::uint64_t> rows(positions.size());
+  hash_rows(components.data(), plane_multipliers(components.size() / positions.size()), rows);
+  hash_little_endian(sha, rows.data(), rows.size());
   if (!normals.empty()) hash_little_endian(sha, normals.data()->data(), normals.size() * 2);
   return sha.finish();
 }

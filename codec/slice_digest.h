@@ -9,7 +9,9 @@
 
 namespace slf {
 
-/// SHA-256 of positions, then components as 32-bit, then normals as 16-bit, all little endian.
+/// SHA-256 of positions, then a 64-bit hash of the components of each point, then normals, all
+/// little endian. It finds the mistakes of decoders; it is no protection against forgery.
+/// @param components  [positions][3 K]
 std::array<std::uint8_t, 32> slice_digest(std::span<const Voxel> positions,
                                           std::span<const std::int32_t> components,
                                           std::span<const std::array<std::uint16_t, 2>> normals);

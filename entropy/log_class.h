@@ -10,9 +10,8 @@ namespace slf {
 /// 0 .. 3 for themselves, then four classes an octave: 4, 5, 6, 7, 8 - 9, 10 - 11, ...; at most
 /// `most`.
 constexpr std::uint32_t log_class(std::uint64_t n, std::uint32_t most) {
-  if (n < 4) return std::min(static_cast<std::uint32_t>(n), most);
-  const auto width = static_cast<std::uint32_t>(std::bit_width(n));
-  return std::min(4 * (width - 2) + static_cast<std::uint32_t>(n >> (width - 3) & 3), most);
+  const auto octave = static_cast<std::uint32_t>(std::bit_width(n | 4)) - 3;
+  return std::min(4 * octave + static_cast<std::uint32_t>(n >> octave), most);
 }
 
 }  // namespace slf

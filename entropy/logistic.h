@@ -58,18 +58,18 @@ class Mixer {
     return mixed_;
   }
 
-  /// Moves the selected weights along the gradient of the code length. rate: 1 .. 64.
+  /// Moves the selected weights along the gradient of the code length. rate: 8, 16, .. 40, a
+  /// multiple of 8 so that (input * error * rate + 2^19) >> 20 needs 32 bits; |input| <= 2815.
   void update(const std::array<int, kInputs>& inputs, unsigned bit, int rate) {
     const int error = (bit ? 65536 : 0) - squash(mixed_);
     for (std::size_t i = 0; i < kInputs; ++i) {
-      const std::int64_t step = std::int64_t{inputs[i]} * error * rate + (1 << 19);
-      selected_[i] = static_cast<std::int32_t>(
-          std::clamp<std::int64_t>(selected_[i] + (step >> 20), -kWeightLimit, kWeightLimit));
+      const std::int32_t step = (inputs[i] * error * (rate / 8) + (1 << 16)) >> 17;
+      selected_[i] = std::clamp(selected_[i] + step, -kWeightLimit, kWeightLimit);
     }
   }
 
  private:
-  static constexpr std::int64_t kWeightLimit = 1 << 22;
+  static constexpr std::int32_t kWeightLimit = 1 << 22;
   std::array<std::int32_t, kInputs * kSets> weights_;
   std::int32_t* selected_ = weights_.data();
   int mixed_ = 0;

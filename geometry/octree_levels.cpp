@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "bitstream/multiversion.h"
+
 namespace slf {
 
 OctreeLevel octree_root() {
@@ -29,6 +31,7 @@ std::int32_t child_index(const OctreeLevel& level, std::int32_t node, int child)
 
 }  // namespace
 
+SLF_MULTIVERSION_ALL
 OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
   OctreeLevel children;
   std::uint32_t count = 0;

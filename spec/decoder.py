@@ -334,7 +334,13 @@ def check_metadata(payload):
 
 def check_digest(digest, positions, components, normals):
     """7.9: SHA-256 of the decoded slice; normals is None where the stream has none."""
-    data = positions.astype("<i4").tobytes() + components.astype("<i4").tobytes()
+    components = components.reshape(len(positions), -1)
+    hashes = np.zeros(len(positions), np.uint64)  # sums wrap at 2^64
+    multiplier = 1
+    for plane in components.T:
+        multiplier = multiplier * 0x9E3779B5 % 2**32
+        hashes += (plane.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) * np.uint64(multiplier)
+    data = positions.astype("<i4").tobytes() + hashes.astype("<u8").tobytes()
     if normals is not None:
         data += normals.astype("<u2").tobytes()
     require(hashlib.sha256(data).digest() == digest, "digest_sha256")

@@ -1,0 +1,31 @@
+// Large arrays on large pages, where the system has them and asks to be told.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace slf {
+
+/// `values` becomes `size` zeros. Page faults and address translation of 133 MB on small pages were
+/// a seventh of the time of a decode.
+template <class T>
+void assign_zeros(std::vector<T>& values, std::size_t size) {
+  values.clear();
+  values.reserve(size);
+#if defined(__linux__)
+  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(values.data());
+  const auto first = (begin + kHugePage - 1) & ~(kHugePage - 1);
+  const auto end = (begin + size * sizeof(T)) & ~(kHugePage - 1);
+  if (first < end)  // advice that a system does not follow changes nothing
+    static_cast<void>(madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE));
+#endif
+  values.resize(size);
+}
+
+}  // namespace slf

@@ -1,0 +1,17 @@
+// Rows of a large array that are soon needed, on their way to the cache.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace slf {
+
+/// A hint; the row is going to be written too. Hardware that looks ahead stops at every page.
+inline void prefetch_row(const std::int32_t* row, std::size_t lanes) {
+#if defined(__GNUC__)
+  constexpr std::size_t kLine = 64 / sizeof(std::int32_t);
+  for (std::size_t j = 0; j < lanes; j += kLine) __builtin_prefetch(row + j, 1);
+#endif
+}
+
+}  // namespace slf
