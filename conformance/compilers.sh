@@ -13,13 +13,13 @@ else
   excluded=(--exclude 'texture-*')
 fi
 sources="conformance/*.cpp bitstream/*.cpp geometry/*.cpp attributes/*.cpp codec/decode.cpp codec/read_info.cpp
-  codec/sequence.cpp codec/slice_*.cpp codec/pack*.cpp codec/texture_*.cpp texture/*.cpp video/picture.cpp video/hevc_*.cpp"
+  codec/derive_transforms.cpp codec/sequence.cpp codec/slice_*.cpp codec/pack*.cpp codec/texture_*.cpp codec/transform_units.cpp lightfield/basis*.cpp lightfield/harmonics.cpp texture/*.cpp video/picture.cpp video/hevc_*.cpp"
 for compiler in g++ clang++; do
   for level in -O0 -O3; do
     objects="$work/$compiler$level"
     mkdir "$objects"
     printf '%s\n' $sources | xargs -P "$(nproc)" -I{} sh -c \
-      "$compiler -std=c++20 $level -DSLF_WITH_DRACO=1 $video_flags -Iinclude -I. -c {} -o $objects/\$(echo {} | tr / _).o"
+      "$compiler -std=c++20 $level -DSLF_WITH_DRACO=1 $video_flags -Iinclude -I. -isystem /usr/include/eigen3 -c {} -o $objects/\$(echo {} | tr / _).o"
     "$compiler" "$objects"/*.o -o "$objects/generate" -ldraco $video_libraries -lz -pthread
     "$objects/generate" "$work/made"
     diff -r "${excluded[@]}" "$work/made/streams" conformance/streams

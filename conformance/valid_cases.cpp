@@ -62,33 +62,33 @@ void add_components(std::vector<Case>& cases) {
     Case c{vector ? "vector" : "independent",
            "three groups, three level ranges",
            {"7.6", vector ? "8.7.2" : "8.7.3", "8.8", "8.9"},
-           field(sphere(6), 6, 24),
+           field(sphere(5), 5, 24),
            with_steps(24, 250),
-           {1, 4, 5},
+           {1, 3, 4},
            {1, 2},
            0,
            false};
     c.parameters.coefficients = vector ? CoefficientCoder::kVector : CoefficientCoder::kIndependent;
     for (int k = 0; k < 24; ++k) c.parameters.group.push_back(k == 0 ? 0 : k < 5 ? 1 : 2);
-    c.parameters.coefficient_level_ends = {4, 5, 6};
-    c.parameters.geometry_level_ends = {3, 6};
+    c.parameters.coefficient_level_ends = {3, 4, 5};
+    c.parameters.geometry_level_ends = {3, 5};
     cases.push_back(c);
   }
   for (const bool surface : {true, false}) {
     Case c{surface ? "prediction" : "prediction-full-cube",
            "levels predicted from coarser ones, three groups, several slices",
            {"7.6", "8.7.6", "8.8", "8.9"},
-           field(surface ? sphere(6) : lattice(16, 16, 16), surface ? 6 : 4, 12),
+           field(surface ? sphere(5) : lattice(8, 8, 8), surface ? 5 : 3, 12),
            with_steps(12, 40),
-           {1, 3, 4},
+           surface ? std::vector<int>{1, 3, 4} : std::vector<int>{1, 2},
            {1, 2},
            0,
            false};
     c.parameters.rdo = surface ? 0.3 : 0;
     for (int k = 0; k < 12; ++k) c.parameters.group.push_back(k == 0 ? 0 : k % 2 + 1);
     c.parameters.coefficient_level_ends =
-        surface ? std::vector<int>{4, 5, 6} : std::vector<int>{2, 4};
-    c.parameters.max_slice_points = surface ? 3000 : 1u << 20;
+        surface ? std::vector<int>{3, 4, 5} : std::vector<int>{2, 3};
+    c.parameters.max_slice_points = surface ? 800 : 1u << 20;
     cases.push_back(c);
   }
   Case steps{"unequal-steps",
@@ -130,16 +130,16 @@ void add_transforms(std::vector<Case>& cases) {
     Case c{joint ? "transform-joint" : "transform-functions",
            "transforms across planes, of lower rank, over three groups",
            {"7.11", "8.7.5", "8.9"},
-           field(sphere(6), 6, 24),
+           field(sphere(5), 5, 24),
            with_steps(24, 250),
-           {4, 5},
+           {3, 4},
            {1, 2},
            0,
            false};
     c.parameters.transform = joint ? TransformMode::kJoint : TransformMode::kFunctions;
     for (int k = 0; k < 24; ++k) c.parameters.group.push_back(k == 0 ? 0 : k < 5 ? 1 : 2);
-    c.parameters.coefficient_level_ends = {4, 5, 6};
-    c.parameters.max_slice_points = 5000;
+    c.parameters.coefficient_level_ends = {3, 4, 5};
+    c.parameters.max_slice_points = 1500;
     cases.push_back(c);
   }
 }

@@ -139,11 +139,11 @@ TEST_P(LevelPrediction, TheLargestCoefficientsStayInBounds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Spec_8_7_5, LevelPrediction,
+INSTANTIATE_TEST_SUITE_P(Spec_8_7_6, LevelPrediction,
                          testing::ValuesIn(test::clouds_of_every_shape()),
                          [](const auto& cloud) { return cloud.param.name; });
 
-TEST(Spec_8_7_5_Encoder, PredictsASmoothGroupAndLeavesANoisyOneAlone) {
+TEST(Spec_8_7_6_Encoder, PredictsASmoothGroupAndLeavesANoisyOneAlone) {
   LightField field = smooth_field(test::sphere_cloud(6), 6, 2);
   std::mt19937 random(4);
   for (std::size_t i = 0; i < field.components.size(); ++i)
