@@ -93,7 +93,10 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
   settings.observe.threads = settings.fit.threads = settings.threads;
-  if (cameras.empty()) settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
+  if (cameras.empty()) {
+    settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
+    settings.search = {};
+  }
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
@@ -104,9 +107,12 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)
                           : fit_capture(capture, cameras, job.cloud, settings, progress));
+  if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
+  encoded.fit = job.fit.chosen;
   encoded.observations = job.fit.observations;
   encoded.unobserved_points = job.fit.unobserved_points;
   encoded.seconds_observe = job.fit.seconds_observe;
+  encoded.seconds_choose = job.fit.seconds_choose;
   encoded.seconds_fit = job.fit.seconds_fit;
   watch.lap();
   if (progress) progress("code", 0);

@@ -1,6 +1,7 @@
 #include "codec/encode_metadata.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace slf {
 namespace {
@@ -12,7 +13,25 @@ std::string text(double value) {
   return {buffer, end};
 }
 
-void add_fit(const FitSettings& fit, Metadata& metadata) {
+std::string decibels(double psnr) { return text(std::round(psnr * 100) / 100); }
+
+std::string cross_validation(const ChosenFit& chosen) {
+  switch (chosen.outcome) {
+    case ChosenFit::kNothingToSearch:
+      return "off";
+    case ChosenFit::kTooFewCameras:
+      return "too few cameras";
+    case ChosenFit::kSearched:
+      break;
+  }
+  return decibels(chosen.psnr_chosen) + " dB, " + decibels(chosen.psnr_given) + " before";
+}
+
+}  // namespace
+
+Metadata fit_metadata(const ChosenFit& chosen) {
+  const FitSettings& fit = chosen.settings;
+  Metadata metadata = {{"functions", std::to_string(fit.basis.num_functions())}};
   if (fit.basis.id == BasisId::kBspline)
     metadata.emplace_back("order", std::to_string(fit.basis.order));
   if (fit.method == FitMethod::kHierarchical) {
@@ -20,6 +39,7 @@ void add_fit(const FitSettings& fit, Metadata& metadata) {
     metadata.insert(metadata.end(),
                     {
                         {"fit", "hierarchical"},
+                        {"frame", fit.frame == FrameId::kReflected ? "reflected" : "global"},
                         {"block_log2", std::to_string(h.block_log2)},
                         {"block_strength", text(h.strength)},
                         {"block_growth", text(h.growth)},
@@ -27,8 +47,9 @@ void add_fit(const FitSettings& fit, Metadata& metadata) {
                         {"point_growth", text(h.point_growth)},
                         {"environment_degree", std::to_string(fit.environment.degree)},
                         {"environment_radius", text(fit.environment.radius)},
+                        {"cross_validation", cross_validation(chosen)},
                     });
-    return;
+    return metadata;
   }
   metadata.insert(metadata.end(), {
                                       {"lambda", text(fit.lambda)},
@@ -37,9 +58,8 @@ void add_fit(const FitSettings& fit, Metadata& metadata) {
                                       {"neighbours", std::to_string(fit.neighbours)},
                                       {"penalise_dc", fit.penalise_dc ? "yes" : "no"},
                                   });
+  return metadata;
 }
-
-}  // namespace
 
 Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std::size_t cameras) {
   Metadata metadata = {
@@ -72,9 +92,9 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
                         {"delta", text(s.observe.delta_degrees)},
                         {"occlusion_resolution", text(s.observe.occlusion_resolution)},
                         {"depth_tolerance", text(s.observe.depth_tolerance)},
-                        {"functions", std::to_string(s.fit.basis.num_functions())},
                     });
-    add_fit(s.fit, metadata);
+    const Metadata fit = fit_metadata(encoded.fit);
+    metadata.insert(metadata.end(), fit.begin(), fit.end());
   }
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;

@@ -9,4 +9,7 @@ namespace slf {
 Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encoded,
                           std::size_t cameras);
 
+/// What of it is of the fit.
+Metadata fit_metadata(const ChosenFit& chosen);
+
 }  // namespace slf

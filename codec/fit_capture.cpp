@@ -6,6 +6,7 @@
 #include "capture/spacing.h"
 #include "codec/component_planes.h"
 #include "codec/stopwatch.h"
+#include "lightfield/fit_settings.h"
 #include "lightfield/octahedral.h"
 
 namespace slf {
@@ -35,22 +36,15 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
 }  // namespace
 
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
-  const Basis& b = s.fit.basis;
   if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
   if (s.voxel_size == 0 && (s.grid_bits < 1 || s.grid_bits > 21))
     return invalid("grid bits: 1 to 21");
-  if (b.id == BasisId::kHarmonics && (b.degree < 0 || b.degree > 10))
-    return invalid("degree: 0 to 10");
-  if (b.order < 1 || b.order > 4) return invalid("order: 1 to 4");
-  if (b.scales_theta < 0 || b.scales_theta > 6 || b.scales_gamma < 0 || b.scales_gamma > 6)
-    return invalid("scales: 0 to 6");
   if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
     return invalid("delta: 0 to 90 degrees");
-  if (!(s.fit.lambda >= 0) || !std::isfinite(s.fit.lambda)) return invalid("lambda: 0 or more");
-  if (!(s.fit.beta >= 0) || !std::isfinite(s.fit.beta)) return invalid("beta: 0 or more");
-  if (s.fit.iterations < 0 || s.fit.iterations > 100) return invalid("iterations: 0 to 100");
-  if (s.fit.neighbours < 1 || s.fit.neighbours > 64) return invalid("neighbours: 1 to 64");
+  SLF_CHECK(check_fit_settings(s.fit));
+  if (s.search.any() && s.fit.method != FitMethod::kHierarchical)
+    return invalid("cross-validation: of the hierarchical fit alone");
   if (!(s.chroma_step >= 0.1 && s.chroma_step <= 10)) return invalid("chroma step: 0.1 to 10");
   if (s.normal_bits != 0 && (s.normal_bits < 4 || s.normal_bits > 12))
     return invalid("normal bits: 0, or 4 to 12");
@@ -79,18 +73,21 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
   SLF_TRY(Observations world,
           observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
+  fit.seconds_observe = watch.lap();
+  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, settings.fit, settings.search, progress));
+  const FitSettings& chosen = fit.chosen.settings;
+  fit.seconds_choose = watch.lap();
   const Observations seen =
-      in_frame(std::move(world), settings.fit.frame, cloud.positions, settings.threads);
+      in_frame(std::move(world), chosen.frame, cloud.positions, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     fit.unobserved_points += seen.first[p] == seen.first[p + 1];
   // Harmonics go on smoothly beyond what was seen; B-splines are held there (spec 6.7).
-  if (settings.fit.basis.id == BasisId::kBspline) {
+  if (chosen.basis.id == BasisId::kBspline) {
     fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
     fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
   }
-  fit.seconds_observe = watch.lap();
-  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, settings.fit, progress));
+  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
   fit.seconds_fit = watch.lap();
   return fit;
 }

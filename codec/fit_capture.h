@@ -21,19 +21,21 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
 
 /// View maps in floating point.
 struct CaptureFit {
-  std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K = settings.fit.basis
+  std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K of chosen.settings.basis
+  ChosenFit chosen;
   int gamma_min_q7 = -127, gamma_max_q7 = 127;
   std::size_t observations = 0, unobserved_points = 0;
-  double seconds_observe = 0, seconds_fit = 0;
+  double seconds_observe = 0, seconds_choose = 0, seconds_fit = 0;
 };
 
-/// View maps from what the cameras saw of a cloud with normals. Paper II, III-A. Errors as observe
-/// and fit_view_maps.
+/// View maps from what the cameras saw of a cloud with normals. Paper II, III-A. Errors as observe,
+/// choose_fit and fit_view_maps.
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
                                            const VoxelCloud& cloud, const EncoderSettings& settings,
                                            const Progress& progress);
 
 /// The integer light field, its shifts as fine as the coder takes them. Spec 6.3, 6.5.
+/// @param settings  their fit is fit.chosen.settings
 LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
                          const EncoderSettings& settings);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capture/nearest.h"
+#include "codec/encode_metadata.h"
 #include "codec/fit_capture.h"
 #include "codec/stopwatch.h"
 #include "igc/igc_file.h"
@@ -121,7 +122,9 @@ Result<LightField, InputError> decode_geometry(Bytes section, const IgcDecodeOpt
 Result<Done, InputError> check_size(const IgcParameters& parameters, std::size_t points,
                                     const DecodeLimits& limits) {
   const EncoderSettings& s = parameters.settings.slf;
-  const double functions = s.fit.basis.num_functions(), scale = s.observe.occlusion_resolution;
+  // A search may choose a basis of up to sqrt 2 as many.
+  const double functions = s.fit.basis.num_functions() * (s.search.basis ? 1.5 : 1);
+  const double scale = s.observe.occlusion_resolution;
   const double view_maps = static_cast<double>(points) * (12 + 12 * functions);
   const double depths = 4 * scale * scale * parameters.width * parameters.height;
   if (std::max(view_maps, depths) <= static_cast<double>(limits.max_output_bytes)) return Done{};
@@ -159,7 +162,10 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   const double seconds_normals = watch.lap();
   SLF_TRY(CaptureFit fit, fit_capture(capture, order, cloud, settings, progress));
   decoded.seconds_observe = seconds_normals + fit.seconds_observe;
-  decoded.seconds_fit = fit.seconds_fit;
+  decoded.seconds_fit = fit.seconds_choose + fit.seconds_fit;
+  settings.fit = fit.chosen.settings;
+  for (const auto& [key, value] : fit_metadata(fit.chosen))
+    decoded.metadata.emplace_back("chosen_" + key, value);
   decoded.light_field = quantise_grid(cloud, std::move(fit), up, settings);
   return decoded;
 }

@@ -8,6 +8,7 @@
 
 #include "bitstream/zlib_adapter.h"
 #include "codec/fit_capture.h"
+#include "lightfield/environment.h"
 
 namespace slf {
 namespace {
@@ -115,6 +116,15 @@ void settings_lines(V& v, P& s) {
   v.real("block_growth", slf.fit.hierarchy.growth);
   v.real("point_penalty", slf.fit.hierarchy.point_penalty);
   v.real("point_growth", slf.fit.hierarchy.point_growth);
+  v.whole("environment_degree", slf.fit.environment.degree, 0, kMaxEnvironmentDegree);
+  v.real("environment_radius", slf.fit.environment.radius);
+  v.real("environment_strength", slf.fit.environment.strength);
+  // What the decoder chooses from the images that it decoded, as the encoder of .slf would.
+  choice(v, "search_frame", slf.search.frame, 1);
+  choice(v, "search_basis", slf.search.basis, 1);
+  choice(v, "search_block_strength", slf.search.strength, 1);
+  choice(v, "search_block_growth", slf.search.growth, 1);
+  choice(v, "search_point_penalty", slf.search.point_penalty, 1);
   v.whole("order", slf.fit.basis.order, 1, 4);
   v.whole("scales_theta", slf.fit.basis.scales_theta, 0, 6);
   v.whole("scales_gamma", slf.fit.basis.scales_gamma, 0, 6);

@@ -4,9 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
+#include "lightfield/camera_folds.h"
 #include "lightfield/frame.h"
 #include "lightfield/harmonics.h"
 #include "slf/parallel.h"
@@ -15,11 +14,11 @@ namespace slf {
 namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using NoNormals = std::span<const std::array<float, 3>>;
 using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 constexpr double kPenalty = 0.8, kGrowth = 1.3;  // as the blocks of the hierarchical fit have
-constexpr std::size_t kMostViews = 200000, kMostTriedViews = 30000;
-constexpr int kFolds = 4;
+constexpr std::size_t kMostTriedViews = 30000;
 /// Half the object's longest side is 1; the last is as good as infinite.
 constexpr std::array<double, 9> kRadii = {2, 2.5, 3.2, 4, 5, 6.5, 9, 16, 1000};
 constexpr double kLeastGain = 0.02;
@@ -80,13 +79,13 @@ Columns colours_of(const ReflectedViews& views, std::size_t begin, std::size_t e
 }
 
 /// Squared error on the views of each fold, of light fitted to the others. [0] without any light.
-std::array<double, 2> held_out_error(const ReflectedViews& views, std::span<const int> fold,
+std::array<double, 2> held_out_error(const ReflectedViews& views, const CameraFolds& folds,
                                      double radius, const EnvironmentSettings& settings) {
   const std::size_t points = views.position.size();
   const Matrix functions = functions_of(views, 0, points, radius, settings.degree);
   const Columns colours = colours_of(views, 0, points);
   std::array<double, 2> error{0, 0};
-  for (int held_out = 0; held_out < kFolds; ++held_out) {
+  for (int held_out = 0; held_out < folds.count; ++held_out) {
     // Rows less the mean over those of the same point that are not held out.
     Matrix f = functions;
     Columns c = colours;
@@ -94,14 +93,14 @@ std::array<double, 2> held_out_error(const ReflectedViews& views, std::span<cons
     for (std::size_t p = 0; p < points; ++p) {
       std::vector<Eigen::Index> of_point;
       for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
-        if (fold[views.camera[j]] != held_out) of_point.push_back(index(j));
+        if (folds.of_camera[views.camera[j]] != held_out) of_point.push_back(index(j));
       if (of_point.empty()) continue;
       const Eigen::RowVectorXf f_mean = functions(of_point, Eigen::all).colwise().mean();
       const Eigen::RowVector3f c_mean = colours(of_point, Eigen::all).colwise().mean();
       for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j) {
         f.row(index(j)) -= f_mean;
         c.row(index(j)) -= c_mean;
-        if (fold[views.camera[j]] == held_out) tested.push_back(index(j));
+        if (folds.of_camera[views.camera[j]] == held_out) tested.push_back(index(j));
       }
       kept.insert(kept.end(), of_point.begin(), of_point.end());
     }
@@ -117,58 +116,35 @@ std::array<double, 2> held_out_error(const ReflectedViews& views, std::span<cons
   return error;
 }
 
-Vec3 world_of(std::span<const std::array<float, 3>> normals, std::size_t p, FrameId frame,
-              const std::array<float, 2>& direction) {
-  return vector_of(frame == FrameId::kReflected ? to_frame(normals, p, direction) : direction);
-}
-
 }  // namespace
 
-ReflectedViews reflected_views(const Observations& observations, std::span<const Voxel> positions,
-                               std::span<const std::array<float, 3>> normals, FrameId frame,
-                               std::size_t most) {
+MirrorPoints mirror_points(std::span<const Voxel> positions, int threads) {
+  MirrorPoints points;
+  const ObjectBox box(positions);
+  for (const Voxel& v : positions) points.position.push_back(box(v));
+  points.normal = frame_normals(FrameId::kReflected, positions, threads);
+  return points;
+}
+
+ReflectedViews reflected_views(const Observations& observations, const MirrorPoints& points,
+                               FrameId frame, std::size_t most) {
   const std::size_t every =
       std::max<std::size_t>(1, (observations.direction.size() + most - 1) / most);
-  const ObjectBox box(positions);
   ReflectedViews views;
   views.first.push_back(0);
-  for (std::size_t p = 0; p < positions.size(); p += every) {
+  for (std::size_t p = 0; p < points.position.size(); p += every) {
     if (observations.first[p] == observations.first[p + 1]) continue;
     for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
       const auto& d = observations.direction[j];
       views.reflected.push_back(
-          vector_of(frame == FrameId::kReflected ? d : to_frame(normals, p, d)));
+          vector_of(frame == FrameId::kReflected ? d : to_frame(points.normal, p, d)));
       views.colour.push_back(observations.colour[j]);
       views.camera.push_back(observations.camera[j]);
     }
-    views.position.push_back(box(positions[p]));
+    views.position.push_back(points.position[p]);
     views.first.push_back(views.colour.size());
   }
   return views;
-}
-
-std::vector<int> camera_folds(std::span<const Vec3> towards_camera) {
-  const std::size_t cameras = towards_camera.size();
-  const std::size_t clusters =
-      std::min(cameras, std::clamp<std::size_t>(cameras / 5, std::size_t{kFolds}, 32));
-  const auto cosine = [&](std::size_t a, std::size_t b) {
-    const Vec3 &x = towards_camera[a], &y = towards_camera[b];
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-  };
-  // Seeds as far from each other as they can be, one after the other; then the nearest seed.
-  std::vector<int> cluster(cameras, 0);
-  std::vector<double> nearest(cameras, -2);
-  std::size_t seed = 0;
-  for (std::size_t k = 0; k < clusters; ++k) {
-    for (std::size_t i = 0; i < cameras; ++i)
-      if (cosine(i, seed) > nearest[i]) {
-        nearest[i] = cosine(i, seed);
-        cluster[i] = static_cast<int>(k) % kFolds;
-      }
-    seed = static_cast<std::size_t>(std::min_element(nearest.begin(), nearest.end()) -
-                                    nearest.begin());
-  }
-  return cluster;
 }
 
 std::vector<float> solve_environment(const ReflectedViews& views, double radius,
@@ -204,54 +180,43 @@ std::vector<float> solve_environment(const ReflectedViews& views, double radius,
   return light;
 }
 
-std::optional<double> choose_radius(const ReflectedViews& views, std::span<const int> fold,
-                                    const EnvironmentSettings& settings, int threads) {
-  if (*std::max_element(fold.begin(), fold.end()) < 2) return std::nullopt;
-  EnvironmentSettings tried = settings;
-  tried.degree = std::min(settings.degree, kTriedDegree);
+EnvironmentSettings with_radius(const Observations& observations, const MirrorPoints& points,
+                                const FitSettings& settings) {
+  EnvironmentSettings chosen = settings.environment;
+  if (chosen.degree == 0 || chosen.radius != 0) return chosen;
+  const auto none = [&] {
+    chosen.degree = 0;
+    return chosen;
+  };
+  const bool reflected = settings.frame == FrameId::kReflected;
+  const CameraFolds folds =
+      camera_folds(observations, reflected ? std::span(points.normal) : NoNormals{});
+  if (folds.count < 3) return none();
+  const ReflectedViews views =
+      reflected_views(observations, points, settings.frame, kMostTriedViews);
+  if (views.colour.empty()) return none();
+  EnvironmentSettings tried = settings.environment;
+  tried.degree = std::min(tried.degree, kTriedDegree);
   std::array<std::array<double, 2>, kRadii.size()> error{};
-  parallel_ranges(kRadii.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(kRadii.size(), 1, settings.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      error[i] = held_out_error(views, fold, kRadii[i], tried);
+      error[i] = held_out_error(views, folds, kRadii[i], tried);
   });
   const auto best = std::min_element(error.begin(), error.end(),
                                      [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  if (!((*best)[1] < (1 - kLeastGain) * (*best)[0])) return std::nullopt;
-  return kRadii[static_cast<std::size_t>(best - error.begin())];
+  if (!((*best)[1] < (1 - kLeastGain) * (*best)[0])) return none();
+  chosen.radius = kRadii[static_cast<std::size_t>(best - error.begin())];
+  return chosen;
 }
 
 std::optional<Environment> fit_environment(const Observations& observations,
-                                           std::span<const Voxel> positions,
-                                           std::span<const std::array<float, 3>> normals,
-                                           const FitSettings& settings) {
-  const EnvironmentSettings& e = settings.environment;
-  if (e.degree == 0 || observations.direction.empty()) return std::nullopt;
-  double radius = e.radius;
-  if (radius == 0) {
-    ReflectedViews few =
-        reflected_views(observations, positions, normals, settings.frame, kMostTriedViews);
-    std::map<std::uint16_t, Vec3> towards;
-    for (std::size_t p = 0; p < positions.size(); ++p)
-      for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
-        const Vec3 w = world_of(normals, p, settings.frame, observations.direction[j]);
-        Vec3& sum = towards[observations.camera[j]];
-        for (std::size_t a = 0; a < 3; ++a) sum[a] += w[a];
-      }
-    std::vector<Vec3> directions;
-    std::map<std::uint16_t, std::uint16_t> number;
-    for (const auto& [camera, sum] : towards) {
-      const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + 1e-30;
-      number[camera] = static_cast<std::uint16_t>(directions.size());
-      directions.push_back({sum[0] / length, sum[1] / length, sum[2] / length});
-    }
-    for (auto& camera : few.camera) camera = number[camera];
-    const auto chosen = choose_radius(few, camera_folds(directions), e, settings.threads);
-    if (!chosen) return std::nullopt;
-    radius = *chosen;
-  }
-  const ReflectedViews views =
-      reflected_views(observations, positions, normals, settings.frame, kMostViews);
-  return Environment(radius, e.degree, solve_environment(views, radius, e, settings.threads),
+                                           const MirrorPoints& points, const FitSettings& settings,
+                                           std::size_t most_views) {
+  const EnvironmentSettings e = with_radius(observations, points, settings);
+  if (e.degree == 0) return std::nullopt;
+  const ReflectedViews views = reflected_views(observations, points, settings.frame, most_views);
+  if (views.colour.empty()) return std::nullopt;
+  return Environment(e.radius, e.degree, solve_environment(views, e.radius, e, settings.threads),
                      settings.threads);
 }
 

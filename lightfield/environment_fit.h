@@ -11,6 +11,13 @@
 
 namespace slf {
 
+/// Points as mirrors: where they are in the object's box, and their normals of either sign.
+struct MirrorPoints {
+  std::vector<Vec3> position;
+  std::vector<std::array<float, 3>> normal;
+};
+MirrorPoints mirror_points(std::span<const Voxel> positions, int threads);
+
 /// What was seen of some of the points, and where a mirror there would look.
 struct ReflectedViews {
   std::vector<std::size_t> first;  ///< [points + 1]
@@ -21,31 +28,24 @@ struct ReflectedViews {
 };
 
 /// Every n-th point that was seen, n the least with at most `most` views in all (or one point).
-/// @param observations  of the directions of `frame`
-/// @param normals       [P] of the reflected frame
-ReflectedViews reflected_views(const Observations& observations, std::span<const Voxel> positions,
-                               std::span<const std::array<float, 3>> normals, FrameId frame,
-                               std::size_t most);
-
-/// [cameras] of 0 .. 3: parts of the cameras to hold out in turn. Cameras close to each other, as
-/// seen from the object, are in the same part; so what is held out has no neighbour left.
-std::vector<int> camera_folds(std::span<const Vec3> towards_camera);
+ReflectedViews reflected_views(const Observations& observations, const MirrorPoints& points,
+                               FrameId frame, std::size_t most);
 
 /// Light that minimises the squared error of colours less their means over each point, with a
 /// penalty of settings.strength * 0.8 * 1.3^degree per view. [(degree + 1)^2][3].
 std::vector<float> solve_environment(const ReflectedViews& views, double radius,
                                      const EnvironmentSettings& settings, int threads);
 
-/// The radius with the least error on held-out cameras, or none: fewer than three cameras, or no
-/// radius that explains 2 % of the variance.
-std::optional<double> choose_radius(const ReflectedViews& views, std::span<const int> fold,
-                                    const EnvironmentSettings& settings, int threads);
+/// The settings with a radius where they have none: that of the least error on held-out cameras. Of
+/// degree 0 where there are fewer than three cameras, or no radius explains 2 % of the variance.
+/// @param observations  of the directions of settings.frame, as for all here
+EnvironmentSettings with_radius(const Observations& observations, const MirrorPoints& points,
+                                const FitSettings& settings);
 
-/// Nothing where settings.environment.degree is 0, or choose_radius finds none.
-/// The same for any number of threads. O(min(views, 200,000) K^2), K = (degree + 1)^2.
+/// Nothing where with_radius gives degree 0. From some `most_views` of the observations.
+/// The same for any number of threads. O(most_views K^2), K = (degree + 1)^2.
 std::optional<Environment> fit_environment(const Observations& observations,
-                                           std::span<const Voxel> positions,
-                                           std::span<const std::array<float, 3>> normals,
-                                           const FitSettings& settings);
+                                           const MirrorPoints& points, const FitSettings& settings,
+                                           std::size_t most_views = 200000);
 
 }  // namespace slf

@@ -54,7 +54,7 @@ double dot(const std::array<float, 3>& n, const Vec3& v) {
 }  // namespace
 
 std::vector<float> project_environment(const Environment& environment,
-                                       std::span<const Voxel> positions,
+                                       std::span<const Vec3> positions,
                                        std::span<const std::array<float, 3>> normals, FrameId frame,
                                        const DirectionRows& basis, int threads) {
   const std::size_t k = basis.size(), count = 4 * k;
@@ -66,7 +66,6 @@ std::vector<float> project_environment(const Environment& environment,
     basis.evaluate(directions[q], rows.row(index(q)).data());
   }
   const auto bins = bins_of(normals);
-  const ObjectBox box(positions);
   std::vector<float> out(positions.size() * k * 3);
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -80,7 +79,7 @@ std::vector<float> project_environment(const Environment& environment,
           Eigen::LLT<Eigen::MatrixXf>(gram).solve(weighted.transpose()) / static_cast<float>(count);
       Columns light(index(count), 3);
       for (const std::size_t p : bins[b]) {
-        const Vec3 at = box(positions[p]);
+        const Vec3& at = positions[p];
         for (std::size_t q = 0; q < count; ++q) {
           const auto seen = environment(at, frame == FrameId::kReflected
                                                 ? vectors[q]

@@ -13,10 +13,11 @@ namespace slf {
 /// The combination of functions nearest to what a point reflects of the environment, over all
 /// directions: those in front of the surface count ten times those behind it, which no camera
 /// can see, with a penalty that keeps it from growing there.
-/// @param normals  [P] outward, unit
+/// @param positions  [P] in the object's box
+/// @param normals    [P] outward, unit
 /// @return [P][K][3], of the functions scaled to mean square 1
 std::vector<float> project_environment(const Environment& environment,
-                                       std::span<const Voxel> positions,
+                                       std::span<const Vec3> positions,
                                        std::span<const std::array<float, 3>> normals, FrameId frame,
                                        const DirectionRows& basis, int threads);
 

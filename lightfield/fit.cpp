@@ -1,16 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <string>
+#include <utility>
 
-#include "lightfield/environment.h"
 #include "lightfield/fit_hierarchical.h"
 #include "lightfield/fit_neighbours.h"
+#include "lightfield/fit_settings.h"
 #include "lightfield/fit_step.h"
 #include "lightfield/fit_unobserved.h"
 #include "lightfield/frame.h"
-#include "lightfield/harmonics.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 
@@ -18,54 +15,6 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kPointsPerRange = 256;
-
-Result<Done, InputError> invalid(const char* message) {
-  return InputError{Errc::kInvalidArgument, message};
-}
-
-bool in_range(int value, int low, int high) { return value >= low && value <= high; }
-
-Result<Done, InputError> check(const FitSettings& settings) {
-  const Basis& basis = settings.basis;
-  const HierarchySettings& h = settings.hierarchy;
-  const auto sound = [](double value, double least) {
-    return value >= least && std::isfinite(value);
-  };
-  if (settings.method == FitMethod::kHierarchical &&
-      !(in_range(h.block_log2, 0, 21) && sound(h.strength, 1e-9) && sound(h.growth, 1) &&
-        sound(h.point_penalty, 1e-9) && sound(h.point_growth, 1)))
-    return invalid("block side 0 .. 21, strengths above 0, growths 1 or more");
-  const EnvironmentSettings& e = settings.environment;
-  if (settings.method == FitMethod::kHierarchical &&
-      !(in_range(e.degree, 0, kMaxEnvironmentDegree) && sound(e.strength, 1e-9) &&
-        (e.radius == 0 || sound(e.radius, kLeastEnvironmentRadius))))
-    return invalid("environment: degree 0 .. 16, radius 0 or 2 and more, strength above 0");
-  if (basis.id == BasisId::kHarmonics && !in_range(basis.degree, 0, kMaxDegree))
-    return invalid("the degree of the basis must be 0 .. 10");
-  if (basis.id == BasisId::kHarmonics && settings.method == FitMethod::kPaper)
-    return invalid("the paper's fit takes B-splines, not harmonics");
-  if (!in_range(basis.order, 1, 4)) return invalid("the order of the basis must be 1 .. 4");
-  if (!in_range(basis.scales_theta, 0, 6) || !in_range(basis.scales_gamma, 0, 6))
-    return invalid("the scales of the basis must be 0 .. 6");
-  if (!(settings.lambda >= 0 && std::isfinite(settings.lambda)))
-    return invalid("lambda must be 0 or more");
-  if (!(settings.beta >= 0 && std::isfinite(settings.beta)))
-    return invalid("beta must be 0 or more");
-  if (!in_range(settings.iterations, 0, 100)) return invalid("iterations must be 0 .. 100");
-  if (!in_range(settings.neighbours, 1, 64)) return invalid("neighbours must be 1 .. 64");
-  return Done{};
-}
-
-Result<Done, InputError> check(const Observations& seen, std::size_t points) {
-  const std::size_t total = seen.direction.size();
-  if (points > std::numeric_limits<std::uint32_t>::max())
-    return invalid("more than 2^32 - 1 points");
-  if (seen.first.size() != points + 1 || seen.first.front() != 0 || seen.first.back() != total ||
-      seen.colour.size() != total || !std::is_sorted(seen.first.begin(), seen.first.end()))
-    return invalid("the observations do not belong to these points");
-  if (total == 0) return InputError{Errc::kInvalidInput, "no point has an observation"};
-  return Done{};
-}
 
 /// Runs body over all points and reports that step `step` of `steps` is under way.
 template <class Body>
@@ -79,11 +28,10 @@ void for_points(std::size_t points, int step, int steps, const FitSettings& sett
 
 }  // namespace
 
-Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
+Observations in_frame(Observations observations, std::span<const std::array<float, 3>> normals,
                       int threads) {
-  const auto normals = frame_normals(frame, positions, threads);
   if (normals.empty()) return observations;
-  parallel_ranges(positions.size(), kPointsPerRange, threads,
+  parallel_ranges(normals.size(), kPointsPerRange, threads,
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t p = begin; p < end; ++p)
                       for (auto i = observations.first[p]; i < observations.first[p + 1]; ++i)
@@ -99,14 +47,19 @@ Observations in_frame(Observations observations, FrameId frame, std::span<const 
   return observations;
 }
 
+Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
+                      int threads) {
+  return in_frame(std::move(observations), frame_normals(frame, positions, threads), threads);
+}
+
 // Paper, Algorithm 1.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,
                                                      std::span<const Voxel> positions,
                                                      const FitSettings& settings,
                                                      const Progress& progress) {
   const std::size_t points = positions.size();
-  SLF_TRY([[maybe_unused]] const Done settings_checked, check(settings));
-  SLF_TRY([[maybe_unused]] const Done shape_checked, check(observations, points));
+  SLF_TRY([[maybe_unused]] const Done settings_checked, check_fit_settings(settings));
+  SLF_TRY([[maybe_unused]] const Done shape_checked, check_observations(observations, points));
   const Neighbours neighbours =
       nearest_neighbours(positions, settings.neighbours, settings.threads);
   const UnobservedPoints unobserved(observations, positions, neighbours, settings.threads);

@@ -4,13 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
-#include <utility>
 
-#include "lightfield/block_prior.h"
-#include "lightfield/direction_rows.h"
-#include "lightfield/environment_fit.h"
-#include "lightfield/environment_projection.h"
-#include "lightfield/frame.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -43,56 +37,6 @@ void read_rows(const Observations& seen, std::size_t point, const DirectionRows&
   }
 }
 
-/// What the environment tells of the points.
-class EnvironmentPrior {
- public:
-  EnvironmentPrior(const Observations& seen, std::span<const Voxel> positions,
-                   const DirectionRows& basis, const FitSettings& settings)
-      : positions_(positions), box_(positions), frame_(settings.frame) {
-    if (settings.environment.degree == 0) return;
-    normals_ = frame_normals(FrameId::kReflected, positions, settings.threads);
-    light_ = fit_environment(seen, positions, normals_, settings);
-    if (!light_) return;
-    auto outward = normals_;
-    for (std::size_t p = 0; p < outward.size(); ++p) {
-      double towards_cameras = 0;  // the cosine of the reflected direction is that of the view
-      for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j) {
-        const Vec3 v = vector_of(seen.direction[j]);
-        for (std::size_t a = 0; a < 3; ++a) towards_cameras += v[a] * double(outward[p][a]);
-      }
-      if (towards_cameras < 0)
-        for (float& x : outward[p]) x = -x;
-    }
-    projected_ = project_environment(*light_, positions, outward, frame_, basis, settings.threads);
-  }
-
-  /// What is left of the colours of point p.
-  void subtract(const Observations& seen, std::size_t p, PointRows& rows) const {
-    if (!light_) return;
-    const Vec3 at = box_(positions_[p]);
-    for (std::size_t i = 0; i < rows.count; ++i) {
-      const auto& d = seen.direction[static_cast<std::size_t>(seen.first[p]) + i];
-      const auto light =
-          (*light_)(at, vector_of(frame_ == FrameId::kReflected ? d : to_frame(normals_, p, d)));
-      for (std::size_t c = 0; c < 3; ++c) rows.colours[3 * i + c] -= light[c];
-    }
-  }
-
-  /// [P][K][3] its part of the view maps; zeros where there is none.
-  std::vector<float> take_projected(std::size_t size) {
-    if (!light_) projected_.assign(size, 0.0f);
-    return std::move(projected_);
-  }
-
- private:
-  std::span<const Voxel> positions_;
-  ObjectBox box_;
-  FrameId frame_;
-  std::vector<std::array<float, 3>> normals_;
-  std::optional<Environment> light_;
-  std::vector<float> projected_;
-};
-
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
 /// @param coefficients  [K][3] m before, a after
 void solve_point(const PointRows& rows, std::span<const float> inverse_penalty,
@@ -118,49 +62,77 @@ void solve_point(const PointRows& rows, std::span<const float> inverse_penalty,
 
 }  // namespace
 
+template <class Each>
+void HierarchicalFit::for_points(double from, double to, const Progress& progress,
+                                 const Each& each) const {
+  const std::size_t blocks = prior_.num_blocks();
+  parallel_ranges(
+      blocks, 1, threads_,
+      [&](std::size_t begin, std::size_t end) {
+        PointRows rows;
+        for (std::size_t b = begin; b < end; ++b)
+          for (std::size_t p = prior_.first_point(b); p < prior_.first_point(b + 1); ++p) {
+            read_rows(observations_, p, basis_, rows);
+            environment_.subtract(observations_, p, rows);
+            if (rows.count > 0) each(b, p, rows);
+          }
+      },
+      [&](std::size_t done) {
+        if (progress) progress("fit", from + (to - from) * double(done) / double(blocks));
+      });
+}
+
+HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<const Voxel> positions,
+                                 const FitSettings& settings, const EnvironmentPrior& environment,
+                                 const Progress& progress)
+    : observations_(observations),
+      environment_(environment),
+      threads_(settings.threads),
+      basis_(settings.basis),
+      prior_(positions, settings.hierarchy.block_log2, basis_.size()) {
+  for_points(0, 0.5, progress,
+             [&](std::size_t b, std::size_t, const PointRows& rows) { prior_.add(b, rows); });
+  prior_.sum_up(threads_);
+}
+
+void HierarchicalFit::solve(const HierarchySettings& h, const Body& body,
+                            const Progress& progress) const {
+  const auto blocks = prior_.solve(h.strength, penalties(basis_, kPenalty, h.growth), threads_);
+  std::vector<float> inverse;
+  for (const double p : penalties(basis_, h.point_penalty, h.point_growth))
+    inverse.push_back(static_cast<float>(1 / p));
+  inverse[0] = 0;
+  const std::size_t size = 3 * basis_.size();
+  for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, const PointRows& rows) {
+    std::vector<float> a(blocks.data() + b * size, blocks.data() + (b + 1) * size);
+    solve_point(rows, inverse, a.data());
+    body(p, a);
+  });
+}
+
 std::vector<float> fit_hierarchical(const Observations& observations,
                                     std::span<const Voxel> positions, const FitSettings& settings,
                                     const Progress& progress) {
-  const HierarchySettings& h = settings.hierarchy;
-  const DirectionRows basis(settings.basis);
-  EnvironmentPrior environment(observations, positions, basis, settings);
-  BlockPrior prior(positions, h.block_log2, basis.size());
-  const auto for_points = [&](double from, double to, const auto& body) {
-    parallel_ranges(
-        prior.num_blocks(), 1, settings.threads,
-        [&](std::size_t begin, std::size_t end) {
-          PointRows rows;
-          for (std::size_t b = begin; b < end; ++b)
-            for (std::size_t p = prior.first_point(b); p < prior.first_point(b + 1); ++p) {
-              read_rows(observations, p, basis, rows);
-              environment.subtract(observations, p, rows);
-              if (rows.count > 0) body(b, p, rows);
-            }
-        },
-        [&](std::size_t done) {
-          if (progress)
-            progress("fit", from + (to - from) * double(done) / double(prior.num_blocks()));
-        });
-  };
-  for_points(0, 0.5,
-             [&](std::size_t b, std::size_t, const PointRows& rows) { prior.add(b, rows); });
-  prior.sum_up(settings.threads);
-  const auto blocks =
-      prior.solve(h.strength, penalties(basis, kPenalty, h.growth), settings.threads);
-
-  std::vector<float> inverse;
-  for (const double p : penalties(basis, h.point_penalty, h.point_growth))
-    inverse.push_back(static_cast<float>(1 / p));
-  inverse[0] = 0;
-  const std::size_t size = 3 * basis.size();
-  std::vector<float> coefficients = environment.take_projected(positions.size() * size);
-  for_points(0.5, 1, [&](std::size_t b, std::size_t p, const PointRows& rows) {
-    std::vector<float> rest(blocks.data() + b * size, blocks.data() + (b + 1) * size);
-    solve_point(rows, inverse, rest.data());
-    float* of_point = coefficients.data() + p * size;
-    for (std::size_t i = 0; i < size; ++i)
-      of_point[i] = (of_point[i] + rest[i]) / static_cast<float>(basis.norms()[i / 3]);
-  });
+  MirrorPoints points;
+  std::optional<Environment> light;
+  if (settings.environment.degree > 0) {
+    points = mirror_points(positions, settings.threads);
+    light = fit_environment(observations, points, settings);
+  }
+  const EnvironmentPrior environment(light, points, settings.frame);
+  const HierarchicalFit fit(observations, positions, settings, environment, progress);
+  const std::size_t size = 3 * fit.basis().size();
+  std::vector<float> coefficients(positions.size() * size, 0.0f);
+  if (light) coefficients = environment.projected(observations, fit.basis(), settings.threads);
+  const auto norms = fit.basis().norms();
+  fit.solve(
+      settings.hierarchy,
+      [&](std::size_t p, std::span<const float> a) {
+        float* of_point = coefficients.data() + p * size;
+        for (std::size_t i = 0; i < size; ++i)
+          of_point[i] = (of_point[i] + a[i]) / static_cast<float>(norms[i / 3]);
+      },
+      progress);
   return coefficients;
 }
 

@@ -1,14 +1,46 @@
 // The hierarchical fit.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "lightfield/block_prior.h"
+#include "lightfield/direction_rows.h"
+#include "lightfield/environment_prior.h"
 #include "slf/fit.h"
 
 namespace slf {
 
-/// [P][K][3]; points without observations have what their block has, and no mean.
+/// The fit of what the environment leaves, in two steps: sums, which strengths do not change, and
+/// the solution for given strengths.
+class HierarchicalFit {
+ public:
+  /// @param observations  of the frame's directions; kept by reference, as `environment`
+  HierarchicalFit(const Observations& observations, std::span<const Voxel> positions,
+                  const FitSettings& settings, const EnvironmentPrior& environment,
+                  const Progress& progress = {});
+
+  const DirectionRows& basis() const { return basis_; }
+
+  /// Calls body(p, a), in parallel, for every point that was seen, with a [K][3] of functions of
+  /// mean square 1; without what the environment gives.
+  using Body = std::function<void(std::size_t point, std::span<const float> a)>;
+  void solve(const HierarchySettings& strengths, const Body& body,
+             const Progress& progress = {}) const;
+
+ private:
+  template <class Each>
+  void for_points(double from, double to, const Progress& progress, const Each& each) const;
+
+  const Observations& observations_;
+  const EnvironmentPrior& environment_;
+  int threads_;
+  DirectionRows basis_;
+  BlockPrior prior_;
+};
+
+/// [P][K][3]; points without observations have what the environment gives, and no mean.
 /// @param observations  of the frame's directions
 std::vector<float> fit_hierarchical(const Observations& observations,
                                     std::span<const Voxel> positions, const FitSettings& settings,

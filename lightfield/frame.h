@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "slf/fit.h"
 #include "slf/types.h"
 #include "slf/view_map.h"
 
@@ -37,5 +38,9 @@ inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> norma
   return direction_of(
       {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]});
 }
+
+/// The observations with their directions in the frame of these normals, gamma range too.
+Observations in_frame(Observations observations, std::span<const std::array<float, 3>> normals,
+                      int threads);
 
 }  // namespace slf

@@ -53,6 +53,22 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   expect_failure(slf("encode a -o b --delta inf"), 2, "--delta", "inf");
   expect_failure(slf("encode a -o b --functions 100"), 2, "--functions", "power of two");
   expect_failure(slf("encode a -o b --scales 1,2 --functions 8"), 2, "--scales", "");
+  const auto contradiction = [&](const char* options, const char* option, const char* of) {
+    expect_failure(slf(std::string("encode a -o b ") + options), 2, option, of);
+  };
+  contradiction("--fit paper --degree 3", "--degree", "--basis harmonics");
+  contradiction("--fit hierarchical --basis bspline --degree 3", "--degree", "--basis harmonics");
+  contradiction("--fit hierarchical --order 3", "--order", "--basis bspline");
+  contradiction("--fit hierarchical --functions 64", "--functions", "--basis bspline");
+  contradiction("--fit hierarchical --basis auto --scales 3,3", "--scales", "--basis bspline");
+  contradiction("--fit hierarchical --lambda 1", "--lambda", "--fit paper");
+  contradiction("--fit hierarchical --free-dc", "--free-dc", "--fit paper");
+  contradiction("--fit paper --basis harmonics", "--basis harmonics", "--fit hierarchical");
+  contradiction("--fit paper --block-strength 1", "--block-strength", "--fit hierarchical");
+  contradiction("--fit paper --cross-validate on", "--cross-validate", "--fit hierarchical");
+  contradiction("--fit hierarchical --cross-validate off --frame auto", "--frame auto",
+                "--cross-validate on");
+  contradiction("--fit hierarchical --environment-radius 1", "--environment-radius", "2 to 1e");
   expect_failure(slf("encode a -o b --preset best"), 2, "--preset", "default|paper");
   expect_failure(slf("encode a -o b --metadata nothing"), 2, "--metadata", "KEY=VALUE");
   expect_failure(slf("encode a -o - --json"), 2, "--json", "standard output");

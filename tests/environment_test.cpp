@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "lightfield/camera_folds.h"
 #include "lightfield/environment_fit.h"
 #include "lightfield/environment_projection.h"
 #include "lightfield/frame.h"
@@ -75,6 +76,8 @@ struct Scene {
   }
 };
 
+MirrorPoints mirrors(const Scene& scene) { return mirror_points(scene.positions, 2); }
+
 FitSettings settings_with(int environment_degree) {
   FitSettings s;
   s.method = FitMethod::kHierarchical;
@@ -137,8 +140,8 @@ TEST(EnvironmentFit, HeldOutCamerasHaveTheirNeighboursHeldOutToo) {
 
 TEST(EnvironmentFit, FindsHowFarTheLampIs) {
   const Scene scene;
-  const auto light = fit_environment(scene.observe(scene.cameras), scene.positions, scene.normals,
-                                     settings_with(16));
+  const auto light =
+      fit_environment(scene.observe(scene.cameras), mirrors(scene), settings_with(16));
   ASSERT_TRUE(light);
   EXPECT_GE(light->radius(), 3.2);
   EXPECT_LE(light->radius(), 5);
@@ -150,9 +153,9 @@ TEST(EnvironmentFit, IsLeftOutWhereNothingIsReflectedOrCamerasAreTooFew) {
   std::mt19937 random(3);
   std::normal_distribution<float> noise(100, 5);
   for (auto& colour : seen.colour) colour = {noise(random), noise(random), noise(random)};
-  EXPECT_FALSE(fit_environment(seen, scene.positions, scene.normals, settings_with(16)));
+  EXPECT_FALSE(fit_environment(seen, mirrors(scene), settings_with(16)));
   const Observations two = scene.observe({scene.cameras[0], scene.cameras[1]});
-  EXPECT_FALSE(fit_environment(two, scene.positions, scene.normals, settings_with(16)));
+  EXPECT_FALSE(fit_environment(two, mirrors(scene), settings_with(16)));
 }
 
 TEST(EnvironmentFit, DoesNotDependOnTheNumberOfThreadsOrTheFrame) {
@@ -168,9 +171,9 @@ TEST(EnvironmentFit, DoesNotDependOnTheNumberOfThreadsOrTheFrame) {
   for (std::size_t p = 0; p < scene.positions.size(); ++p)
     for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j)
       world.direction[j] = to_frame(scene.normals, p, seen.direction[j]);
-  const auto a = *fit_environment(seen, scene.positions, scene.normals, s);
+  const auto a = *fit_environment(seen, mirrors(scene), s);
   s.frame = FrameId::kGlobal;
-  const auto b = *fit_environment(world, scene.positions, scene.normals, s);
+  const auto b = *fit_environment(world, mirrors(scene), s);
   EXPECT_NEAR(double(a({0, 0, 1}, {0.6, 0, 0.8})[0]), double(b({0, 0, 1}, {0.6, 0, 0.8})[0]), 0.05);
 }
 

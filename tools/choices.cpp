@@ -114,16 +114,25 @@ CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice) {
       "Every point by itself and smoothed (paper), or with a prior from octree blocks");
 }
 
-CLI::Option* add_basis_choice(CLI::App& verb, BasisId& choice) {
-  return add_choice<BasisId>(
-      verb, "--basis", choice, {{"bspline", BasisId::kBspline}, {"harmonics", BasisId::kHarmonics}},
-      "B-spline wavelets (paper), or spherical harmonics, for the hierarchical fit");
+CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice) {
+  return add_choice<std::optional<BasisId>>(
+      verb, "--basis", choice,
+      {{"bspline", BasisId::kBspline}, {"harmonics", BasisId::kHarmonics}, {"auto", std::nullopt}},
+      "B-spline wavelets (paper), or spherical harmonics, for the hierarchical fit; auto: by "
+      "cross-validation");
 }
 
-CLI::Option* add_frame_choice(CLI::App& verb, FrameId& choice) {
-  return add_choice<FrameId>(verb, "--frame", choice,
-                             {{"global", FrameId::kGlobal}, {"reflected", FrameId::kReflected}},
-                             "Directions in world axes (paper), or mirrored at the surface");
+CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice) {
+  return add_choice<std::optional<FrameId>>(
+      verb, "--frame", choice,
+      {{"global", FrameId::kGlobal}, {"reflected", FrameId::kReflected}, {"auto", std::nullopt}},
+      "Directions in world axes (paper), or mirrored at the surface; auto: by cross-validation");
+}
+
+CLI::Option* add_cross_validate_choice(CLI::App& verb, bool& choice) {
+  return add_choice<bool>(verb, "--cross-validate", choice, {{"on", true}, {"off", false}},
+                          "Choose what no option gives of --frame, --block-strength, "
+                          "--block-growth, --point-penalty by predicting held-out input images");
 }
 
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice) {

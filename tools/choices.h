@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "slf/encoder.h"
 #include "slf/igc.h"
@@ -19,8 +20,10 @@ CLI::Option* add_rdo(CLI::App& verb, double& strength);
 CLI::Option* add_klt_choice(CLI::App& verb, TransformMode& choice);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
 CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
-CLI::Option* add_basis_choice(CLI::App& verb, BasisId& choice);
-CLI::Option* add_frame_choice(CLI::App& verb, FrameId& choice);
+CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice);  ///< none: auto
+CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice);  ///< none: auto
+/// --cross-validate on|off.
+CLI::Option* add_cross_validate_choice(CLI::App& verb, bool& choice);
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice);
 CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice);
 CLI::Option* add_igc_codec_choice(CLI::App& verb, IgcCodec& choice);

@@ -68,7 +68,10 @@ void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const FitSettings& 
   }))->default_str("harmonics");
   group(add_frame_choice(verb, o.frame)->each([&o](const std::string&) {
     o.frame_given = true;
-  }))->default_str("reflected");
+  }))->default_str("auto");
+  group(add_cross_validate_choice(verb, o.cross_validate)->each([&o](const std::string&) {
+    o.cross_validate_given = true;
+  }));
   group(add(verb, "--degree", o.degree, fit.basis.degree, "Degree of the harmonics",
             whole_range(0, 10)));
   group(add(verb, "--block-log2", o.block_log2, s.block_log2,
@@ -84,9 +87,14 @@ void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const FitSettings& 
   group(add(verb, "--environment-degree", o.environment_degree, fit.environment.degree,
             "Degree of the light about the object that its surface reflects; 0: none",
             whole_range(0, 16)));
+  const CLI::Validator radius(
+      [](std::string& given) {
+        return range(0, 0)(given).empty() ? std::string() : range(2, 1e6)(given);
+      },
+      "0 or 2 to 1e6");
   group(add(verb, "--environment-radius", o.environment_radius, fit.environment.radius,
             "Where that light is, in halves of the object's longest side; 0: by cross-validation",
-            range(0, 1e6)));
+            radius));
 }
 
 void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
@@ -183,22 +191,6 @@ Failure usage(const EncodeOptions& given, const std::string& what) {
   return {kUsage, std::string(given.verb) + ": " + what};
 }
 
-/// Each fit has defaults of its own for the basis and the frame.
-void resolve_fit(const EncodeOptions& given, FitSettings& fit) {
-  if (given.fit_given && given.fit != fit.method)
-    fit = given.fit == FitMethod::kHierarchical ? FitSettings::hierarchical() : FitSettings{};
-  if (given.basis_given) fit.basis.id = given.basis;
-  if (given.frame_given) fit.frame = given.frame;
-  replace(fit.basis.degree, given.degree);
-  replace(fit.hierarchy.block_log2, given.block_log2);
-  replace(fit.hierarchy.strength, given.block_strength);
-  replace(fit.hierarchy.growth, given.block_growth);
-  replace(fit.hierarchy.point_penalty, given.point_penalty);
-  replace(fit.hierarchy.point_growth, given.point_growth);
-  replace(fit.environment.degree, given.environment_degree);
-  replace(fit.environment.radius, given.environment_radius);
-}
-
 Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
   if (given.order) basis.order = *given.order;
   if (given.functions) {
@@ -214,6 +206,85 @@ Outcome resolve_basis(const EncodeOptions& given, Basis& basis) {
     basis.scales_gamma = given.scales[1];
   }
   return Done{};
+}
+
+/// An option that was given for another fit or basis than the one in force.
+Outcome refuse_idle(const EncodeOptions& given, const FitSettings& fit) {
+  struct Idle {
+    const char* option;
+    bool given;
+  };
+  const auto refuse = [&](std::initializer_list<Idle> options, const char* of) -> Outcome {
+    for (const auto& [option, is_given] : options)
+      if (is_given) return usage(given, std::string(option) + " is for " + of);
+    return Done{};
+  };
+  if (fit.method == FitMethod::kHierarchical) {
+    SLF_CHECK(refuse({{"--lambda", given.lambda.has_value()},
+                      {"--beta", given.beta.has_value()},
+                      {"--iterations", given.iterations.has_value()},
+                      {"--penalise-dc", given.penalise_dc},
+                      {"--free-dc", given.free_dc}},
+                     "--fit paper"));
+  } else {
+    SLF_CHECK(refuse({{"--basis harmonics", given.basis == BasisId::kHarmonics},
+                      {"--basis auto", given.basis_given && !given.basis},
+                      {"--frame auto", given.frame_given && !given.frame},
+                      {"--cross-validate", given.cross_validate_given},
+                      {"--block-log2", given.block_log2.has_value()},
+                      {"--block-strength", given.block_strength.has_value()},
+                      {"--block-growth", given.block_growth.has_value()},
+                      {"--point-penalty", given.point_penalty.has_value()},
+                      {"--point-growth", given.point_growth.has_value()},
+                      {"--environment-degree", given.environment_degree.has_value()},
+                      {"--environment-radius", given.environment_radius.has_value()}},
+                     "--fit hierarchical"));
+  }
+  if (!given.cross_validate)
+    SLF_CHECK(refuse({{"--basis auto", given.basis_given && !given.basis},
+                      {"--frame auto", given.frame_given && !given.frame}},
+                     "--cross-validate on"));
+  if (fit.basis.id == BasisId::kBspline)
+    return refuse({{"--degree", given.degree.has_value()}}, "--basis harmonics");
+  const bool searched = given.basis_given && !given.basis;
+  return refuse({{"--functions", given.functions.has_value()},
+                 {"--scales", !given.scales.empty()},
+                 {"--order", given.order.has_value() && !searched}},
+                "--basis bspline");
+}
+
+/// Each fit has a basis and a frame of its own. Options that only the paper's has choose it.
+Outcome resolve_fit(const EncodeOptions& given, EncoderSettings& settings) {
+  FitSettings& fit = settings.fit;
+  const bool of_paper = !given.basis_given &&
+                        (given.functions || !given.scales.empty() || given.order || given.lambda ||
+                         given.beta || given.iterations || given.penalise_dc || given.free_dc);
+  const FitMethod method = given.fit_given ? given.fit : of_paper ? FitMethod::kPaper : fit.method;
+  if (method != fit.method) {
+    const FitSettings start =
+        method == FitMethod::kHierarchical ? FitSettings::hierarchical() : FitSettings{};
+    fit.method = start.method;
+    fit.basis = start.basis;
+    fit.frame = start.frame;
+  }
+  if (given.basis == BasisId::kBspline && fit.basis.id != BasisId::kBspline) fit.basis = Basis{};
+  if (given.basis == BasisId::kHarmonics) fit.basis = FitSettings::hierarchical().basis;
+  if (given.basis_given && !given.basis) fit.basis.id = BasisId::kHarmonics;
+  replace(fit.frame, given.frame);
+  SLF_CHECK(refuse_idle(given, fit));
+  settings.search = {};
+  if (fit.method == FitMethod::kHierarchical && given.cross_validate)
+    settings.search = {!given.block_strength, !given.block_growth, !given.point_penalty,
+                       !given.frame, given.basis_given && !given.basis};
+  replace(fit.basis.degree, given.degree);
+  replace(fit.hierarchy.block_log2, given.block_log2);
+  replace(fit.hierarchy.strength, given.block_strength);
+  replace(fit.hierarchy.growth, given.block_growth);
+  replace(fit.hierarchy.point_penalty, given.point_penalty);
+  replace(fit.hierarchy.point_growth, given.point_growth);
+  replace(fit.environment.degree, given.environment_degree);
+  replace(fit.environment.radius, given.environment_radius);
+  return resolve_basis(given, fit.basis);
 }
 
 Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
@@ -263,8 +334,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.max_slice_points, given.slice_points);
   if (s.normal_bits > 0 && s.normal_bits < 4)
     return usage(given, "--normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12");
-  resolve_fit(given, s.fit);
-  SLF_CHECK(resolve_basis(given, s.fit.basis));
+  SLF_CHECK(resolve_fit(given, s));
   if (given.penalise_dc) s.fit.penalise_dc = true;
   if (given.free_dc) s.fit.penalise_dc = false;
   if (given.linear) s.observe.transfer = Transfer::kLinear;

@@ -18,7 +18,8 @@ struct EncodeOptions {
   Preset preset = Preset::kDefault;
   std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
   std::optional<int> degree, block_log2, environment_degree;
-  std::optional<double> block_strength, block_growth, point_penalty, point_growth, environment_radius;
+  std::optional<double> block_strength, block_growth, point_penalty, point_growth,
+      environment_radius;
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
   std::optional<double> target_psnr;
   std::optional<std::uint64_t> target_bytes;
@@ -28,8 +29,9 @@ struct EncodeOptions {
   bool steps_given = false, by_norm = true;
   bool fit_given = false, basis_given = false, frame_given = false;
   FitMethod fit = FitMethod::kHierarchical;
-  BasisId basis = BasisId::kHarmonics;
-  FrameId frame = FrameId::kReflected;
+  std::optional<BasisId> basis;  ///< none: auto, if given
+  std::optional<FrameId> frame;
+  bool cross_validate = true, cross_validate_given = false;
   bool klt_given = false;
   TransformMode klt = TransformMode::kFunctions;
   std::optional<double> chroma_step;

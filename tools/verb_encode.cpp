@@ -24,13 +24,14 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
   json["cameras"] = cameras;
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
-  json["seconds"] = {
-      {"load", load},
-      {"voxelise", e.seconds_voxelise},
-      {"observe", e.seconds_observe},
-      {"fit", e.seconds_fit},
-      {"code", e.seconds_code},
-      {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_fit + e.seconds_code}};
+  json["seconds"] = {{"load", load},
+                     {"voxelise", e.seconds_voxelise},
+                     {"observe", e.seconds_observe},
+                     {"choose", e.seconds_choose},
+                     {"fit", e.seconds_fit},
+                     {"code", e.seconds_code},
+                     {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_choose +
+                                   e.seconds_fit + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;
@@ -50,8 +51,9 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
                 grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
                 percent(e.unobserved_points, e.points));
   }
-  out += text("seconds       load %.2f, voxelise %.2f, observe %.2f, fit %.2f, code %.2f\n", load,
-              e.seconds_voxelise, e.seconds_observe, e.seconds_fit, e.seconds_code);
+  out += text(
+      "seconds       load %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, code %.2f\n",
+      load, e.seconds_voxelise, e.seconds_observe, e.seconds_choose, e.seconds_fit, e.seconds_code);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));

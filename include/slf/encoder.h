@@ -83,6 +83,7 @@ struct EncoderSettings {
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   ObserveSettings observe;
   FitSettings fit = FitSettings::hierarchical();
+  FitSearch search;                ///< changes fit; not without cameras
   double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
   std::uint64_t target_bytes = 0;  ///< > 0: of the file, in place of q, which is the first guess
   double target_psnr = 0;          ///< > 0: point PSNR of the input images, dB, in place of q
@@ -108,7 +109,9 @@ struct Encoded {
   std::vector<std::uint8_t> stream;
   double q = 0;  ///< the step it was coded with
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  double seconds_voxelise = 0, seconds_observe = 0, seconds_fit = 0, seconds_code = 0;
+  ChosenFit fit;  ///< of a capture with cameras
+  double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
+         seconds_code = 0;
   std::vector<std::string> warnings;
 };
 

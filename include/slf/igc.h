@@ -26,8 +26,8 @@ enum class IgcChroma : std::uint8_t {
 };
 
 struct IgcSettings {
-  EncoderSettings slf;  ///< grid, geometry, observe, fit and colour: what the decoder shall use.
-                        ///< Quantiser, coefficient coder and normals do not apply
+  EncoderSettings slf;  ///< grid, geometry, observe, fit, search and colour: what the decoder shall
+                        ///< use. Quantiser, coefficient coder and normals do not apply
   IgcCodec codec = IgcCodec::kHevcLowDelay;
   int qp = 32;  ///< HEVC: QP 0 .. 51; AV1: quality level 0 .. 63
   IgcChroma chroma = IgcChroma::k420;
@@ -71,7 +71,8 @@ struct IgcDecoded {
   std::size_t bytes_parameters = 0, bytes_geometry = 0, bytes_images = 0;
   double seconds_geometry = 0, seconds_images = 0;
   double seconds_observe = 0, seconds_fit = 0;  ///< normals count as observing
-  Metadata metadata;  ///< the parameters of the file, without camera names
+  Metadata
+      metadata;  ///< the parameters of the file, without camera names; then chosen_...: the fit
 };
 
 /// Whether these are the bytes of an IGC file: looks at the signature alone.

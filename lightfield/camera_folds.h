@@ -1,0 +1,28 @@
+// Parts of the input cameras to hold out in turn: for cross-validation of what a fit is set to.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "slf/fit.h"
+#include "slf/types.h"
+
+namespace slf {
+
+struct CameraFolds {
+  int count = 0;               ///< 0 .. 4
+  std::size_t cameras = 0;     ///< that see anything
+  std::vector<int> of_camera;  ///< [highest camera index + 1] 0 .. count - 1; -1: sees nothing
+};
+
+/// [cameras] of 0 .. 3. Cameras close to each other, as seen from the object, are in the same part;
+/// so what is held out has no neighbour left.
+std::vector<int> camera_folds(std::span<const Vec3> towards_camera);
+
+/// The same of the cameras of observations, each in the mean direction of its observations.
+/// @param normals  those of the frame the directions are in; none: the global frame
+CameraFolds camera_folds(const Observations& observations,
+                         std::span<const std::array<float, 3>> normals);
+
+}  // namespace slf

@@ -1,0 +1,40 @@
+#include "lightfield/environment_prior.h"
+
+#include "lightfield/environment_projection.h"
+#include "lightfield/frame.h"
+
+namespace slf {
+
+std::array<float, 3> EnvironmentPrior::operator()(std::size_t p,
+                                                  const std::array<float, 2>& direction) const {
+  if (!light_) return {0, 0, 0};
+  const bool reflected = frame_ == FrameId::kReflected;
+  return (*light_)(points_.position[p],
+                   vector_of(reflected ? direction : to_frame(points_.normal, p, direction)));
+}
+
+void EnvironmentPrior::subtract(const Observations& seen, std::size_t p, PointRows& rows) const {
+  if (!light_) return;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const auto light = (*this)(p, seen.direction[static_cast<std::size_t>(seen.first[p]) + i]);
+    for (std::size_t c = 0; c < 3; ++c) rows.colours[3 * i + c] -= light[c];
+  }
+}
+
+std::vector<float> EnvironmentPrior::projected(const Observations& seen, const DirectionRows& basis,
+                                               int threads) const {
+  const std::size_t points = points_.position.size();
+  auto outward = points_.normal;
+  for (std::size_t p = 0; p < points; ++p) {
+    double towards_cameras = 0;  // the cosine of the reflected direction is that of the view
+    for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j) {
+      const Vec3 v = vector_of(seen.direction[j]);
+      for (std::size_t a = 0; a < 3; ++a) towards_cameras += v[a] * double(outward[p][a]);
+    }
+    if (towards_cameras < 0)
+      for (float& x : outward[p]) x = -x;
+  }
+  return project_environment(*light_, points_.position, outward, frame_, basis, threads);
+}
+
+}  // namespace slf
