@@ -120,7 +120,7 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
 /// change stays if it lowers the squared error by more than 0.5 %, of frame or basis by
 /// more than 5 %.
 struct FitSearch {
-  bool strength = false;       ///< hierarchy.strength of 0.1, 0.3, 1, 3
+  bool strength = false;       ///< hierarchy.strength of 0.1, 0.3, 1
   bool growth = false;         ///< hierarchy.growth of 1.15, 1.3, 1.5
   bool point_penalty = false;  ///< hierarchy.point_penalty, or five times as much
   bool frame = false;          ///< reflected or global
