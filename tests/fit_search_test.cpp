@@ -109,7 +109,7 @@ TEST(FitSearch, NoiseWithoutDirectionRaisesThePenalties) {
       choose_fit(scene.observe(24, [&](const Vec3&, const Vec3&) { return noise(random); }),
                  scene.positions, settings_of(FrameId::kGlobal), {true, false, true, false, false});
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->settings.hierarchy.strength, 3);
+  EXPECT_EQ(chosen->settings.hierarchy.strength, 1) << "the strongest candidate";
   EXPECT_EQ(chosen->settings.hierarchy.point_penalty, 5 * HierarchySettings{}.point_penalty);
 }
 
