@@ -95,7 +95,7 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   if (cameras.empty()) {  // a colour, whatever the direction
     settings.fit = {};
     settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
-    settings.search = {};
+    settings.search = FitSearch::none();
   }
   settings.observe.threads = settings.fit.threads = settings.threads;
   SLF_CHECK(check_settings(settings));

@@ -8,6 +8,7 @@ EncoderSettings settings_of(Preset preset) {
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
     settings.fit = {};
+    settings.search = FitSearch::none();
     settings.fit.penalise_dc = true;
     settings.transform = TransformMode::kNone;
     settings.steps_by_norm = false;

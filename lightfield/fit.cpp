@@ -37,13 +37,7 @@ Observations in_frame(Observations observations, std::span<const std::array<floa
                       for (auto i = observations.first[p]; i < observations.first[p + 1]; ++i)
                         observations.direction[i] = to_frame(normals, p, observations.direction[i]);
                   });
-  float low = 1, high = -1;
-  for (const auto& direction : observations.direction) {
-    low = std::min(low, direction[1]);
-    high = std::max(high, direction[1]);
-  }
-  observations.gamma_min = static_cast<double>(low);
-  observations.gamma_max = static_cast<double>(high);
+  set_gamma_range(observations);
   return observations;
 }
 
@@ -58,8 +52,8 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
                                                      const FitSettings& settings,
                                                      const Progress& progress) {
   const std::size_t points = positions.size();
-  SLF_TRY([[maybe_unused]] const Done settings_checked, check_fit_settings(settings));
-  SLF_TRY([[maybe_unused]] const Done shape_checked, check_observations(observations, points));
+  SLF_CHECK(check_fit_settings(settings));
+  SLF_CHECK(check_observations(observations, points));
   const Neighbours neighbours =
       nearest_neighbours(positions, settings.neighbours, settings.threads);
   const UnobservedPoints unobserved(observations, positions, neighbours, settings.threads);

@@ -72,13 +72,7 @@ Observations of_fold(const Observations& seen, const CameraFolds& folds, int fol
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     append(
         seen, p, [&](std::uint16_t c) { return (folds.of_camera[c] == fold) != others; }, part);
-  float low = 1, high = -1;
-  for (const auto& d : part.direction) {
-    low = std::min(low, d[1]);
-    high = std::max(high, d[1]);
-  }
-  part.gamma_min = static_cast<double>(low);
-  part.gamma_max = static_cast<double>(high);
+  set_gamma_range(part);
   return part;
 }
 

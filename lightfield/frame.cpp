@@ -19,4 +19,14 @@ std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const V
   return normals;
 }
 
+void set_gamma_range(Observations& observations) {
+  float low = 1, high = -1;
+  for (const auto& direction : observations.direction) {
+    low = std::min(low, direction[1]);
+    high = std::max(high, direction[1]);
+  }
+  observations.gamma_min = static_cast<double>(low);
+  observations.gamma_max = static_cast<double>(high);
+}
+
 }  // namespace slf

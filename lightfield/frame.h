@@ -39,6 +39,9 @@ inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> norma
       {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]});
 }
 
+/// gamma_min and gamma_max of the directions that are there.
+void set_gamma_range(Observations& observations);
+
 /// The observations with their directions in the frame of these normals, gamma range too.
 Observations in_frame(Observations observations, std::span<const std::array<float, 3>> normals,
                       int threads);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "lightfield/frame.h"
 #include "lightfield/observe_camera.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
@@ -90,16 +91,6 @@ Observations group_by_point(std::vector<CameraResult>& results, const std::vecto
     results[i].seen.sightings = {};
   }
   return out;
-}
-
-void set_gamma_range(Observations& observations) {
-  float low = 1, high = -1;
-  for (const auto& direction : observations.direction) {
-    low = std::min(low, direction[1]);
-    high = std::max(high, direction[1]);
-  }
-  observations.gamma_min = static_cast<double>(low);
-  observations.gamma_max = static_cast<double>(high);
 }
 
 InputError nothing_seen(const std::vector<CameraResult>& results, std::size_t points) {

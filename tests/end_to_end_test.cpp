@@ -91,6 +91,7 @@ TEST_F(EndToEnd, ThePaperPresetIsThePaper) {
 TEST_F(EndToEnd, StepsOfBsplinesAreInverseToTheNorms) {
   EncoderSettings settings;
   settings.fit = {};
+  settings.search = FitSearch::none();
   settings.transform = TransformMode::kNone;
   settings.grid_bits = 6;
   settings.q = 8;

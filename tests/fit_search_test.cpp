@@ -95,8 +95,8 @@ TEST(FitSearch, WhatIsNotSearchedStays) {
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->settings.frame, FrameId::kReflected);
   EXPECT_EQ(chosen->settings.basis, settings_of(FrameId::kReflected).basis);
-  const auto off =
-      choose_fit(scene.observe(24, of_view), scene.positions, settings_of(FrameId::kReflected), {});
+  const auto off = choose_fit(scene.observe(24, of_view), scene.positions,
+                              settings_of(FrameId::kReflected), FitSearch::none());
   EXPECT_EQ(off->outcome, ChosenFit::kNothingToSearch);
   EXPECT_EQ(off->settings.hierarchy.strength, HierarchySettings{}.strength);
 }
@@ -132,11 +132,11 @@ TEST(FitSearch, TheEnvironmentsRadiusIsSettledOrItIsLeftOut) {
   FitSettings s = settings_of(FrameId::kReflected);
   s.environment.degree = 6;
   const auto flat = choose_fit(scene.observe(24, [](const Vec3&, const Vec3&) { return 90.f; }),
-                               scene.positions, s, {});
+                               scene.positions, s, FitSearch::none());
   ASSERT_TRUE(flat);
   EXPECT_EQ(flat->settings.environment.degree, 0);
   const Observations seen = scene.observe(24, mirror);
-  const auto shiny = choose_fit(seen, scene.positions, s, {});
+  const auto shiny = choose_fit(seen, scene.positions, s, FitSearch::none());
   EXPECT_EQ(shiny->settings.environment.degree, 6);
   EXPECT_GE(shiny->settings.environment.radius, 2);
   // And the fit is the one that finds the radius itself.
@@ -190,7 +190,7 @@ TEST(FitSearch, ThePapersFitHasNothingToSearch) {
   FitSettings s;
   s.basis = {BasisId::kBspline, 2, 1, 1};
   const Observations seen = scene.observe(9, of_view);
-  EXPECT_TRUE(choose_fit(seen, scene.positions, s, {}));
+  EXPECT_TRUE(choose_fit(seen, scene.positions, s, FitSearch::none()));
   EXPECT_EQ(choose_fit(seen, scene.positions, s, kFrame).error().code, Errc::kInvalidArgument);
 }
 

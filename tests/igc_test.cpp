@@ -45,6 +45,7 @@ class Igc : public testing::Test {
     IgcSettings s;
     s.slf.grid_bits = 6;
     s.slf.fit = {};  // the quickest
+    s.slf.search = FitSearch::none();
     s.slf.metadata = {{"split", "dense"}};
     s.qp = qp;
     s.chroma = chroma;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "slf/types.h"
 #include "geometry/block_grid.h"
+#include "slf/types.h"
 
 namespace slf {
 

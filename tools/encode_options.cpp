@@ -272,7 +272,7 @@ Outcome resolve_fit(const EncodeOptions& given, EncoderSettings& settings) {
   if (given.basis_given && !given.basis) fit.basis.id = BasisId::kHarmonics;
   replace(fit.frame, given.frame);
   SLF_CHECK(refuse_idle(given, fit));
-  settings.search = {};
+  settings.search = FitSearch::none();
   if (fit.method == FitMethod::kHierarchical && given.cross_validate)
     settings.search = {!given.block_strength, !given.block_growth, !given.point_penalty,
                        !given.frame, given.basis_given && !given.basis};

@@ -32,7 +32,8 @@ struct HevcSettings {
 /// @param source  called once for each of 0 .. pictures-1, in order, on this thread. All have the
 ///                size, depth and chroma format of the first; 16 x 16 .. 8192 x 8192; even for
 ///                4:2:0.
-/// @return kIntra, and kLowDelay with ultrafast or superfast: the same bytes on any number of cores.
+/// @return kIntra, and kLowDelay with ultrafast or superfast: the same bytes on any number of
+/// cores.
 ///         In predicted pictures of slower presets x265 3.5 decides by memory that it has not set
 ///         (valgrind), so that small pictures, above all, may come out otherwise the next time.
 /// @errors kInvalidArgument: no pictures, or a setting or a picture outside the above.

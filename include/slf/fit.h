@@ -120,13 +120,14 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
 /// change stays if it lowers the squared error by more than 0.5 %, of frame or basis by
 /// more than 5 %.
 struct FitSearch {
-  bool strength = false;       ///< hierarchy.strength of 0.1, 0.3, 1
-  bool growth = false;         ///< hierarchy.growth of 1.15, 1.3, 1.5
-  bool point_penalty = false;  ///< hierarchy.point_penalty, or five times as much
-  bool frame = false;          ///< reflected or global
-  bool basis = false;          ///< harmonics, or as many B-splines, to a power of two
+  bool strength = true;       ///< hierarchy.strength of 0.1, 0.3, 1
+  bool growth = true;         ///< hierarchy.growth of 1.15, 1.3, 1.5
+  bool point_penalty = true;  ///< hierarchy.point_penalty, or five times as much
+  bool frame = true;          ///< reflected or global
+  bool basis = false;         ///< harmonics, or as many B-splines, to a power of two
 
   bool any() const { return frame || basis || strength || growth || point_penalty; }
+  static FitSearch none() { return {false, false, false, false, false}; }
 };
 
 /// Settings without anything left to choose.
