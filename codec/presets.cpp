@@ -1,10 +1,48 @@
 // Named configurations. Spec annex C.
+#include <algorithm>
+#include <array>
+
 #include "slf/encoder.h"
 
 namespace slf {
+namespace {
 
-EncoderSettings settings_of(Preset preset) {
+/// What an effort has; each has at least what the one before has.
+struct Effort {
+  int degree, environment_degree;
+  std::size_t search_points;  ///< 0: no cross-validation
+  bool search_basis;
+};
+
+constexpr std::array<Effort, 9> kEfforts = {{
+    {2, 0, 0, false},
+    {4, 0, 0, false},
+    {6, 0, 0, false},
+    {8, 0, 0, false},
+    {8, 16, 0, false},
+    {10, 16, 0, false},
+    {10, 16, 12000, false},
+    {10, 16, 12000, true},
+    {10, 16, 48000, true},
+}};
+
+void set_effort(int effort, EncoderSettings& settings) {
+  const Effort& e = kEfforts[static_cast<std::size_t>(std::clamp(effort, 1, 9) - 1)];
+  settings.fit.basis.degree = e.degree;
+  settings.fit.environment.degree = e.environment_degree;
+  if (e.search_points == 0) {
+    settings.search = FitSearch::none();
+  } else {
+    settings.search.points = e.search_points;
+    settings.search.basis = e.search_basis;
+  }
+}
+
+}  // namespace
+
+EncoderSettings settings_of(Preset preset, int effort) {
   EncoderSettings settings;  // the defaults of the members are the default preset
+  set_effort(effort, settings);
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
     settings.fit = {};

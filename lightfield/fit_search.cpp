@@ -15,7 +15,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kSamplePoints = 12000, kMostViewsOfLight = 60000;
+constexpr std::size_t kMostViewsOfLight = 60000;
 constexpr std::size_t kLeastCameras = 8;
 constexpr int kLeastFolds = 3;
 constexpr double kLeastGain = 0.005;
@@ -45,8 +45,8 @@ void append(const Observations& from, std::size_t point, const Kept& kept, Obser
 
 /// Whole blocks, every n-th: priors of blocks stay what they are.
 Sample sample_blocks(const Observations& seen, std::span<const Voxel> positions,
-                     const MirrorPoints& points, int block_log2) {
-  const std::size_t every = (positions.size() + kSamplePoints - 1) / kSamplePoints;
+                     const MirrorPoints& points, int block_log2, std::size_t about) {
+  const std::size_t every = (positions.size() + about - 1) / about;
   Sample sample;
   sample.seen.first.push_back(0);
   std::size_t block = 0;
@@ -267,7 +267,7 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
     return chosen;
   }
   const Sample sample =
-      sample_blocks(observations, positions, points, settings.hierarchy.block_log2);
+      sample_blocks(observations, positions, points, settings.hierarchy.block_log2, search.points);
   Search found(sample, folds, search.basis, chosen.settings, progress);
   if (search.strength) found.try_values(&HierarchySettings::strength, kStrengths);
   if (search.growth) found.try_values(&HierarchySettings::growth, kGrowths);

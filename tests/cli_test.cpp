@@ -66,6 +66,8 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   contradiction("--fit paper --basis harmonics", "--basis harmonics", "--fit hierarchical");
   contradiction("--fit paper --block-strength 1", "--block-strength", "--fit hierarchical");
   contradiction("--fit paper --cross-validate on", "--cross-validate", "--fit hierarchical");
+  contradiction("--preset paper --effort 3", "--effort", "--preset default");
+  contradiction("--fit paper --effort 3", "--effort", "--fit hierarchical");
   contradiction("--fit hierarchical --cross-validate off --frame auto", "--frame auto",
                 "--cross-validate on");
   contradiction("--fit hierarchical --environment-radius 1", "--environment-radius", "2 to 1e");

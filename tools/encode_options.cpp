@@ -231,6 +231,7 @@ Outcome refuse_idle(const EncodeOptions& given, const FitSettings& fit) {
                       {"--basis auto", given.basis_given && !given.basis},
                       {"--frame auto", given.frame_given && !given.frame},
                       {"--cross-validate", given.cross_validate_given},
+                      {"--effort", given.effort.has_value()},
                       {"--block-log2", given.block_log2.has_value()},
                       {"--block-strength", given.block_strength.has_value()},
                       {"--block-growth", given.block_growth.has_value()},
@@ -240,7 +241,7 @@ Outcome refuse_idle(const EncodeOptions& given, const FitSettings& fit) {
                       {"--environment-radius", given.environment_radius.has_value()}},
                      "--fit hierarchical"));
   }
-  if (!given.cross_validate)
+  if (given.cross_validate_given && !given.cross_validate)
     SLF_CHECK(refuse({{"--basis auto", given.basis_given && !given.basis},
                       {"--frame auto", given.frame_given && !given.frame}},
                      "--cross-validate on"));
@@ -251,6 +252,16 @@ Outcome refuse_idle(const EncodeOptions& given, const FitSettings& fit) {
                  {"--scales", !given.scales.empty()},
                  {"--order", given.order.has_value() && !searched}},
                 "--basis bspline");
+}
+
+/// What is left to cross-validation where the preset has `of_preset`: nothing that was given.
+FitSearch search_of(const EncodeOptions& given, FitMethod method, FitSearch of_preset) {
+  const bool asked = (given.basis_given && !given.basis) || (given.frame_given && !given.frame);
+  const bool on = given.cross_validate_given ? given.cross_validate : asked || of_preset.any();
+  if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
+  const bool basis = given.basis_given ? !given.basis : of_preset.basis && !given.degree;
+  return {!given.block_strength, !given.block_growth, !given.point_penalty, !given.frame, basis,
+          of_preset.points};
 }
 
 /// Each fit has a basis and a frame of its own. Options that only the paper's has choose it.
@@ -266,16 +277,15 @@ Outcome resolve_fit(const EncodeOptions& given, EncoderSettings& settings) {
     fit.method = start.method;
     fit.basis = start.basis;
     fit.frame = start.frame;
+    settings.search = FitSearch{};
   }
   if (given.basis == BasisId::kBspline && fit.basis.id != BasisId::kBspline) fit.basis = Basis{};
-  if (given.basis == BasisId::kHarmonics) fit.basis = FitSettings::hierarchical().basis;
+  if (given.basis == BasisId::kHarmonics && fit.basis.id != BasisId::kHarmonics)
+    fit.basis = FitSettings::hierarchical().basis;
   if (given.basis_given && !given.basis) fit.basis.id = BasisId::kHarmonics;
   replace(fit.frame, given.frame);
   SLF_CHECK(refuse_idle(given, fit));
-  settings.search = FitSearch::none();
-  if (fit.method == FitMethod::kHierarchical && given.cross_validate)
-    settings.search = {!given.block_strength, !given.block_growth, !given.point_penalty,
-                       !given.frame, given.basis_given && !given.basis};
+  settings.search = search_of(given, fit.method, settings.search);
   replace(fit.basis.degree, given.degree);
   replace(fit.hierarchy.block_log2, given.block_log2);
   replace(fit.hierarchy.strength, given.block_strength);
@@ -308,6 +318,8 @@ void add_view_map_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   const EncoderSettings initial = settings_of(Preset::kDefault);
   add_input_options(verb, o, file);
   add_preset_choice(verb, o.preset);
+  add(verb, "--effort", o.effort, kDefaultEffort,
+      "Time for bytes: 1 is quickest, 9 looks furthest (docs/rate.md)", whole_range(1, 9));
   add_grid_options(verb, o, initial);
   add_observe_options(verb, o, initial);
   add_fit_options(verb, o, initial);
@@ -317,7 +329,9 @@ void add_view_map_options(CLI::App& verb, EncodeOptions& o, const char* file) {
 }
 
 Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
-  EncoderSettings s = settings_of(given.preset);
+  if (given.effort && given.preset == Preset::kPaper)
+    return usage(given, "--effort is for --preset default");
+  EncoderSettings s = settings_of(given.preset, given.effort.value_or(kDefaultEffort));
   replace(s.grid_bits, given.grid_bits);
   replace(s.voxel_size, given.voxel_size);
   replace(s.q, given.q);

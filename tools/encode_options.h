@@ -17,7 +17,7 @@ struct EncodeOptions {
   std::string capture, output, points, split;
   Preset preset = Preset::kDefault;
   std::optional<int> grid_bits, order, functions, iterations, neighbours, normal_bits;
-  std::optional<int> degree, block_log2, environment_degree;
+  std::optional<int> degree, block_log2, environment_degree, effort;
   std::optional<double> block_strength, block_growth, point_penalty, point_growth,
       environment_radius;
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;

@@ -102,8 +102,12 @@ struct EncoderSettings {
   int threads = 0;
 };
 
+inline constexpr int kDefaultEffort = 7;
+
 /// The settings of a preset. kPaper is the configuration of the paper as written (spec annex C).
-EncoderSettings settings_of(Preset preset);
+/// @param effort  1 .. 9, of kDefault alone: time of the encoder for bytes at equal quality. 7 is
+///                what the members above start with. Measured: docs/rate.md
+EncoderSettings settings_of(Preset preset, int effort = kDefaultEffort);
 
 struct Encoded {
   std::vector<std::uint8_t> stream;

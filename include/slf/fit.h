@@ -116,18 +116,21 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
                                                      const Progress& progress = {});
 
 /// What cross-validation may change of the hierarchical fit: held-out clusters of input cameras are
-/// predicted from the others, on some 12,000 points, one setting after the other in this order. A
+/// predicted from the others, on some of the points, one setting after the other in this order. A
 /// change stays if it lowers the squared error by more than 0.5 %, of frame or basis by
 /// more than 5 %.
 struct FitSearch {
-  bool strength = true;       ///< hierarchy.strength of 0.1, 0.3, 1
-  bool growth = true;         ///< hierarchy.growth of 1.15, 1.3, 1.5
-  bool point_penalty = true;  ///< hierarchy.point_penalty, or five times as much
-  bool frame = true;          ///< reflected or global
-  bool basis = false;         ///< harmonics, or as many B-splines, to a power of two
+  bool strength = true;        ///< hierarchy.strength of 0.1, 0.3, 1
+  bool growth = true;          ///< hierarchy.growth of 1.15, 1.3, 1.5
+  bool point_penalty = true;   ///< hierarchy.point_penalty, or five times as much
+  bool frame = true;           ///< reflected or global
+  bool basis = false;          ///< harmonics, or as many B-splines, to a power of two
+  std::size_t points = 12000;  ///< > 0: of the sample, whole blocks
 
   bool any() const { return frame || basis || strength || growth || point_penalty; }
-  static FitSearch none() { return {false, false, false, false, false}; }
+  static FitSearch none() {
+    return {.strength = false, .growth = false, .point_penalty = false, .frame = false};
+  }
 };
 
 /// Settings without anything left to choose.
@@ -145,8 +148,8 @@ struct ChosenFit {
 /// Finds the settings by cross-validation, and the environment's radius where it is 0.
 /// @param observations  of world directions, of all points
 /// @errors those of fit_view_maps; kInvalidArgument: a search with kPaper
-/// The same for any thread count of one binary. As much as fits of 12,000 points, some 40 times;
-/// sums of blocks as in fit_view_maps, up to 8 times those of 12,000 points at once.
+/// The same for any thread count of one binary. As much as fits of search.points, some 40 times;
+/// sums of blocks as in fit_view_maps, up to 8 times those of the sample at once.
 Result<ChosenFit, InputError> choose_fit(const Observations& observations,
                                          std::span<const Voxel> positions,
                                          const FitSettings& settings, const FitSearch& search,
