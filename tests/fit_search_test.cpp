@@ -87,6 +87,21 @@ TEST(FitSearch, TheFrameIsTheOneInWhichTheSurfaceIsAlike) {
   }
 }
 
+TEST(FitSearch, AFrameThatGainsLittleIsNotWorthItsBytes) {
+  const Scene scene;
+  std::mt19937 random(9);
+  std::normal_distribution<float> noise(0, 20);
+  const Observations dull = scene.observe(
+      24, [&](const Vec3& v, const Vec3& r) { return 0.3f * mirror(v, r) + noise(random); });
+  const auto error = [&](FrameId frame) {
+    return choose_fit(dull, scene.positions, settings_of(frame), kFrame)->psnr_given;
+  };
+  EXPECT_GT(error(FrameId::kReflected), error(FrameId::kGlobal));
+  EXPECT_EQ(
+      choose_fit(dull, scene.positions, settings_of(FrameId::kGlobal), kFrame)->settings.frame,
+      FrameId::kGlobal);
+}
+
 TEST(FitSearch, WhatIsNotSearchedStays) {
   const Scene scene;
   const auto chosen =
