@@ -89,10 +89,7 @@ class LevelQuantiser {
     merges_ = std::span(input_.tree.merges)
                   .subspan(level_->nodes.size() - 1,
                            level_->child_rows.size() - 1 - level_->nodes.size());
-    if (input_.predict) {
-      means_.resize(level_->means.size() * planes_);
-      level_means(*level_, {values_.data(), planes_}, {means_.data(), planes_}, planes_);
-    }
+    if (input_.predict) means_.resize(level_->num_slots * planes_);
     const std::vector<std::uint8_t> modes =
         input_.predict && level_->nodes.size() > 1
             ? choose_modes()
@@ -131,7 +128,7 @@ class LevelQuantiser {
     for (std::size_t j = 0; j < planes_; ++j)
       values[j] = coefficients[j] * static_cast<std::int32_t>(own_step_[j]);
     for (const ForwardTransform& transform : input_.transforms)
-      fits_ = expand_row(transform.inverse, input_.steps, values, sums_) && fits_;
+      fits_ = expand_row(transform.inverse, input_.steps, values, scratch_) && fits_;
   }
 
   /// Tries every mode on all planes; a group takes the one that its planes together like best.
@@ -175,8 +172,12 @@ class LevelQuantiser {
     const std::size_t lanes = end - begin;
     std::vector<std::int32_t> transformed(8 * lanes);  // predicted coefficients
     std::vector<Corrections> corrections((lanes + kLanes - 1) / kLanes);
-    for (std::size_t n = 0, merge = 0; n < level_->nodes.size(); ++n) {
+    for (std::size_t n = 0, merge = 0, mean = 0; n < level_->nodes.size(); ++n) {
       if (!level_->branches(n)) continue;
+      if (input_.predict)
+        level_means(*level_, mean, level_->means_end[n], {values_.data() + begin, planes_},
+                    {means_.data() + begin, planes_}, lanes);
+      mean = level_->means_end[n];
       for (std::uint8_t mode = kWide; mode < kPredictionModes; ++mode)
         if (used(mode)) plan_node(*level_, n, mode, plans[mode - 1u]);
       const std::span<const Merge> own = merges_.subspan(merge, plan.children - 1);
@@ -277,7 +278,7 @@ class LevelQuantiser {
   std::vector<ComponentFinder> finders_;
   std::vector<std::uint32_t> own_step_;  // [planes] 1 where a transform dequantises
   std::vector<std::int32_t> means_;
-  std::vector<std::int64_t> sums_;
+  ExpansionScratch scratch_;
   bool fits_ = true;
 };
 

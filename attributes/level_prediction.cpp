@@ -79,16 +79,44 @@ inline std::int32_t round_q25(std::int64_t x) {
   return static_cast<std::int32_t>((bits + (1u << 24) - (bits >> 63)) >> 25);
 }
 
-inline void finish_prediction(const NodePrediction& plan, std::size_t lanes, Corrections& out) {
-  std::array<std::int64_t, kPredictionLanes> total{};
-  for (std::size_t i = 0; i < plan.children; ++i)
+/// Means of the corrections over the children, weighted with their shares.
+inline void mean_correction(const NodePrediction& plan, const Corrections& out, std::size_t lanes,
+                            std::array<std::int32_t, kPredictionLanes>& mean) {
+  bool alike = true;
+  for (std::size_t i = 1; i < plan.children; ++i)
+    alike = alike && plan.child[i].share_q30 == plan.child[0].share_q30;
+  if (alike) {  // the same sum, which fits: corrections are at most 2^24
+    for (std::size_t j = 0; j < lanes; ++j) mean[j] = out[0][j];
+    for (std::size_t i = 1; i < plan.children; ++i)
+      for (std::size_t j = 0; j < lanes; ++j) mean[j] += out[i][j];
+    for (std::size_t j = 0; j < lanes; ++j)
+      mean[j] = round_q30(std::int64_t{plan.child[0].share_q30} * mean[j]);
+    return;
+  }
+  std::array<std::int64_t, kPredictionLanes> total;
+  for (std::size_t j = 0; j < lanes; ++j)
+    total[j] = std::int64_t{plan.child[0].share_q30} * out[0][j];
+  for (std::size_t i = 1; i < plan.children; ++i)
     for (std::size_t j = 0; j < lanes; ++j)
       total[j] += std::int64_t{plan.child[i].share_q30} * out[i][j];
-  std::array<std::int32_t, kPredictionLanes> mean{};
   for (std::size_t j = 0; j < lanes; ++j) mean[j] = round_q30(total[j]);
+}
+
+inline void finish_prediction(const NodePrediction& plan, std::size_t lanes, Corrections& out) {
+  std::array<std::int32_t, kPredictionLanes> mean;
+  mean_correction(plan, out, lanes, mean);
   for (std::size_t i = 0; i < plan.children; ++i) {
-    const std::int64_t root = plan.child[i].root_q19;
-    for (std::size_t j = 0; j < lanes; ++j) out[i][j] = round_q25((out[i][j] - mean[j]) * root);
+    const std::int32_t root = plan.child[i].root_q19;
+    if (root % (1 << 17) == 0 && root <= 1 << 22) {  // as for one point: round_q25 in 32 bits
+      const std::int32_t root_q2 = root >> 17;
+      for (std::size_t j = 0; j < lanes; ++j) {
+        const std::int32_t difference = out[i][j] - mean[j];  // at most 2^25
+        out[i][j] = (difference * root_q2 + 128 - (difference < 0)) >> 8;
+      }
+    } else {
+      for (std::size_t j = 0; j < lanes; ++j)
+        out[i][j] = round_q25(std::int64_t{out[i][j] - mean[j]} * root);
+    }
   }
 }
 
@@ -97,9 +125,10 @@ inline void mean_row(const std::int32_t* __restrict value, std::int64_t root_q30
   for (std::size_t j = 0; j < lanes; ++j) mean[j] = clamped(round_q30(value[j] * root_q30));
 }
 
+/// Where a sum begins: its terms are differences from the node's own mean.
 inline void subtract_own(std::int32_t* __restrict sum, const std::int32_t* __restrict own,
                          std::int32_t others, std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) sum[j] = (sum[j] - others * own[j]) >> 6;
+  for (std::size_t j = 0; j < lanes; ++j) sum[j] = -others * own[j];
 }
 
 inline void add_row(std::int32_t* __restrict value, const std::int32_t* __restrict correction,
@@ -158,30 +187,43 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
 }
 
 SLF_MULTIVERSION_ALL
-void level_means(const TransformLevel& level, Lanes values, Lanes means, std::size_t lanes) {
-  constexpr std::size_t kAhead = 4;  // rows that nothing of has been read yet
-  for (std::size_t i = 0; i < level.means.size(); ++i) {
+void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
+                 Lanes means, std::size_t lanes) {
+  constexpr std::size_t kAhead = 8;  // rows that nothing of has been read yet
+  for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t n = level.means[i], row = level.rows[n];
     if (i + kAhead < level.means.size())
       prefetch_row(values.row(level.rows[level.means[i + kAhead]]), lanes);
-    mean_row(values.row(row), roots_of(level.places[n].weight).reciprocal_q30, means.row(i), lanes);
+    mean_row(values.row(row), roots_of(level.places[n].weight).reciprocal_q30,
+             means.row(level.slot[n]), lanes);
   }
 }
+
+namespace {
+
+inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
+                          Corrections& out) {
+  for (std::size_t i = 0; i < plan.children; ++i) {
+    const NodePrediction::Child& child = plan.child[i];
+    std::int32_t* sum = out[i].data();
+    subtract_own(sum, means.row(plan.slot), child.others, lanes);
+    for (std::size_t t = 0; t < child.terms; ++t) {
+      const NodePrediction::Term& term = child.term[t];
+      const Lanes& from = term.root_q30 == 0 ? means : values;
+      accumulate(sum, from.row(term.index), term, lanes);
+    }
+    for (std::size_t j = 0; j < lanes; ++j) sum[j] >>= 6;
+  }
+  finish_prediction(plan, lanes, out);
+}
+
+}  // namespace
 
 SLF_MULTIVERSION_ALL
 void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
                       Corrections& out) {
-  for (std::size_t i = 0; i < plan.children; ++i) {
-    const NodePrediction::Child& child = plan.child[i];
-    std::fill_n(out[i].begin(), lanes, 0);
-    for (std::size_t t = 0; t < child.terms; ++t) {
-      const NodePrediction::Term& term = child.term[t];
-      const Lanes& from = term.root_q30 == 0 ? means : values;
-      accumulate(out[i].data(), from.row(term.index), term, lanes);
-    }
-    subtract_own(out[i].data(), means.row(plan.slot), child.others, lanes);
-  }
-  finish_prediction(plan, lanes, out);
+  if (lanes == kPredictionLanes) return predict_lanes(plan, values, means, kPredictionLanes, out);
+  predict_lanes(plan, values, means, lanes, out);
 }
 
 SLF_MULTIVERSION_ALL

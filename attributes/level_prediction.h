@@ -59,8 +59,10 @@ struct Lanes {
   std::int32_t* row(std::size_t r) const { return first + r * stride; }
 };
 
-/// Means of level.means into means [slot][lanes].
-void level_means(const TransformLevel& level, Lanes values, Lanes means, std::size_t lanes);
+/// Means of level.means[begin .. end) into means [slot][lanes]. To be called for a node before its
+/// children are predicted, and with them all.
+void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
+                 Lanes means, std::size_t lanes);
 
 /// What to add to each child, [child][kPredictionLanes], without the mean of all; lanes at most
 /// kPredictionLanes.

@@ -21,27 +21,34 @@ void add_column(const std::int32_t* column, std::int32_t component, std::int64_t
   for (std::size_t i = 0; i < rows; ++i) sums[i] += std::int64_t{column[i]} * component;
 }
 
-/// False where a component reaches 2^27.
+/// Dequantises, and lists the columns whose components are not all zero: few are. False where a
+/// component reaches 2^27.
 bool dequantise_components(const PlaneTransform& t, std::span<const std::uint32_t> steps,
-                           std::int32_t* row) {
+                           std::int32_t* row, std::vector<std::uint32_t>& columns) {
   bool fits = true;
-  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c)
-    for (std::size_t j = t.plane(c), end = j + t.lanes; j < end; ++j) {
-      if (row[j] == 0) continue;
+  columns.clear();
+  for (std::size_t c = 0, count = t.columns(); c < count; ++c) {
+    const std::size_t begin = t.plane(c), end = begin + t.lanes;
+    std::int32_t any = 0;
+    for (std::size_t j = begin; j < end; ++j) any |= row[j];
+    if (any == 0) continue;
+    columns.push_back(static_cast<std::uint32_t>(c));
+    for (std::size_t j = begin; j < end; ++j) {
       const std::int64_t product = std::int64_t{row[j]} * steps[j];
       const bool good = product < kCoefficientLimit && product > -kCoefficientLimit;
       row[j] = static_cast<std::int32_t>(good ? product : 0);
       fits = fits && good;
     }
+  }
   return fits;
 }
 
 /// The channels of the components of a row. False where a value is out of range.
-bool mix_channels(const PlaneTransform& t, std::int32_t* row) {
+bool mix_channels(const PlaneTransform& t, std::span<const std::uint32_t> columns,
+                  std::int32_t* row) {
   bool fits = true;
-  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c) {
+  for (const std::uint32_t c : columns) {
     std::int32_t* v = row + t.plane(c);
-    if ((v[0] | v[1] | v[2]) == 0) continue;
     std::array<std::int64_t, 3> mixed{};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& m = t.colour[i];
@@ -66,18 +73,13 @@ bool sums_fit(const std::int64_t* sums, std::size_t rows) {
 }
 
 /// The values of a row in one lane, before rounding down. False where one is out of range.
-bool sum_lane(const PlaneTransform& t, const std::int32_t* row, std::size_t lane,
-              std::span<std::int64_t> sums) {
-  std::fill(sums.begin(), sums.end(), 0);
-  bool any = false;
-  for (std::size_t c = 0, columns = t.columns(); c < columns; ++c) {
-    const std::int32_t component = row[t.plane(c) + lane];
-    if (component == 0) continue;
-    if (!any) std::fill(sums.begin(), sums.end(), 1 << (PlaneTransform::kFractionBits - 1));
-    any = true;
-    add_column(&t.matrix[c * sums.size()], component, sums.data(), sums.size());
-  }
-  if (!any || sums_fit(sums.data(), sums.size())) return true;
+bool sum_lane(const PlaneTransform& t, std::span<const std::uint32_t> columns,
+              const std::int32_t* row, std::size_t lane, std::span<std::int64_t> sums) {
+  std::fill(sums.begin(), sums.end(), 1 << (PlaneTransform::kFractionBits - 1));
+  for (const std::uint32_t c : columns)
+    if (const std::int32_t component = row[t.plane(c) + lane]; component != 0)
+      add_column(&t.matrix[c * sums.size()], component, sums.data(), sums.size());
+  if (sums_fit(sums.data(), sums.size())) return true;
   std::fill(sums.begin(), sums.end(), 0);
   return false;
 }
@@ -85,13 +87,17 @@ bool sum_lane(const PlaneTransform& t, const std::int32_t* row, std::size_t lane
 }  // namespace
 
 bool expand_row(const PlaneTransform& t, std::span<const std::uint32_t> steps, std::int32_t* row,
-                std::vector<std::int64_t>& sums) {
-  bool fits = dequantise_components(t, steps, row);
-  if (t.lanes == 3 && t.colour != PlaneTransform::kNoColour) fits = mix_channels(t, row) && fits;
+                ExpansionScratch& scratch) {
+  bool fits = dequantise_components(t, steps, row, scratch.columns);
+  if (scratch.columns.empty()) return true;
+  if (t.lanes == 3 && t.colour != PlaneTransform::kNoColour)
+    fits = mix_channels(t, scratch.columns, row) && fits;
   const std::size_t rows = t.rows();
+  auto& sums = scratch.sums;
   sums.resize(t.lanes * rows);
   for (std::size_t lane = 0; lane < t.lanes; ++lane)
-    fits = sum_lane(t, row, lane, std::span(sums).subspan(lane * rows, rows)) && fits;
+    fits =
+        sum_lane(t, scratch.columns, row, lane, std::span(sums).subspan(lane * rows, rows)) && fits;
   const auto value = [&](std::size_t i) {
     return static_cast<std::int32_t>(sums[i] >> PlaneTransform::kFractionBits);
   };
@@ -116,11 +122,11 @@ Result<Done> expand_components(const PlaneTransform& transform,
   const auto is_zero = [&](std::size_t row) { return !nonzero.empty() && nonzero[row] == 0; };
   parallel_ranges(
       values.size() / planes, kRowGrain, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::int64_t> sums;
+        ExpansionScratch scratch;
         for (std::size_t row = begin; row < end; ++row) {
           if (const std::size_t next = row + kAhead; next < end && !is_zero(next))
             prefetch_row(&values[next * planes], planes);
-          if (!is_zero(row) && !expand_row(transform, steps, &values[row * planes], sums))
+          if (!is_zero(row) && !expand_row(transform, steps, &values[row * planes], scratch))
             fits = false;
         }
       });

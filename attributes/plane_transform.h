@@ -43,11 +43,18 @@ struct PlaneTransform {
   }
 };
 
-/// Replaces the quantised components of a row by the values of the functions.
-/// @param steps  [planes]; sums  scratch
+/// What expand_row works on; only its memory is kept from row to row.
+struct ExpansionScratch {
+  std::vector<std::uint32_t> columns;
+  std::vector<std::int64_t> sums;
+};
+
+/// Replaces the quantised components of a row by the values of the functions; the planes of the
+/// transform that hold no component are zero on entry.
+/// @param steps  [planes]
 /// Returns false where a value reaches 2^27; its lane counts as 0.
 bool expand_row(const PlaneTransform& transform, std::span<const std::uint32_t> steps,
-                std::int32_t* row, std::vector<std::int64_t>& sums);
+                std::int32_t* row, ExpansionScratch& scratch);
 
 /// The same for all rows of values, [P][planes].
 /// @param nonzero  [P] 0: the row is zero; empty: any may be other

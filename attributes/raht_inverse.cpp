@@ -8,7 +8,9 @@
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
+#include "bitstream/huge_pages.h"
 #include "bitstream/multiversion.h"
+#include "bitstream/prefetch.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -28,23 +30,23 @@ struct Steps {
   std::vector<std::int32_t> step, most;
 };
 
-/// `lanes` of both rows of a merge, `high` still quantised. Most are zero in most merges.
-/// Not zero: a coefficient is too large; it counts as 0.
+/// `lanes` of both rows of a merge where the difference is zero, as most are.
+inline void spread_mean(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
+                        std::size_t lanes) {
+  for (std::size_t j = 0; j < lanes; ++j) {
+    const std::int32_t mean = low[j];
+    low[j] = round_q30(std::int64_t{m.cos_q30} * mean);
+    high[j] = round_q30(std::int64_t{m.sin_q30} * mean);
+  }
+}
+
+/// The same for any difference, still quantised. Not zero: a coefficient is too large; it counts
+/// as 0.
 inline std::int32_t inverse_merge(const Merge& m, std::int32_t* __restrict low,
                                   std::int32_t* __restrict high,
                                   const std::int32_t* __restrict step,
                                   const std::int32_t* __restrict most, std::size_t lanes) {
-  std::int32_t any_low = 0, any_high = 0, bad = 0;
-  for (std::size_t j = 0; j < lanes; ++j) any_low |= low[j], any_high |= high[j];
-  if ((any_low | any_high) == 0) return 0;
-  if (any_high == 0) {
-    for (std::size_t j = 0; j < lanes; ++j) {
-      const std::int32_t mean = low[j];
-      low[j] = round_q30(std::int64_t{m.cos_q30} * mean);
-      high[j] = round_q30(std::int64_t{m.sin_q30} * mean);
-    }
-    return 0;
-  }
+  std::int32_t bad = 0;
   for (std::size_t j = 0; j < lanes; ++j) {
     const bool good = high[j] <= most[j] && high[j] >= -most[j];
     bad |= !good;
@@ -55,32 +57,51 @@ inline std::int32_t inverse_merge(const Merge& m, std::int32_t* __restrict low,
   return bad;
 }
 
+inline bool any_nonzero(const std::int32_t* values, std::size_t lanes) {
+  std::int32_t any = 0;
+  for (std::size_t j = 0; j < lanes; ++j) any |= values[j];
+  return any != 0;
+}
+
 /// Planes begin .. end - 1 of everything.
 struct Range {
   Lanes values;
   const std::int32_t* step;
   const std::int32_t* most;
   std::size_t lanes;
+  std::span<const std::uint8_t> nonzero;  // [rows] 0: the row's difference is zero; empty: unknown
 
-  Range(std::span<std::int32_t> all, const Steps& steps, std::size_t begin, std::size_t end)
+  Range(std::span<std::int32_t> all, const Steps& steps, std::size_t begin, std::size_t end,
+        std::span<const std::uint8_t> nonzero_rows)
       : values{all.data() + begin, steps.step.size()},
         step(steps.step.data() + begin),
         most(steps.most.data() + begin),
-        lanes(end - begin) {}
+        lanes(end - begin),
+        nonzero(nonzero_rows) {}
+
+  bool is_zero(std::uint32_t row) const { return !nonzero.empty() && nonzero[row] == 0; }
 };
+
+inline std::int32_t inverse_block(const Merge& m, bool zero, const Range& range, std::size_t j,
+                                  std::size_t lanes) {
+  std::int32_t* low = range.values.row(m.left) + j;
+  std::int32_t* high = range.values.row(m.right) + j;
+  if (!zero && any_nonzero(high, lanes))
+    return inverse_merge(m, low, high, range.step + j, range.most + j, lanes);
+  if (any_nonzero(low, lanes)) spread_mean(m, low, high, lanes);
+  return 0;
+}
 
 SLF_MULTIVERSION
 std::int32_t inverse_lanes(std::span<const Merge> merges, const Range& range, std::size_t first,
                            std::size_t lanes) {
   std::int32_t bad = 0;
   for (const Merge& m : merges) {
-    std::int32_t* low = range.values.row(m.left);
-    std::int32_t* high = range.values.row(m.right);
+    const bool zero = range.is_zero(m.right);
     std::size_t j = first;
     for (; j + kBlock <= first + lanes; j += kBlock)
-      bad |= inverse_merge(m, low + j, high + j, range.step + j, range.most + j, kBlock);
-    if (j < first + lanes)
-      bad |= inverse_merge(m, low + j, high + j, range.step + j, range.most + j, first + lanes - j);
+      bad |= inverse_block(m, zero, range, j, kBlock);
+    if (j < first + lanes) bad |= inverse_block(m, zero, range, j, first + lanes - j);
   }
   return bad;
 }
@@ -121,20 +142,31 @@ std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<
   return bad;
 }
 
+/// Merges whose rows are asked for before they are needed: a node or two.
+constexpr std::size_t kMergesAhead = 8;
+
 /// Spec 8.7.6. merges: of the level. Node by node, not run by run: a level does not fit the cache.
 std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
                            std::span<const Run> runs, const Range& range, Lanes means) {
   if (runs.size() == 1 && runs[0].mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
-  for (const Run& run : runs)
-    if (run.mode != 0)
-      level_means(level, {range.values.first + run.begin, range.values.stride},
-                  {means.first + run.begin, means.stride}, run.end - run.begin);
   std::int32_t bad = 0;
+  std::size_t means_begin = 0;
   for (std::size_t n = 0, merge = 0; n < level.nodes.size(); ++n) {
     if (!level.branches(n)) continue;
     const auto children = static_cast<std::size_t>(std::popcount(level.nodes.occupancy[n]));
-    for (const Run& run : runs)
+    const std::size_t ahead = merge + kMergesAhead;
+    for (std::size_t i = ahead; i < std::min(ahead + children - 1, merges.size()); ++i) {
+      prefetch_row(range.values.row(merges[i].left), range.lanes);
+      prefetch_row(range.values.row(merges[i].right), range.lanes);
+    }
+    for (const Run& run : runs) {
+      if (run.mode != 0)
+        level_means(level, means_begin, level.means_end[n],
+                    {range.values.first + run.begin, range.values.stride},
+                    {means.first + run.begin, means.stride}, run.end - run.begin);
       bad |= inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means);
+    }
+    means_begin = level.means_end[n];
     merge += children - 1;
   }
   return bad;
@@ -182,10 +214,11 @@ std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t 
 }  // namespace
 
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
-                          std::span<std::int32_t> values, int threads) {
+                          std::span<std::int32_t> values, int threads,
+                          std::span<const std::uint8_t> nonzero) {
   const Steps table(steps);
   const bool good = over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
-    const Range range(values, table, begin, end);
+    const Range range(values, table, begin, end, nonzero);
     return dequantise_mean(range) | inverse_lanes(tree.merges, range, 0, range.lanes);
   });
   if (!good) return too_large();
@@ -195,9 +228,10 @@ Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> s
 Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& levels,
                                     std::span<const PredictedPlanes> planes,
                                     std::span<const std::uint32_t> steps,
-                                    std::span<std::int32_t> values, int threads) {
+                                    std::span<std::int32_t> values, int threads,
+                                    std::span<const std::uint8_t> nonzero) {
   const Steps table(steps);
-  bool good = dequantise_mean(Range(values, table, 0, steps.size())) == 0;
+  bool good = dequantise_mean(Range(values, table, 0, steps.size(), nonzero)) == 0;
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
   std::size_t capacity = 0;
   for (int l = 0; l < levels.count(); ++l) {
@@ -209,12 +243,15 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
     std::size_t width = 0;  // planes up to the last predicted one
     for (const Run& run : runs)
       if (run.mode != 0) width = run.end;
-    if (level.means.size() * width > capacity) {
-      capacity = level.means.size() * width;
+    if (level.num_slots * width > capacity) {
+      capacity = level.num_slots * width;
+      means.reset();
       means = std::make_unique_for_overwrite<std::int32_t[]>(capacity);
+      advise_huge_pages(means.get(), capacity * sizeof(std::int32_t));
     }
     good &= over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
-      return inverse_level(level, merges, clip(runs, begin, end), Range(values, table, begin, end),
+      return inverse_level(level, merges, clip(runs, begin, end),
+                           Range(values, table, begin, end, nonzero),
                            {means.get() + std::min(begin, width), width});
     });
   }

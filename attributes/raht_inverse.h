@@ -20,10 +20,12 @@ struct PredictedPlanes {
 
 /// Values are [rows][planes], row-major; quantised coefficients in, values out, in place.
 /// @param steps  [planes]
+/// @param nonzero  [rows] 0: the coefficients of the row are zero; empty: any may be other
 /// @errors kOutOfRange: a coefficient of 2^27 or more; the values are then of no meaning. The limit
 ///         bounds every intermediate below 2^31 (spec 8.8.2).
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
-                          std::span<std::int32_t> values, int threads);
+                          std::span<std::int32_t> values, int threads,
+                          std::span<const std::uint8_t> nonzero = {});
 
 /// The same, a level at a time, children predicted.
 /// @param levels  of the same points, at level 0
@@ -31,7 +33,8 @@ Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> s
 Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& levels,
                                     std::span<const PredictedPlanes> planes,
                                     std::span<const std::uint32_t> steps,
-                                    std::span<std::int32_t> values, int threads);
+                                    std::span<std::int32_t> values, int threads,
+                                    std::span<const std::uint8_t> nonzero = {});
 
 /// The mean of a node of `weight` points, from the value raht_inverse leaves in its row.
 std::int32_t node_mean(std::int32_t value, std::uint32_t weight);

@@ -61,17 +61,32 @@ const TransformLevel& TransformLevels::next() {
 
 /// Branching nodes and their neighbours: fewer than 27 per merge, however deep the tree.
 void TransformLevels::mark_means() {
+  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   const OctreeLevel& nodes = current_.nodes;
-  std::vector<bool> needed(nodes.size());
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (current_.branches(n))
-      for (const std::int32_t neighbour : nodes.neighbours[n])
-        if (neighbour >= 0) needed[static_cast<std::size_t>(neighbour)] = true;
+  const auto for_each_needed = [&](std::uint32_t n, const auto& body) {
+    if (!current_.branches(n)) return;
+    for (const std::int32_t neighbour : nodes.neighbours[n])
+      if (neighbour >= 0) body(static_cast<std::size_t>(neighbour));
+  };
+  const auto count = static_cast<std::uint32_t>(nodes.size());
+  std::vector<std::uint32_t> last(count), free;  // node that needs a mean last; slots to use again
+  for (std::uint32_t n = 0; n < count; ++n) for_each_needed(n, [&](std::size_t m) { last[m] = n; });
   current_.means.clear();
-  current_.slot.resize(nodes.size());
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    current_.slot[n] = static_cast<std::uint32_t>(current_.means.size());
-    if (needed[n]) current_.means.push_back(static_cast<std::uint32_t>(n));
+  current_.means_end.resize(count);
+  current_.slot.assign(count, kNone);
+  current_.num_slots = 0;
+  for (std::uint32_t n = 0; n < count; ++n) {
+    for_each_needed(n, [&](std::size_t m) {
+      if (current_.slot[m] != kNone) return;
+      current_.means.push_back(static_cast<std::uint32_t>(m));
+      if (free.empty()) free.push_back(current_.num_slots++);
+      current_.slot[m] = free.back();
+      free.pop_back();
+    });
+    current_.means_end[n] = static_cast<std::uint32_t>(current_.means.size());
+    for_each_needed(n, [&](std::size_t m) {
+      if (last[m] == n) free.push_back(current_.slot[m]);
+    });
   }
 }
 

@@ -22,8 +22,12 @@ struct TransformLevel {
   std::vector<std::uint32_t> rows;        ///< [nodes + 1] row of each, and the number of rows
   std::vector<std::uint32_t> child_rows;  ///< [children + 1] the same of the level below
   std::vector<NodePlace> places, child_places;
-  std::vector<std::uint32_t> means;  ///< nodes whose mean a prediction needs, ascending
-  std::vector<std::uint32_t> slot;   ///< [nodes] place in `means`; undefined for others
+  /// Nodes whose mean a prediction needs, in the order in which nodes 0, 1, .. first need them.
+  std::vector<std::uint32_t> means;
+  std::vector<std::uint32_t> means_end;  ///< [nodes] of `means`, those that nodes 0 .. n need
+  /// [nodes] where its mean is kept until the last node that needs it; undefined for others.
+  std::vector<std::uint32_t> slot;
+  std::uint32_t num_slots = 0;  ///< far fewer than means: what is needed at a time fits a cache
 
   /// A node of one child has no merge, and nothing of it is predicted.
   bool branches(std::size_t n) const {

@@ -11,20 +11,26 @@
 
 namespace slf {
 
-/// `values` becomes `size` zeros. Page faults and address translation of 133 MB on small pages were
-/// a seventh of the time of a decode.
+/// For memory that nothing was written to yet. Page faults and address translation of 133 MB on
+/// small pages were a seventh of the time of a decode.
+inline void advise_huge_pages([[maybe_unused]] const void* memory,
+                              [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const auto first = (begin + kHugePage - 1) & ~(kHugePage - 1);
+  const auto end = (begin + bytes) & ~(kHugePage - 1);
+  if (first < end)  // advice that a system does not follow changes nothing
+    static_cast<void>(madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE));
+#endif
+}
+
+/// `values` becomes `size` zeros.
 template <class T>
 void assign_zeros(std::vector<T>& values, std::size_t size) {
   values.clear();
   values.reserve(size);
-#if defined(__linux__)
-  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
-  const auto begin = reinterpret_cast<std::uintptr_t>(values.data());
-  const auto first = (begin + kHugePage - 1) & ~(kHugePage - 1);
-  const auto end = (begin + size * sizeof(T)) & ~(kHugePage - 1);
-  if (first < end)  // advice that a system does not follow changes nothing
-    static_cast<void>(madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE));
-#endif
+  advise_huge_pages(values.data(), size * sizeof(T));
   values.resize(size);
 }
 

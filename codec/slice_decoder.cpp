@@ -124,7 +124,7 @@ Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupMode
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
   if (std::none_of(modes.begin(), modes.end(), is_predicted))
-    return raht_inverse(tree_, steps, components, threads);
+    return raht_inverse(tree_, steps, components, threads, rows.nonzero);
   const std::vector<int> group = function_groups(plan.set);
   std::vector<PredictedPlanes> planes;
   for (std::size_t k = 0; k < group.size(); ++k) {
@@ -136,7 +136,7 @@ Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupMode
   }
   TransformLevels levels(codes_, static_cast<int>(header.slice_depth),
                          static_cast<int>(plan.set.grid_bits()) - plan.levels);
-  return raht_inverse_predicted(tree_, levels, planes, steps, components, threads);
+  return raht_inverse_predicted(tree_, levels, planes, steps, components, threads, rows.nonzero);
 }
 
 Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,

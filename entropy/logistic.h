@@ -18,14 +18,23 @@ inline constexpr std::array<int, 45> kSquashQuarters = {
     65374, 65410, 65438, 65459, 65476, 65489, 65500, 65508, 65514, 65519, 65523, 65526,
     65528, 65530, 65531, 65532, 65533, 65534, 65534, 65535, 65535};
 
-/// Probability of 65536 of a logistic value: linear between the entries of table 8-2.
+/// Probability of 65536 of a logistic value, by value + kLogisticLimit: linear between the entries
+/// of table 8-2.
+inline constexpr std::array<std::uint16_t, 2 * kLogisticLimit + 1> kSquash = [] {
+  std::array<std::uint16_t, 2 * kLogisticLimit + 1> table{};
+  for (int a = 0; a <= kLogisticLimit; ++a) {
+    const std::size_t i = static_cast<std::size_t>(a) / 64;
+    const int p =
+        kSquashQuarters[i] + ((kSquashQuarters[i + 1] - kSquashQuarters[i]) * (a % 64) >> 6);
+    table[static_cast<std::size_t>(kLogisticLimit - a)] = static_cast<std::uint16_t>(65536 - p);
+    table[static_cast<std::size_t>(kLogisticLimit + a)] = static_cast<std::uint16_t>(p);
+  }
+  return table;
+}();
+
 constexpr int squash(int logistic) {
   const int x = std::clamp(logistic, -kLogisticLimit, kLogisticLimit);
-  const int a = x < 0 ? -x : x;
-  const std::size_t i = static_cast<std::size_t>(a) / 64;
-  const int p =
-      kSquashQuarters[i] + ((kSquashQuarters[i + 1] - kSquashQuarters[i]) * (a % 64) >> 6);
-  return x < 0 ? 65536 - p : p;
+  return kSquash[static_cast<std::size_t>(x + kLogisticLimit)];
 }
 
 /// The inverse of squash on the upper 12 bits of a probability: the smallest logistic value whose
