@@ -83,19 +83,6 @@ std::vector<Merge> by_level(const std::vector<Merge>& merges,
 
 }  // namespace
 
-std::uint64_t isqrt(std::uint64_t n) {
-  std::uint64_t root = 0;
-  for (std::uint64_t bit = std::uint64_t{1} << 62; bit > 0; bit >>= 2) {
-    if (n >= root + bit) {
-      n -= root + bit;
-      root = (root >> 1) + bit;
-    } else {
-      root >>= 1;
-    }
-  }
-  return root;
-}
-
 RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
   const std::size_t count = morton.size();
   RahtTree tree;

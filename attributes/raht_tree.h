@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/isqrt.h"  // of 8.6.2
+
 namespace slf {
 
 /// One merge of two nodes. Rows are points in Morton order; a node's mean lives in the row of its
@@ -35,9 +37,6 @@ struct RahtTop {
   std::vector<std::uint32_t> first;  ///< [rows + 1] first point of each row's node, and P
 };
 RahtTop cut_raht_tree(const RahtTree& tree, int lowest_split);
-
-/// floor(sqrt(n)).
-std::uint64_t isqrt(std::uint64_t n);
 
 /// Position in tree.order of the first row whose split is below `bit`.
 std::size_t order_end(const RahtTree& tree, int bit);

@@ -69,14 +69,29 @@ def harmonics(degree, x, y, z):
     return values
 
 
-def surface_normal(positions, voxel):
-    """Normal, of either sign, of the points within 4 voxels (clause 6.6.1), unit length."""
+def offsets_around(positions, voxel):
+    """[N, 3] where the points within 4 voxels are, seen from this one."""
     near = positions[np.abs(positions - voxel).max(axis=1) <= 4].astype(np.int64) - voxel
-    near = near[(near ** 2).sum(axis=1) <= 16]
+    return near[(near ** 2).sum(axis=1) <= 16]
+
+
+def plane_normal(positions, voxel):
+    """Normal, of either sign, of the plane through the points around a voxel, in integers of length 2^17."""
+    near = offsets_around(positions, voxel)
     s = len(near) * near.T @ near - np.outer(near.sum(axis=0), near.sum(axis=0))
     adjugate = np.array([np.cross(s[1], s[2]), np.cross(s[2], s[0]), np.cross(s[0], s[1])])
-    best = adjugate[np.argmax(np.diag(adjugate))]
-    return best / np.linalg.norm(best) if np.diag(adjugate).any() else np.array([0.0, 0.0, 1.0])
+    best = adjugate[np.argmax(np.diag(adjugate))] if np.diag(adjugate).any() else np.array([0, 0, 1])
+    bits = int(abs(best).max()).bit_length()
+    w = [(abs(int(x)) << 30 >> bits) for x in best]
+    length = math.isqrt(sum(x * x for x in w))
+    return np.sign(best) * [(x << 17) // length for x in w]
+
+
+def surface_normal(positions, voxel):
+    """Mean of the planes' normals around a voxel (clause 6.6), whatever their signs, unit length."""
+    normals = np.array([plane_normal(positions, voxel + d) for d in offsets_around(positions, voxel)])
+    mean = (normals @ plane_normal(positions, voxel)) @ normals
+    return mean / np.linalg.norm(mean)
 
 
 def radiance(directory, point, direction):

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "geometry/block_grid.h"
+#include "geometry/isqrt.h"
 #include "geometry/morton.h"
 #include "slf/parallel.h"
 
@@ -54,7 +55,9 @@ struct Moments {
   }
 };
 
-std::array<std::int64_t, 3> normal_of(const Moments& sum) {
+using Unit = std::array<std::int32_t, 3>;
+
+std::array<std::int64_t, 3> plane_normal(const Moments& sum) {
   const auto covariance = [&](std::size_t at, std::size_t a, std::size_t b) {
     return sum.n * sum.s[at] - sum.m[a] * sum.m[b];
   };
@@ -71,37 +74,87 @@ std::array<std::int64_t, 3> normal_of(const Moments& sum) {
   return adjugate[best];
 }
 
+/// Of length 2^17, but for rounding.
+Unit unit_of(const std::array<std::int64_t, 3>& n) {
+  constexpr int kBits = 30;  // of the largest component before it is divided
+  const auto magnitude = [](std::int64_t x) { return static_cast<std::uint64_t>(x < 0 ? -x : x); };
+  const int bits = static_cast<int>(
+      std::bit_width(std::max({magnitude(n[0]), magnitude(n[1]), magnitude(n[2])})));
+  std::array<std::uint64_t, 3> m{};
+  for (std::size_t a = 0; a < 3; ++a)
+    m[a] = bits > kBits ? magnitude(n[a]) >> (bits - kBits) : magnitude(n[a]) << (kBits - bits);
+  const std::uint64_t length = isqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);  // >= 2^29
+  Unit unit{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto u = static_cast<std::int32_t>((m[a] << 17) / length);
+    unit[a] = n[a] < 0 ? -u : u;
+  }
+  return unit;
+}
+
+/// Finds the points around a point.
+class Surroundings {
+ public:
+  explicit Surroundings(std::span<const std::uint64_t> codes)
+      : codes_(codes),
+        grid_(codes, codes.empty() ? 0 : (static_cast<int>(std::bit_width(codes.back())) + 2) / 3) {
+  }
+
+  /// Calls each(q, x, y, z) for the points within the radius: index, position less that of p.
+  template <class Each>
+  void visit(std::size_t p, const Each& each) const {
+    const std::uint64_t cell = codes_[p] & 63;
+    const Voxel at = from_morton(cell);
+    const auto& neighbours = grid_.neighbours(grid_.block_of(p));
+    for (int d = 0; d < 27; ++d) {
+      const auto direction = static_cast<std::size_t>(d);
+      if (neighbours[direction] < 0) continue;
+      const auto& block = grid_.block(static_cast<std::size_t>(neighbours[direction]));
+      const int x0 = (d % 3 - 1) * kSide - at[0], y0 = (d / 3 % 3 - 1) * kSide - at[1],
+                z0 = (d / 9 - 1) * kSide - at[2];
+      for (std::uint64_t cells = reach_[cell][direction] & block.cells; cells != 0;
+           cells &= cells - 1) {
+        const std::uint64_t before = (cells & (~cells + 1)) - 1;  // of lower Morton code
+        const auto rank = static_cast<std::size_t>(std::popcount(block.cells & before));
+        const Voxel v = from_morton(static_cast<std::uint64_t>(std::countr_zero(cells)));
+        each(block.first + rank, v[0] + x0, v[1] + y0, v[2] + z0);
+      }
+    }
+  }
+
+ private:
+  std::span<const std::uint64_t> codes_;
+  BlockGrid grid_;
+  const Reach& reach_ = reach();
+};
+
 }  // namespace
 
 std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> positions,
                                                          int threads) {
+  constexpr std::size_t kGrain = 4096;
   std::vector<std::uint64_t> codes;
   codes.reserve(positions.size());
   for (const Voxel& v : positions) codes.push_back(morton(v));
-  const int bits = codes.empty() ? 0 : (static_cast<int>(std::bit_width(codes.back())) + 2) / 3;
-  const BlockGrid grid(codes, bits);
-  const Reach& near = reach();
-  std::vector<std::array<std::int64_t, 3>> normals(positions.size());
-  parallel_ranges(positions.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+  const Surroundings near(codes);
+  std::vector<Unit> plane(positions.size());
+  parallel_ranges(positions.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const std::uint64_t cell = codes[p] & 63;
-      const Voxel at = from_morton(cell);
-      const auto& neighbours = grid.neighbours(grid.block_of(p));
       Moments sum;
-      for (int d = 0; d < 27; ++d) {
-        const auto direction = static_cast<std::size_t>(d);
-        if (neighbours[direction] < 0) continue;
-        std::uint64_t cells = near[cell][direction] &
-                              grid.block(static_cast<std::size_t>(neighbours[direction])).cells;
-        const int x0 = (d % 3 - 1) * kSide - at[0], y0 = (d / 3 % 3 - 1) * kSide - at[1],
-                  z0 = (d / 9 - 1) * kSide - at[2];
-        for (; cells != 0; cells &= cells - 1) {
-          const Voxel v = from_morton(static_cast<std::uint64_t>(std::countr_zero(cells)));
-          sum.add(v[0] + x0, v[1] + y0, v[2] + z0);
-        }
-      }
-      normals[p] = normal_of(sum);
+      near.visit(p, [&](std::size_t, int x, int y, int z) { sum.add(x, y, z); });
+      plane[p] = unit_of(plane_normal(sum));
     }
+  });
+  std::vector<std::array<std::int64_t, 3>> normals(positions.size());
+  parallel_ranges(positions.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      near.visit(p, [&](std::size_t q, int, int, int) {
+        const Unit &u = plane[p], &v = plane[q];
+        // The cosine makes it a sum along u whatever the signs, and keeps edges.
+        const std::int64_t cosine =
+            std::int64_t{u[0]} * v[0] + std::int64_t{u[1]} * v[1] + std::int64_t{u[2]} * v[2];
+        for (std::size_t a = 0; a < 3; ++a) normals[p][a] += cosine * v[a];
+      });
   });
   return normals;
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "tests/field_support.h"
@@ -47,47 +50,107 @@ TEST(Spec_6_6_SurfaceNormals, OfASphereAreRadialWithinAFewDegrees) {
   for (std::size_t p = 0; p < voxels.size(); ++p)
     sum +=
         angle_degrees(normals[p], {voxels[p][0] - 63.0, voxels[p][1] - 63.0, voxels[p][2] - 63.0});
-  EXPECT_LT(sum / static_cast<double>(voxels.size()), 3.5);  // measured: 2.9
+  EXPECT_LT(sum / static_cast<double>(voxels.size()), 1.1);  // measured: 0.89; of planes alone 2.9
+}
+
+using Integers = std::array<std::int64_t, 3>;
+
+std::vector<Integers> offsets_around(const std::vector<Voxel>& voxels, std::size_t p,
+                                     std::vector<std::size_t>& points) {
+  std::vector<Integers> offsets;
+  points.clear();
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const Integers d = {voxels[i][0] - voxels[p][0], voxels[i][1] - voxels[p][1],
+                        voxels[i][2] - voxels[p][2]};
+    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > 16) continue;
+    offsets.push_back(d);
+    points.push_back(i);
+  }
+  return offsets;
+}
+
+Integers plane_normal(const std::vector<Integers>& offsets) {
+  const auto n = static_cast<std::int64_t>(offsets.size());
+  std::int64_t m[3] = {}, s[3][3] = {}, c[3][3], adjugate[3][3];
+  for (const Integers& d : offsets)
+    for (std::size_t a = 0; a < 3; ++a) {
+      m[a] += d[a];
+      for (std::size_t b = 0; b < 3; ++b) s[a][b] += d[a] * d[b];
+    }
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) c[a][b] = n * s[a][b] - m[a] * m[b];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const int a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+      adjugate[b][a] = c[a1][b1] * c[a2][b2] - c[a1][b2] * c[a2][b1];
+    }
+  int best = 0;
+  for (int a = 1; a < 3; ++a)
+    if (adjugate[a][a] > adjugate[best][best]) best = a;
+  if (adjugate[best][best] == 0) return {0, 0, 1};
+  return {adjugate[0][best], adjugate[1][best], adjugate[2][best]};
+}
+
+Integers unit(Integers n) {
+  std::int64_t most = 0;
+  for (const std::int64_t x : n) most = std::max(most, std::abs(x));
+  const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
+  for (std::int64_t& x : n)  // division truncates
+    x = bits > 30 ? x / (std::int64_t{1} << (bits - 30)) : x * (std::int64_t{1} << (30 - bits));
+  const std::int64_t squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+  auto length = static_cast<std::int64_t>(std::sqrt(static_cast<double>(squared)));
+  while (length * length > squared) --length;
+  while ((length + 1) * (length + 1) <= squared) ++length;
+  return {n[0] * 131072 / length, n[1] * 131072 / length, n[2] * 131072 / length};
 }
 
 TEST(Spec_6_6_SurfaceNormals, AreThoseOfTheDefinitionWordForWord) {
-  auto voxels = test::random_cloud(300, 4, 5);
+  const auto voxels = test::random_cloud(300, 4, 5);
   const auto normals = surface_normals(voxels, 1);
+  std::vector<std::size_t> points;
+  std::vector<Integers> u;
+  for (std::size_t p = 0; p < voxels.size(); ++p)
+    u.push_back(unit(plane_normal(offsets_around(voxels, p, points))));
   for (std::size_t p = 0; p < voxels.size(); ++p) {
-    std::int64_t n = 0, m[3] = {}, s[3][3] = {};
-    for (const Voxel& q : voxels) {
-      const std::int64_t d[3] = {q[0] - voxels[p][0], q[1] - voxels[p][1], q[2] - voxels[p][2]};
-      if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > 16) continue;
-      ++n;
-      for (int a = 0; a < 3; ++a) {
-        m[a] += d[a];
-        for (int b = 0; b < 3; ++b) s[a][b] += d[a] * d[b];
-      }
+    Integers expected = {0, 0, 0};
+    offsets_around(voxels, p, points);
+    for (const std::size_t q : points) {
+      const std::int64_t cosine = u[p][0] * u[q][0] + u[p][1] * u[q][1] + u[p][2] * u[q][2];
+      for (std::size_t a = 0; a < 3; ++a) expected[a] += cosine * u[q][a];
     }
-    std::int64_t c[3][3], adjugate[3][3];
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) c[a][b] = n * s[a][b] - m[a] * m[b];
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        const int a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
-        adjugate[b][a] = c[a1][b1] * c[a2][b2] - c[a1][b2] * c[a2][b1];
-      }
-    int best = 0;
-    for (int a = 1; a < 3; ++a)
-      if (adjugate[a][a] > adjugate[best][best]) best = a;
-    std::array<std::int64_t, 3> expected = {0, 0, 1};
-    if (adjugate[best][best] != 0)
-      expected = {adjugate[0][best], adjugate[1][best], adjugate[2][best]};
     EXPECT_EQ(normals[p], expected) << p;
   }
 }
 
+/// Voxels of a tilted plane come in steps, which a fitted plane follows and the mean evens out.
+TEST(Spec_6_6_SurfaceNormals, OfATiltedPlaneHaveLittleOfTheGrid) {
+  const std::array<double, 3> tilted = {0.1, 0.03, 1};
+  std::vector<Voxel> voxels;
+  for (std::int32_t x = 0; x < 64; ++x)
+    for (std::int32_t y = 0; y < 64; ++y)
+      voxels.push_back(
+          {x, y, static_cast<std::int32_t>(std::lround(20 - tilted[0] * x - tilted[1] * y))});
+  const auto sorted = test::sorted_distinct(voxels);
+  const auto normals = surface_normals(sorted, 1);
+  double worst = 0, worst_plane = 0;
+  std::vector<std::size_t> points;
+  for (std::size_t p = 0; p < sorted.size(); ++p) {
+    const Voxel& v = sorted[p];
+    if (v[0] < 8 || v[0] > 55 || v[1] < 8 || v[1] > 55) continue;
+    worst = std::max(worst, angle_degrees(normals[p], tilted));
+    const Integers plane = plane_normal(offsets_around(sorted, p, points));
+    worst_plane = std::max(worst_plane, angle_degrees(plane, tilted));
+  }
+  EXPECT_LT(worst, 0.5 * worst_plane);  // measured: 2.9 and 6.5 degrees
+}
+
 TEST(Spec_6_6_SurfaceNormals, DegenerateCloudsHaveTheConventionalOne) {
-  const std::array<std::int64_t, 3> up = {0, 0, 1};
-  EXPECT_EQ(surface_normals(std::vector<Voxel>{{5, 6, 7}}, 1)[0], up);
+  const auto upright = [](const Integers& n) { return n[0] == 0 && n[1] == 0 && n[2] > 0; };
+  EXPECT_TRUE(upright(surface_normals(std::vector<Voxel>{{5, 6, 7}}, 1)[0]));
   std::vector<Voxel> line;
   for (std::int32_t x = 0; x < 30; ++x) line.push_back({x, 0, 0});
-  for (const auto& n : surface_normals(test::sorted_distinct(line), 1)) EXPECT_EQ(n, up);
+  for (const auto& n : surface_normals(test::sorted_distinct(line), 1)) EXPECT_TRUE(upright(n));
+  EXPECT_TRUE(surface_normals({}, 1).empty());
 }
 
 TEST(Spec_6_6_SurfaceNormals, DoNotDependOnThreads) {
