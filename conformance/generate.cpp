@@ -47,7 +47,7 @@ std::string list(const std::vector<std::string>& items) {
 std::string description(const std::string& id, const std::vector<std::string>& clauses,
                         const std::string& purpose, std::span<const std::uint8_t> stream) {
   return "{\n  \"id\": " + quoted(id) +
-         ",\n  \"format_version\": \"0.2\",\n  \"clauses\": " + list(clauses) +
+         ",\n  \"format_version\": \"0.3\",\n  \"clauses\": " + list(clauses) +
          ",\n  \"purpose\": " + quoted(purpose) +
          ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
          ", \"sha256\": " + quoted(sha256(stream)) + "},\n";

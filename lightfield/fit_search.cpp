@@ -19,7 +19,7 @@ constexpr std::size_t kMostViewsOfLight = 60000;
 constexpr std::size_t kLeastCameras = 8;
 constexpr int kLeastFolds = 3;
 constexpr double kLeastGain = 0.005;
-constexpr double kLeastStructureGain = 0.15;  // another frame may take twice the bytes
+constexpr double kLeastStructureGain = 0.03;
 constexpr std::array kStrengths = {0.1, 0.3, 1.0};  // 3 looks better than it is: docs/rate.md
 constexpr std::array kGrowths = {1.15, 1.3, 1.5};
 constexpr double kPenaltyRaise = 5;
@@ -76,6 +76,13 @@ Observations of_fold(const Observations& seen, const CameraFolds& folds, int fol
   return part;
 }
 
+struct HeldOutError {
+  double squared = 0;
+  std::size_t samples = 0;
+
+  double mean() const { return samples > 0 ? squared / static_cast<double>(samples) : 0; }
+};
+
 /// A fit without one fold.
 class FoldFit {
  public:
@@ -93,18 +100,19 @@ class FoldFit {
       projected_ = environment_.projected(kept_, fit_.basis(), settings.threads);
   }
 
-  /// Adds the squared error and the number of samples of the fold.
-  void add_error(const HierarchySettings& strengths, double& squared, std::size_t& samples) const {
+  HeldOutError error(const HierarchySettings& strengths) const {
     std::vector<double> of_point(held_out_.first.size() - 1, 0);
     std::vector<std::size_t> count(of_point.size(), 0);
     fit_.solve(strengths, [&](std::size_t p, std::span<const float> a) {
       of_point[p] = point_error(p, a);
       count[p] = 3 * static_cast<std::size_t>(held_out_.first[p + 1] - held_out_.first[p]);
     });
+    HeldOutError sum;
     for (std::size_t p = 0; p < of_point.size(); ++p) {
-      squared += of_point[p];
-      samples += count[p];
+      sum.squared += of_point[p];
+      sum.samples += count[p];
     }
+    return sum;
   }
 
  private:
@@ -140,6 +148,15 @@ class FoldFit {
   std::vector<float> projected_;
 };
 
+double mean(const std::vector<HeldOutError>& of_fold) {
+  HeldOutError sum;
+  for (const HeldOutError& e : of_fold) {
+    sum.squared += e.squared;
+    sum.samples += e.samples;
+  }
+  return sum.mean();
+}
+
 /// Fits without each fold, of one frame and one basis.
 class Trial {
  public:
@@ -154,11 +171,14 @@ class Trial {
           sample, seen, folds, fold, lights[static_cast<std::size_t>(fold)], project, settings));
   }
 
+  std::vector<HeldOutError> errors(const HierarchySettings& strengths) const {
+    std::vector<HeldOutError> of_fold;
+    for (const auto& fit : fits_) of_fold.push_back(fit->error(strengths));
+    return of_fold;
+  }
+
   double mean_squared_error(const HierarchySettings& strengths) const {
-    double squared = 0;
-    std::size_t samples = 0;
-    for (const auto& fit : fits_) fit->add_error(strengths, squared, samples);
-    return samples > 0 ? squared / static_cast<double>(samples) : 0;
+    return mean(errors(strengths));
   }
 
  private:
@@ -191,11 +211,13 @@ class Search {
     settings.frame = frame;
     settings.basis = basis;
     auto trial = make_trial(settings);
-    const double error = trial->mean_squared_error(best_.hierarchy);
+    const auto before = trial_->errors(best_.hierarchy), now = trial->errors(best_.hierarchy);
     tell();
-    if (!(error < (1 - kLeastStructureGain) * error_)) return;
+    if (!(mean(now) < (1 - kLeastStructureGain) * mean(before))) return;
+    for (std::size_t fold = 0; fold < now.size(); ++fold)
+      if (now[fold].mean() > before[fold].mean()) return;
     best_ = settings;
-    error_ = error;
+    error_ = mean(now);
     trial_ = std::move(trial);
   }
 

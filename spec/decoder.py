@@ -155,7 +155,7 @@ class Sequence:
             return value
 
         checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 2, "sps_version_minor")
+        checked(8, lambda v: v == 3, "sps_version_minor")
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
