@@ -19,7 +19,7 @@ constexpr std::size_t kMostViewsOfLight = 60000;
 constexpr std::size_t kLeastCameras = 8;
 constexpr int kLeastFolds = 3;
 constexpr double kLeastGain = 0.005;
-constexpr double kLeastStructureGain = 0.03;
+constexpr double kLeastStructureGain = 0.03, kSureStructureGain = 0.15;
 constexpr std::array kStrengths = {0.1, 0.3, 1.0};  // 3 looks better than it is: docs/rate.md
 constexpr std::array kGrowths = {1.15, 1.3, 1.5};
 constexpr double kPenaltyRaise = 5;
@@ -213,9 +213,11 @@ class Search {
     auto trial = make_trial(settings);
     const auto before = trial_->errors(best_.hierarchy), now = trial->errors(best_.hierarchy);
     tell();
-    if (!(mean(now) < (1 - kLeastStructureGain) * mean(before))) return;
+    bool everywhere = true;
     for (std::size_t fold = 0; fold < now.size(); ++fold)
-      if (now[fold].mean() > before[fold].mean()) return;
+      everywhere = everywhere && now[fold].mean() < before[fold].mean();
+    const double gain = everywhere ? kLeastStructureGain : kSureStructureGain;
+    if (!(mean(now) < (1 - gain) * mean(before))) return;
     best_ = settings;
     error_ = mean(now);
     trial_ = std::move(trial);

@@ -90,7 +90,7 @@ TEST(FitSearch, TheFrameIsTheOneInWhichTheSurfaceIsAlike) {
 TEST(FitSearch, AFrameThatGainsLittleIsNotWorthItsBytes) {
   const Scene scene;
   std::mt19937 random(9);
-  std::normal_distribution<float> noise(0, 20);
+  std::normal_distribution<float> noise(0, 50);
   const Observations dull = scene.observe(
       24, [&](const Vec3& v, const Vec3& r) { return 0.3f * mirror(v, r) + noise(random); });
   const auto error = [&](FrameId frame) {
