@@ -2,6 +2,8 @@
 
 #include <array>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 namespace slf {
 namespace {
@@ -119,8 +121,14 @@ RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
   return tree;
 }
 
-RahtTop cut_raht_tree(const RahtTree& tree, int lowest_split) {
+RahtTop cut_raht_tree(RahtTree tree, int lowest_split) {
   RahtTop top;
+  if (lowest_split == 0) {
+    top.first.resize(tree.size() + 1);
+    std::iota(top.first.begin(), top.first.end(), 0u);
+    top.tree = std::move(tree);
+    return top;
+  }
   std::vector<std::uint32_t> kept(tree.size(), kNone);  // new number of each row
   const auto stays = [&](std::uint32_t row) { return row == 0 || tree.split[row] >= lowest_split; };
   for (std::uint32_t row = 0; row < tree.size(); ++row) {

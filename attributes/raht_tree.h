@@ -36,7 +36,7 @@ struct RahtTop {
   RahtTree tree;
   std::vector<std::uint32_t> first;  ///< [rows + 1] first point of each row's node, and P
 };
-RahtTop cut_raht_tree(const RahtTree& tree, int lowest_split);
+RahtTop cut_raht_tree(RahtTree tree, int lowest_split);
 
 /// Position in tree.order of the first row whose split is below `bit`.
 std::size_t order_end(const RahtTree& tree, int bit);
