@@ -23,7 +23,7 @@ constexpr std::array<Effort, 9> kEfforts = {{
     {10, 16, 0, false},
     {10, 16, 12000, false},
     {10, 16, 12000, true},
-    {10, 16, 48000, true},
+    {10, 16, 24000, true},
 }};
 
 void set_effort(int effort, EncoderSettings& settings) {
