@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "geometry/morton.h"
 #include "lightfield/camera_folds.h"
@@ -177,10 +178,6 @@ class Trial {
     return of_fold;
   }
 
-  double mean_squared_error(const HierarchySettings& strengths) const {
-    return mean(errors(strengths));
-  }
-
  private:
   std::vector<std::unique_ptr<FoldFit>> fits_;
 };
@@ -202,7 +199,8 @@ class Search {
       lights_.push_back(fit_environment(of_fold(sample.seen, folds, fold, true), sample.points,
                                         world, kMostViewsOfLight));
     trial_ = make_trial(best_);
-    given_error_ = error_ = trial_->mean_squared_error(best_.hierarchy);
+    errors_ = trial_->errors(best_.hierarchy);
+    given_error_ = mean(errors_);
     tell();
   }
 
@@ -211,35 +209,35 @@ class Search {
     settings.frame = frame;
     settings.basis = basis;
     auto trial = make_trial(settings);
-    const auto before = trial_->errors(best_.hierarchy), now = trial->errors(best_.hierarchy);
+    auto now = trial->errors(best_.hierarchy);
     tell();
     bool everywhere = true;
     for (std::size_t fold = 0; fold < now.size(); ++fold)
-      everywhere = everywhere && now[fold].mean() < before[fold].mean();
+      everywhere = everywhere && now[fold].mean() < errors_[fold].mean();
     const double gain = everywhere ? kLeastStructureGain : kSureStructureGain;
-    if (!(mean(now) < (1 - gain) * mean(before))) return;
+    if (!(mean(now) < (1 - gain) * mean(errors_))) return;
     best_ = settings;
-    error_ = mean(now);
+    errors_ = std::move(now);
     trial_ = std::move(trial);
   }
 
   void try_values(double HierarchySettings::*setting, std::span<const double> candidates) {
     HierarchySettings tried = best_.hierarchy;
-    const double before = error_;
+    const double before = mean(errors_);
     for (const double value : candidates) {
       if (value == best_.hierarchy.*setting) continue;
       tried.*setting = value;
-      const double error = trial_->mean_squared_error(tried);
+      auto now = trial_->errors(tried);
       tell();
-      if (!(error < (1 - kLeastGain) * before) || !(error < error_)) continue;
+      if (!(mean(now) < (1 - kLeastGain) * before) || !(mean(now) < mean(errors_))) continue;
       best_.hierarchy.*setting = value;
-      error_ = error;
+      errors_ = std::move(now);
     }
   }
 
   const FitSettings& best() const { return best_; }
   double given_error() const { return given_error_; }
-  double error() const { return error_; }
+  double error() const { return mean(errors_); }
 
  private:
   std::unique_ptr<Trial> make_trial(const FitSettings& settings) const {
@@ -257,7 +255,8 @@ class Search {
   const Progress& progress_;
   std::vector<std::optional<Environment>> lights_;
   std::unique_ptr<Trial> trial_;
-  double given_error_ = 0, error_ = 0;
+  std::vector<HeldOutError> errors_;  // of best_, by fold
+  double given_error_ = 0;
   int trials_ = 0;
 };
 
