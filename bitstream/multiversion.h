@@ -11,3 +11,10 @@
 #define SLF_MULTIVERSION
 #define SLF_MULTIVERSION_ALL
 #endif
+
+// Before a loop of known length: to be made of vector operations, not unrolled into single ones.
+#if defined(__GNUC__) && !defined(__clang__)
+#define SLF_VECTORISE _Pragma("GCC unroll 1")
+#else
+#define SLF_VECTORISE
+#endif

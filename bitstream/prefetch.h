@@ -6,6 +6,14 @@
 
 namespace slf {
 
+/// A hint; what is there is going to be written too.
+template <class T>
+void prefetch([[maybe_unused]] const T* place) {
+#if defined(__GNUC__)
+  __builtin_prefetch(place, 1);
+#endif
+}
+
 /// A hint; the row is going to be written too. Hardware that looks ahead stops at every page.
 inline void prefetch_row(const std::int32_t* row, std::size_t lanes) {
 #if defined(__GNUC__)

@@ -1,6 +1,7 @@
 #include "bitstream/sha256.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -22,6 +23,17 @@ constexpr std::uint32_t kRound[64] = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
+/// word: of the message and of the round.
+inline void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d,
+                  std::uint32_t e, std::uint32_t f, std::uint32_t g, std::uint32_t& h,
+                  std::uint32_t word) {
+  const std::uint32_t s1 = std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25);
+  const std::uint32_t t1 = h + s1 + ((e & f) ^ (~e & g)) + word;
+  const std::uint32_t s0 = std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22);
+  d += t1;
+  h = t1 + s0 + ((a & b) ^ (a & c) ^ (b & c));
+}
+
 void compress_portable(std::uint32_t* state, const std::uint8_t* data, std::size_t blocks) {
   for (; blocks > 0; --blocks, data += 64) {
     std::uint32_t w[64];
@@ -33,18 +45,20 @@ void compress_portable(std::uint32_t* state, const std::uint8_t* data, std::size
       const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ w[i - 2] >> 10;
       w[i] = w[i - 16] + s0 + w[i - 7] + s1;
     }
-    std::uint32_t s[8];
-    std::copy(state, state + 8, s);
-    for (int i = 0; i < 64; ++i) {
-      const std::uint32_t e = std::rotr(s[4], 6) ^ std::rotr(s[4], 11) ^ std::rotr(s[4], 25);
-      const std::uint32_t t1 = s[7] + e + ((s[4] & s[5]) ^ (~s[4] & s[6])) + kRound[i] + w[i];
-      const std::uint32_t a = std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22);
-      const std::uint32_t t2 = a + ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
-      std::copy_backward(s, s + 7, s + 8);
-      s[4] += t1;
-      s[0] = t1 + t2;
+    auto [a, b, c, d, e, f, g, h] =
+        std::array{state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7]};
+    for (int i = 0; i < 64; i += 8) {  // instead of moving the eight words on
+      round(a, b, c, d, e, f, g, h, kRound[i] + w[i]);
+      round(h, a, b, c, d, e, f, g, kRound[i + 1] + w[i + 1]);
+      round(g, h, a, b, c, d, e, f, kRound[i + 2] + w[i + 2]);
+      round(f, g, h, a, b, c, d, e, kRound[i + 3] + w[i + 3]);
+      round(e, f, g, h, a, b, c, d, kRound[i + 4] + w[i + 4]);
+      round(d, e, f, g, h, a, b, c, kRound[i + 5] + w[i + 5]);
+      round(c, d, e, f, g, h, a, b, kRound[i + 6] + w[i + 6]);
+      round(b, c, d, e, f, g, h, a, kRound[i + 7] + w[i + 7]);
     }
-    for (int i = 0; i < 8; ++i) state[i] += s[i];
+    const std::array<std::uint32_t, 8> sums = {a, b, c, d, e, f, g, h};
+    for (int i = 0; i < 8; ++i) state[i] += sums[static_cast<std::size_t>(i)];
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bitstream/multiversion.h"
+
 namespace slf {
 
 /// Logistic values are ln(p / (1 - p)) in 1/256, within -2815 .. 2815.
@@ -51,6 +53,36 @@ inline constexpr std::array<std::int16_t, 4096> kStretch = [] {
 
 inline int stretch(std::uint32_t p1) { return kStretch[p1 >> 4]; }  // p1 < 65536
 
+/// Calls body(0 .. kInputs - 1). A loop over few inputs is fastest unrolled: a vector of values
+/// that were just stored one by one would have to wait for them.
+template <std::size_t kInputs, class Body>
+void for_inputs(Body body) {
+  if constexpr (kInputs < 8) {
+    for (std::size_t i = 0; i < kInputs; ++i) body(i);
+  } else {
+    SLF_VECTORISE
+    for (std::size_t i = 0; i < kInputs; ++i) body(i);
+  }
+}
+
+/// The logistic value that weights gave, and what learning from the decision needs.
+struct Mixed {
+  static constexpr std::int32_t kWeightLimit = 1 << 22;
+
+  std::int32_t* weights;
+  int logistic;
+
+  /// Moves the weights along the gradient of the code length. rate: 8, 16, .. 40, a multiple of 8
+  /// so that (input * error * rate + 2^19) >> 20 needs 32 bits; |input| <= 2815.
+  template <std::size_t kInputs>
+  void update(const std::array<int, kInputs>& inputs, unsigned bit, int rate) const {
+    const int error = ((bit ? 65536 : 0) - squash(logistic)) * (rate / 8);
+    for_inputs<kInputs>([w = weights, in = inputs.data(), error](std::size_t i) {
+      w[i] = std::clamp(w[i] + ((in[i] * error + (1 << 16)) >> 17), -kWeightLimit, kWeightLimit);
+    });
+  }
+};
+
 /// A set of weight vectors of which a context selects one; the weighted sum of logistic
 /// predictions.
 template <std::size_t kInputs, std::size_t kSets>
@@ -58,30 +90,16 @@ class Mixer {
  public:
   explicit Mixer(int first_weight_q16) { weights_.fill(first_weight_q16); }
 
-  /// Logistic value of the mixed prediction; keeps what update needs.
-  int mix(const std::array<int, kInputs>& inputs, std::size_t set) {
-    selected_ = &weights_[set * kInputs];
+  Mixed mix(const std::array<int, kInputs>& inputs, std::size_t set) {
+    std::int32_t* weights = &weights_[set * kInputs];
     std::int64_t sum = 0;
-    for (std::size_t i = 0; i < kInputs; ++i) sum += std::int64_t{selected_[i]} * inputs[i];
-    mixed_ = static_cast<int>(std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit));
-    return mixed_;
-  }
-
-  /// Moves the selected weights along the gradient of the code length. rate: 8, 16, .. 40, a
-  /// multiple of 8 so that (input * error * rate + 2^19) >> 20 needs 32 bits; |input| <= 2815.
-  void update(const std::array<int, kInputs>& inputs, unsigned bit, int rate) {
-    const int error = (bit ? 65536 : 0) - squash(mixed_);
-    for (std::size_t i = 0; i < kInputs; ++i) {
-      const std::int32_t step = (inputs[i] * error * (rate / 8) + (1 << 16)) >> 17;
-      selected_[i] = std::clamp(selected_[i] + step, -kWeightLimit, kWeightLimit);
-    }
+    for_inputs<kInputs>([&](std::size_t i) { sum += std::int64_t{weights[i]} * inputs[i]; });
+    sum = std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit);
+    return {weights, static_cast<int>(sum)};
   }
 
  private:
-  static constexpr std::int32_t kWeightLimit = 1 << 22;
   std::array<std::int32_t, kInputs * kSets> weights_;
-  std::int32_t* selected_ = weights_.data();
-  int mixed_ = 0;
 };
 
 }  // namespace slf

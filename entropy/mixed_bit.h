@@ -27,27 +27,29 @@ class MixedBit {
   unsigned code(Coder& coder, const std::array<std::uint32_t, kModels>& contexts, std::size_t set,
                 unsigned bit) {
     std::array<AdaptiveBit*, kModels> selected;
-    std::array<int, kModels + 1> inputs;
+    std::array<int, kInputs> inputs{};
     for (std::size_t i = 0; i < kModels; ++i) {
       selected[i] = &models_[i][contexts[i]];
-      inputs[i] = selected[i]->count() == 0 ? 0 : stretch(selected[i]->p1());
+      inputs[i] = selected[i]->logistic();
     }
     inputs[kModels] = 256;
-    const int p1 = std::clamp(squash(mixer_.mix(inputs, set)), 1, 65535);
+    const Mixed mixed = mixer_.mix(inputs, set);
+    const int p1 = std::clamp(squash(mixed.logistic), 1, 65535);
     bit = coder.bit(static_cast<std::uint32_t>(p1), bit);
-    mixer_.update(inputs, bit, kRate);
+    mixed.update(inputs, bit, kRate);
     for (AdaptiveBit* model : selected) model->update(bit, kLimit);
     return bit;
   }
 
  private:
   // Found on the light fields and clouds of docs/rate.md.
+  static constexpr std::size_t kInputs = kModels + 1;
   static constexpr int kFirstWeights = 85200;  // of 65536, shared between the models
   static constexpr int kRate = 40;
   static constexpr std::uint32_t kLimit = 255;
 
   std::array<std::vector<AdaptiveBit>, kModels> models_;
-  Mixer<kModels + 1, kSets> mixer_;
+  Mixer<kInputs, kSets> mixer_;
 };
 
 }  // namespace slf

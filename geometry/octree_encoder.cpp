@@ -1,5 +1,6 @@
 #include "geometry/octree_encoder.h"
 
+#include "bitstream/multiversion.h"
 #include "entropy/range_encoder.h"
 #include "geometry/occupancy_model.h"
 #include "geometry/octree_levels.h"
@@ -22,6 +23,7 @@ std::vector<std::uint8_t> occupancies(std::span<const std::uint64_t> morton, std
 
 }  // namespace
 
+SLF_MULTIVERSION_ALL
 std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64_t> morton,
                                                      int depth, std::span<const int> level_ends) {
   std::vector<std::vector<std::uint8_t>> payloads;
@@ -34,7 +36,7 @@ std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64
       model.start_level(level);
       const auto occupancy = occupancies(morton, nodes.size(), depth - level);
       for (std::size_t n = 0; n < nodes.size(); ++n)
-        nodes.occupancy[n] = model.code(encoder, nodes, n, level, occupancy[n]);
+        nodes.occupancy[n] = model.code(encoder, nodes, n, occupancy[n]);
       nodes = octree_children(nodes, level + 1 < depth);
     }
     payloads.push_back(encoder.finish());

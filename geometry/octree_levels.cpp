@@ -1,5 +1,6 @@
 #include "geometry/octree_levels.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "bitstream/multiversion.h"
@@ -19,15 +20,33 @@ OctreeLevel octree_root() {
 
 namespace {
 
-/// Index of a node's child in the next level, or -1.
-std::int32_t child_index(const OctreeLevel& level, std::int32_t node, int child) {
-  if (node < 0) return -1;
-  const auto n = static_cast<std::size_t>(node);
-  const unsigned occupancy = level.occupancy[n];
-  if (!(occupancy >> child & 1u)) return -1;
-  const unsigned before = occupancy & ((1u << child) - 1);
-  return static_cast<std::int32_t>(level.first_child[n]) + std::popcount(before);
-}
+/// The eight nodes that a child's neighbours are children of, its parent included.
+struct NodesAround {
+  struct Node {
+    std::uint8_t direction;                       ///< from the parent
+    std::uint8_t children;                        ///< bit c: child c is a neighbour, or the child
+    std::array<std::uint8_t, 8> child_direction;  ///< from the child
+  };
+  std::array<Node, 8> node{};
+};
+/// [child]
+constexpr std::array<NodesAround, 8> kNodesAround = [] {
+  std::array<NodesAround, 8> table{};
+  for (std::size_t c = 0; c < 8; ++c) {
+    std::size_t count = 0;
+    for (std::uint8_t d = 0; d < 27; ++d) {
+      const ChildNeighbour& at = kChildNeighbours[c][d];
+      std::size_t i = 0;
+      while (i < count && table[c].node[i].direction != at.node) ++i;
+      count = std::max(count, i + 1);
+      NodesAround::Node& node = table[c].node[i];
+      node.direction = at.node;
+      node.children = static_cast<std::uint8_t>(node.children | 1u << at.child);
+      node.child_direction[at.child] = d;
+    }
+  }
+  return table;
+}();
 
 }  // namespace
 
@@ -53,14 +72,21 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
 
   children.neighbours.resize(count);
   for (std::size_t n = 0, child = 0; n < parents.size(); ++n)
-    for (unsigned c = 0; c < 8; ++c) {
-      if (!(parents.occupancy[n] >> c & 1u)) continue;
-      for (std::size_t d = 0; d < 27; ++d) {
-        const ChildNeighbour& at = kChildNeighbours[c][d];
-        children.neighbours[child][d] =
-            child_index(parents, parents.neighbours[n][at.node], at.child);
+    for (unsigned own = parents.occupancy[n]; own != 0; own &= own - 1) {
+      OctreeLevel::Neighbours& neighbours = children.neighbours[child++];
+      neighbours.fill(-1);
+      for (const NodesAround::Node& around : kNodesAround[std::countr_zero(own)].node) {
+        const std::int32_t there = parents.neighbours[n][around.direction];
+        if (there < 0) continue;
+        const unsigned occupancy = parents.occupancy[static_cast<std::size_t>(there)];
+        const auto first =
+            static_cast<std::int32_t>(parents.first_child[static_cast<std::size_t>(there)]);
+        for (unsigned left = occupancy & around.children; left != 0; left &= left - 1) {
+          const unsigned before = occupancy & ((left & -left) - 1);
+          neighbours[around.child_direction[std::countr_zero(left)]] =
+              first + std::popcount(before);
+        }
       }
-      ++child;
     }
   return children;
 }

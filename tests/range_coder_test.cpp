@@ -119,9 +119,10 @@ TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
     const unsigned bit = random() % 2;
     const std::array<int, 2> inputs = {bit ? 1000 : -1000,
                                        random() % 2 ? 1000 : -1000};  // truth, noise
-    const double p1 = squash(mixer.mix(inputs, 0)) / 65536.0;
+    const Mixed mixed = mixer.mix(inputs, 0);
+    const double p1 = squash(mixed.logistic) / 65536.0;
     if (i >= 2000) cost -= std::log2(bit ? p1 : 1 - p1);
-    mixer.update(inputs, bit, 16);
+    mixed.update(inputs, bit, 16);
   }
   EXPECT_LT(cost / 2000, 0.02);
 }

@@ -1,0 +1,110 @@
+// The cells around the children of an octree node, as bits. Spec 8.4.1, 8.4.2.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/octree_levels.h"
+
+namespace slf {
+
+/// 4 x 4 x 4 cells of the child level around a node's own 2 x 2 x 2; bit x + 4 y + 16 z with
+/// x, y, z = 0 .. 3. The 3 x 3 x 3 around a child use the same bits.
+using Window = std::uint64_t;
+
+constexpr Window bit_at(int x, int y, int z) { return Window{1} << (x + 4 * y + 16 * z); }
+
+/// The children of a direction's neighbour that lie in the window.
+struct WindowPart {
+  int size = 0;
+  std::array<std::uint8_t, 8> child{};
+  std::array<Window, 8> bit{};
+  Window all = 0;
+};
+/// [direction]
+inline constexpr std::array<WindowPart, 27> kWindowParts = [] {
+  std::array<WindowPart, 27> parts{};
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) {
+        const int d = direction_index((x + 1) / 2 - 1, (y + 1) / 2 - 1, (z + 1) / 2 - 1);
+        WindowPart& part = parts[static_cast<std::size_t>(d)];
+        const int child = ((x + 1) & 1) | ((y + 1) & 1) << 1 | ((z + 1) & 1) << 2;
+        part.child[static_cast<std::size_t>(part.size)] = static_cast<std::uint8_t>(child);
+        part.bit[static_cast<std::size_t>(part.size)] = bit_at(x, y, z);
+        part.all |= bit_at(x, y, z);
+        ++part.size;
+      }
+  return parts;
+}();
+
+/// The node's own children as cells. [occupancy]
+inline constexpr std::array<Window, 256> kOwnCells = [] {
+  std::array<Window, 256> cells{};
+  for (std::size_t o = 0; o < 256; ++o)
+    for (int c = 0; c < 8; ++c)
+      if (o >> c & 1) cells[o] |= bit_at(1 + (c & 1), 1 + (c >> 1 & 1), 1 + (c >> 2));
+  return cells;
+}();
+
+/// Cells of the 3 x 3 x 3 around a child that differ from it in at most `most` coordinates.
+constexpr Window window_mask(int most) {
+  Window mask = 0;
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) {
+        const int differ = (x != 1) + (y != 1) + (z != 1);
+        if (differ >= 1 && differ <= most) mask |= bit_at(x, y, z);
+      }
+  return mask;
+}
+inline constexpr Window kFacesAndEdges = window_mask(2), kAllAround = window_mask(3);
+
+/// The 26 cells around a child: known to be occupied, not known yet.
+struct Surroundings {
+  Window occupied, unknown;
+};
+
+/// occupied, unknown: the node's window, its own children included.
+inline Surroundings surroundings(Window occupied, Window unknown, unsigned child) {
+  const unsigned base = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
+  return {occupied >> base & kAllAround, unknown >> base & kAllAround};
+}
+
+/// Faces towards the outside of the node (0 empty, 1 occupied, 2 unknown each) and the inside:
+/// 0 .. 215.
+inline unsigned faces_of(const Surroundings& around, unsigned child) {
+  const unsigned x = 2 * (child & 1), y = 8 * (child >> 1 & 1), z = 32 * (child >> 2);
+  const auto occupied = [&](unsigned cell) {
+    return static_cast<unsigned>(around.occupied >> cell & 1);
+  };
+  const auto state = [&](unsigned cell) {
+    const auto unknown = static_cast<unsigned>(around.unknown >> cell & 1);
+    return occupied(cell) | (unknown & ~occupied(cell)) << 1;
+  };
+  const unsigned outer = state(20 + x) + 3 * state(17 + y) + 9 * state(5 + z);
+  return outer * 8 + (occupied(22 - x) | occupied(25 - y) << 1 | occupied(37 - z) << 2);
+}
+
+/// By child and by which of the eight nodes around its outer corner are occupied, x + 2y + 4z
+/// there: the seven that are not its own, over faces in x, y, z, over edges in xy, xz, yz, over the
+/// corner.
+inline constexpr std::array<std::array<std::uint8_t, 256>, 8> kCorner = [] {
+  constexpr std::array<unsigned, 7> kSteps = {1, 2, 4, 3, 5, 6, 7};
+  std::array<std::array<std::uint8_t, 256>, 8> table{};
+  for (unsigned child = 0; child < 8; ++child)
+    for (unsigned block = 0; block < 256; ++block)
+      for (unsigned i = 0; i < 7; ++i)
+        table[child][block] = static_cast<std::uint8_t>(
+            table[child][block] | (block >> (7 ^ child ^ kSteps[i]) & 1u) << i);
+  return table;
+}();
+
+/// neighbours: bit d: the node's neighbour in direction d is occupied.
+inline unsigned corner_of(std::uint32_t neighbours, unsigned child) {
+  const std::uint32_t n = neighbours >> ((child & 1) + 3 * (child >> 1 & 1) + 9 * (child >> 2));
+  return kCorner[child][(n & 3) | (n >> 1 & 12) | (n >> 5 & 48) | (n >> 6 & 192)];
+}
+
+}  // namespace slf
