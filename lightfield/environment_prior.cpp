@@ -1,7 +1,10 @@
 #include "lightfield/environment_prior.h"
 
+#include <algorithm>
+
 #include "lightfield/environment_projection.h"
 #include "lightfield/frame.h"
+#include "slf/parallel.h"
 
 namespace slf {
 
@@ -13,12 +16,18 @@ std::array<float, 3> EnvironmentPrior::operator()(std::size_t p,
                    vector_of(reflected ? direction : to_frame(points_.normal, p, direction)));
 }
 
-void EnvironmentPrior::subtract(const Observations& seen, std::size_t p, PointRows& rows) const {
-  if (!light_) return;
-  for (std::size_t i = 0; i < rows.count; ++i) {
-    const auto light = (*this)(p, seen.direction[static_cast<std::size_t>(seen.first[p]) + i]);
-    for (std::size_t c = 0; c < 3; ++c) rows.colours[3 * i + c] -= light[c];
-  }
+std::vector<float> EnvironmentPrior::along(const Observations& seen, int threads) const {
+  if (!light_) return {};
+  constexpr std::size_t kGrain = 256;
+  std::vector<float> light(3 * seen.direction.size());
+  parallel_ranges(seen.first.size() - 1, kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      for (auto j = static_cast<std::size_t>(seen.first[p]); j < seen.first[p + 1]; ++j) {
+        const auto colour = (*this)(p, seen.direction[j]);
+        std::copy(colour.begin(), colour.end(), light.begin() + static_cast<std::ptrdiff_t>(3 * j));
+      }
+  });
+  return light;
 }
 
 std::vector<float> EnvironmentPrior::projected(const Observations& seen, const DirectionRows& basis,

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "lightfield/block_prior.h"
 #include "lightfield/direction_rows.h"
 #include "lightfield/environment.h"
 #include "lightfield/environment_fit.h"
@@ -23,8 +22,8 @@ class EnvironmentPrior {
   /// What point p reflects along a direction in its frame.
   std::array<float, 3> operator()(std::size_t p, const std::array<float, 2>& direction) const;
 
-  /// What is left of the colours of point p. @param rows  of its observations in `seen`
-  void subtract(const Observations& seen, std::size_t p, PointRows& rows) const;
+  /// [observations][3] what it tells along each; empty without light.
+  std::vector<float> along(const Observations& seen, int threads) const;
 
   /// [P][K][3] its part of the view maps, of functions of mean square 1. Only with light.
   std::vector<float> projected(const Observations& seen, const DirectionRows& basis,

@@ -24,8 +24,9 @@ std::vector<double> penalties(const DirectionRows& rows, double scale, double gr
 }
 
 /// The rows of one point, read from the observations.
-void read_rows(const Observations& seen, std::size_t point, const DirectionRows& basis,
-               PointRows& rows) {
+/// @param light  [observations][3] subtracted from the colours, or empty
+void read_rows(const Observations& seen, std::span<const float> light, std::size_t point,
+               const DirectionRows& basis, PointRows& rows) {
   const auto first = static_cast<std::size_t>(seen.first[point]),
              last = static_cast<std::size_t>(seen.first[point + 1]);
   rows.count = last - first;
@@ -33,30 +34,31 @@ void read_rows(const Observations& seen, std::size_t point, const DirectionRows&
   rows.colours.clear();
   for (std::size_t i = first; i < last; ++i) {
     basis.evaluate(seen.direction[i], rows.functions.data() + (i - first) * basis.size());
-    rows.colours.insert(rows.colours.end(), seen.colour[i].begin(), seen.colour[i].end());
+    for (std::size_t c = 0; c < 3; ++c)
+      rows.colours.push_back(seen.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]));
   }
 }
 
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
+/// @param inverse_root  of the penalties; [0] is 0
 /// @param coefficients  [K][3] m before, a after
-void solve_point(const PointRows& rows, std::span<const float> inverse_penalty,
-                 float* coefficients) {
-  const std::size_t k = inverse_penalty.size();
+void solve_point(const PointRows& rows, std::span<const float> inverse_root, float* coefficients) {
+  const std::size_t k = inverse_root.size();
   const Eigen::Map<const Matrix> g(rows.functions.data(), index(rows.count), index(k));
   const Eigen::Map<const Columns> c(rows.colours.data(), index(rows.count), 3);
-  const Eigen::Map<const Eigen::VectorXf> inverse(inverse_penalty.data(), index(k));
+  const Eigen::Map<const Eigen::VectorXf> root(inverse_root.data(), index(k));
   Eigen::Map<Columns> a(coefficients, index(k), 3);
-  const Matrix scaled = g * inverse.asDiagonal();  // column 0 is zero
+  const Matrix scaled = g * root.asDiagonal();
   Eigen::MatrixXf s = Eigen::MatrixXf::Identity(index(rows.count), index(rows.count));
-  s.noalias() += scaled * g.transpose();
-  const Eigen::LLT<Eigen::MatrixXf> factor(s);
+  s.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>, Eigen::Lower> factor(s);
   a.row(0).setZero();
   const Eigen::VectorXf w = factor.solve(Eigen::VectorXf::Ones(index(rows.count)));
   Columns residual = c - g * a;
   const Eigen::RowVector3f dc = w.transpose() * residual / w.sum();
   residual.rowwise() -= dc;
   const Eigen::Matrix<float, Eigen::Dynamic, 3> z = factor.solve(residual);
-  a.noalias() += scaled.transpose() * z;
+  a.noalias() += root.asDiagonal() * (scaled.transpose() * z);
   a.row(0) = dc;
 }
 
@@ -72,8 +74,7 @@ void HierarchicalFit::for_points(double from, double to, const Progress& progres
         PointRows rows;
         for (std::size_t b = begin; b < end; ++b)
           for (std::size_t p = prior_.first_point(b); p < prior_.first_point(b + 1); ++p) {
-            read_rows(observations_, p, basis_, rows);
-            environment_.subtract(observations_, p, rows);
+            read_rows(observations_, light_, p, basis_, rows);
             if (rows.count > 0) each(b, p, rows);
           }
       },
@@ -86,7 +87,7 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
                                  const FitSettings& settings, const EnvironmentPrior& environment,
                                  const Progress& progress)
     : observations_(observations),
-      environment_(environment),
+      light_(environment.along(observations, settings.threads)),
       threads_(settings.threads),
       basis_(settings.basis),
       prior_(positions, settings.hierarchy.block_log2, basis_.size()) {
@@ -98,14 +99,14 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
 void HierarchicalFit::solve(const HierarchySettings& h, const Body& body,
                             const Progress& progress) const {
   const auto blocks = prior_.solve(h.strength, penalties(basis_, kPenalty, h.growth), threads_);
-  std::vector<float> inverse;
+  std::vector<float> inverse_root;
   for (const double p : penalties(basis_, h.point_penalty, h.point_growth))
-    inverse.push_back(static_cast<float>(1 / p));
-  inverse[0] = 0;
+    inverse_root.push_back(static_cast<float>(1 / std::sqrt(p)));
+  inverse_root[0] = 0;
   const std::size_t size = 3 * basis_.size();
   for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, const PointRows& rows) {
     std::vector<float> a(blocks.data() + b * size, blocks.data() + (b + 1) * size);
-    solve_point(rows, inverse, a.data());
+    solve_point(rows, inverse_root, a.data());
     body(p, a);
   });
 }

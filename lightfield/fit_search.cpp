@@ -97,8 +97,11 @@ class FoldFit {
         bspline_(settings.basis.id == BasisId::kBspline),
         environment_(light, sample.points, settings.frame),
         fit_(kept_, sample.positions, settings, environment_) {
-    if (project && light)
+    if (project && light) {
       projected_ = environment_.projected(kept_, fit_.basis(), settings.threads);
+    } else {
+      light_ = environment_.along(held_out_, settings.threads);
+    }
   }
 
   HeldOutError error(const HierarchySettings& strengths) const {
@@ -124,7 +127,7 @@ class FoldFit {
     for (auto j = held_out_.first[p]; j < held_out_.first[p + 1]; ++j) {
       auto d = held_out_.direction[j];
       std::array<float, 3> value{0, 0, 0};
-      if (projected_.empty()) value = environment_(p, d);
+      if (!light_.empty()) std::copy_n(&light_[3 * j], 3, value.begin());
       if (bspline_)  // spec 6.7: held beyond what was seen
         d[1] = std::clamp(d[1], static_cast<float>(kept_.gamma_min),
                           static_cast<float>(kept_.gamma_max));
@@ -146,7 +149,7 @@ class FoldFit {
   bool bspline_;
   EnvironmentPrior environment_;
   HierarchicalFit fit_;
-  std::vector<float> projected_;
+  std::vector<float> projected_, light_;  // at most one; light_: [held_out_][3]
 };
 
 double mean(const std::vector<HeldOutError>& of_fold) {

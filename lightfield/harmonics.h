@@ -24,8 +24,14 @@ class Harmonics {
   void evaluate(const std::array<double, 3>& direction, Real* row) const;
 
  private:
+  /// Of function (l, m), m >= 0: from the Legendre functions of l and l - 1 to that of l + 1.
+  struct Step {
+    double norm;  // of (l, m) and (l, -m), sign included
+    double from_this, from_before;
+  };
+
   int degree_;
-  std::vector<double> norm_;  // [l * l + l + m], sign included
+  std::vector<Step> steps_;  // by m, then l
 };
 
 }  // namespace slf
