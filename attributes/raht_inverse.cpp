@@ -252,7 +252,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
     good &= over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
       return inverse_level(level, merges, clip(runs, begin, end),
                            Range(values, table, begin, end, nonzero),
-                           {means.get() + std::min(begin, width), width});
+                           {means ? means.get() + std::min(begin, width) : nullptr, width});
     });
   }
   if (!good) return too_large();

@@ -20,6 +20,8 @@ OctreeLevel octree_root() {
 
 namespace {
 
+std::size_t lowest_bit(unsigned bits) { return static_cast<std::size_t>(std::countr_zero(bits)); }
+
 /// The eight nodes that a child's neighbours are children of, its parent included.
 struct NodesAround {
   struct Node {
@@ -75,7 +77,7 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
     for (unsigned own = parents.occupancy[n]; own != 0; own &= own - 1) {
       OctreeLevel::Neighbours& neighbours = children.neighbours[child++];
       neighbours.fill(-1);
-      for (const NodesAround::Node& around : kNodesAround[std::countr_zero(own)].node) {
+      for (const NodesAround::Node& around : kNodesAround[lowest_bit(own)].node) {
         const std::int32_t there = parents.neighbours[n][around.direction];
         if (there < 0) continue;
         const unsigned occupancy = parents.occupancy[static_cast<std::size_t>(there)];
@@ -83,8 +85,7 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
             static_cast<std::int32_t>(parents.first_child[static_cast<std::size_t>(there)]);
         for (unsigned left = occupancy & around.children; left != 0; left &= left - 1) {
           const unsigned before = occupancy & ((left & -left) - 1);
-          neighbours[around.child_direction[std::countr_zero(left)]] =
-              first + std::popcount(before);
+          neighbours[around.child_direction[lowest_bit(left)]] = first + std::popcount(before);
         }
       }
     }

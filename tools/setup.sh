@@ -12,7 +12,7 @@ packages=(
   python3 python3-numpy
 )
 if [[ "${1:-}" == lab ]]; then
-  packages+=(libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib)
+  packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib)
 fi
 
 missing=()
