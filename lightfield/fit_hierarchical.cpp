@@ -40,27 +40,46 @@ void read_rows(const Observations& seen, std::span<const float> light, std::size
 }
 
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
-/// @param inverse_root  of the penalties; [0] is 0
-/// @param coefficients  [K][3] m before, a after
-void solve_point(const PointRows& rows, std::span<const float> inverse_root, float* coefficients) {
-  const std::size_t k = inverse_root.size();
-  const Eigen::Map<const Matrix> g(rows.functions.data(), index(rows.count), index(k));
-  const Eigen::Map<const Columns> c(rows.colours.data(), index(rows.count), 3);
-  const Eigen::Map<const Eigen::VectorXf> root(inverse_root.data(), index(k));
-  Eigen::Map<Columns> a(coefficients, index(k), 3);
-  const Matrix scaled = g * root.asDiagonal();
-  Eigen::MatrixXf s = Eigen::MatrixXf::Identity(index(rows.count), index(rows.count));
-  s.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>, Eigen::Lower> factor(s);
-  a.row(0).setZero();
-  const Eigen::VectorXf w = factor.solve(Eigen::VectorXf::Ones(index(rows.count)));
-  Columns residual = c - g * a;
-  const Eigen::RowVector3f dc = w.transpose() * residual / w.sum();
-  residual.rowwise() -= dc;
-  const Eigen::Matrix<float, Eigen::Dynamic, 3> z = factor.solve(residual);
-  a.noalias() += root.asDiagonal() * (scaled.transpose() * z);
-  a.row(0) = dc;
-}
+class PointSystem {
+ public:
+  /// @param inverse_root  of the penalties; [0] is 0; kept by reference, as rows
+  PointSystem(const PointRows& rows, std::span<const float> inverse_root)
+      : g_(rows.functions.data(), index(rows.count), index(inverse_root.size())),
+        c_(rows.colours.data(), index(rows.count), 3),
+        root_(inverse_root.data(), index(inverse_root.size())),
+        scaled_(g_ * root_.asDiagonal()),
+        s_(one_plus_square(scaled_)),
+        factor_(s_),
+        w_(factor_.solve(Eigen::VectorXf::Ones(index(rows.count)))) {}
+
+  /// @param coefficients  [K][3] m before, a after
+  void solve(float* coefficients) const {
+    Eigen::Map<Columns> a(coefficients, root_.size(), 3);
+    a.row(0).setZero();
+    Columns residual = c_ - g_ * a;
+    const Eigen::RowVector3f dc = w_.transpose() * residual / w_.sum();
+    residual.rowwise() -= dc;
+    const Eigen::Matrix<float, Eigen::Dynamic, 3> z = factor_.solve(residual);
+    a.noalias() += root_.asDiagonal() * (scaled_.transpose() * z);
+    a.row(0) = dc;
+  }
+
+ private:
+  /// 1 + m m^T, the lower triangle.
+  static Eigen::MatrixXf one_plus_square(const Matrix& m) {
+    Eigen::MatrixXf s = Eigen::MatrixXf::Identity(m.rows(), m.rows());
+    s.selfadjointView<Eigen::Lower>().rankUpdate(m);
+    return s;
+  }
+
+  Eigen::Map<const Matrix> g_;
+  Eigen::Map<const Columns> c_;
+  Eigen::Map<const Eigen::VectorXf> root_;
+  Matrix scaled_;
+  Eigen::MatrixXf s_;
+  Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>, Eigen::Lower> factor_;  // in s_
+  Eigen::VectorXf w_;
+};
 
 }  // namespace
 
@@ -96,18 +115,25 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
   prior_.sum_up(threads_);
 }
 
-void HierarchicalFit::solve(const HierarchySettings& h, const Body& body,
+void HierarchicalFit::solve(std::span<const HierarchySettings> tried, const Body& body,
                             const Progress& progress) const {
-  const auto blocks = prior_.solve(h.strength, penalties(basis_, kPenalty, h.growth), threads_);
+  std::vector<std::vector<float>> blocks;
+  for (const HierarchySettings& h : tried)
+    blocks.push_back(prior_.solve(h.strength, penalties(basis_, kPenalty, h.growth), threads_));
   std::vector<float> inverse_root;
-  for (const double p : penalties(basis_, h.point_penalty, h.point_growth))
+  for (const double p : penalties(basis_, tried[0].point_penalty, tried[0].point_growth))
     inverse_root.push_back(static_cast<float>(1 / std::sqrt(p)));
   inverse_root[0] = 0;
   const std::size_t size = 3 * basis_.size();
   for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, const PointRows& rows) {
-    std::vector<float> a(blocks.data() + b * size, blocks.data() + (b + 1) * size);
-    solve_point(rows, inverse_root, a.data());
-    body(p, a);
+    const PointSystem system(rows, inverse_root);
+    std::vector<float> solutions;
+    for (const auto& prior : blocks) {
+      const auto mean = prior.begin() + static_cast<std::ptrdiff_t>(b * size);
+      solutions.insert(solutions.end(), mean, mean + static_cast<std::ptrdiff_t>(size));
+      system.solve(&solutions[solutions.size() - size]);
+    }
+    body(p, solutions);
   });
 }
 
@@ -127,7 +153,7 @@ std::vector<float> fit_hierarchical(const Observations& observations,
   if (light) coefficients = environment.projected(observations, fit.basis(), settings.threads);
   const auto norms = fit.basis().norms();
   fit.solve(
-      settings.hierarchy,
+      std::span(&settings.hierarchy, 1),
       [&](std::size_t p, std::span<const float> a) {
         float* of_point = coefficients.data() + p * size;
         for (std::size_t i = 0; i < size; ++i)

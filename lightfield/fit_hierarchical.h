@@ -23,10 +23,11 @@ class HierarchicalFit {
 
   const DirectionRows& basis() const { return basis_; }
 
-  /// Calls body(p, a), in parallel, for every point that was seen, with a [K][3] of functions of
-  /// mean square 1; without what the environment gives.
+  /// Calls body(p, a), in parallel, for every point that was seen, with a [tried][K][3] of
+  /// functions of mean square 1; without what the environment gives.
+  /// @param tried  one at least; they may differ in what blocks have, for points share a system
   using Body = std::function<void(std::size_t point, std::span<const float> a)>;
-  void solve(const HierarchySettings& strengths, const Body& body,
+  void solve(std::span<const HierarchySettings> tried, const Body& body,
              const Progress& progress = {}) const;
 
  private:

@@ -104,45 +104,50 @@ class FoldFit {
     }
   }
 
-  HeldOutError error(const HierarchySettings& strengths) const {
-    std::vector<double> of_point(held_out_.first.size() - 1, 0);
-    std::vector<std::size_t> count(of_point.size(), 0);
-    fit_.solve(strengths, [&](std::size_t p, std::span<const float> a) {
-      of_point[p] = point_error(p, a);
+  /// Of each of the settings tried; see HierarchicalFit::solve.
+  std::vector<HeldOutError> errors(std::span<const HierarchySettings> tried) const {
+    const std::size_t points = held_out_.first.size() - 1;
+    std::vector<double> of_point(points * tried.size(), 0);
+    std::vector<std::size_t> count(points, 0);
+    fit_.solve(tried, [&](std::size_t p, std::span<const float> a) {
+      add_point_errors(p, a, std::span(of_point).subspan(p * tried.size(), tried.size()));
       count[p] = 3 * static_cast<std::size_t>(held_out_.first[p + 1] - held_out_.first[p]);
     });
-    HeldOutError sum;
-    for (std::size_t p = 0; p < of_point.size(); ++p) {
-      sum.squared += of_point[p];
-      sum.samples += count[p];
-    }
-    return sum;
+    std::vector<HeldOutError> sums(tried.size());
+    for (std::size_t p = 0; p < points; ++p)
+      for (std::size_t t = 0; t < tried.size(); ++t) {
+        sums[t].squared += of_point[p * tried.size() + t];
+        sums[t].samples += count[p];
+      }
+    return sums;
   }
 
  private:
-  double point_error(std::size_t p, std::span<const float> a) const {
+  /// @param a  [sums][K][3]
+  void add_point_errors(std::size_t p, std::span<const float> a, std::span<double> sums) const {
     const std::size_t k = fit_.basis().size();
     std::vector<float> row(k);
-    double sum = 0;
     for (auto j = held_out_.first[p]; j < held_out_.first[p + 1]; ++j) {
       auto d = held_out_.direction[j];
-      std::array<float, 3> value{0, 0, 0};
-      if (!light_.empty()) std::copy_n(&light_[3 * j], 3, value.begin());
+      std::array<float, 3> light{0, 0, 0};
+      if (!light_.empty()) std::copy_n(&light_[3 * j], 3, light.begin());
       if (bspline_)  // spec 6.7: held beyond what was seen
         d[1] = std::clamp(d[1], static_cast<float>(kept_.gamma_min),
                           static_cast<float>(kept_.gamma_max));
       fit_.basis().evaluate(d, row.data());
-      for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t t = 0; t < sums.size(); ++t) {
+        std::array<float, 3> value = light;
+        for (std::size_t i = 0; i < k; ++i)
+          for (std::size_t c = 0; c < 3; ++c) {
+            value[c] += row[i] * a[3 * (t * k + i) + c];
+            if (!projected_.empty()) value[c] += row[i] * projected_[3 * (p * k + i) + c];
+          }
         for (std::size_t c = 0; c < 3; ++c) {
-          value[c] += row[i] * a[3 * i + c];
-          if (!projected_.empty()) value[c] += row[i] * projected_[3 * (p * k + i) + c];
+          const double e = double(std::clamp(value[c], 0.0f, 255.0f) - held_out_.colour[j][c]);
+          sums[t] += e * e;
         }
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double e = double(std::clamp(value[c], 0.0f, 255.0f) - held_out_.colour[j][c]);
-        sum += e * e;
       }
     }
-    return sum;
   }
 
   Observations kept_, held_out_;
@@ -175,10 +180,17 @@ class Trial {
           sample, seen, folds, fold, lights[static_cast<std::size_t>(fold)], project, settings));
   }
 
-  std::vector<HeldOutError> errors(const HierarchySettings& strengths) const {
-    std::vector<HeldOutError> of_fold;
-    for (const auto& fit : fits_) of_fold.push_back(fit->error(strengths));
-    return of_fold;
+  /// [tried][fold]; see HierarchicalFit::solve.
+  std::vector<std::vector<HeldOutError>> errors(std::span<const HierarchySettings> tried) const {
+    std::vector<std::vector<HeldOutError>> of_tried(tried.size());
+    for (const auto& fit : fits_) {
+      const auto of_fold = fit->errors(tried);
+      for (std::size_t t = 0; t < tried.size(); ++t) of_tried[t].push_back(of_fold[t]);
+    }
+    return of_tried;
+  }
+  std::vector<HeldOutError> errors(const HierarchySettings& tried) const {
+    return errors(std::span(&tried, 1)).front();
   }
 
  private:
@@ -224,17 +236,20 @@ class Search {
     trial_ = std::move(trial);
   }
 
+  /// setting: of the blocks, or one candidate.
   void try_values(double HierarchySettings::*setting, std::span<const double> candidates) {
-    HierarchySettings tried = best_.hierarchy;
+    std::vector<HierarchySettings> tried;
+    for (const double value : candidates)
+      if (value != best_.hierarchy.*setting) tried.emplace_back(best_.hierarchy).*setting = value;
+    if (tried.empty()) return;
     const double before = mean(errors_);
-    for (const double value : candidates) {
-      if (value == best_.hierarchy.*setting) continue;
-      tried.*setting = value;
-      auto now = trial_->errors(tried);
-      tell();
-      if (!(mean(now) < (1 - kLeastGain) * before) || !(mean(now) < mean(errors_))) continue;
-      best_.hierarchy.*setting = value;
-      errors_ = std::move(now);
+    auto errors = trial_->errors(tried);
+    tell();
+    for (std::size_t t = 0; t < tried.size(); ++t) {
+      if (!(mean(errors[t]) < (1 - kLeastGain) * before) || !(mean(errors[t]) < mean(errors_)))
+        continue;
+      best_.hierarchy = tried[t];
+      errors_ = std::move(errors[t]);
     }
   }
 
@@ -247,7 +262,7 @@ class Search {
     return std::make_unique<Trial>(sample_, folds_, lights_, project_, settings);
   }
   void tell() {
-    constexpr double kMostTrials = 8;
+    constexpr double kMostTrials = 6;
     if (progress_) progress_("choose", std::min(1.0, ++trials_ / kMostTrials));
   }
 
