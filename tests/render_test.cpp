@@ -7,6 +7,8 @@
 
 #include "lightfield/octahedral.h"
 #include "lightfield/render_surfels.h"
+#include "lightfield/splat_weights.h"
+#include "lightfield/surfel_cloud.h"
 #include "tests/render_support.h"
 
 namespace slf {
@@ -193,6 +195,61 @@ TEST(RenderTest, TheResultDoesNotDependOnThreads) {
     EXPECT_EQ(other.image.data, renderings[0].image.data);
     EXPECT_EQ(other.coverage, renderings[0].coverage);
     EXPECT_EQ(other.depth, renderings[0].depth);
+  }
+}
+
+TEST(SplatWeightsTest, WeightedColoursAreTheRenderedPicture) {
+  std::vector<std::array<int, 3>> colours;
+  for (int i = 0; i < 97; ++i) colours.push_back({(i * 37) % 256, (i * 91) % 256, (i * 53) % 256});
+  const LightField field = constant_light_field(test::sphere(64, 40), colours, 7);
+  const ViewMaps maps(field);
+  const Renderer renderer(maps);
+  const Camera camera = renderer.orbit(0.3, 20, 61, 53);
+  const Rendering rendering = renderer.render(camera);
+  const SurfelCloud cloud = surfel_cloud(field.header.grid, field.positions, field.normals, 0, 2);
+  const SplatWeights weights =
+      splat_weights(project_surfels(cloud, camera, 2), camera.width, camera.height, 2);
+  ASSERT_EQ(weights.first.size(), rendering.coverage.size() + 1);
+  ASSERT_EQ(weights.first.back(), weights.point.size());
+  EXPECT_EQ(weights.depth, rendering.depth);
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < rendering.coverage.size(); ++i) {
+    float sum = 0;
+    std::array<float, 3> blend{};
+    for (std::uint32_t e = weights.first[i]; e < weights.first[i + 1]; ++e) {
+      ASSERT_GT(weights.weight[e], 0);
+      sum += weights.weight[e];
+      const auto own = maps.mean(weights.point[e]);
+      for (std::size_t k = 0; k < 3; ++k) blend[k] += weights.weight[e] * own[k];
+    }
+    if (weights.first[i] < weights.first[i + 1]) {
+      ASSERT_NEAR(sum, 1, 1e-5);  // a few roundings of float
+      ++shown;
+    }
+    const float cover = weights.coverage[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_NEAR(rendering.image.data[3 * i + k], cover * blend[k] + (1 - cover) * 128, 0.51);
+  }
+  EXPECT_GT(shown, 1000u);
+}
+
+TEST(SplatWeightsTest, TheResultDoesNotDependOnThreads) {
+  const LightField field = constant_light_field(test::sphere(64, 40), {{90, 90, 90}}, 7);
+  const ViewMaps maps(field);
+  const Camera camera = Renderer(maps).orbit(0.3, 20, 61, 53);
+  std::vector<SplatWeights> each;
+  for (const int threads : {1, 2, 7}) {
+    const SurfelCloud cloud =
+        surfel_cloud(field.header.grid, field.positions, field.normals, 0, threads);
+    each.push_back(splat_weights(project_surfels(cloud, camera, threads), camera.width,
+                                 camera.height, threads));
+  }
+  for (const SplatWeights& other : each) {
+    EXPECT_EQ(other.first, each[0].first);
+    EXPECT_EQ(other.point, each[0].point);
+    EXPECT_EQ(other.weight, each[0].weight);
+    EXPECT_EQ(other.coverage, each[0].coverage);
+    EXPECT_EQ(other.depth, each[0].depth);
   }
 }
 

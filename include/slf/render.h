@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "slf/capture.h"
@@ -23,6 +24,8 @@ struct Rendering {
   std::vector<float> depth;  ///< [height][width] along the optical axis; +inf where nothing
 };
 
+struct SurfelCloud;
+
 /// Surfel splatting: each point is a disc in the plane of its normal (coded, else estimated from
 /// the voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what
 /// lies within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has
@@ -42,9 +45,7 @@ class Renderer {
  private:
   const ViewMaps& maps_;
   RenderSettings settings_;
-  std::vector<std::array<float, 3>> centres_;  // [P] of the discs, from grid.origin, world units
-  std::vector<std::array<float, 3>> normals_;  // [P]
-  std::vector<float> radii_;                   // [P] world units
+  std::shared_ptr<const SurfelCloud> surfels_;
 };
 
 }  // namespace slf

@@ -1,0 +1,65 @@
+#include "lightfield/surfel_cloud.h"
+
+#include <algorithm>
+
+#include "lightfield/octahedral.h"
+#include "lightfield/render_surfels.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr float kMostShift = 0.6f;  // voxels; rounding moves a surface by no more than about half
+
+}  // namespace
+
+SurfelCloud surfel_cloud(const Grid& grid, std::span<const Voxel> positions,
+                         const CodedNormals& coded, double radius_voxels, int threads) {
+  Surfels surfels = estimate_surfels(positions, threads);
+  SurfelCloud cloud;
+  cloud.normals = std::move(surfels.normals);
+  cloud.radii = std::move(surfels.radii);
+  cloud.centres.resize(positions.size());
+  const bool has_coded = coded.bits > 0 && coded.octahedral.size() == positions.size();
+  const auto step = static_cast<float>(grid.step);
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    auto& n = cloud.normals[p];
+    if (has_coded) {
+      const auto normal = dequantise_normal(coded.octahedral[p], coded.bits);
+      n = {float(normal[0]), float(normal[1]), float(normal[2])};
+    }
+    if (radius_voxels > 0) cloud.radii[p] = static_cast<float>(radius_voxels);
+    cloud.radii[p] *= step;
+    // Along the normal onto the neighbours' plane: takes the voxels' staircase away.
+    const auto& c = surfels.centroids[p];
+    const float shift =
+        std::clamp(n[0] * c[0] + n[1] * c[1] + n[2] * c[2], -kMostShift, kMostShift);
+    for (std::size_t k = 0; k < 3; ++k)
+      cloud.centres[p][k] =
+          grid.origin[k] + double{step * (static_cast<float>(positions[p][k]) + shift * n[k])};
+  }
+  return cloud;
+}
+
+std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads) {
+  constexpr std::size_t kGrain = 4096;
+  std::vector<std::vector<Splat>> parts((cloud.size() + kGrain - 1) / kGrain);
+  parallel_ranges(cloud.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Splat>& part = parts[begin / kGrain];
+    part.reserve(end - begin);
+    for (std::size_t p = begin; p < end; ++p) {
+      const auto& n = cloud.normals[p];
+      const Disc disc{cloud.centres[p], {n[0], n[1], n[2]}, cloud.radii[p]};
+      if (const auto splat = project_disc(camera, disc, static_cast<std::uint32_t>(p)))
+        part.push_back(*splat);
+    }
+  });
+  std::vector<Splat> splats;
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  splats.reserve(count);
+  for (const auto& part : parts) splats.insert(splats.end(), part.begin(), part.end());
+  return splats;
+}
+
+}  // namespace slf
