@@ -54,7 +54,8 @@ Result<Done, InputError> print_row(const Job& job, Preset preset, int bits, doub
   SLF_TRY(const Quality seen, evaluate(maps, job.capture, job.input, evaluation));
   SLF_TRY(const Quality unseen, evaluate(maps, job.capture, job.held_out, evaluation));
   const double encode_seconds = encoded.seconds_voxelise + encoded.seconds_observe +
-                                encoded.seconds_fit + encoded.seconds_code;
+                                encoded.seconds_choose + encoded.seconds_fit +
+                                encoded.seconds_pictures + encoded.seconds_code;
   std::printf("%-8s %4g %9zu %7.2f %7.2f | %6.2f %6.2f %6.2f %6.2f | %7.3f %7.3f | %5.2f\n",
               preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(),
               seen.points[0].psnr, unseen.points[0].psnr, encode_seconds, encoded.seconds_observe,

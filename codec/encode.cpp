@@ -115,6 +115,8 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   encoded.seconds_observe = job.fit.seconds_observe;
   encoded.seconds_choose = job.fit.seconds_choose;
   encoded.seconds_fit = job.fit.seconds_fit;
+  encoded.pictures = job.fit.pictures;
+  encoded.seconds_pictures = job.fit.seconds_pictures;
   watch.lap();
   if (progress) progress("code", 0);
   const auto code_with = [&](double q) { return code(job, q); };

@@ -31,9 +31,20 @@ std::string cross_validation(const ChosenFit& chosen) {
 
 Metadata fit_metadata(const ChosenFit& chosen) {
   const FitSettings& fit = chosen.settings;
+  const PictureFitSettings& pictures = fit.pictures;
   Metadata metadata = {{"functions", std::to_string(fit.basis.num_functions())}};
   if (fit.basis.id == BasisId::kBspline)
     metadata.emplace_back("order", std::to_string(fit.basis.order));
+  metadata.emplace_back("fit_to", pictures.rounds > 0 ? "pictures" : "points");
+  if (pictures.rounds > 0)
+    metadata.insert(metadata.end(), {
+                                        {"picture_rounds", std::to_string(pictures.rounds)},
+                                        {"picture_steps", std::to_string(pictures.steps)},
+                                        {"picture_mean_penalty", text(pictures.mean_penalty)},
+                                        {"picture_penalty", text(pictures.penalty)},
+                                        {"picture_growth", text(pictures.growth)},
+                                        {"picture_outlier", text(pictures.outlier)},
+                                    });
   if (fit.method == FitMethod::kHierarchical) {
     const HierarchySettings& h = fit.hierarchy;
     metadata.insert(metadata.end(),

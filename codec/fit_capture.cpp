@@ -6,6 +6,7 @@
 #include "capture/spacing.h"
 #include "codec/component_planes.h"
 #include "codec/stopwatch.h"
+#include "lightfield/fit_pictures.h"
 #include "lightfield/fit_settings.h"
 #include "lightfield/octahedral.h"
 
@@ -89,6 +90,14 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   }
   SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
   fit.seconds_fit = watch.lap();
+  if (chosen.pictures.rounds > 0) {
+    const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
+    const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
+    SLF_TRY(fit.pictures, fit_to_pictures({capture, cameras, cloud.grid, cloud.positions, normals,
+                                           settings.observe.transfer, gamma_range},
+                                          chosen, fit.coefficients, progress));
+    fit.seconds_pictures = watch.lap();
+  }
   return fit;
 }
 

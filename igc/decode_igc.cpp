@@ -162,7 +162,7 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   const double seconds_normals = watch.lap();
   SLF_TRY(CaptureFit fit, fit_capture(capture, order, cloud, settings, progress));
   decoded.seconds_observe = seconds_normals + fit.seconds_observe;
-  decoded.seconds_fit = fit.seconds_choose + fit.seconds_fit;
+  decoded.seconds_fit = fit.seconds_choose + fit.seconds_fit + fit.seconds_pictures;
   settings.fit = fit.chosen.settings;
   for (const auto& [key, value] : fit_metadata(fit.chosen))
     decoded.metadata.emplace_back("chosen_" + key, value);

@@ -119,6 +119,12 @@ void settings_lines(V& v, P& s) {
   v.whole("environment_degree", slf.fit.environment.degree, 0, kMaxEnvironmentDegree);
   v.real("environment_radius", slf.fit.environment.radius);
   v.real("environment_strength", slf.fit.environment.strength);
+  v.whole("picture_rounds", slf.fit.pictures.rounds, 0, 20);
+  v.whole("picture_steps", slf.fit.pictures.steps, 1, 100);
+  v.real("picture_mean_penalty", slf.fit.pictures.mean_penalty);
+  v.real("picture_penalty", slf.fit.pictures.penalty);
+  v.real("picture_growth", slf.fit.pictures.growth);
+  v.real("picture_outlier", slf.fit.pictures.outlier);
   // What the decoder chooses from the images that it decoded, as the encoder of .slf would.
   choice(v, "search_frame", slf.search.frame, 1);
   choice(v, "search_basis", slf.search.basis, 1);

@@ -33,6 +33,12 @@ Result<Done, InputError> check_fit_settings(const FitSettings& settings) {
       !(in_range(e.degree, 0, kMaxEnvironmentDegree) && sound(e.strength, 1e-9) &&
         (e.radius == 0 || sound(e.radius, kLeastEnvironmentRadius))))
     return invalid("environment: degree 0 .. 16, radius 0 or 2 and more, strength above 0");
+  const PictureFitSettings& p = settings.pictures;
+  if (!in_range(p.rounds, 0, 20) || !in_range(p.steps, 1, 100))
+    return invalid("picture fit: 0 .. 20 rounds of 1 .. 100 steps");
+  if (!(sound(p.mean_penalty, 1e-6) && sound(p.penalty, 1e-6) && sound(p.growth, 1) &&
+        sound(p.outlier, 1e-3)))
+    return invalid("picture fit: penalties and outlier above 0, growth 1 or more");
   if (basis.id == BasisId::kHarmonics && !in_range(basis.degree, 0, kMaxDegree))
     return invalid("the degree of the basis must be 0 .. 10");
   if (basis.id == BasisId::kHarmonics && settings.method == FitMethod::kPaper)

@@ -11,15 +11,6 @@
 namespace slf {
 namespace {
 
-std::array<float, 256> transfer_table(Transfer transfer) {
-  std::array<float, 256> table{};
-  for (int i = 0; i < 256; ++i) {
-    const double value = transfer == Transfer::kLinear ? 255 * srgb_to_linear(i / 255.0) : i;
-    table[static_cast<std::size_t>(i)] = static_cast<float>(value);
-  }
-  return table;
-}
-
 /// The two samples around coordinate x (in samples, their centres at integers) and the second's
 /// weight.
 struct Between {
@@ -34,6 +25,15 @@ Between between(double x, int size) {
 }
 
 }  // namespace
+
+std::array<float, 256> transfer_table(Transfer transfer) {
+  std::array<float, 256> table{};
+  for (int i = 0; i < 256; ++i) {
+    const double value = transfer == Transfer::kLinear ? 255 * srgb_to_linear(i / 255.0) : i;
+    table[static_cast<std::size_t>(i)] = static_cast<float>(value);
+  }
+  return table;
+}
 
 double least_cosine(double delta_degrees) {
   return std::sin(delta_degrees * std::numbers::pi / 180);

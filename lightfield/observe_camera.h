@@ -52,6 +52,9 @@ class CameraObserver {
   std::array<float, 256> transfer_;  // 8-bit sample to 0 .. 255 of the chosen transfer
 };
 
+/// 8-bit display values to 0 .. 255 of a transfer.
+std::array<float, 256> transfer_table(Transfer transfer);
+
 /// sin(delta): the least cosine between normal and view for the view to be valid.
 double least_cosine(double delta_degrees);
 

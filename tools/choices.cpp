@@ -114,6 +114,12 @@ CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice) {
       "Every point by itself and smoothed (paper), or with a prior from octree blocks");
 }
 
+CLI::Option* add_fit_to_choice(CLI::App& verb, bool& pictures) {
+  return add_choice<bool>(verb, "--fit-to", pictures, {{"points", false}, {"pictures", true}},
+                          "What the cameras saw of each point (paper), or how the pictures look "
+                          "that are drawn from them");
+}
+
 CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice) {
   return add_choice<std::optional<BasisId>>(
       verb, "--basis", choice,

@@ -20,6 +20,8 @@ CLI::Option* add_rdo(CLI::App& verb, double& strength);
 CLI::Option* add_klt_choice(CLI::App& verb, TransformMode& choice);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
 CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
+/// --fit-to: true is pictures.
+CLI::Option* add_fit_to_choice(CLI::App& verb, bool& pictures);
 CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice);  ///< none: auto
 CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice);  ///< none: auto
 /// --cross-validate on|off.

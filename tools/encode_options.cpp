@@ -101,6 +101,9 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
   const FitSettings& s = initial.fit;
   const auto fit = [](CLI::Option* option) { option->group("View maps (paper II)"); };
   fit(add_fit_choice(verb, o.fit)->each([&o](const std::string&) { o.fit_given = true; }));
+  fit(add_fit_to_choice(verb, o.fit_to_pictures)->each([&o](const std::string&) {
+    o.fit_to_given = true;
+  }));
   fit(add(verb, "--order", o.order, FitSettings{}.basis.order, "Order of the B-spline wavelets",
           whole_range(1, 4)));
   auto* functions =
@@ -277,6 +280,7 @@ Outcome resolve_fit(const EncodeOptions& given, EncoderSettings& settings) {
     fit.method = start.method;
     fit.basis = start.basis;
     fit.frame = start.frame;
+    fit.pictures = start.pictures;
     settings.search = FitSearch{};
   }
   if (given.basis == BasisId::kBspline && fit.basis.id != BasisId::kBspline) fit.basis = Basis{};
@@ -285,6 +289,11 @@ Outcome resolve_fit(const EncodeOptions& given, EncoderSettings& settings) {
   if (given.basis_given && !given.basis) fit.basis.id = BasisId::kHarmonics;
   replace(fit.frame, given.frame);
   SLF_CHECK(refuse_idle(given, fit));
+  if (given.fit_to_given) {
+    if (!given.fit_to_pictures) fit.pictures.rounds = 0;
+    if (given.fit_to_pictures && fit.pictures.rounds == 0)
+      fit.pictures = FitSettings::hierarchical().pictures;
+  }
   settings.search = search_of(given, fit.method, settings.search);
   replace(fit.basis.degree, given.degree);
   replace(fit.hierarchy.block_log2, given.block_log2);

@@ -29,6 +29,7 @@ struct EncodeOptions {
   bool steps_given = false, by_norm = true;
   bool fit_given = false, basis_given = false, frame_given = false;
   FitMethod fit = FitMethod::kHierarchical;
+  bool fit_to_given = false, fit_to_pictures = true;
   std::optional<BasisId> basis;  ///< none: auto, if given
   std::optional<FrameId> frame;
   bool cross_validate = true, cross_validate_given = false;

@@ -24,14 +24,19 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
   json["cameras"] = cameras;
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
+  json["pictures"] = nullptr;
+  if (e.fit.settings.pictures.rounds > 0)
+    json["pictures"] = {{"psnr_before", e.pictures.psnr_before},
+                        {"psnr_after", e.pictures.psnr_after}};
   json["seconds"] = {{"load", load},
                      {"voxelise", e.seconds_voxelise},
                      {"observe", e.seconds_observe},
                      {"choose", e.seconds_choose},
                      {"fit", e.seconds_fit},
+                     {"pictures", e.seconds_pictures},
                      {"code", e.seconds_code},
                      {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_choose +
-                                   e.seconds_fit + e.seconds_code}};
+                                   e.seconds_fit + e.seconds_pictures + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;
@@ -50,10 +55,15 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
     out += text("observations  %s (%.1f per point; %.1f %% of points unseen)\n",
                 grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
                 percent(e.unobserved_points, e.points));
+    if (e.fit.settings.pictures.rounds > 0)
+      out += text("pictures      %.2f dB of the input, %.2f before the fit to them\n",
+                  e.pictures.psnr_after, e.pictures.psnr_before);
   }
   out += text(
-      "seconds       load %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, code %.2f\n",
-      load, e.seconds_voxelise, e.seconds_observe, e.seconds_choose, e.seconds_fit, e.seconds_code);
+      "seconds       load %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, pictures %.2f, "
+      "code %.2f\n",
+      load, e.seconds_voxelise, e.seconds_observe, e.seconds_choose, e.seconds_fit,
+      e.seconds_pictures, e.seconds_code);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));

@@ -113,9 +113,10 @@ struct Encoded {
   std::vector<std::uint8_t> stream;
   double q = 0;  ///< the step it was coded with
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  ChosenFit fit;  ///< of a capture with cameras
+  ChosenFit fit;        ///< of a capture with cameras
+  PictureFit pictures;  ///< where fit.settings.pictures has rounds
   double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
-         seconds_code = 0;
+         seconds_pictures = 0, seconds_code = 0;
   std::vector<std::string> warnings;
 };
 

@@ -78,6 +78,22 @@ struct EnvironmentSettings {
   double strength = 0.01;  ///< > 0: pull towards no light, per observation
 };
 
+/// The fit to pictures, after that to points: coefficients move until the renderer's pictures look
+/// like the photographs (lightfield/fit_pictures.h). In units of squared grey levels per pixel.
+struct PictureFitSettings {
+  int rounds = 0;  ///< 0 .. 20, each with the trust that what it starts from gives; 0: none
+  int steps = 8;   ///< 1 .. 100 of conjugate gradients, in a round
+  double mean_penalty = 1;  ///< > 0: pull of a point's mean colour to where it started
+  double penalty = 12;      ///< > 0: of the other functions, times growth^fineness
+  double growth = 1.5;      ///< >= 1
+  double outlier = 80;      ///< > 0: a pixel so many grey levels off counts a quarter
+};
+
+/// PSNR of the input pictures where points alone make them, dB; 0 without a picture fit.
+struct PictureFit {
+  double psnr_before = 0, psnr_after = 0;
+};
+
 struct FitSettings {
   FitMethod method = FitMethod::kPaper;
   Basis basis;  ///< kPaper: B-splines alone
@@ -89,6 +105,7 @@ struct FitSettings {
   bool penalise_dc = false;     ///< the paper: true. false leaves function 0 out of λ and β
   HierarchySettings hierarchy;  ///< kHierarchical
   EnvironmentSettings environment;  ///< kHierarchical
+  PictureFitSettings pictures;      ///< either
   int threads = 0;
 
   /// Harmonics of degree 10 in the reflected frame: the default preset's.
@@ -97,11 +114,13 @@ struct FitSettings {
     settings.method = FitMethod::kHierarchical;
     settings.basis = {BasisId::kHarmonics, 2, 0, 0, 10};
     settings.frame = FrameId::kReflected;
+    settings.pictures.rounds = 2;
     return settings;
   }
 };
 
-/// Fits a view map to every point.
+/// Fits a view map to every point, to what the cameras saw of it. The fit to pictures is a step of
+/// its own, of encode().
 /// @param positions  [P] voxels in Morton order
 /// @return [P][K][3] float, K = basis.num_functions(); RGB in the units of the observations.
 ///         Points without observations take the mean of their neighbours that have some (and, where

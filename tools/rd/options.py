@@ -61,6 +61,7 @@ OPTIONS = {
     "dc": (Choice("penalise", "free"), CODECS),
     "linear": (Flag(), CODECS),
     "fit": (Choice("paper", "hierarchical"), CODECS),
+    "fit-to": (Choice("points", "pictures"), CODECS),
     "basis": (Choice("bspline", "harmonics", "auto"), CODECS),
     "frame": (Choice("global", "reflected", "auto"), CODECS),
     "cross-validate": (Choice("on", "off"), CODECS),

@@ -1,0 +1,36 @@
+// View maps whose pictures look like the photographs.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "slf/capture.h"
+#include "slf/fit.h"
+
+namespace slf {
+
+/// What a picture fit is about.
+struct PictureFitInput {
+  const Capture& capture;
+  std::span<const int> cameras;
+  const Grid& grid;
+  std::span<const Voxel> positions;        ///< Morton order
+  const CodedNormals& normals;             ///< those of the file, or none
+  Transfer transfer = Transfer::kDisplay;  ///< of the coefficients
+  std::array<float, 2> gamma_range{-1, 1};
+};
+
+/// Moves coefficients so that the renderer's pictures of them have the least squared error to the
+/// photographs, with a pull to where they started (picture_system.h). Rays along the surface count
+/// as any other; pixels that are far off count little, and again so after every round.
+/// @param coefficients  [P][K][3], in R, G, B
+/// @param settings  its basis and frame are those of the coefficients
+/// @errors those of load_image
+/// The same for any thread count. O(rays x cameras of a point) and O(pixels) a step.
+Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
+                                               const FitSettings& settings,
+                                               std::vector<float>& coefficients,
+                                               const Progress& progress = {});
+
+}  // namespace slf

@@ -1,0 +1,300 @@
+#include "lightfield/picture_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lightfield/frame.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kPointsPerRange = 256;
+constexpr std::size_t kRaysPerRange = 1 << 15;
+
+void add_scaled(float factor, const Colour4& x, Colour4& to) {
+  for (std::size_t c = 0; c < 4; ++c) to[c] += factor * x[c];
+}
+
+/// [K] of functions of mean square 1.
+std::vector<double> penalties(const DirectionRows& rows, const PictureFitSettings& settings) {
+  std::vector<double> penalty;
+  for (const int fineness : rows.fineness())
+    penalty.push_back(fineness == 0 ? settings.mean_penalty
+                                    : settings.penalty * std::pow(settings.growth, fineness));
+  return penalty;
+}
+
+/// Inner products of the channels.
+std::array<double, 3> inner(const std::vector<Colour4>& a, const std::vector<Colour4>& b,
+                            int threads) {
+  std::vector<std::array<double, 3>> parts((a.size() + kRaysPerRange - 1) / kRaysPerRange);
+  parallel_ranges(a.size(), kRaysPerRange, threads, [&](std::size_t begin, std::size_t end) {
+    std::array<double, 3> sum{};
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += double(a[i][c]) * double(b[i][c]);
+    parts[begin / kRaysPerRange] = sum;
+  });
+  std::array<double, 3> sum{};
+  for (const auto& part : parts)
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += part[c];
+  return sum;
+}
+
+/// a / b of each channel; 0 where nothing is left to improve.
+Colour4 quotient(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  Colour4 q{};
+  for (std::size_t c = 0; c < 3; ++c) q[c] = b[c] > 0 ? static_cast<float>(a[c] / b[c]) : 0.0f;
+  return q;
+}
+
+/// The sum of what a pixel is made of.
+Colour4 mixed(const PictureView& view, std::size_t pixel, const std::vector<Colour4>& local) {
+  Colour4 sum{};
+  for (auto j = view.first[pixel]; j < view.first[pixel + 1]; ++j)
+    add_scaled(view.weight[j], local[view.local[j]], sum);
+  return sum;
+}
+
+/// Photograph less picture.
+Colour4 error_of(const PictureView& view, std::size_t pixel, const std::vector<Colour4>& local) {
+  const Colour4 is = mixed(view, pixel, local);
+  Colour4 error{};
+  for (std::size_t c = 0; c < 3; ++c) error[c] = view.photograph[pixel][c] - is[c];
+  return error;
+}
+
+float square(const Colour4& error) {
+  return error[0] * error[0] + error[1] * error[1] + error[2] * error[2];
+}
+
+/// The view's own part of a vector; colours as a renderer clamps them.
+std::vector<Colour4> gathered(const PictureView& view, const std::vector<Colour4>& x,
+                              bool clamped) {
+  std::vector<Colour4> local(view.points.size());
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    local[i] = x[static_cast<std::size_t>(view.ray[i])];
+    if (clamped)
+      for (float& c : local[i]) c = std::clamp(c, 0.0f, 255.0f);
+  }
+  return local;
+}
+
+/// x += W^T of what `pixel` gives for each.
+template <class Pixel>
+void spread(const PictureView& view, const Pixel& pixel, std::vector<Colour4>& x) {
+  std::vector<Colour4> sums(view.points.size());
+  for (std::size_t i = 0; i < view.pixels(); ++i) {
+    Colour4 value = pixel(i);
+    for (float& c : value) c *= view.trust[i];
+    for (auto j = view.first[i]; j < view.first[i + 1]; ++j)
+      add_scaled(view.weight[j], value, sums[view.local[j]]);
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    add_scaled(1, sums[i], x[static_cast<std::size_t>(view.ray[i])]);
+}
+
+}  // namespace
+
+double PictureError::psnr() const { return 10 * std::log10(255.0 * 255 * 3 * trust / squares); }
+
+PictureSystem::PictureSystem(const Grid& grid, std::span<const Voxel> positions,
+                             const FitSettings& settings, std::array<float, 2> gamma_range,
+                             PictureViews& pictures, std::vector<Vec3> eyes)
+    : grid_(grid),
+      positions_(positions),
+      pictures_(pictures),
+      eyes_(std::move(eyes)),
+      gamma_range_(gamma_range),
+      threads_(settings.threads),
+      rows_(settings.basis),
+      penalty_(penalties(rows_, settings.pictures)),
+      kernel_(settings.basis, rows_, penalty_),
+      normals_(frame_normals(settings.frame, positions, settings.threads)) {}
+
+PictureSystem::Vector PictureSystem::colours(std::span<const float> coefficients) const {
+  Vector colours(pictures_.rays.size());
+  const std::size_t size = rows_.size();
+  each_point([&](std::size_t p, std::size_t from, std::size_t to) {
+    std::vector<float> row(size);
+    const float* of_point = coefficients.data() + 3 * size * p;
+    for (std::size_t r = from; r < to; ++r) {
+      rows_.evaluate(direction(p, r), row.data());
+      for (std::size_t k = 0; k < size; ++k) {
+        const float value = row[k] * static_cast<float>(rows_.norms()[k]);
+        for (std::size_t c = 0; c < 3; ++c) colours[r][c] += value * of_point[3 * k + c];
+      }
+    }
+  });
+  return colours;
+}
+
+void PictureSystem::add(const Vector& z, std::span<float> coefficients) const {
+  const std::size_t size = rows_.size();
+  each_point([&](std::size_t p, std::size_t from, std::size_t to) {
+    std::vector<float> row(size), sum(3 * size);
+    for (std::size_t r = from; r < to; ++r) {
+      rows_.evaluate(direction(p, r), row.data());
+      for (std::size_t k = 0; k < size; ++k)
+        for (std::size_t c = 0; c < 3; ++c) sum[3 * k + c] += row[k] * z[r][c];
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      coefficients[3 * size * p + i] +=
+          sum[i] / static_cast<float>(penalty_[i / 3] * rows_.norms()[i / 3]);
+  });
+}
+
+void PictureSystem::set_trust(const Vector& colours, double outlier) {
+  const auto scale = static_cast<float>(1 / (3 * outlier * outlier));
+  parallel_ranges(pictures_.views.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      PictureView& view = pictures_.views[v];
+      const auto local = gathered(view, colours, true);
+      for (std::size_t i = 0; i < view.pixels(); ++i) {
+        const float q = 1 + scale * square(error_of(view, i, local));
+        view.trust[i] = 1 / (q * q);
+      }
+    }
+  });
+}
+
+std::vector<PictureError> PictureSystem::errors(const Vector& colours) const {
+  std::vector<PictureError> errors(pictures_.views.size());
+  parallel_ranges(errors.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const PictureView& view = pictures_.views[v];
+      const auto local = gathered(view, colours, true);
+      for (std::size_t i = 0; i < view.pixels(); ++i) {
+        errors[v].squares += double(view.trust[i] * square(error_of(view, i, local)));
+        errors[v].trust += double(view.trust[i]);
+      }
+    }
+  });
+  return errors;
+}
+
+void PictureSystem::improve(const std::function<bool(std::size_t)>& used, int steps,
+                            Vector& colours, Vector& z) const {
+  std::vector<bool> uses;
+  for (std::size_t v = 0; v < pictures_.views.size(); ++v) uses.push_back(used(v));
+  const std::size_t n = colours.size();
+  // g_: G times the vector.
+  Vector left = residual(uses, colours), g_left(n), q;
+  apply_kernel(left, g_left);
+  Vector search = left, g_search = g_left;
+  auto rho = inner(left, g_left, threads_);
+  for (int step = 0; step < steps; ++step) {
+    q = search;
+    add_pictures(uses, g_search, q);
+    const Colour4 length = quotient(rho, inner(g_search, q, threads_));
+    parallel_ranges(n, kRaysPerRange, threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t c = 0; c < 4; ++c) {
+          z[i][c] += length[c] * search[i][c];
+          colours[i][c] += length[c] * g_search[i][c];
+          left[i][c] -= length[c] * q[i][c];
+        }
+    });
+    if (step + 1 == steps) return;
+    apply_kernel(left, g_left);
+    const auto before = std::exchange(rho, inner(left, g_left, threads_));
+    const Colour4 keep = quotient(rho, before);
+    parallel_ranges(n, kRaysPerRange, threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t c = 0; c < 4; ++c) {
+          search[i][c] = left[i][c] + keep[c] * search[i][c];
+          g_search[i][c] = g_left[i][c] + keep[c] * g_search[i][c];
+        }
+    });
+  }
+}
+
+PictureSystem::Vector PictureSystem::residual(const std::vector<bool>& used,
+                                              const Vector& colours) const {
+  Vector out(colours.size());
+  parallel_ranges(used.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (!used[v]) continue;
+      const PictureView& view = pictures_.views[v];
+      const auto local = gathered(view, colours, true);
+      spread(
+          view, [&](std::size_t i) { return error_of(view, i, local); }, out);
+    }
+  });
+  return out;
+}
+
+/// out += W^T T W x.
+void PictureSystem::add_pictures(const std::vector<bool>& used, const Vector& x,
+                                 Vector& out) const {
+  parallel_ranges(used.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (!used[v]) continue;
+      const PictureView& view = pictures_.views[v];
+      const auto local = gathered(view, x, false);
+      spread(
+          view, [&](std::size_t i) { return mixed(view, i, local); }, out);
+    }
+  });
+}
+
+/// out = G x.
+void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
+  parallel_ranges(positions_.size(), kPointsPerRange, threads_,
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<float> kernel;
+                    std::vector<std::array<float, 3>> world;
+                    std::vector<std::array<float, 2>> in_frame;
+                    for (std::size_t p = begin; p < end; ++p) {
+                      const auto from = static_cast<std::size_t>(pictures_.rays.first[p]),
+                                 to = static_cast<std::size_t>(pictures_.rays.first[p + 1]);
+                      world.clear();
+                      in_frame.clear();
+                      for (std::size_t r = from; r < to; ++r) {
+                        const Vec3 d = towards(p, r);
+                        world.push_back({float(d[0]), float(d[1]), float(d[2])});
+                        if (kernel_.needs_frame()) in_frame.push_back(direction(p, r));
+                      }
+                      kernel_.matrix(world, in_frame, kernel);
+                      const std::size_t m = to - from;
+                      for (std::size_t i = 0; i < m; ++i) {
+                        Colour4 sum{};
+                        for (std::size_t j = 0; j < m; ++j)
+                          add_scaled(kernel[i * m + j], x[from + j], sum);
+                        out[from + i] = sum;
+                      }
+                    }
+                  });
+}
+
+/// Unit, from a point to the eye.
+Vec3 PictureSystem::towards(std::size_t point, std::size_t ray) const {
+  const Vec3 at = grid_.world(positions_[point]);
+  const Vec3& eye = eyes_[pictures_.rays.view[ray]];
+  Vec3 d{eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]};
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  for (double& x : d) x /= std::max(length, 1e-300);
+  return d;
+}
+
+std::array<float, 2> PictureSystem::direction(std::size_t point, std::size_t ray) const {
+  auto d = to_frame(normals_, point, direction_of(towards(point, ray)));
+  d[1] = std::clamp(d[1], gamma_range_[0], gamma_range_[1]);
+  return d;
+}
+
+/// body(point, first ray, last ray) of every point that is seen.
+template <class Body>
+void PictureSystem::each_point(const Body& body) const {
+  parallel_ranges(positions_.size(), kPointsPerRange, threads_,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t p = begin; p < end; ++p) {
+                      const auto from = static_cast<std::size_t>(pictures_.rays.first[p]),
+                                 to = static_cast<std::size_t>(pictures_.rays.first[p + 1]);
+                      if (from < to) body(p, from, to);
+                    }
+                  });
+}
+
+}  // namespace slf
