@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "slf/evaluate.h"
 #include "slf/igc.h"
 #include "tools/describe.h"
 #include "tools/options.h"
+#include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/text.h"
 #include "tools/verb.h"
@@ -17,10 +21,10 @@ namespace slf::tools {
 namespace {
 
 struct EvalOptions {
-  std::string input, capture, points, split;
+  std::string input, capture, points, split, unquantised, error_maps;
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
-  std::optional<double> min_psnr;
+  std::optional<double> min_psnr, min_image_psnr;
   CommonOptions common;
 };
 
@@ -29,6 +33,7 @@ struct Measured {
   std::string name;  ///< "input", "held out"
   std::size_t cameras = 0;
   Quality quality;
+  std::optional<Quality> unquantised;  ///< of the light field that --unquantised names
 };
 
 /// What is judged: a decoded file and what is said about it.
@@ -46,6 +51,42 @@ std::string metadata_value(const Metadata& metadata, const std::string& key) {
   return {};
 }
 
+nlohmann::ordered_json picture_json(const PictureQuality& q) {
+  return {{"psnr", q.psnr}, {"ssim", q.ssim}, {"ms_ssim", q.ms_ssim}};
+}
+
+nlohmann::ordered_json region_json(const PictureRegion& r) {
+  return {{"psnr", r.psnr}, {"pixel_share", r.pixel_share}, {"error_share", r.error_share}};
+}
+
+nlohmann::ordered_json image_json(const ImageQuality& image) {
+  nlohmann::ordered_json json = picture_json(image);
+  json["coverage"] = image.coverage;
+  json["uncovered_error_share"] = image.uncovered_error_share;
+  json["outside_error_share"] = image.outside_error_share;
+  json["all"] = picture_json(image.all);
+  json["regions"] = {{"grazing", region_json(image.grazing)},
+                     {"rim", region_json(image.rim)},
+                     {"rest", region_json(image.rest)}};
+  json["psnr_each"] = image.psnr_each;
+  return json;
+}
+
+nlohmann::ordered_json gap_json(const Measured& m, bool images) {
+  const Quality &before = *m.unquantised, &after = m.quality;
+  nlohmann::ordered_json json = {{"points_unquantised", before.points[0].psnr},
+                                 {"points_quantised", after.points[0].psnr}};
+  if (!images) return json;
+  const QualityGap gap = quality_gap(before, after);
+  json["pictures_unquantised"] = before.image.psnr;
+  json["pictures_quantised"] = after.image.psnr;
+  json["error_share"] = {{"points", gap.points},
+                         {"splatting", gap.splatting},
+                         {"quantisation", gap.quantisation},
+                         {"coverage", gap.coverage}};
+  return json;
+}
+
 nlohmann::ordered_json quality_json(const Measured& m, bool images) {
   nlohmann::ordered_json json = {{"cameras", m.cameras}};
   for (const PointQuality& p : m.quality.points)
@@ -55,12 +96,41 @@ nlohmann::ordered_json quality_json(const Measured& m, bool images) {
                               {"channel_psnr", p.channel_psnr},
                               {"observations", p.observations}});
   json["image"] = nullptr;
-  if (images)
-    json["image"] = {{"psnr", m.quality.image.psnr},
-                     {"ssim", m.quality.image.ssim},
-                     {"coverage", m.quality.image.coverage},
-                     {"psnr_each", m.quality.image.psnr_each}};
+  if (images) json["image"] = image_json(m.quality.image);
+  json["gap"] = nullptr;
+  if (m.unquantised) json["gap"] = gap_json(m, images);
   return json;
+}
+
+std::string image_text(const ImageQuality& image) {
+  std::string out =
+      text("  images             %6.2f dB   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
+           image.psnr, image.ssim, image.ms_ssim, 100 * image.coverage);
+  out += text("  all their pixels   %6.2f dB   SSIM %.4f, MS-SSIM %.4f\n", image.all.psnr,
+              image.all.ssim, image.all.ms_ssim);
+  const std::array<std::pair<const char*, const PictureRegion*>, 3> regions = {
+      {{"grazing", &image.grazing}, {"rim", &image.rim}, {"rest", &image.rest}}};
+  for (const auto& [name, r] : regions)
+    out += text("    %-16s %6.2f dB   %5.1f %% of the pixels, %5.1f %% of the squared error\n",
+                name, r->psnr, 100 * r->pixel_share, 100 * r->error_share);
+  out += text("    not covered                  %5.1f %% of the squared error on the object\n",
+              100 * image.uncovered_error_share);
+  return out;
+}
+
+std::string gap_text(const Measured& m, bool images) {
+  const Quality &before = *m.unquantised, &after = m.quality;
+  std::string out = "  gap            unquantised    coded\n";
+  out +=
+      text("    points          %6.2f dB %6.2f dB\n", before.points[0].psnr, after.points[0].psnr);
+  if (!images) return out;
+  const QualityGap gap = quality_gap(before, after);
+  out += text("    images          %6.2f dB %6.2f dB\n", before.image.psnr, after.image.psnr);
+  out += text(
+      "    squared error on the object: points %.1f %%, splatting %.1f %%, quantisation "
+      "%.1f %%, coverage %.1f %%\n",
+      100 * gap.points, 100 * gap.splatting, 100 * gap.quantisation, 100 * gap.coverage);
+  return out;
 }
 
 std::string quality_text(const Measured& m, bool images) {
@@ -69,9 +139,8 @@ std::string quality_text(const Measured& m, bool images) {
     out +=
         text("  points, delta %-4g %6.2f dB   luma %.2f, R %.2f, G %.2f, B %.2f\n", p.delta_degrees,
              p.psnr, p.luma_psnr, p.channel_psnr[0], p.channel_psnr[1], p.channel_psnr[2]);
-  if (images)
-    out += text("  images             %6.2f dB   SSIM %.4f, coverage %.2f %%\n",
-                m.quality.image.psnr, m.quality.image.ssim, 100 * m.quality.image.coverage);
+  if (images) out += image_text(m.quality.image);
+  if (m.unquantised) out += gap_text(m, images);
   return out;
 }
 
@@ -104,14 +173,17 @@ Outcome report(const EvalOptions& given, const Subject& subject,
   return print(out + "\n" + subject.bytes_text);
 }
 
-/// The floor of --min-psnr, on the held-out cameras, else on the input.
-Outcome check_floor(const EvalOptions& given, const std::vector<Measured>& measured) {
-  if (!given.min_psnr) return Done{};
+/// The floors of --min-psnr and --min-image-psnr, on the held-out cameras, else on the input.
+Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& measured) {
   const Measured& judged = measured.back();
-  if (judged.quality.points[0].psnr >= *given.min_psnr) return Done{};
-  return Failure{kQualityFailed,
-                 text("%s: point PSNR %.2f dB (%s) is below %g dB", input_name(given.input).c_str(),
-                      judged.quality.points[0].psnr, judged.name.c_str(), *given.min_psnr)};
+  const auto check = [&](const char* what, double psnr, std::optional<double> floor) -> Outcome {
+    if (!floor || psnr >= *floor) return Done{};
+    return Failure{kQualityFailed,
+                   text("%s: %s PSNR %.2f dB (%s) is below %g dB", input_name(given.input).c_str(),
+                        what, psnr, judged.name.c_str(), *floor)};
+  };
+  SLF_CHECK(check("point", judged.quality.points[0].psnr, given.min_psnr));
+  return check("image", judged.quality.image.psnr, given.min_image_psnr);
 }
 
 Result<Capture, Failure> read_capture(const EvalOptions& given) {
@@ -124,9 +196,9 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   return capture;
 }
 
-Result<Subject, Failure> decode_slf(const EvalOptions& given,
+Result<Subject, Failure> decode_slf(const EvalOptions& given, const std::string& input,
                                     std::span<const std::uint8_t> stream) {
-  const std::string name = input_name(given.input);
+  const std::string name = input_name(input);
   SLF_TRY(StreamInfo info, from(name, read_info(stream)));
   DecodeSeconds seconds;
   DecodeOptions options;
@@ -147,7 +219,8 @@ Result<Subject, Failure> decode_slf(const EvalOptions& given,
                  bytes_by_type_text(info, stream.size())};
 }
 
-Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const Capture& capture,
+Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const std::string& input,
+                                         const Capture& capture,
                                          std::span<const std::uint8_t> stream) {
   IgcDecodeOptions options;
   options.estimate_normals = given.estimate_normals;
@@ -155,7 +228,7 @@ Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const Capture
   ProgressLine line(given.common.quiet);
   Stopwatch watch;
   SLF_TRY(IgcDecoded decoded,
-          from(input_name(given.input), decode_igc(stream, capture, options, line.callback())));
+          from(input_name(input), decode_igc(stream, capture, options, line.callback())));
   const nlohmann::ordered_json decode_seconds = {
       {"threads", given.common.threads},  {"geometry", decoded.seconds_geometry},
       {"images", decoded.seconds_images}, {"observe", decoded.seconds_observe},
@@ -177,8 +250,32 @@ Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const Capture
                  std::move(lines)};
 }
 
+/// Either kind of file, with view maps.
+Result<Subject, Failure> decode_subject(const EvalOptions& given, const std::string& input,
+                                        const Capture& capture) {
+  SLF_TRY(const auto stream, from(input_name(input), read_file(input)));
+  SLF_TRY(Subject subject, is_igc(stream) ? decode_igc_file(given, input, capture, stream)
+                                          : decode_slf(given, input, stream));
+  SLF_CHECK(require_view_maps(subject.field, input));
+  return subject;
+}
+
+/// DIR/NUMBER_NAME.png of every camera's error map; the folders of its name become part of the
+/// file's, and its extension is left out.
+std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
+    const std::string& directory, const Capture& capture) {
+  if (directory.empty()) return {};
+  return [directory, &capture](int camera, const Image& map) {
+    const std::string& image = capture.cameras[std::size_t(camera)].name;
+    std::string name = std::filesystem::path(image).replace_extension().string();
+    std::replace(name.begin(), name.end(), '/', '_');
+    return write_png(inside(directory, text("%04d_", camera) + name + ".png"), map);
+  };
+}
+
+/// @param unquantised  or null
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
-                                               const Subject& subject) {
+                                               const Subject& subject, const Subject* unquantised) {
   const std::string split =
       given.split_given ? given.split : metadata_value(subject.metadata, "split");
   SLF_TRY(const std::vector<int> input, from(given.capture, split_cameras(capture, split)));
@@ -195,28 +292,39 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
   const ViewMaps maps(subject.field, settings.threads);
+  std::optional<ViewMaps> unquantised_maps;
+  if (unquantised) unquantised_maps.emplace(unquantised->field, settings.threads);
   std::vector<Measured> measured;
   for (const std::vector<int>* cameras :
        std::array<const std::vector<int>*, 2>{&input, &held_out}) {
     if (cameras->empty()) continue;
-    SLF_TRY(Quality quality,
+    Measured& m = measured.emplace_back();
+    m.name = cameras == &input ? "input" : "held out";
+    m.cameras = cameras->size();
+    settings.error_map = error_map_writer(given.error_maps, capture);
+    SLF_TRY(m.quality,
             from(given.capture, evaluate(maps, capture, *cameras, settings, line.callback())));
-    measured.push_back(
-        {cameras == &input ? "input" : "held out", cameras->size(), std::move(quality)});
+    if (!unquantised_maps) continue;
+    settings.error_map = {};
+    SLF_TRY(m.unquantised, from(given.capture, evaluate(*unquantised_maps, capture, *cameras,
+                                                        settings, line.callback())));
   }
   return measured;
 }
 
 Outcome run_eval(const EvalOptions& given) {
-  SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
+  if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(const Capture capture, read_capture(given));
-  SLF_TRY(const Subject subject,
-          is_igc(stream) ? decode_igc_file(given, capture, stream) : decode_slf(given, stream));
-  SLF_CHECK(require_view_maps(subject.field, given.input));
+  SLF_TRY(const Subject subject, decode_subject(given, given.input, capture));
+  std::optional<Subject> unquantised;
+  if (!given.unquantised.empty()) {
+    SLF_TRY(unquantised, decode_subject(given, given.unquantised, capture));
+  }
   Stopwatch watch;
-  SLF_TRY(const auto measured, measure(given, capture, subject));
+  SLF_TRY(const auto measured,
+          measure(given, capture, subject, unquantised ? &*unquantised : nullptr));
   SLF_CHECK(report(given, subject, measured, watch.lap()));
-  return check_floor(given, measured);
+  return check_floors(given, measured);
 }
 
 }  // namespace
@@ -250,10 +358,24 @@ void add_eval(CLI::App& program, Run& run) {
       ->check(range(0, 1000));
   verb->add_flag("--estimate-normals", o->estimate_normals,
                  "An .igc file: normals from its points; default: the capture's, as a gift");
-  verb->add_flag("--no-images", o->no_images, "Point PSNR alone: render no images");
+  auto* no_images =
+      verb->add_flag("--no-images", o->no_images, "Point PSNR alone: render no images");
+  verb->add_option("--unquantised", o->unquantised,
+                   "The same capture encoded with the same settings and a tiny Q (-q 0.05): tells "
+                   "what is lost to points, splatting, quantisation and coverage apart")
+      ->type_name("FILE");
+  verb->add_option("--error-map", o->error_maps,
+                   "Directory, made if it is missing: a PNG of each image, photograph, rendering, "
+                   "and 128 + 4 times their difference")
+      ->type_name("DIR")
+      ->excludes(no_images);
   verb->add_option("--min-psnr", o->min_psnr,
                    "Exit with code 8 if the held-out point PSNR (of the first DELTA) is below; dB")
       ->check(range(0, 1000));
+  verb->add_option("--min-image-psnr", o->min_image_psnr,
+                   "The same of the image PSNR, where both show the object; dB")
+      ->check(range(0, 1000))
+      ->excludes(no_images);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);

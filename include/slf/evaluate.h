@@ -1,9 +1,11 @@
-// Quality, by one definition that every comparison uses.
+// Quality, by one definition that every comparison uses. Spec annex D.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "slf/capture.h"
@@ -17,6 +19,9 @@ struct EvaluateSettings {
   bool images = true;                      ///< image quality too (renders every camera)
   double depth_tolerance = 2.5;
   int threads = 0;
+  /// Where given: called once for every camera, from several threads, with one image of three times
+  /// the photograph's width: photograph, rendering, and 128 + 4 (rendering - photograph), clamped.
+  std::function<Result<Done, InputError>(int camera, const Image& map)> error_map;
 };
 
 /// Of the views within one δ′. dB; infinite where nothing differs.
@@ -28,12 +33,30 @@ struct PointQuality {
   std::uint64_t observations = 0;
 };
 
-/// Rendered against photograph, where both show the object.
-struct ImageQuality {
-  double psnr = 0;      ///< dB, pooled over pixels and channels
-  double ssim = 0;      ///< of luma; mean over pixels (lightfield/ssim.h)
+/// Rendered against photograph, over the same pixels of each.
+struct PictureQuality {
+  double psnr = 0;     ///< dB, pooled over pixels and channels
+  double ssim = 0;     ///< of luma; mean over pixels (lightfield/ssim.h)
+  double ms_ssim = 0;  ///< of luma; mean over pictures (lightfield/ssim.h)
+};
+
+/// A part of the pixels at which both show the object. Shares are of all of those.
+struct PictureRegion {
+  double psnr = 0;  ///< dB; NaN where there is no pixel of it
+  double pixel_share = 0, error_share = 0;
+};
+
+/// Both pictures over one background: the photograph's own (spec annex D).
+struct ImageQuality : PictureQuality {  ///< where both show the object
+  PictureQuality all;                   ///< of every pixel
   double coverage = 0;  ///< share of the photographs' object pixels that the renderings cover
-  std::vector<double> psnr_each;  ///< [cameras]
+  /// Share of the squared error at the photographs' object pixels that is where no rendering covers
+  /// them; and of that at all pixels where no photograph shows the object.
+  double uncovered_error_share = 0, outside_error_share = 0;
+  PictureRegion grazing;  ///< the ray is within 10° of the capture's surface
+  PictureRegion rim;  ///< not that, but within 2 pixels of a silhouette or a step in depth of it
+  PictureRegion rest;
+  std::vector<double> psnr_each;  ///< [cameras] dB, where both show the object
 };
 
 struct Quality {
@@ -47,10 +70,24 @@ struct Quality {
 /// those of the capture (nearest point), so that all codecs are judged on one set. Spec annex D,
 /// DESIGN 7.
 /// @errors kInvalidArgument: no cameras or points, a camera index or δ′ out of range; those of
-///         observe and load_image.
+///         observe, load_image and settings.error_map.
 /// The same for any thread count, but for render_seconds.
 Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& capture,
                                      std::span<const int> cameras, const EvaluateSettings& settings,
                                      const Progress& progress = {});
+
+/// What a file's pictures lose, and where: shares of the squared error at the photographs' object
+/// pixels, which sum to 1. A share is negative where that step gains: pictures of a light field
+/// that was fitted to pictures can be better than its points.
+struct QualityGap {
+  double coverage = 0;      ///< nothing is drawn there
+  double points = 0;        ///< the unquantised light field at its points
+  double splatting = 0;     ///< its pictures against its points
+  double quantisation = 0;  ///< the file's pictures against those of the unquantised
+};
+
+/// @param unquantised, coded  of the same cameras and settings, with images; coverage is the
+/// coded's
+QualityGap quality_gap(const Quality& unquantised, const Quality& coded);
 
 }  // namespace slf

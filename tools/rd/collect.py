@@ -33,6 +33,11 @@ def psnr(row, cameras="held_out", delta=10, key="psnr"):
     return None
 
 
+def image_psnr(row, cameras="held_out", delta=None):
+    """PSNR in dB of rendered images where both show the object; None where not measured. Has no evaluation angle."""
+    return ((row["eval"].get(cameras) or {}).get("image") or {}).get("psnr")
+
+
 def size(row):
     return row["eval"].get("bytes")
 
@@ -41,6 +46,15 @@ def size_without_geometry(row):
     """Bytes of the file less those of the geometry unit; None where they are not told apart."""
     geometry = (row["eval"].get("bytes_by_type") or {}).get("geometry")
     return None if geometry is None else size(row) - geometry
+
+
+def leaves(value, name=""):
+    """(name, number) of nested objects, names joined by _; lists are left out."""
+    for key, part in value.items():
+        if isinstance(part, dict):
+            yield from leaves(part, f"{name}{key}_")
+        elif not isinstance(part, list):
+            yield name + key, part
 
 
 def seconds_columns(row):
@@ -65,9 +79,7 @@ def flat(row):
         for point in part.get("points", []):
             out[f"{cameras}.psnr.{point['delta']:g}"] = point["psnr"]
             out[f"{cameras}.luma_psnr.{point['delta']:g}"] = point.get("luma_psnr")
-        for key, value in (part.get("image") or {}).items():
-            if not isinstance(value, list):
-                out[f"{cameras}.image_{key}"] = value
+        out |= {f"{cameras}.image_{key}": value for key, value in leaves(part.get("image") or {})}
     out |= seconds_columns(row)
     out["peak_memory_mib"] = row["encode"].get("peak_memory_mib")
     return out

@@ -24,9 +24,9 @@ def write(directory, out, plan, rows, figures, judged):
              f"Program {plan['slf']['version']}, commit {plan['slf']['commit'] or 'unknown'}; {report.machine()}; {len(plan['jobs'])} encodes, "
              f"{failed} rows without a result. One thread each, two at a time.\n\n", report.STAND_INS + "\n\n", "## The paper's findings\n\n",
              verdict_table(judged)]
-    header, lines = tables.bd_table(rows)
-    if lines:
-        parts += ["## BD figures against IGC (HEVC low delay)\n\n", tables.BD_NOTE + "\n\n", table(header, lines)]
+    found = tables.bd_tables(rows)
+    if found:
+        parts += ["## BD figures against IGC (HEVC low delay)\n\n", tables.BD_NOTE + "\n\n", *(table(*one) for one in found)]
     for experiment in plan["experiments"]:
         parts.append(f"## {experiment['label']} — {experiment['title']}\n\n" + (experiment["note"] + "\n\n" if experiment["note"] else ""))
         own = [row for row in rows if row["experiment"] == experiment["label"]]

@@ -7,7 +7,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of backend)
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
-from collect import psnr, size  # noqa: E402
+from collect import image_psnr, psnr, size  # noqa: E402
 
 matplotlib.rcParams |= {"svg.hashsalt": "slf", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.titlesize": 9,
                         "legend.fontsize": 8, "figure.dpi": 110, "lines.markersize": 4.5, "lines.linewidth": 1.4}
@@ -16,6 +16,8 @@ NAMES = {"raht": "SLF-RAHT", "tmc": "SLF-TMC", "tmc3": "G-PCC (tmc3)", "igc-hevc
 STYLE = {"raht": ("#1f5fa8", "o"), "tmc": ("#2a9d54", "s"), "tmc3": ("#6f6f6f", "D"), "igc-hevc": ("#c8432f", "^"),
          "igc-hevc-intra": ("#e69a35", "v"), "igc-av1": ("#8a4fb0", "X")}
 SYMBOLS = {"order": "o", "functions": "N", "lambda": "λ", "beta": "β", "delta": "δ", "grid-bits": "grid bits"}
+POINTS, PICTURES = "point PSNR (dB)", "image PSNR (dB)"
+QUALITY = {POINTS: psnr, PICTURES: image_psnr}
 SETS = (("input", "Input set"), ("held_out", "Evaluation set (held out)"))
 SERIES = plt.get_cmap("viridis")
 
@@ -47,10 +49,16 @@ def rate_axis(axis):
     axis.set_xlabel("file size")
 
 
-def curve(axis, rows, cameras, delta, **style):
+def measured(experiment):
+    """The qualities that an experiment's curves have."""
+    return list(QUALITY) if experiment["images"] else [POINTS]
+
+
+def curve(axis, rows, cameras, delta, quality=POINTS, **style):
     """One series; rows without a figure are left out."""
-    points = sorted((size(row), psnr(row, cameras, delta)) for row in rows
-                    if size(row) is not None and psnr(row, cameras, delta) is not None)
+    of = QUALITY[quality]
+    points = sorted((size(row), of(row, cameras, delta)) for row in rows
+                    if size(row) is not None and of(row, cameras, delta) is not None)
     if points:
         axis.plot(*zip(*points), **style)
     return bool(points)
@@ -81,16 +89,16 @@ def note_empty(axis):
 
 
 def series_panels(axes, rows, panels):
-    """panels: [(cameras, delta, title)], one axis each; one series per value of the grid or variant."""
+    """panels: [(cameras, delta, quality, title)], one axis each; one series per value of the grid or variant."""
     groups = grid_series(rows)
-    for axis, (cameras, delta, text) in zip(axes, panels):
-        drawn = [curve(axis, part, cameras, delta, label=name, marker="osD^vXP*"[i % 8],
+    for axis, (cameras, delta, quality, text) in zip(axes, panels):
+        drawn = [curve(axis, part, cameras, delta, quality, label=name, marker="osD^vXP*"[i % 8],
                        color=SERIES(0.9 * i / max(len(groups) - 1, 1))) for i, (name, part) in enumerate(groups)]
         axis.set_title(text)
         rate_axis(axis)
+        axis.set_ylabel(quality if axis is axes[0] or quality != POINTS else "")
         if not any(drawn):
             note_empty(axis)
-    axes[0].set_ylabel("point PSNR (dB)")
     if axes[-1].lines:
         beside = {"loc": "center left", "bbox_to_anchor": (1, 0.5)} if rows[0]["variant"] else {}  # their names are long
         axes[-1].legend(**beside)
@@ -110,32 +118,35 @@ def draw_grid(out, experiment, rows, panels, width):
 
 def draw_curves(out, experiment, rows):
     delta = 10 if 10 in experiment["deltas"] else experiment["deltas"][0]
-    return draw_grid(out, experiment, rows, [(cameras, delta, text) for cameras, text in SETS], 8.2)
+    panels = [(cameras, delta, quality, text) for quality in measured(experiment) for cameras, text in SETS]
+    return draw_grid(out, experiment, rows, panels, 4.1 * len(panels))
 
 
 def draw_deltas(out, experiment, rows):
-    panels = [("held_out", delta, f"δ′ = {delta:g}°, held out") for delta in experiment["deltas"]]
+    panels = [("held_out", delta, POINTS, f"δ′ = {delta:g}°, held out") for delta in experiment["deltas"]]
     return draw_grid(out, experiment, rows, panels, 2.9 * len(panels))
 
 
 def draw_compare(out, experiment, rows):
-    """Rows: input, held out; columns: splits; one file per capture."""
+    """Rows: input, held out, of points, then of pictures; columns: splits; one file per capture."""
     made, splits = [], experiment["splits"]
     captures = sorted({row["capture"] for row in rows})
     for capture in captures:
-        figure, axes = plt.subplots(2, len(splits), figsize=(1.2 + 3.4 * len(splits), 6.6), constrained_layout=True, squeeze=False)
+        panels = [(quality, cameras, text) for quality in measured(experiment) for cameras, text in SETS]
+        figure, axes = plt.subplots(len(panels), len(splits), figsize=(1.2 + 3.4 * len(splits), 3.3 * len(panels)), constrained_layout=True,
+                                    squeeze=False)
         for column, split in enumerate(splits):
-            for line, (cameras, text) in enumerate(SETS):
+            for line, (quality, cameras, text) in enumerate(panels):
                 axis = axes[line][column]
                 for codec in experiment["codecs"]:
                     for preset in experiment["presets"]:
                         part = [r for r in rows if (r["capture"], r["split"], r["codec"], r["preset"]) == (capture, split, codec, preset)]
                         color, marker = STYLE[codec]
-                        curve(axis, part, cameras, 10, color=color, marker=marker, linestyle="-" if preset == "paper" else "--",
+                        curve(axis, part, cameras, 10, quality, color=color, marker=marker, linestyle="-" if preset == "paper" else "--",
                               label=f"{NAMES[codec]}, {preset}" if len(experiment["presets"]) > 1 else NAMES[codec])
                 axis.set_title(f"{split}, {text.lower()}")
                 rate_axis(axis)
-                axis.set_ylabel("point PSNR (dB)")
+                axis.set_ylabel(quality)
                 if not axis.lines:
                     note_empty(axis)
         handles = {h.get_label(): h for row in axes for axis in row for h in axis.lines}

@@ -69,10 +69,11 @@ def verdict_section(judged):
 
 
 def bd_section(rows):
-    header, lines = tables.bd_table(rows)
-    if not lines:
+    found = tables.bd_tables(rows)
+    if not found:
         return ""
-    return f"<h2>BD figures against IGC (HEVC low delay)</h2>\n<p class='note'>{text(tables.BD_NOTE)}</p>\n" + table(header, lines)
+    return f"<h2>BD figures against IGC (HEVC low delay)</h2>\n<p class='note'>{text(tables.BD_NOTE)}</p>\n" + \
+        "".join(table(*one) for one in found)
 
 
 def experiment_section(out, experiment, rows, figures):

@@ -1,20 +1,21 @@
 """Tables of a run, as (header, lines) of plain text; report.py makes HTML of them."""
 from bd import NoFigure, bd_psnr, bd_rate
-from collect import psnr, size, size_without_geometry
+from collect import image_psnr, psnr, size, size_without_geometry
 from plot import NAMES, bytes_text, setting_text
 
 STAGES = [("geometry", "Geometry decompression"), ("coefficients", "Coefficient decompression"),
           ("images", "Images decompression"), ("observe", "Observation"), ("fit", "SLF representation (fit)")]
-BD_NOTE = ("Negative rate: fewer bytes than IGC at equal point PSNR. PCHIP; Akima in brackets. Without geometry: each file's bytes less "
+BD_NOTE = ("Negative rate: fewer bytes than IGC at equal PSNR, first of points, then, where images were rendered, of pictures (image PSNR, where "
+           "both show the object). PCHIP; Akima in brackets. Without geometry: each file's bytes less "
            "those of its own geometry unit (an .igc file's is a whole stream, some 60 bytes more). Where curves do not overlap there is "
            "no figure but a reason.")
 ABLATION_NOTE = ("BD-rate (PCHIP, percent) against the first variant of the same capture, cameras and codec; negative: fewer bytes at equal "
-                 "point PSNR. Bytes and dB are those at the middle rate (the lower of two). Seconds are means over the rates, one thread; × first: "
+                 "point PSNR, or at equal PSNR of rendered images. Bytes and dB are those at the middle rate (the lower of two). Seconds are means over the rates, one thread; × first: "
                  "their ratio to the first variant's.")
 
 
-def _measured(rows, cameras, measure=size):
-    points = [(measure(r), psnr(r, cameras)) for r in rows if measure(r) and psnr(r, cameras) is not None]
+def _measured(rows, cameras, measure=size, quality=psnr):
+    points = [(measure(r), quality(r, cameras)) for r in rows if measure(r) and quality(r, cameras) is not None]
     return [p[0] for p in points], [p[1] for p in points]
 
 
@@ -27,9 +28,14 @@ def _figure(measure, unit, *curves, akima=True):
         return f"none: {reason}"
 
 
-def bd_table(rows, anchor="igc-hevc"):
+def bd_tables(rows):
+    """[(header, lines)] of points and of pictures; those that were measured."""
+    return [table for table in (bd_table(rows), bd_table([r for r in rows if image_psnr(r) is not None], quality=image_psnr)) if table[1]]
+
+
+def bd_table(rows, anchor="igc-hevc", quality=psnr):
     """BD figures of every codec against one, per experiment, capture, density and preset, held out and input."""
-    header = ["experiment", "capture", "cameras", "preset", "codec"]
+    header = ["experiment", "capture", "cameras", "preset", "codec" if quality is psnr else "codec, pictures"]
     header += [f"{what}, {cameras}" for cameras in ("held out", "input") for what in ("BD-rate", "BD-rate without geometry", "BD-PSNR")]
     cases = {}
     for row in rows:
@@ -41,8 +47,8 @@ def bd_table(rows, anchor="igc-hevc"):
         for codec in (c for c in NAMES if c in codecs and c != anchor):
             line = [*case, NAMES[codec]]
             for cameras in ("held_out", "input"):
-                whole, less = (_measured(codecs.get(anchor, []), cameras, measure) + _measured(codecs[codec], cameras, measure)
-                               for measure in (size, size_without_geometry))
+                whole, less = (_measured(codecs.get(anchor, []), cameras, measure, quality)
+                               + _measured(codecs[codec], cameras, measure, quality) for measure in (size, size_without_geometry))
                 line += [_figure(bd_rate, "%", *whole), _figure(bd_rate, "%", *less), _figure(bd_psnr, "dB", *whole)]
             lines.append(line)
     return header, lines
@@ -63,15 +69,18 @@ def _mean_and_ratio(anchor, seconds):
             f"{sum(seconds[rate] for rate in both) / base:.2f}" if base else "–"]
 
 
-def _ablation_line(anchor, rows, middle):
+def _ablation_line(anchor, rows, middle, qualities):
     """What stands behind the name of one variant; `rows` is `anchor` for the first."""
     line = []
-    for cameras in ("held_out", "input"):
-        both = _measured(anchor, cameras) + _measured(rows, cameras)
-        line.append("–" if rows is anchor else _figure(bd_rate, "%", *both, akima=False))
+    for quality in qualities:
+        for cameras in ("held_out", "input"):
+            both = _measured(anchor, cameras, quality=quality) + _measured(rows, cameras, quality=quality)
+            line.append("–" if rows is anchor else _figure(bd_rate, "%", *both, akima=False))
     at = next((r for r in rows if r["rate"] == middle and size(r)), None)
-    quality = at and psnr(at)
-    line += [f"{middle:g}", f"{size(at):,}" if at else "–", "–" if quality is None else f"{quality:.2f}"]
+    line += [f"{middle:g}", f"{size(at):,}" if at else "–"]
+    for quality in qualities:
+        value = at and quality(at)
+        line.append("–" if value is None else f"{value:.2f}")
     for base, seconds in zip(_seconds(anchor), _seconds(rows)):
         line += _mean_and_ratio(base, seconds)
     return line
@@ -79,8 +88,11 @@ def _ablation_line(anchor, rows, middle):
 
 def ablation_table(rows):
     """Every variant against the first of its capture, split and codec, in the manifest's order."""
-    header = ["capture", "cameras", "codec", "variant", "BD-rate, held out", "BD-rate, input", "rate option", "bytes", "held out dB",
-              "encode s", "× first", "decode s", "× first"]
+    images = any(image_psnr(row) is not None for row in rows)
+    qualities = (psnr, image_psnr) if images else (psnr,)
+    header = ["capture", "cameras", "codec", "variant", "BD-rate, held out", "BD-rate, input",
+              *(("images: BD-rate, held out", "images: BD-rate, input") if images else ()), "rate option", "bytes", "held out dB",
+              *(("image dB",) if images else ()), "encode s", "× first", "decode s", "× first"]
     cases = {}
     for row in rows:
         cases.setdefault((row["capture"], row["split"], row["codec"]), {}).setdefault(row["variant"], []).append(row)
@@ -89,7 +101,7 @@ def ablation_table(rows):
         anchor = next(iter(variants.values()))
         rates = sorted(r["rate"] for r in anchor)
         for name, own in variants.items():
-            lines.append([capture, split, NAMES[codec], name, *_ablation_line(anchor, own, rates[(len(rates) - 1) // 2])])
+            lines.append([capture, split, NAMES[codec], name, *_ablation_line(anchor, own, rates[(len(rates) - 1) // 2], qualities)])
     return header, lines
 
 
@@ -113,7 +125,7 @@ def time_table(rows):
 def row_table(rows):
     """The rows of one experiment: rate, quality and times."""
     header = ["capture", "cameras", "codec", "preset", "setting", "rate option", "points", "bytes", "input dB", "held out dB",
-              "image dB", "SSIM", "coverage", "encode s", "decode s", "peak MiB", "status"]
+              "image dB", "SSIM", "MS-SSIM", "coverage", "image dB, input", "encode s", "decode s", "peak MiB", "status"]
     lines = []
     for row in rows:
         image = (row["eval"].get("held_out") or {}).get("image") or {}
@@ -121,7 +133,8 @@ def row_table(rows):
         lines.append([row["capture"], row["split"], NAMES[row["codec"]], row["preset"], setting_text(row), f"{row['rate']:g}",
                       number(row["eval"].get("points"), ","), number(size(row), ","), number(psnr(row, "input"), ".2f"),
                       number(psnr(row), ".2f"), number(image.get("psnr"), ".2f"), number(image.get("ssim"), ".4f"),
-                      number(image.get("coverage"), ".4f"), number(row["encode"].get("seconds", {}).get("total"), ".2f"),
+                      number(image.get("ms_ssim"), ".4f"), number(image.get("coverage"), ".4f"), number(image_psnr(row, "input"), ".2f"),
+                      number(row["encode"].get("seconds", {}).get("total"), ".2f"),
                       number((row["eval"].get("decode") or {}).get("total"), ".3f"), number(row["encode"].get("peak_memory_mib"), ".0f"),
                       row["status"] if row["status"] == "ok" else f"{row['status']}: {row['reason']}"])
     return header, lines

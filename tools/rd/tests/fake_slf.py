@@ -50,7 +50,8 @@ def encode(options, positional):
 
 
 def quality(psnr, options):
-    image = None if "no-images" in options else {"psnr": psnr - 3, "ssim": 0.9, "coverage": 0.98}
+    image = None if "no-images" in options else {"psnr": psnr - 3, "ssim": 0.9, "ms_ssim": 0.95, "coverage": 0.98, "psnr_each": [psnr],
+                                                     "all": {"psnr": psnr}, "regions": {"rim": {"error_share": 0.2}}}
     points = [{"delta": float(d), "psnr": psnr + float(d) / 30, "luma_psnr": psnr + 1, "channel_psnr": [psnr] * 3,
                "observations": 5000} for d in options["delta-eval"].split(",")]
     return {"cameras": 4, "points": points, "image": image}

@@ -92,6 +92,17 @@ class Table(unittest.TestCase):
         self.assertEqual(lines[1][4:], ["-20.0 %", "-20.0 %", "8", "3,200", "34.00", "3.000", "1.50", "0.750", "1.50"])
         self.assertEqual({len(line) for line in lines}, {len(header)})
 
+    def test_pictures_have_columns_of_their_own_where_they_were_measured(self):
+        rows = self.rows("z") + self.rows("a", scale=0.8)
+        for row in rows:
+            for cameras in ("held_out", "input"):
+                row["eval"][cameras]["image"] = {"psnr": row["eval"][cameras]["points"][0]["psnr"] - 3}
+        header, lines = tables.ablation_table(rows)
+        self.assertEqual({len(line) for line in lines}, {len(header)})
+        at = {name: lines[1][i] for i, name in enumerate(header)}
+        self.assertEqual((at["images: BD-rate, held out"], at["images: BD-rate, input"]), ("-20.0 %", "-20.0 %"))
+        self.assertEqual((at["held out dB"], at["image dB"]), ("34.00", "31.00"))
+
     def test_each_capture_and_split_has_its_own_first(self):
         rows = [row for split, scale in (("dense", 1), ("sparse", 2)) for name, factor in (("all", 1), ("none", 1.5))
                 for row in self.rows(name, scale=scale * factor, split=split)]

@@ -90,7 +90,8 @@ class Runs(Scratch):
         self.assertEqual((igc["codec"], igc["set.qp"], igc["decode_s.fit"]), ("igc-hevc", "30", "3.0"))
         for name in ("experiment", "capture", "split", "preset", "rate", "input_hash", "commit", "program", "points", "cameras", "bytes",
                      "bytes.geometry", "held_out.psnr.0", "held_out.psnr.30", "held_out.luma_psnr.10", "input.psnr.10",
-                     "held_out.image_ssim", "held_out.image_coverage", "encode_s.total", "decode_s.total", "peak_memory_mib"):
+                     "held_out.image_ssim", "held_out.image_ms_ssim", "held_out.image_coverage", "held_out.image_all_psnr",
+                     "input.image_regions_rim_error_share", "encode_s.total", "decode_s.total", "peak_memory_mib"):
             self.assertNotEqual(raht[name], "", name)
 
     def test_the_report_is_one_page_without_references_and_svgs_are_reproducible(self):
