@@ -263,5 +263,61 @@ TEST_F(SynthTest, SettingsOutOfRangeAreNamed) {
   EXPECT_FALSE(fs::exists(root_ / "none"));
 }
 
+TEST(DisturbTest, NoiseHasTheDeviationAskedForAndTheSameSeedGivesTheSameCloud) {
+  double step = 0;
+  const PointCloud exact = sample_points(*make_scene("die"), 5000, 1, &step);
+  for (const double scale : {0.0, 8.0}) {
+    PointCloud one = exact, two = exact;
+    disturb(one, step, {.noise = 0.5, .noise_scale = scale});
+    disturb(two, step, {.noise = 0.5, .noise_scale = scale});
+    EXPECT_EQ(one.positions, two.positions);
+    EXPECT_TRUE(one.normals.empty());
+    double squares = 0;
+    for (std::size_t p = 0; p < exact.positions.size(); ++p)
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double moved = double(one.positions[p][a]) - double(exact.positions[p][a]);
+        squares += moved * moved;
+      }
+    // 5000 samples: 1 % off, one deviation; smooth noise has a few hundred that are independent.
+    EXPECT_NEAR(std::sqrt(squares / double(exact.positions.size())) / step, 0.5,
+                scale > 0 ? 0.1 : 0.03);
+  }
+}
+
+TEST(DisturbTest, AHullIsOutsideOfTheSurfaceAndWithinTheAmount) {
+  double step = 0;
+  const PointCloud exact = sample_points(*make_scene("vase"), 5000, 1, &step);
+  PointCloud hull = exact;
+  disturb(hull, step, {.hull = 3});
+  double least = 9, most = -9;
+  for (std::size_t p = 0; p < exact.positions.size(); ++p) {
+    double out = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      out += (double(hull.positions[p][a]) - double(exact.positions[p][a])) *
+             double(exact.normals[p][a]) / step;
+    least = std::min(least, out);
+    most = std::max(most, out);
+  }
+  EXPECT_GE(least, -1e-3);
+  EXPECT_LE(most, 3 + 1e-3);
+  EXPECT_LT(least, 1.2);
+  EXPECT_GT(most, 1.8);
+}
+
+TEST_F(SynthTest, ADisturbedCaptureHasTheTrueCloudBesideIt) {
+  SynthSettings settings = small("can");
+  settings.disturb.hull = 2;
+  ASSERT_TRUE(synthesise(settings, root_));
+  const auto exact = read_ply(root_ / "exact.ply"), hull = read_ply(root_ / "points.ply");
+  ASSERT_TRUE(exact && hull);
+  EXPECT_EQ(exact->positions.size(), hull->positions.size());
+  EXPECT_NE(exact->positions, hull->positions);
+  settings.disturb = {};
+  ASSERT_TRUE(synthesise(settings, root_));
+  EXPECT_FALSE(fs::exists(root_ / "exact.ply"));
+  settings.disturb.noise = -1;
+  EXPECT_FALSE(synthesise(settings, root_));
+}
+
 }  // namespace
 }  // namespace slf::synth

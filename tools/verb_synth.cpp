@@ -87,6 +87,21 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("--supersampling", s.supersampling, "Rays per pixel and axis")
       ->capture_default_str()
       ->check(whole_range(1, 8));
+  verb->add_option("--noise", s.disturb.noise,
+                   "Move points along their normals by Gaussian noise, standard deviation in point "
+                   "spacings; the true cloud becomes exact.ply")
+      ->capture_default_str()
+      ->check(range(0, 10));
+  verb->add_option("--noise-scale", s.disturb.noise_scale,
+                   "Over so many spacings the noise is the same; 0: each point by itself")
+      ->capture_default_str()
+      ->check(range(0, 1000));
+  verb->add_option(
+          "--hull", s.disturb.hull,
+          "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
+      ->capture_default_str()
+      ->check(range(0, 20));
+  verb->add_option("--seed", s.disturb.seed, "Of --noise and --hull")->capture_default_str();
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");
   verb->add_flag("--list", o->list, "List the scenes");
   add_threads(*verb, o->common);

@@ -91,12 +91,16 @@ std::array<float, 3> to_float(const Vec3& v) {
 
 }  // namespace
 
-PointCloud sample_points(const Scene& scene, int points, int threads) {
+PointCloud sample_points(const Scene& scene, int points, int threads, double* step) {
   double cells = scene.default_lattice();
   std::vector<SurfacePoint> surface = lattice_points(scene, cells, threads);
   if (points > 0) {  // the count grows with the square of the lattice
     cells *= std::sqrt(points / static_cast<double>(surface.size()));
     surface = lattice_points(scene, cells, threads);
+  }
+  if (step != nullptr) {
+    const Vec3 extent = scene.bounds().high - scene.bounds().low;
+    *step = std::max({extent[0], extent[1], extent[2]}) / cells;
   }
   PointCloud cloud;
   for (const SurfacePoint& point : surface) {

@@ -11,6 +11,7 @@ namespace slf::synth {
 /// voxels, with hardly any voxel hit twice, and normals and colours are those of the surface
 /// itself.
 /// @param points  about so many; 0: the scene's default lattice
-PointCloud sample_points(const Scene& scene, int points, int threads);
+/// @param step  receives the lattice's, world units
+PointCloud sample_points(const Scene& scene, int points, int threads, double* step = nullptr);
 
 }  // namespace slf::synth

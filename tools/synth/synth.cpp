@@ -30,6 +30,13 @@ std::optional<InputError> check(const SynthSettings& s) {
   if (s.per_circle < 1 || s.per_circle > 360) return outside("per_circle", s.per_circle, 1, 360);
   if (s.supersampling < 1 || s.supersampling > 8)
     return outside("supersampling", s.supersampling, 1, 8);
+  const DisturbSettings& d = s.disturb;
+  if (!(d.noise >= 0 && d.noise <= 10))
+    return InputError{Errc::kInvalidArgument, "noise: 0 to 10 point spacings"};
+  if (!(d.noise_scale >= 0 && d.noise_scale <= 1000))
+    return InputError{Errc::kInvalidArgument, "noise scale: 0 to 1000 point spacings"};
+  if (!(d.hull >= 0 && d.hull <= 20))
+    return InputError{Errc::kInvalidArgument, "hull: 0 to 20 point spacings"};
   return std::nullopt;
 }
 
@@ -104,9 +111,21 @@ Result<Done, InputError> prepare(const fs::path& directory, const SynthSettings&
     return InputError{Errc::kUnwritable,
                       directory.string() + ": is neither empty nor a synthetic capture"};
   if (ours) fs::remove_all(directory / "images", error);
+  if (ours) fs::remove(directory / "exact.ply", error);
   fs::create_directories(directory / "images", error);
   if (error) return InputError{Errc::kUnwritable, directory.string() + ": " + error.message()};
   return write_cameras(directory, cameras_json(settings.scene, {}));
+}
+
+Result<Done, InputError> write_points(const Scene& scene, const SynthSettings& settings,
+                                      const fs::path& directory) {
+  double step = 0;
+  PointCloud cloud = sample_points(scene, settings.points, settings.threads, &step);
+  if (settings.disturb.any()) {
+    SLF_CHECK(write_ply(directory / "exact.ply", cloud));
+    disturb(cloud, step, settings.disturb);
+  }
+  return write_ply(directory / "points.ply", cloud);
 }
 
 Result<Done, InputError> write_images(const Scene& scene, const Rings& rings,
@@ -153,8 +172,7 @@ Result<Done, InputError> synthesise(const SynthSettings& settings, const fs::pat
   const Rings rings = make_rings(settings.circles, settings.per_circle, settings.width,
                                  settings.height, scene->bounds().radius);
   SLF_TRY([[maybe_unused]] const Done prepared, prepare(directory, settings));
-  const PointCloud cloud = sample_points(*scene, settings.points, settings.threads);
-  SLF_TRY([[maybe_unused]] const Done points, write_ply(directory / "points.ply", cloud));
+  SLF_CHECK(write_points(*scene, settings, directory));
   SLF_TRY([[maybe_unused]] const Done images,
           write_images(*scene, rings, settings, directory, progress));
   return write_cameras(directory, cameras_json(settings.scene, rings));

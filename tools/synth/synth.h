@@ -6,6 +6,7 @@
 
 #include "slf/error.h"
 #include "slf/types.h"
+#include "tools/synth/disturb.h"
 
 namespace slf::synth {
 
@@ -16,11 +17,13 @@ struct SynthSettings {
   int threads = 0;  ///< 0: all cores. The result does not depend on it
   int circles = 11, per_circle = 50;  ///< cameras, 1 .. 99 and 1 .. 360
   int supersampling = 2;              ///< rays per pixel and axis, 1 .. 8
+  DisturbSettings disturb;            ///< of the cloud; the photographs stay those of the scene
   bool force = false;                 ///< write into a foreign directory that is not empty
 };
 
 /// Writes a capture: points.ply, cameras.json, images/NNNN.png (see docs/captures.md). Existing
 /// directories are used if they are empty or hold an earlier synthetic capture, which is replaced.
+/// A disturbed cloud has the true one beside it, as exact.ply, for measurements.
 /// cameras.json is written last: a capture cut short has no cameras.
 /// @errors kInvalidArgument: a setting out of range, names it. kUnwritable: the directory holds
 ///         something else (see force), or cannot be written.
