@@ -5,20 +5,19 @@
 #include <limits>
 #include <numbers>
 
+#include "lightfield/reference_kernel.h"
 #include "lightfield/splat_band.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-constexpr double kLargestPixels =
-    512;                            // half width of an ellipse; bounds the work of a close camera
-constexpr double kFlattest = 0.15;  // cosine to the view; flatter discs are tilted towards the eye,
-                                    // as voxels have a thickness
-constexpr double kFilter = 1.0;     // pixels: radius added (in squares) to every ellipse
-constexpr double kSoftest = 0.5;  // share of the wide kernel in discs of 3 pixels and more: narrow
-                                  // kernels are sharper, but show each disc of a close-up
-constexpr double kThickness = 1.5;  // depth tolerance in disc radii, over the cosine
+constexpr const ReferenceKernel& kKernel = kReferenceKernel;
+constexpr double kFilterSquare = kKernel.filter_pixels * kKernel.filter_pixels;
+constexpr double kLargestPixels = 512;  // half width of an ellipse; bounds the work of a close
+                                        // camera
+constexpr double kSteepestPlane =
+    0.75;  // of the inverse depth, that it may change by in an ellipse
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -26,19 +25,19 @@ Vec3 rotate(const Camera& camera, const Vec3& v) {
   return {dot(camera.rotation[0], v), dot(camera.rotation[1], v), dot(camera.rotation[2], v)};
 }
 
-/// The normal in camera axes, turned to the viewer and at least kFlattest towards the eye.
+/// The normal in camera axes, turned to the viewer and at least kKernel.flattest towards the eye.
 Vec3 facing_normal(const Vec3& normal, const Vec3& to_eye) {
   double cosine = dot(normal, to_eye);
   if (!(dot(normal, normal) > 0.5)) return to_eye;
   const double sign = cosine < 0 ? -1 : 1;
   cosine = std::abs(cosine);
-  if (cosine >= kFlattest) return {sign * normal[0], sign * normal[1], sign * normal[2]};
+  if (cosine >= kKernel.flattest) return {sign * normal[0], sign * normal[1], sign * normal[2]};
   // What is across the view keeps its direction and gets the length that is left.
   Vec3 n;
   const double across = std::sqrt(std::max(1 - cosine * cosine, 1e-12));
-  const double scale = std::sqrt(1 - kFlattest * kFlattest) / across;
+  const double scale = std::sqrt(1 - kKernel.flattest * kKernel.flattest) / across;
   for (std::size_t k = 0; k < 3; ++k)
-    n[k] = scale * (sign * normal[k] - cosine * to_eye[k]) + kFlattest * to_eye[k];
+    n[k] = scale * (sign * normal[k] - cosine * to_eye[k]) + kKernel.flattest * to_eye[k];
   return n;
 }
 
@@ -58,6 +57,15 @@ Spread image_spread(const Camera& camera, const Vec3& p, const Vec3& n, double r
   return {r2 * (dot(ju, ju) - nu * nu), r2 * (dot(ju, jv) - nu * nv), r2 * (dot(jv, jv) - nv * nv)};
 }
 
+/// Squared radius of the ellipse within which its disc covers whole pixels in every direction.
+float full_cover(const Spread& filtered) {
+  const double mean = (filtered.uu + filtered.vv) / 2;
+  const double minor = mean - std::hypot((filtered.uu - filtered.vv) / 2, filtered.uv);
+  const double disc = std::sqrt(std::max(0.0, minor - kFilterSquare));
+  const double radius = std::max(0.0, (kKernel.disc_share * disc - 0.5) / std::sqrt(minor));
+  return static_cast<float>(radius * radius);
+}
+
 }  // namespace
 
 std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::uint32_t point) {
@@ -72,8 +80,7 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   const double cosine = dot(n, to_eye);
 
   const Spread disc_spread = image_spread(camera, p, n, disc.radius);
-  const Spread s{disc_spread.uu + kFilter * kFilter, disc_spread.uv,
-                 disc_spread.vv + kFilter * kFilter};
+  const Spread s{disc_spread.uu + kFilterSquare, disc_spread.uv, disc_spread.vv + kFilterSquare};
   const double half_width = std::sqrt(s.uu), half_height = std::sqrt(s.vv);
   const auto [u, v] = *image;
   if (!(half_width < kLargestPixels && half_height < kLargestPixels)) return std::nullopt;
@@ -83,7 +90,14 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
 
   // On the plane n . x = n . p, x = z (x', y', 1): 1 / z is linear in x', y', so in u, v.
   const double plane = dot(n, p);
-  const double depth_extent = disc.radius * std::sqrt(std::max(1 - n[2] * n[2], 0.0));
+  double du = n[0] / (plane * camera.fx), dv = n[1] / (plane * camera.fy);
+  const double change =
+      std::sqrt(std::max(0.0, du * du * s.uu + 2 * du * dv * s.uv + dv * dv * s.vv));
+  const double tame = std::min(1.0, kSteepestPlane / (z * std::max(change, 1e-300)));
+  const double pixel = z / camera.fx;  // in world units
+  const double band = kKernel.band *
+                      std::sqrt(disc.radius * disc.radius + kFilterSquare * pixel * pixel) /
+                      std::max(cosine, kKernel.steepest);
   const double inverse = 1 / s.determinant();
   Splat splat;
   splat.u = static_cast<float>(u);
@@ -94,17 +108,15 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.half_width = static_cast<float>(half_width);
   splat.half_height = static_cast<float>(half_height);
   splat.inverse_depth = static_cast<float>(1 / z);
-  splat.inverse_depth_du = static_cast<float>(n[0] / (plane * camera.fx));
-  splat.inverse_depth_dv = static_cast<float>(n[1] / (plane * camera.fy));
-  splat.nearest = static_cast<float>(1 / std::max(z - depth_extent, 0.25 * z));
-  splat.farthest = static_cast<float>(1 / (z + depth_extent));
-  splat.thickness = static_cast<float>(kThickness * disc.radius / std::max(cosine, 0.3));
-  splat.weight = static_cast<float>(std::sqrt(std::max(disc_spread.determinant() * inverse, 1e-9)));
-  // Half a pixel within the ellipse, so that its antialiased edge is inside the box.
-  const double minor = (s.uu + s.vv) / 2 - std::hypot((s.uu - s.vv) / 2, s.uv);
-  const double major = s.uu + s.vv - minor;
-  splat.softness = static_cast<float>(kSoftest * std::clamp(std::sqrt(major) / 1.5 - 1, 0.0, 1.0));
-  splat.edge = static_cast<float>(std::min(0.85, 1 - 0.5 / std::sqrt(minor)));
+  splat.inverse_depth_du = static_cast<float>(tame * du);
+  splat.inverse_depth_dv = static_cast<float>(tame * dv);
+  splat.fade = static_cast<float>(z * z / band);
+  // Area of the surface over that of the disc, times that of the disc over that of the ellipse.
+  const double share = disc.area > 0 ? disc.area / (disc.radius * disc.radius)
+                                     : 1 / (kKernel.spacing_reach * kKernel.spacing_reach);
+  splat.weight =
+      static_cast<float>(share * std::sqrt(std::max(disc_spread.determinant() * inverse, 1e-9)));
+  splat.full = full_cover(s);
   splat.point = point;
   return splat;
 }
@@ -121,16 +133,13 @@ SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, in
     for (std::size_t i = begin; i < end; ++i) {
       SplatBand band(image.coverage, image.depth, width, height, i);
       std::array<float, 3>* const colours = image.colour.data() + band.first_pixel();
-      for (const std::uint32_t s : bins[i]) band.draw_depth(splats[s]);
-      for (const std::uint32_t s : bins[i]) {
-        bool shown = false;
-        std::array<float, 3> own{};
-        band.draw_weights(splats[s], [&](std::size_t pixel, float weight) {
-          if (!shown) own = colour(splats[s].point);
-          shown = true;
-          for (std::size_t k = 0; k < 3; ++k) colours[pixel][k] += weight * own[k];
-        });
-      }
+      std::uint32_t last = ~std::uint32_t{0};
+      std::array<float, 3> own{};
+      band.draw(splats, bins[i], [&](std::uint32_t point, std::size_t pixel, float weight) {
+        if (point != last) own = colour(point);
+        last = point;
+        for (std::size_t k = 0; k < 3; ++k) colours[pixel][k] += weight * own[k];
+      });
       band.normalise([&](std::size_t pixel, float scale) {
         for (float& c : colours[pixel]) c *= scale;
       });

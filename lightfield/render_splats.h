@@ -18,6 +18,7 @@ struct Disc {
   Vec3 centre;
   Vec3 normal;  ///< unit, of either sign; 0: faces the camera
   double radius;
+  double area = 0;  ///< of the surface that it stands for; 0: as much as in a cloud of even spacing
 };
 
 /// A disc in the image: an ellipse  a x^2 + 2 b x y + c y^2 < 1  around (u, v), filtered to the
@@ -27,11 +28,9 @@ struct Splat {
   float a, b, c;                  ///< 1 / pixel^2
   float half_width, half_height;  ///< of the ellipse's box, pixels
   float inverse_depth, inverse_depth_du, inverse_depth_dv;
-  float nearest, farthest;  ///< inverse depths that the disc's own extent allows
-  float thickness;          ///< depth, world units: what lies so far behind is the same surface
-  float weight;             ///< at the centre, 1 for discs much larger than the filter
-  float softness;           ///< kernel (1 - r^2)^2 at 1, (1 - r^2)^6 at 0
-  float edge;               ///< ellipse radius at which the disc ends, < 1: the rest is filter
+  float fade;    ///< 1 / the inverse depth behind the nearest at which it no longer counts
+  float weight;  ///< at the centre: the number of such discs on a pixel times it is their density
+  float full;    ///< squared ellipse radius within which the disc covers pixels entirely
   std::uint32_t point;
 };
 
@@ -45,8 +44,8 @@ struct SplatImage {
   std::vector<float> depth;                  ///< [height][width] +inf where nothing is
 };
 
-/// Two passes: depth of the nearest discs, then the mean of all that lies within a splat's
-/// thickness of it. `colour` is called from several threads, once per band of rows that shows the
+/// Two passes: depth of the nearest discs, then the mean of what lies close behind it, spec annex
+/// E. `colour` is called from several threads, once per band of rows that shows the
 /// point. The same for any thread count.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const std::function<std::array<float, 3>(std::uint32_t point)>& colour);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "geometry/morton.h"
+#include "lightfield/reference_kernel.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -16,11 +17,8 @@ constexpr std::size_t kMeanPerCell = 4;  // points; so that a window of a few ce
 constexpr std::size_t kEnough = 12;      // neighbours for a normal
 constexpr double kFirstWindow = 1.25;    // radius in cells
 constexpr double kWindowGrowth = 1.6;
-constexpr int kMostWindows = 4;        // the last reaches 5 cells; a point alone in there is alone
-constexpr std::size_t kNearest = 6;    // neighbours that a disc should reach
-constexpr double kReach = 0.85;        // of the distance to the sixth nearest
-constexpr double kDensityReach = 1.2;  // of the mean spacing
-constexpr float kSmallest = 0.9f;      // voxels
+constexpr int kMostWindows = 4;      // the last reaches 5 cells; a point alone in there is alone
+constexpr std::size_t kNearest = 6;  // neighbours that a disc should reach
 
 /// Cubic cells of 2^k voxels, each a run of the points in Morton order.
 class CellGrid {
@@ -179,14 +177,19 @@ std::array<float, 3> normal_of(const Neighbourhood& around) {
   return smallest_eigenvector(m);
 }
 
-float radius_of(const Neighbourhood& around, double window) {
-  if (around.count == 0) return kSmallest;
-  const double spacing =
-      window * std::sqrt(std::numbers::pi / static_cast<double>(around.count + 1));
-  const double nearest = around.nearest[std::min(around.count, kNearest) - 1];
-  // At the rim of a surface the density is half: the sixth nearest keeps the disc from growing.
-  const double radius = std::min(kDensityReach * spacing, std::sqrt(nearest));
-  return std::max(kSmallest, static_cast<float>(std::max(radius, kReach * std::sqrt(nearest))));
+/// Spacing of the points around one, in voxels, and the radius of its disc. Annex E.2.
+void measure_spacing(const Neighbourhood& around, double window, float& spacing, float& radius) {
+  constexpr const ReferenceKernel& k = kReferenceKernel;
+  double even = k.smallest / k.spacing_reach, least = 0;
+  if (around.count > 0) {
+    const double nearest = std::sqrt(around.nearest[std::min(around.count, kNearest) - 1]);
+    // At the rim of a surface the density is half: the sixth nearest keeps the disc from growing.
+    even = std::min(window * std::sqrt(std::numbers::pi / static_cast<double>(around.count + 1)),
+                    nearest * k.most_reach / k.spacing_reach);
+    least = std::max(k.smallest, k.least_reach * nearest);
+  }
+  spacing = static_cast<float>(even);
+  radius = static_cast<float>(std::max(k.spacing_reach * even, least));
 }
 
 }  // namespace
@@ -195,6 +198,7 @@ Surfels estimate_surfels(std::span<const Voxel> positions, int threads) {
   Surfels surfels;
   surfels.normals.resize(positions.size());
   surfels.radii.resize(positions.size());
+  surfels.spacings.resize(positions.size());
   surfels.centroids.resize(positions.size());
   const CellGrid grid(positions);
   parallel_ranges(positions.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
@@ -210,7 +214,7 @@ Surfels estimate_surfels(std::span<const Voxel> positions, int threads) {
       for (std::size_t k = 0; k < 3; ++k)
         surfels.centroids[p][k] =
             static_cast<float>(around.sum[k] / static_cast<double>(around.count + 1));
-      surfels.radii[p] = radius_of(around, window);
+      measure_spacing(around, window, surfels.spacings[p], surfels.radii[p]);
     }
   });
   return surfels;

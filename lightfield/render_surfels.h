@@ -14,6 +14,7 @@ struct Surfels {
   std::vector<std::array<float, 3>> normals;    ///< [P] unit, of either sign; 0 where there are too
                                                 ///< few neighbours to tell
   std::vector<float> radii;                     ///< [P] in voxels
+  std::vector<float> spacings;                  ///< [P] in voxels; squared, a point's own area
   std::vector<std::array<float, 3>> centroids;  ///< [P] mean of the neighbours, from the voxel's
                                                 ///< own centre, in voxels
 };

@@ -6,22 +6,20 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <vector>
 
+#include "lightfield/reference_kernel.h"
 #include "lightfield/render_splats.h"
 
 namespace slf {
 
 constexpr int kBandRows = 16;  // of one band: worked on by one thread, small enough for its cache
-constexpr float kCore = 0.8f;  // squared ellipse radius that fixes depth in the first pass
-constexpr float kEdgeCoverage = 0.8f;  // on a disc's edge; above a half, since discs overlap and
-                                       // the greatest share counts
 
 /// Indices of the splats that touch each band, ascending.
 std::vector<std::vector<std::uint32_t>> bin_splats(const std::vector<Splat>& splats, int height);
 
-/// A band of rows. First draw_depth for all its splats, then draw_weights for all in the same
-/// order, then normalise.
+/// A band of rows: draw, then normalise.
 class SplatBand {
  public:
   /// Writes to its rows of `coverage` and `depth`, [height][width], 0 before.
@@ -33,30 +31,22 @@ class SplatBand {
         coverage_(coverage.data() + first_pixel()),
         depth_(depth.data() + first_pixel()),
         weight_(pixels(), 0),
-        nearest_(pixels(), std::numeric_limits<float>::infinity()) {}
+        nearest_(pixels(), 0),
+        open_(std::size_t(width + kBlock - 1) / kBlock, false) {}
 
   std::size_t first_pixel() const { return std::size_t(first_row_) * std::size_t(width_); }
   std::size_t pixels() const { return std::size_t(rows_) * std::size_t(width_); }
 
-  void draw_depth(const Splat& s) {
-    visit(s, kCore, [&](std::size_t pixel, float, float depth, float, float) {
-      nearest_[pixel] = std::min(nearest_[pixel], depth);
-    });
-  }
-
-  /// count(pixel of the band, weight) for the pixels that show the splat.
+  /// count(point, pixel of the band, weight) for what shows, splat by splat in the order given.
   template <class Count>
-  void draw_weights(const Splat& s, Count&& count) {
-    visit(s, 1.0f, [&](std::size_t pixel, float r2, float depth, float du, float dv) {
-      if (coverage_[pixel] < 1)
-        coverage_[pixel] = std::max(coverage_[pixel], edge_coverage(s, r2, du, dv));
-      if (depth > nearest_[pixel] + s.thickness) return;
-      const float square = (1 - r2) * (1 - r2);
-      const float weight = s.weight * square * (s.softness + (1 - s.softness) * square * square);
-      count(pixel, weight);
-      weight_[pixel] += weight;
-      depth_[pixel] += weight * depth;
-    });
+  void draw(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
+            Count&& count) {
+    for (const std::uint32_t i : shown) draw_depth(splats[i]);
+    for (const std::uint32_t i : shown)
+      draw_weights(splats[i],
+                   [&](std::size_t pixel, float weight) { count(splats[i].point, pixel, weight); });
+    cover_by_density();
+    for (const std::uint32_t i : shown) draw_cover(splats[i]);
   }
 
   /// scale(pixel of the band, what its weights must be multiplied by to have the sum 1), where
@@ -69,20 +59,83 @@ class SplatBand {
         continue;
       }
       scale(i, 1 / weight_[i]);
-      depth_[i] *= 1 / weight_[i];
+      depth_[i] = weight_[i] / depth_[i];
     }
   }
 
  private:
-  /// Share of the pixel that the disc covers: distance to its edge in pixels, to first order.
-  static float edge_coverage(const Splat& s, float r2, float du, float dv) {
-    if (r2 < 0.04f) return 1;
-    const float gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv, r = std::sqrt(r2);
-    const float inside = (s.edge - r) * r / std::sqrt(gu * gu + gv * gv);
-    return std::clamp(kEdgeCoverage + inside, 0.0f, 1.0f);
+  static constexpr int kBlock = 8;  // columns that are looked at together for pixels not covered
+
+  void draw_depth(const Splat& s) {
+    visit(s, float(kReferenceKernel.core), [&](std::size_t pixel, float, float du, float dv) {
+      nearest_[pixel] = std::max(nearest_[pixel], inverse_depth(s, du, dv));
+    });
   }
 
-  /// visitor(pixel, squared ellipse radius, depth, offset) for pixel centres with that radius below
+  template <class Count>
+  void draw_weights(const Splat& s, Count&& count) {
+    visit(s, 1.0f, [&](std::size_t pixel, float r2, float du, float dv) {
+      const float inverse = inverse_depth(s, du, dv);
+      const float nearness = 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
+      if (!(nearness > 0)) return;
+      static_assert(kReferenceKernel.exponent == 4);
+      const float kernel = (1 - r2) * (1 - r2) * nearness;
+      const float weight = s.weight * kernel * kernel;
+      count(pixel, weight);
+      weight_[pixel] += weight;
+      depth_[pixel] += weight * inverse;
+    });
+  }
+
+  void cover_by_density() {
+    // The integral of (1 - r^2)^n over the unit circle is pi / (n + 1).
+    constexpr auto kGain =
+        float(kReferenceKernel.density_gain * (kReferenceKernel.exponent + 1) / std::numbers::pi);
+    for (std::size_t i = 0; i < pixels(); ++i) {
+      if (!(weight_[i] > 0)) continue;
+      coverage_[i] =
+          std::clamp(kGain * weight_[i] - float(kReferenceKernel.density_offset), 0.0f, 1.0f);
+      if (coverage_[i] < 1) open_[i % std::size_t(width_) / kBlock] = true;
+    }
+  }
+
+  void draw_cover(const Splat& s) {
+    const int first = std::clamp(static_cast<int>(s.u - s.half_width), 0, width_ - 1) / kBlock;
+    const int last = std::clamp(static_cast<int>(s.u + s.half_width), 0, width_ - 1) / kBlock;
+    if (std::find(open_.begin() + first, open_.begin() + last + 1, true) ==
+        open_.begin() + last + 1)
+      return;
+    visit(s, 1.0f, [&](std::size_t pixel, float r2, float du, float dv) {
+      if (coverage_[pixel] < 1 && weight_[pixel] > 0)
+        coverage_[pixel] = std::max(coverage_[pixel], disc_cover(s, r2, du, dv));
+    });
+  }
+
+  static float inverse_depth(const Splat& s, float du, float dv) {
+    return s.inverse_depth + s.inverse_depth_du * du + s.inverse_depth_dv * dv;
+  }
+
+  /// Share of the pixel that the disc covers: distance to its edge in pixels, to first order.
+  static float disc_cover(const Splat& s, float r2, float du, float dv) {
+    constexpr auto kShare = float(kReferenceKernel.disc_share);
+    constexpr auto kFilterSquare =
+        float(kReferenceKernel.filter_pixels * kReferenceKernel.filter_pixels);
+    if (r2 <= s.full) return 1;
+    // In this direction the ellipse reaches sqrt(square / r2), the disc itself less by the filter.
+    const float square = du * du + dv * dv;
+    if (square < 1e-4f) {
+      const float reach2 = 1 / std::max(s.a, s.c) - kFilterSquare;
+      return std::min(1.0f, 0.5f + kShare * std::sqrt(std::max(0.0f, reach2)));
+    }
+    const float distance = std::sqrt(square);
+    const float reach = std::sqrt(std::max(0.0f, square / r2 - kFilterSquare));
+    // Across the edge: along the gradient of r^2 / 2.
+    const float gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv;
+    const float across = r2 / (distance * std::sqrt(gu * gu + gv * gv));
+    return std::clamp(0.5f + (kShare * reach - distance) * across, 0.0f, 1.0f);
+  }
+
+  /// visitor(pixel, squared ellipse radius, offset) for pixel centres with that radius below
   /// `limit`.
   template <class Visitor>
   void visit(const Splat& s, float limit, Visitor&& visitor) const {
@@ -94,24 +147,22 @@ class SplatBand {
     for (int row = top; row <= bottom; ++row) {
       const float dv = static_cast<float>(row) + 0.5f - s.v;
       const float row_square = s.c * dv * dv, row_mixed = 2 * s.b * dv;
-      const float row_inverse = s.inverse_depth + s.inverse_depth_dv * dv;
       const std::size_t start = std::size_t(row - first_row_) * std::size_t(width_);
       for (int column = first; column <= last; ++column) {
         const float du = static_cast<float>(column) + 0.5f - s.u;
         const float r2 = du * (s.a * du + row_mixed) + row_square;
         if (r2 >= limit) continue;
-        const float inverse = row_inverse + s.inverse_depth_du * du;
-        visitor(start + std::size_t(column), r2,
-                1 / std::min(std::max(inverse, s.farthest), s.nearest), du, dv);
+        visitor(start + std::size_t(column), r2, du, dv);
       }
     }
   }
 
   int width_, first_row_, rows_;
   float* coverage_;
-  float* depth_;
+  float* depth_;  // sum of weighted inverse depths until normalise()
   std::vector<float> weight_;
-  std::vector<float> nearest_;
+  std::vector<float> nearest_;  // greatest inverse depth
+  std::vector<bool> open_;      // [blocks of columns] has a pixel that is not wholly covered
 };
 
 }  // namespace slf

@@ -51,12 +51,10 @@ SplatWeights splat_weights(const std::vector<Splat>& splats, int width, int heig
       std::vector<std::uint32_t> count(band.pixels());
       std::vector<float> scale(band.pixels());
       entries.clear();
-      for (const std::uint32_t s : bins[i]) band.draw_depth(splats[s]);
-      for (const std::uint32_t s : bins[i])
-        band.draw_weights(splats[s], [&](std::size_t pixel, float weight) {
-          entries.push_back({static_cast<std::uint32_t>(pixel), splats[s].point, weight});
-          ++count[pixel];
-        });
+      band.draw(splats, bins[i], [&](std::uint32_t point, std::size_t pixel, float weight) {
+        entries.push_back({static_cast<std::uint32_t>(pixel), point, weight});
+        ++count[pixel];
+      });
       band.normalise([&](std::size_t pixel, float factor) { scale[pixel] = factor; });
       bands[i] = sort_by_pixel(entries, std::move(count), scale);
     }

@@ -20,6 +20,7 @@ SurfelCloud surfel_cloud(const Grid& grid, std::span<const Voxel> positions,
   cloud.normals = std::move(surfels.normals);
   cloud.radii = std::move(surfels.radii);
   cloud.centres.resize(positions.size());
+  cloud.areas.resize(positions.size());
   const bool has_coded = coded.bits > 0 && coded.octahedral.size() == positions.size();
   const auto step = static_cast<float>(grid.step);
   for (std::size_t p = 0; p < positions.size(); ++p) {
@@ -30,6 +31,7 @@ SurfelCloud surfel_cloud(const Grid& grid, std::span<const Voxel> positions,
     }
     if (radius_voxels > 0) cloud.radii[p] = static_cast<float>(radius_voxels);
     cloud.radii[p] *= step;
+    cloud.areas[p] = surfels.spacings[p] * surfels.spacings[p] * step * step;
     // Along the normal onto the neighbours' plane: takes the voxels' staircase away.
     const auto& c = surfels.centroids[p];
     const float shift =
@@ -49,7 +51,7 @@ std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camer
     part.reserve(end - begin);
     for (std::size_t p = begin; p < end; ++p) {
       const auto& n = cloud.normals[p];
-      const Disc disc{cloud.centres[p], {n[0], n[1], n[2]}, cloud.radii[p]};
+      const Disc disc{cloud.centres[p], {n[0], n[1], n[2]}, cloud.radii[p], cloud.areas[p]};
       if (const auto splat = project_disc(camera, disc, static_cast<std::uint32_t>(p)))
         part.push_back(*splat);
     }

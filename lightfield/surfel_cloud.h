@@ -16,6 +16,7 @@ struct SurfelCloud {
   std::vector<Vec3> centres;                  ///< [P] world
   std::vector<std::array<float, 3>> normals;  ///< [P] unit, of either sign; 0: faces the camera
   std::vector<float> radii;                   ///< [P] world units
+  std::vector<float> areas;                   ///< [P] of the surface that each stands for
 
   std::size_t size() const { return centres.size(); }
 };
