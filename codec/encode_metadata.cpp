@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "lightfield/reference_kernel.h"
+
 namespace slf {
 namespace {
 
@@ -106,6 +108,10 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
                     });
     const Metadata fit = fit_metadata(encoded.fit);
     metadata.insert(metadata.end(), fit.begin(), fit.end());
+    if (encoded.fit.settings.pictures.rounds > 0) {
+      metadata.emplace_back("picture_pull", text(encoded.pictures.pull));
+      metadata.emplace_back("kernel", std::to_string(kReferenceKernel.version));
+    }
   }
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;

@@ -95,7 +95,7 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
     const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
     SLF_TRY(fit.pictures, fit_to_pictures({capture, cameras, cloud.grid, cloud.positions, normals,
                                            settings.observe.transfer, gamma_range},
-                                          chosen, fit.coefficients, progress));
+                                          chosen, settings.search.pictures, fit.coefficients, progress));
     fit.seconds_pictures = watch.lap();
   }
   return fit;

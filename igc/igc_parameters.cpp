@@ -131,6 +131,7 @@ void settings_lines(V& v, P& s) {
   choice(v, "search_block_strength", slf.search.strength, 1);
   choice(v, "search_block_growth", slf.search.growth, 1);
   choice(v, "search_point_penalty", slf.search.point_penalty, 1);
+  choice(v, "search_pictures", slf.search.pictures, 1);
   v.whole("order", slf.fit.basis.order, 1, 4);
   v.whole("scales_theta", slf.fit.basis.scales_theta, 0, 6);
   v.whole("scales_gamma", slf.fit.basis.scales_gamma, 0, 6);

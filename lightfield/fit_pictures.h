@@ -25,11 +25,13 @@ struct PictureFitInput {
 /// photographs, with a pull to where they started (picture_system.h). Rays along the surface count
 /// as any other; pixels that are far off count little, and again so after every round.
 /// @param coefficients  [P][K][3], in R, G, B
+/// @param search  whether held-out cameras choose the pull (FitSearch::pictures), of 8 cameras or
+/// more
 /// @param settings  its basis and frame are those of the coefficients
 /// @errors those of load_image
 /// The same for any thread count. O(rays x cameras of a point) and O(pixels) a step.
 Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
-                                               const FitSettings& settings,
+                                               const FitSettings& settings, bool search,
                                                std::vector<float>& coefficients,
                                                const Progress& progress = {});
 

@@ -141,7 +141,7 @@ void PictureSystem::add(const Vector& z, std::span<float> coefficients) const {
     }
     for (std::size_t i = 0; i < sum.size(); ++i)
       coefficients[3 * size * p + i] +=
-          sum[i] / static_cast<float>(penalty_[i / 3] * rows_.norms()[i / 3]);
+          sum[i] / (pull_ * static_cast<float>(penalty_[i / 3] * rows_.norms()[i / 3]));
   });
 }
 
@@ -262,6 +262,7 @@ void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
                         Colour4 sum{};
                         for (std::size_t j = 0; j < m; ++j)
                           add_scaled(kernel[i * m + j], x[from + j], sum);
+                        for (float& c : sum) c /= pull_;
                         out[from + i] = sum;
                       }
                     }

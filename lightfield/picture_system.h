@@ -46,6 +46,9 @@ class PictureSystem {
   PictureSystem(const Grid& grid, std::span<const Voxel> positions, const FitSettings& settings,
                 std::array<float, 2> gamma_range, PictureViews& pictures, std::vector<Vec3> eyes);
 
+  /// Multiplies all penalties, 1 at first.
+  void set_pull(double pull) { pull_ = static_cast<float>(pull); }
+
   /// B c: colours along the rays, not clamped.
   Vector colours(std::span<const float> coefficients) const;
   /// c += P^-1 B^T z.
@@ -79,6 +82,7 @@ class PictureSystem {
   int threads_;
   DirectionRows rows_;
   std::vector<double> penalty_;  // [K]
+  float pull_ = 1;
   DirectionKernel kernel_;
   std::vector<std::array<float, 3>> normals_;  // of the frame
 };

@@ -147,7 +147,7 @@ TEST_P(PictureFitTest, ReachesTheMinimumOfItsDefinition) {
   const FitSettings settings = settings_of(GetParam().basis, GetParam().frame);
   const auto functions = static_cast<std::size_t>(settings.basis.num_functions());
   auto coefficients = grey(scene, functions);
-  const auto report = fit_to_pictures(scene.input(), settings, coefficients);
+  const auto report = fit_to_pictures(scene.input(), settings, false, coefficients);
   ASSERT_TRUE(report);
   EXPECT_GT(report->psnr_after, report->psnr_before);
   const Matrix expected = dense_solution(scene, settings, GetParam().fineness);
@@ -172,9 +172,9 @@ TEST(PictureFit, IsTheSameForAnyThreadCount) {
   settings.pictures.rounds = 2;
   settings.pictures.steps = 5;
   auto one = grey(scene, 16), four = one;
-  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, one));
+  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, one));
   settings.threads = 4;
-  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, four));
+  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, four));
   EXPECT_EQ(one, four);
 }
 
@@ -183,11 +183,11 @@ TEST(PictureFit, APixelFarOffTheOthersHardlyCounts) {
   FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, FrameId::kGlobal);
   settings.pictures.outlier = 20;
   auto clean = grey(scene, 4), spoilt = clean;
-  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, clean));
+  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, clean));
   for (int x = 5; x < 8; ++x)  // another object in front
     for (std::size_t c = 0; c < 3; ++c)
       scene.capture.images[1].data[3 * (6 * 12 + std::size_t(x)) + c] = 0;
-  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, spoilt));
+  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, spoilt));
   double most = 0;
   for (std::size_t i = 0; i < clean.size(); i += 12)
     most = std::max(most, std::abs(double(clean[i]) - double(spoilt[i])));
@@ -200,7 +200,7 @@ TEST(PictureFit, PointsThatNoPictureShowsStayWhatTheyAre) {
   for (Voxel v : {Voxel{0, 0, 15}, Voxel{15, 15, 15}}) scene.positions.push_back(v);
   const FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, FrameId::kGlobal);
   auto coefficients = grey(scene, 4);
-  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, coefficients));
+  ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, coefficients));
   EXPECT_EQ(coefficients[coefficients.size() - 12], 125);
 }
 

@@ -264,7 +264,7 @@ FitSearch search_of(const EncodeOptions& given, FitMethod method, FitSearch of_p
   if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
   const bool basis = given.basis_given ? !given.basis : of_preset.basis && !given.degree;
   return {!given.block_strength, !given.block_growth, !given.point_penalty, !given.frame, basis,
-          of_preset.points};
+          of_preset.points, of_preset.pictures};
 }
 
 /// Each fit has a basis and a frame of its own. Options that only the paper's has choose it.

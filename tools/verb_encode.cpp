@@ -27,7 +27,10 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
   json["pictures"] = nullptr;
   if (e.fit.settings.pictures.rounds > 0)
     json["pictures"] = {{"psnr_before", e.pictures.psnr_before},
-                        {"psnr_after", e.pictures.psnr_after}};
+                        {"psnr_after", e.pictures.psnr_after},
+                        {"pull", e.pictures.pull},
+                        {"held_out_before", e.pictures.held_out_before},
+                        {"held_out_after", e.pictures.held_out_after}};
   json["seconds"] = {{"load", load},
                      {"voxelise", e.seconds_voxelise},
                      {"observe", e.seconds_observe},

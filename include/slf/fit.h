@@ -89,9 +89,12 @@ struct PictureFitSettings {
   double outlier = 80;      ///< > 0: a pixel so many grey levels off counts a quarter
 };
 
-/// PSNR of the input pictures where points alone make them, dB; 0 without a picture fit.
+/// What a picture fit did. PSNR of input pictures where points alone make them, dB.
 struct PictureFit {
   double psnr_before = 0, psnr_after = 0;
+  double pull = 0;  ///< on the penalties; 0: no picture fit, or held-out cameras did not gain by it
+  /// Of cameras held out from this fit, where its pull was searched: without and with it.
+  double held_out_before = 0, held_out_after = 0;
 };
 
 struct FitSettings {
@@ -145,10 +148,18 @@ struct FitSearch {
   bool frame = true;           ///< reflected or global
   bool basis = false;          ///< harmonics, or as many B-splines, to a power of two
   std::size_t points = 12000;  ///< > 0: of the sample, whole blocks
+  /// The fit to pictures: its penalties, eight times as much, or none, by the pictures of cameras
+  /// that are held out from it
+  bool pictures = true;
 
+  /// Something for choose_fit to do; pictures are not its.
   bool any() const { return frame || basis || strength || growth || point_penalty; }
   static FitSearch none() {
-    return {.strength = false, .growth = false, .point_penalty = false, .frame = false};
+    return {.strength = false,
+            .growth = false,
+            .point_penalty = false,
+            .frame = false,
+            .pictures = false};
   }
 };
 
