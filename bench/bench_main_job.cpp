@@ -2,7 +2,7 @@
 // [GRID_BITS [SPLIT]]
 //
 // Times: encode once per row on all cores, decode and render as medians of five; decode on one
-// thread.
+// thread. PSNR of pictures on held-out and input cameras, then (p.) of points.
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -49,18 +49,18 @@ Result<Done, InputError> print_row(const Job& job, Preset preset, int bits, doub
   const Renderer renderer(maps);
   const double render_seconds =
       bench::median_seconds(5, [&] { (void)renderer.render(renderer.orbit(0.1, 20, 800, 800)); });
-  EvaluateSettings evaluation;
-  evaluation.images = false;
-  SLF_TRY(const Quality seen, evaluate(maps, job.capture, job.input, evaluation));
-  SLF_TRY(const Quality unseen, evaluate(maps, job.capture, job.held_out, evaluation));
+  SLF_TRY(const Quality seen, evaluate(maps, job.capture, job.input, {}));
+  SLF_TRY(const Quality unseen, evaluate(maps, job.capture, job.held_out, {}));
   const double encode_seconds = encoded.seconds_voxelise + encoded.seconds_observe +
                                 encoded.seconds_choose + encoded.seconds_fit +
                                 encoded.seconds_pictures + encoded.seconds_code;
-  std::printf("%-8s %4g %9zu %7.2f %7.2f | %6.2f %6.2f %6.2f %6.2f | %7.3f %7.3f | %5.2f\n",
-              preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(),
-              seen.points[0].psnr, unseen.points[0].psnr, encode_seconds, encoded.seconds_observe,
-              encoded.seconds_fit, encoded.seconds_code, decode_seconds, render_seconds,
-              peak_gib());
+  std::printf(
+      "%-8s %4g %9zu %7.2f %7.2f %7.2f %7.2f | %6.2f %6.2f %6.2f %6.2f %6.2f | %7.3f %7.3f | "
+      "%5.2f\n",
+      preset == Preset::kPaper ? "paper" : "default", q, encoded.stream.size(), unseen.image.psnr,
+      seen.image.psnr, unseen.points[0].psnr, seen.points[0].psnr, encode_seconds,
+      encoded.seconds_observe, encoded.seconds_fit, encoded.seconds_pictures, encoded.seconds_code,
+      decode_seconds, render_seconds, peak_gib());
   std::fflush(stdout);
   return Done{};
 }
@@ -80,8 +80,9 @@ int main(int argc, char** argv) {
   }
   std::printf("%s, %zu input and %zu held-out cameras, %d bits\n", argv[1], job->input.size(),
               job->held_out.size(), bits);
-  std::printf("%-8s %4s %9s %7s %7s | %6s %6s %6s %6s | %7s %7s | %5s\n", "preset", "Q", "bytes",
-              "input", "held", "encode", "obs", "fit", "code", "decode1", "render", "GiB");
+  std::printf("%-8s %4s %9s %7s %7s %7s %7s | %6s %6s %6s %6s %6s | %7s %7s | %5s\n", "preset", "Q",
+              "bytes", "held", "input", "p.held", "p.input", "encode", "obs", "fit", "pics", "code",
+              "decode1", "render", "GiB");
   for (const Preset preset : {Preset::kDefault, Preset::kPaper})
     for (const double q : {8.0, 16.0, 32.0})
       if (const auto done = print_row(*job, preset, bits, q); !done) {

@@ -18,7 +18,8 @@ std::string decimals(double value) {
   return buffer;
 }
 
-/// Point PSNR of the input images in what a decoder gets, dB.
+/// PSNR of the input images in what a decoder gets, dB: of pictures or of points, whatever the fit
+/// is to.
 Result<double, InputError> input_psnr(std::span<const std::uint8_t> stream, const Capture& capture,
                                       std::span<const int> cameras,
                                       const EncoderSettings& settings) {
@@ -28,10 +29,10 @@ Result<double, InputError> input_psnr(std::span<const std::uint8_t> stream, cons
   if (!decoded) return InputError{decoded.error().code, "target PSNR: the file does not decode"};
   EvaluateSettings evaluation;
   evaluation.deltas_degrees = {settings.observe.delta_degrees};
-  evaluation.images = false;
+  evaluation.images = settings.fit.pictures.rounds > 0;
   evaluation.threads = settings.threads;
   SLF_TRY(const Quality quality, evaluate(ViewMaps(*decoded), capture, cameras, evaluation));
-  return quality.points[0].psnr;
+  return evaluation.images ? quality.image.psnr : quality.points[0].psnr;
 }
 
 }  // namespace

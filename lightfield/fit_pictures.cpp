@@ -41,8 +41,8 @@ std::vector<Vec3> towards(const std::vector<Vec3>& eyes, const SurfelCloud& clou
   return directions;
 }
 
-/// The first pull with which the pictures of cameras held out from the fit gain, of two that do the
-/// better one; 0 where none does. What it starts from knows them, so this errs to the safe side.
+/// The first pull with which the pictures of cameras held out from the fit gain; 0 where none does.
+/// What it starts from knows them, so this errs to the safe side.
 void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, const Which& held_out,
                  PictureFit& fit) {
   fit.held_out_before = psnr(system.errors(colours), held_out);
@@ -55,9 +55,10 @@ void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, co
     PictureSystem::Vector z(colours.size());
     system.improve(kept, kTriedSteps, tried, z);
     const double gained = psnr(system.errors(tried), held_out);
-    if (!(gained > fit.held_out_after)) continue;
+    if (!(gained > fit.held_out_before)) continue;
     fit.held_out_after = gained;
     fit.pull = pull;
+    return;
   }
 }
 

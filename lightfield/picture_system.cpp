@@ -243,7 +243,6 @@ void PictureSystem::add_pictures(const std::vector<bool>& used, const Vector& x,
 void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
   parallel_ranges(positions_.size(), kPointsPerRange, threads_,
                   [&](std::size_t begin, std::size_t end) {
-                    std::vector<float> kernel;
                     std::vector<std::array<float, 3>> world;
                     std::vector<std::array<float, 2>> in_frame;
                     for (std::size_t p = begin; p < end; ++p) {
@@ -256,15 +255,10 @@ void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
                         world.push_back({float(d[0]), float(d[1]), float(d[2])});
                         if (kernel_.needs_frame()) in_frame.push_back(direction(p, r));
                       }
-                      kernel_.matrix(world, in_frame, kernel);
-                      const std::size_t m = to - from;
-                      for (std::size_t i = 0; i < m; ++i) {
-                        Colour4 sum{};
-                        for (std::size_t j = 0; j < m; ++j)
-                          add_scaled(kernel[i * m + j], x[from + j], sum);
-                        for (float& c : sum) c /= pull_;
-                        out[from + i] = sum;
-                      }
+                      kernel_.apply(world, in_frame, std::span(x).subspan(from, to - from),
+                                    std::span(out).subspan(from, to - from));
+                      for (std::size_t r = from; r < to; ++r)
+                        for (float& c : out[r]) c /= pull_;
                     }
                   });
 }

@@ -6,15 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "lightfield/direction_kernel.h"
 #include "lightfield/surfel_cloud.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"
 
 namespace slf {
-
-/// R, G, B of whatever is summed, and a fourth that makes it a vector of the machine.
-using Colour4 = std::array<float, 4>;
 
 /// One photograph.
 struct PictureView {

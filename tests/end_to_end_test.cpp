@@ -47,13 +47,11 @@ class EndToEnd : public testing::Test {
     return encode(capture_, *split_cameras(capture_, "sparse"), settings);
   }
 
-  static double psnr(const Encoded& e, const char* split) {
-    const auto field = decode(e.stream);
+  /// Of pictures.
+  static double psnr(const Encoded& e, const char* split, const DecodeOptions& options = {}) {
+    const auto field = decode(e.stream, options);
     EXPECT_TRUE(field);
-    const ViewMaps maps(*field);
-    EvaluateSettings settings;
-    settings.images = false;
-    return evaluate(maps, capture_, *split_cameras(capture_, split), settings)->points[0].psnr;
+    return evaluate(ViewMaps(*field), capture_, *split_cameras(capture_, split), {})->image.psnr;
   }
 
   static inline std::filesystem::path root_;
@@ -66,6 +64,25 @@ TEST_F(EndToEnd, QualityAndBytesStayWhereTheyWereMeasured) {
   EXPECT_GT(psnr(e, "dense"), 27.9);
   EXPECT_GT(psnr(e, "evaluation"), 26.8);
   EXPECT_LT(e.stream.size(), 24000u);
+}
+
+TEST_F(EndToEnd, AFitToPicturesGivesBetterPicturesBetweenTheCamerasToo) {
+  EncoderSettings settings = settings_of(Preset::kDefault, 4);
+  settings.grid_bits = 7;
+  const auto cameras = *split_cameras(capture_, "");
+  const auto pictures = encode(capture_, cameras, settings);
+  settings.fit.pictures.rounds = 0;
+  const auto points = encode(capture_, cameras, settings);
+  ASSERT_TRUE(pictures && points);
+  EXPECT_GT(psnr(*pictures, "evaluation"), psnr(*points, "evaluation") + 1);
+  EXPECT_GT(pictures->pictures.psnr_after, pictures->pictures.psnr_before + 1);
+  EXPECT_EQ(points->pictures.pull, 0);
+}
+
+TEST_F(EndToEnd, HeldOutCamerasDecideHowFarPicturesPull) {
+  const Encoded e = encoded(Preset::kDefault);
+  EXPECT_GT(e.pictures.pull, 0);
+  EXPECT_GT(e.pictures.held_out_after, e.pictures.held_out_before);
 }
 
 TEST_F(EndToEnd, TheFreeDcIsBetterBetweenTheCamerasAtFewerBytes) {
@@ -134,11 +151,7 @@ TEST_F(EndToEnd, MoreBytesOfAFileAreNeverWorse) {
   for (const int groups : {1, 2, 4}) {
     DecodeOptions options;
     options.groups = groups;
-    const ViewMaps maps(*decode(e.stream, options));
-    EvaluateSettings settings;
-    settings.images = false;
-    const double now =
-        evaluate(maps, capture_, *split_cameras(capture_, "dense"), settings)->points[0].psnr;
+    const double now = psnr(e, "dense", options);
     EXPECT_GT(now, last) << groups << " groups";
     last = now;
   }

@@ -162,7 +162,8 @@ void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings&
                  ->check(whole_range(1, 1LL << 40))
                  ->excludes(q));
   coding(verb.add_option("--target-psnr", o.target_psnr,
-                         "Find the Q that gives the input images' point PSNR, up to 0.05 dB more")
+                         "Find the Q that gives the input images' PSNR, up to 0.05 dB more: of "
+                         "pictures, or of points with --fit-to points")
              ->check(range(1, 100))
              ->excludes(q)
              ->excludes(bytes));
@@ -264,7 +265,7 @@ FitSearch search_of(const EncodeOptions& given, FitMethod method, FitSearch of_p
   if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
   const bool basis = given.basis_given ? !given.basis : of_preset.basis && !given.degree;
   return {!given.block_strength, !given.block_growth, !given.point_penalty, !given.frame, basis,
-          of_preset.points, of_preset.pictures};
+          of_preset.points,      of_preset.pictures};
 }
 
 /// Each fit has a basis and a frame of its own. Options that only the paper's has choose it.

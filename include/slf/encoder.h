@@ -86,8 +86,10 @@ struct EncoderSettings {
   FitSearch search;                ///< changes fit; not without cameras
   double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
   std::uint64_t target_bytes = 0;  ///< > 0: of the file, in place of q, which is the first guess
-  double target_psnr = 0;          ///< > 0: point PSNR of the input images, dB, in place of q
-  bool steps_by_norm = true;       ///< step_k = Q / (2 ||b_k||); false: Q for every plane
+  /// > 0: PSNR of the input images, dB, in place of q: of pictures with a picture fit, else of
+  /// points
+  double target_psnr = 0;
+  bool steps_by_norm = true;  ///< step_k = Q / (2 ||b_k||); false: Q for every plane
   ColourTransform colour = ColourTransform::kOpponent;
   TransformMode transform = TransformMode::kFunctions;  ///< none where coefficients is kTexture
   double chroma_step = 1;  ///< 0.1 .. 10: channels 1 and 2 have steps this much larger
