@@ -1,6 +1,7 @@
 #include "lightfield/render_surfels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -17,13 +18,14 @@ constexpr std::size_t kMeanPerCell = 4;  // points; so that a window of a few ce
 constexpr std::size_t kEnough = 12;      // neighbours for a normal
 constexpr double kFirstWindow = 1.25;    // radius in cells
 constexpr double kWindowGrowth = 1.6;
-constexpr int kMostWindows = 4;      // the last reaches 5 cells; a point alone in there is alone
+constexpr double kLastWindow = 5.2;  // cells; a point alone in there is alone
 constexpr std::size_t kNearest = 6;  // neighbours that a disc should reach
 
-/// Cubic cells of 2^k voxels, each a run of the points in Morton order.
-class CellGrid {
+/// Points in Morton order, so that every cubic cell of 2^k voxels is a run of them, and how large a
+/// cell must be around each point to hold a few. Density may differ by any factor across a cloud.
+class CellTree {
  public:
-  explicit CellGrid(std::span<const Voxel> positions) : positions_(positions) {
+  explicit CellTree(std::span<const Voxel> positions) : positions_(positions) {
     std::vector<std::uint64_t> codes(positions.size());
     std::transform(positions.begin(), positions.end(), codes.begin(), morton);
     order_.resize(positions.size());
@@ -31,81 +33,116 @@ class CellGrid {
     if (!std::is_sorted(codes.begin(), codes.end()))
       std::stable_sort(order_.begin(), order_.end(),
                        [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
-    while (cell_log2_ < 20 && count_cells(codes) * kMeanPerCell > positions.size()) ++cell_log2_;
-    build_table(codes);
+    codes_.reserve(codes.size());
+    for (const std::uint32_t p : order_) codes_.push_back(codes[p]);
+    cell_log2_.resize(positions.size());
+    if (!codes_.empty()) choose_cells(0, codes_.size(), kRootLevel, -kHysteresis);
   }
 
-  double cell_size() const { return static_cast<double>(std::int64_t{1} << cell_log2_); }
+  std::size_t size() const { return order_.size(); }
+  /// The point at place i of the Morton order.
+  std::uint32_t point(std::size_t i) const { return order_[i]; }
+  double cell_size(std::size_t i) const { return std::ldexp(1.0, cell_log2_[i]); }
 
-  /// visit(offset, squared distance) for the other points within `radius` of point p.
+  /// Of the cloud as a whole.
+  double common_cell_size() const { return std::ldexp(1.0, common_log2_); }
+
+  /// visit(offset, squared distance, how many points it stands for) for the other points within
+  /// `radius` of the one at place i. A cell of very many is sampled evenly, so that the work is
+  /// bounded whatever the cloud.
   template <class Visit>
-  void visit_ball(std::size_t p, double radius, Visit&& visit) const {
-    const Voxel& centre = positions_[p];
+  void visit_ball(std::size_t i, double radius, Visit&& visit) const {
+    const Voxel& centre = positions_[order_[i]];
     const auto reach = static_cast<std::int32_t>(std::min(radius, 4e6));
-    const double square = radius * radius;
+    const int level =
+        std::clamp(static_cast<int>(std::ceil(std::log2(radius / kFirstWindow))), 0, kRootLevel);
     Voxel low, high;
     for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::max(0, centre[k] - reach) >> cell_log2_;
-      high[k] = std::min((1 << 21) - 1, centre[k] + reach) >> cell_log2_;
+      low[k] = std::max(0, centre[k] - reach) >> level;
+      high[k] = std::min((1 << kRootLevel) - 1, centre[k] + reach) >> level;
     }
     for (std::int32_t z = low[2]; z <= high[2]; ++z)
       for (std::int32_t y = low[1]; y <= high[1]; ++y)
         for (std::int32_t x = low[0]; x <= high[0]; ++x) {
-          const auto [begin, end] = run(morton({x, y, z}));
-          for (std::uint32_t i = begin; i < end; ++i) {
-            const Voxel& other = positions_[order_[i]];
+          const std::uint64_t cell = morton({x, y, z});
+          const std::size_t begin = find(i, cell << 3 * level);
+          std::size_t end = begin;  // mostly a few points on
+          while (end < begin + 8 && end < size() && codes_[end] >> 3 * level == cell) ++end;
+          if (end == begin + 8) end = find(end, (cell + 1) << 3 * level);
+          const std::size_t stride = (end - begin) / kMostPerCell + 1;
+          for (std::size_t j = begin; j < end; j += stride) {
+            const Voxel& other = positions_[order_[j]];
             const std::array<double, 3> offset{double(other[0] - centre[0]),
                                                double(other[1] - centre[1]),
                                                double(other[2] - centre[2])};
             const double d2 = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-            if (d2 <= square && d2 > 0) visit(offset, d2);
+            if (d2 <= radius * radius && d2 > 0) visit(offset, d2, std::min(stride, end - j));
           }
         }
   }
 
  private:
-  struct Cell {
-    std::uint64_t code = ~std::uint64_t{0};
-    std::uint32_t begin = 0, end = 0;
-  };
+  static constexpr int kRootLevel = 21;
+  static constexpr std::size_t kMeasured = 512;  // points of a node whose density is measured
+  static constexpr int kHysteresis = 2;  // levels; what differs less has the cells around it
+  static constexpr std::size_t kMostPerCell = 256;
 
-  std::uint64_t cell_of(std::uint64_t code) const { return code >> 3 * cell_log2_; }
-
-  std::size_t count_cells(const std::vector<std::uint64_t>& codes) const {
-    std::size_t cells = 0;
-    for (std::size_t i = 0; i < order_.size(); ++i)
-      cells += i == 0 || cell_of(codes[order_[i]]) != cell_of(codes[order_[i - 1]]);
-    return cells;
-  }
-
-  void build_table(const std::vector<std::uint64_t>& codes) {
-    std::size_t size = 16;  // open addressing, at most half full
-    while (size < 2 * count_cells(codes)) size *= 2;
-    table_.resize(size);
-    for (std::uint32_t i = 0, end; i < order_.size(); i = end) {
-      const std::uint64_t code = cell_of(codes[order_[i]]);
-      for (end = i + 1; end < order_.size() && cell_of(codes[order_[end]]) == code;) ++end;
-      table_[slot_of(code)] = {code, i, end};
+  /// Cells of the points at places begin .. end - 1, a node of 2^level voxels; `around` is what the
+  /// node above takes.
+  void choose_cells(std::size_t begin, std::size_t end, int level, int around) {
+    int own = around;
+    if (end - begin >= kMeasured || level == kRootLevel) {
+      std::array<std::size_t, kRootLevel + 1> parted{};  // neighbours in order, by parting level
+      for (std::size_t i = begin + 1; i < end; ++i) ++parted[parting_level(i)];
+      std::size_t cells = end - begin - parted[0];  // of two voxels
+      for (own = 1; own < kRootLevel - 1 && cells * kMeanPerCell > end - begin; ++own)
+        cells -= parted[std::size_t(own)];
+      if (std::abs(own - around) < kHysteresis) own = around;
+    }
+    if (level == kRootLevel) common_log2_ = own;
+    if (end - begin < kMeasured || level == 0) {
+      std::fill(cell_log2_.begin() + std::ptrdiff_t(begin),
+                cell_log2_.begin() + std::ptrdiff_t(end), static_cast<std::uint8_t>(own));
+      return;
+    }
+    for (std::size_t i = begin, next; i < end; i = next) {
+      for (next = i + 1; next < end && parting_level(next) + 1 < std::size_t(level);) ++next;
+      choose_cells(i, next, level - 1, own);
     }
   }
 
-  std::size_t slot_of(std::uint64_t code) const {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t slot = (code * 0x9E3779B97F4A7C15u >> 32) & mask;
-    while (table_[slot].code != code && table_[slot].code != ~std::uint64_t{0})
-      slot = (slot + 1) & mask;
-    return slot;
+  /// The greatest k for which the points at places i - 1 and i are in different cells of 2^k
+  /// voxels.
+  std::size_t parting_level(std::size_t i) const {
+    const std::uint64_t differ = codes_[i] ^ codes_[i - 1];
+    return differ == 0 ? 0 : std::size_t(std::bit_width(differ) - 1) / 3;
   }
 
-  std::array<std::uint32_t, 2> run(std::uint64_t code) const {
-    const Cell& cell = table_[slot_of(code)];
-    return {cell.begin, cell.end};  // an empty slot is an empty run
+  /// The first place whose code is at least `code`; quick where that is near place `from`.
+  std::size_t find(std::size_t from, std::uint64_t code) const {
+    std::size_t low = from, high = from, step = 16;
+    if (from < size() && codes_[from] < code) {
+      for (; high < size() && codes_[high] < code; step *= 2) {
+        low = high;
+        high += step;
+      }
+      high = std::min(high, size());
+    } else {
+      for (; low > 0 && codes_[low - 1] >= code; step *= 2) {
+        high = low;
+        low -= std::min(low, step);
+      }
+    }
+    return std::size_t(std::lower_bound(codes_.begin() + std::ptrdiff_t(low),
+                                        codes_.begin() + std::ptrdiff_t(high), code) -
+                       codes_.begin());
   }
 
   std::span<const Voxel> positions_;
-  std::vector<std::uint32_t> order_;  // Morton order
-  std::vector<Cell> table_;
-  int cell_log2_ = 1;
+  std::vector<std::uint32_t> order_;     // Morton order
+  std::vector<std::uint64_t> codes_;     // of the points in that order
+  std::vector<std::uint8_t> cell_log2_;  // the same
+  int common_log2_ = 1;
 };
 
 /// What is around one point.
@@ -117,15 +154,16 @@ struct Neighbourhood {
 
   Neighbourhood() { nearest.fill(INFINITY); }
 
-  void add(const std::array<double, 3>& d, double d2) {
-    ++count;
+  void add(const std::array<double, 3>& d, double d2, std::size_t times) {
+    count += times;
+    const double n = static_cast<double>(times);
     for (std::size_t k = 0; k < 3; ++k) {
-      sum[k] += d[k];
-      products[k] += d[k] * d[k];
+      sum[k] += n * d[k];
+      products[k] += n * d[k] * d[k];
     }
-    products[3] += d[0] * d[1];
-    products[4] += d[0] * d[2];
-    products[5] += d[1] * d[2];
+    products[3] += n * d[0] * d[1];
+    products[4] += n * d[0] * d[2];
+    products[5] += n * d[1] * d[2];
     if (d2 >= nearest.back()) return;
     std::size_t at = kNearest - 1;
     for (; at > 0 && nearest[at - 1] > d2; --at) nearest[at] = nearest[at - 1];
@@ -200,16 +238,20 @@ Surfels estimate_surfels(std::span<const Voxel> positions, int threads) {
   surfels.radii.resize(positions.size());
   surfels.spacings.resize(positions.size());
   surfels.centroids.resize(positions.size());
-  const CellGrid grid(positions);
+  const CellTree tree(positions);
   parallel_ranges(positions.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      double window = kFirstWindow * grid.cell_size();
+    for (std::size_t i = begin; i < end; ++i) {
+      const double last = kLastWindow * std::max(tree.cell_size(i), tree.common_cell_size());
+      double window = kFirstWindow * tree.cell_size(i);
       Neighbourhood around;
-      for (int i = 0; i < kMostWindows; ++i, window *= kWindowGrowth) {
+      for (;; window *= kWindowGrowth) {
         around = Neighbourhood();
-        grid.visit_ball(p, window, [&](const auto& offset, double d2) { around.add(offset, d2); });
-        if (around.count >= kEnough || i + 1 == kMostWindows) break;
+        tree.visit_ball(i, window, [&](const auto& offset, double d2, std::size_t times) {
+          around.add(offset, d2, times);
+        });
+        if (around.count >= kEnough || window * kWindowGrowth > last) break;
       }
+      const std::uint32_t p = tree.point(i);
       surfels.normals[p] = normal_of(around);
       for (std::size_t k = 0; k < 3; ++k)
         surfels.centroids[p][k] =

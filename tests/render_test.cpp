@@ -81,6 +81,28 @@ TEST(SurfelTest, RadiusFollowsTheSpacingOfASparseCloud) {
   }
 }
 
+TEST(SurfelTest, ADenseClusterBesideScatteredPointsHasItsOwnScale) {
+  // As many points in a solid cube as in a lattice 1,000 times coarser: with one cell size for both
+  // every point of the cube would look at the whole cube, 10^11 pairs, which no test outlasts.
+  std::vector<Voxel> voxels;
+  for (int z = 0; z < 64; ++z)
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        voxels.push_back({x, y, z});
+        if (x + y + z > 0) voxels.push_back({1000 * x, 1000 * y, 1000 * z});
+      }
+  const Surfels surfels = estimate_surfels(voxels, 2);
+  for (std::size_t p = 0; p < voxels.size(); ++p) {
+    const Voxel& v = voxels[p];
+    const int nearest = std::min({v[0], v[1], v[2]}), farthest = std::max({v[0], v[1], v[2]});
+    if (nearest > 8 && farthest < 56) {
+      ASSERT_LT(surfels.radii[p], 3);
+    } else if (nearest >= 1000) {
+      ASSERT_GT(surfels.radii[p], 500);
+    }
+  }
+}
+
 TEST(RenderTest, APlaneSampledAtThePixelRateHasNoHoleAndItsColour) {
   const LightField field = constant_light_field(test::plane(64, 0), {{200, 100, 50}}, 6);
   const ViewMaps maps(field);
