@@ -124,8 +124,12 @@ TEST(RegionsTest, PointsStayWhereErrorsGrowAndMoveWhereTheyFall) {
   const SurfacePoints both = with_kept(before, after, worse);
   ASSERT_EQ(both.size(), 3000u);
   for (const Float3& p : both.positions) {
-    if (p[2] > 0.25f) EXPECT_NEAR(radius(p), 0.95, 1e-4);
-    if (p[2] < -0.25f) EXPECT_NEAR(radius(p), 1, 1e-4);
+    if (p[2] > 0.25f) {
+      EXPECT_NEAR(radius(p), 0.95, 1e-4);
+    }
+    if (p[2] < -0.25f) {
+      EXPECT_NEAR(radius(p), 1, 1e-4);
+    }
   }
 }
 
@@ -233,7 +237,9 @@ TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
   PointCloud away = *exact_;
   for (Float3& p : away.positions) p[2] += 1000;
   const auto refined = refine_geometry(with(away), cameras_, {.mode = RefineGeometry::kOn});
-  if (refined) EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
+  if (refined) {
+    EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
+  }
 }
 
 }  // namespace
