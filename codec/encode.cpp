@@ -101,10 +101,10 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  SLF_TRY(job.cloud, voxelise_capture(capture, cameras, settings));  // spec 6.1
+  SLF_TRY(job.cloud, voxelise_mended(capture, cameras, settings, encoded.refined, progress));
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
-  encoded.seconds_voxelise = watch.lap();
+  encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)
                           : fit_capture(capture, cameras, job.cloud, settings, progress));

@@ -15,7 +15,7 @@ std::string text(double value) {
   return {buffer, end};
 }
 
-std::string decibels(double psnr) { return text(std::round(psnr * 100) / 100); }
+std::string hundredths(double value) { return text(std::round(value * 100) / 100); }
 
 std::string cross_validation(const ChosenFit& chosen) {
   switch (chosen.outcome) {
@@ -26,7 +26,30 @@ std::string cross_validation(const ChosenFit& chosen) {
     case ChosenFit::kSearched:
       break;
   }
-  return decibels(chosen.psnr_chosen) + " dB, " + decibels(chosen.psnr_given) + " before";
+  return hundredths(chosen.psnr_chosen) + " dB, " + hundredths(chosen.psnr_given) + " before";
+}
+
+Metadata refine_metadata(const RefineReport& r) {
+  switch (r.outcome) {
+    case RefineReport::kNotAsked:
+      return {};
+    case RefineReport::kTooFewCameras:
+    case RefineReport::kTooManyPoints:
+    case RefineReport::kTooFewPoints:
+      return {{"refine_geometry", "not tried"}};
+    case RefineReport::kNoGain:
+      return {{"refine_geometry", "no gain"}};
+    case RefineReport::kMended:
+      break;
+  }
+  return {{"refine_geometry", "mended"},
+          {"refine_moved", std::to_string(r.moved)},
+          {"refine_median_move", hundredths(r.median_move)},
+          {"refine_max_move", hundredths(r.max_move)},
+          {"refine_removed", std::to_string(r.removed)},
+          {"refine_added", std::to_string(r.added)},
+          {"refine_psnr_before", hundredths(r.held_out_before)},
+          {"refine_psnr_after", hundredths(r.held_out_after)}};
 }
 
 }  // namespace
@@ -113,6 +136,8 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
       metadata.emplace_back("kernel", std::to_string(kReferenceKernel.version));
     }
   }
+  const Metadata mended = refine_metadata(encoded.refined);
+  metadata.insert(metadata.end(), mended.begin(), mended.end());
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;
 }

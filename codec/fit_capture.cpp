@@ -9,6 +9,7 @@
 #include "lightfield/fit_pictures.h"
 #include "lightfield/fit_settings.h"
 #include "lightfield/octahedral.h"
+#include "refine/refine_geometry.h"
 
 namespace slf {
 namespace {
@@ -63,6 +64,18 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
   for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
   cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
   return voxelise(cloud, settings.grid_bits, settings.voxel_size);
+}
+
+Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
+                                               const EncoderSettings& settings,
+                                               RefineReport& report, const Progress& progress) {
+  const RefineSettings refining{settings.refine_geometry, settings.grid_bits, settings.voxel_size,
+                                settings.threads};
+  SLF_TRY(const RefinedCloud refined, refine_geometry(capture, cameras, refining, progress));
+  report = refined.report;
+  if (report.outcome != RefineReport::kMended) return voxelise_capture(capture, cameras, settings);
+  return voxelise(refined.cloud, settings.grid_bits,
+                  refined.voxel_size > 0 ? refined.voxel_size : settings.voxel_size);
 }
 
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,

@@ -19,6 +19,12 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings);
 
+/// The same with geometry mended first, where the settings ask for it and photographs gain.
+/// @param report  receives what became of the points
+Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
+                                               const EncoderSettings& settings,
+                                               RefineReport& report, const Progress& progress);
+
 /// View maps in floating point.
 struct CaptureFit {
   std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K of chosen.settings.basis

@@ -103,10 +103,10 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
   Stopwatch watch;
   IgcEncoded encoded;
   SLF_TRY(const VoxelCloud cloud,
-          voxelise(capture.cloud, settings.slf.grid_bits, settings.slf.voxel_size));
+          voxelise_mended(capture, cameras, settings.slf, encoded.refined, progress));
   encoded.points = cloud.positions.size();
   encoded.merged = cloud.merged;
-  encoded.seconds_voxelise = watch.lap();
+  encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(const auto geometry, encode_geometry(cloud, capture, settings.slf));
   encoded.seconds_geometry = watch.lap();
   std::vector<int> walk;

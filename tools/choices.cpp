@@ -38,6 +38,14 @@ CLI::Option* add_choice(CLI::App& verb, const char* name, T& choice, const Words
 
 }  // namespace
 
+CLI::Option* add_refine_choice(CLI::App& verb, RefineGeometry& choice) {
+  return add_choice<RefineGeometry>(
+      verb, "--refine-geometry", choice,
+      {{"on", RefineGeometry::kOn}, {"off", RefineGeometry::kOff}, {"auto", RefineGeometry::kAuto}},
+      "Move points to where the photographs agree: where held-out input photographs gain at all, "
+      "never (scans, exact models), or where they gain 5 %");
+}
+
 CLI::Option* add_geometry_choice(CLI::App& verb, GeometryCoder& choice) {
   return add_choice<GeometryCoder>(
       verb, "--geometry", choice,

@@ -23,6 +23,8 @@ CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
 /// --fit-to: true is pictures.
 CLI::Option* add_fit_to_choice(CLI::App& verb, bool& pictures);
 CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice);  ///< none: auto
+/// --refine-geometry on|off|auto
+CLI::Option* add_refine_choice(CLI::App& verb, RefineGeometry& choice);
 CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice);  ///< none: auto
 /// --cross-validate on|off.
 CLI::Option* add_cross_validate_choice(CLI::App& verb, bool& choice);

@@ -153,4 +153,54 @@ std::string printable(std::string foreign) {
   return foreign;
 }
 
+namespace {
+
+const char* outcome_word(RefineReport::Outcome outcome) {
+  switch (outcome) {
+    case RefineReport::kNotAsked:
+      return "off";
+    case RefineReport::kTooFewCameras:
+      return "too few cameras";
+    case RefineReport::kTooManyPoints:
+      return "too many points";
+    case RefineReport::kTooFewPoints:
+      return "too few points";
+    case RefineReport::kNoGain:
+      return "no gain";
+    case RefineReport::kMended:
+      return "mended";
+  }
+  return "";
+}
+
+}  // namespace
+
+nlohmann::ordered_json refined_json(const RefineReport& r) {
+  nlohmann::ordered_json json;
+  json["outcome"] = outcome_word(r.outcome);
+  if (r.outcome != RefineReport::kMended) return json;
+  json["points_before"] = r.points_before;
+  json["points_after"] = r.points_after;
+  json["moved"] = r.moved;
+  json["median_move_voxels"] = r.median_move;
+  json["max_move_voxels"] = r.max_move;
+  json["removed"] = r.removed;
+  json["added"] = r.added;
+  json["kept_back"] = r.kept_back;
+  json["held_out_psnr_before"] = r.held_out_before;
+  json["held_out_psnr_after"] = r.held_out_after;
+  return json;
+}
+
+std::string refined_text(const RefineReport& r) {
+  if (r.outcome == RefineReport::kNotAsked) return {};
+  if (r.outcome != RefineReport::kMended)
+    return text("geometry      as captured (%s)\n", outcome_word(r.outcome));
+  return text(
+      "geometry      mended: %s points moved, median %.1f and at most %.1f voxels; %s removed, %s "
+      "added;\n              held-out photographs predicted with %.2f dB, %.2f before\n",
+      grouped(r.moved).c_str(), r.median_move, r.max_move, grouped(r.removed).c_str(),
+      grouped(r.added).c_str(), r.held_out_after, r.held_out_before);
+}
+
 }  // namespace slf::tools

@@ -1,4 +1,4 @@
-// Headers as JSON and as text, for info, eval and decode --dump.
+// Headers and reports as JSON and as text.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "slf/decoder.h"
+#include "slf/refine.h"
 
 namespace slf::tools {
 
@@ -26,5 +27,9 @@ double bits_per_point(std::uint64_t bytes, std::uint64_t points);
 
 /// Control characters of a foreign text replaced, so that it cannot steer a terminal.
 std::string printable(std::string text);
+
+/// What became of the points before they were coded.
+nlohmann::ordered_json refined_json(const RefineReport& report);
+std::string refined_text(const RefineReport& report);  ///< a line; empty where nothing was asked
 
 }  // namespace slf::tools

@@ -19,6 +19,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
   json["q"] = e.q;
   json["points"] = e.points;
   json["merged"] = e.merged;
+  json["refine_geometry"] = refined_json(e.refined);
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
@@ -32,14 +33,16 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
                         {"held_out_before", e.pictures.held_out_before},
                         {"held_out_after", e.pictures.held_out_after}};
   json["seconds"] = {{"load", load},
+                     {"refine", e.refined.seconds},
                      {"voxelise", e.seconds_voxelise},
                      {"observe", e.seconds_observe},
                      {"choose", e.seconds_choose},
                      {"fit", e.seconds_fit},
                      {"pictures", e.seconds_pictures},
                      {"code", e.seconds_code},
-                     {"total", load + e.seconds_voxelise + e.seconds_observe + e.seconds_choose +
-                                   e.seconds_fit + e.seconds_pictures + e.seconds_code}};
+                     {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
+                                   e.seconds_choose + e.seconds_fit + e.seconds_pictures +
+                                   e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;
@@ -50,7 +53,7 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  std::string out;
+  std::string out = refined_text(e.refined);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
@@ -63,10 +66,10 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
                   e.pictures.psnr_after, e.pictures.psnr_before);
   }
   out += text(
-      "seconds       load %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, pictures %.2f, "
-      "code %.2f\n",
-      load, e.seconds_voxelise, e.seconds_observe, e.seconds_choose, e.seconds_fit,
-      e.seconds_pictures, e.seconds_code);
+      "seconds       load %.2f, refine %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
+      "pictures %.2f, code %.2f\n",
+      load, e.refined.seconds, e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
+      e.seconds_fit, e.seconds_pictures, e.seconds_code);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));

@@ -40,23 +40,25 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["points"] = e.points;
+  json["refine_geometry"] = refined_json(e.refined);
   json["cameras"] = input.cameras.size();
   json["bytes_by_type"] = {{"geometry", e.bytes_geometry},
                            {"images", e.bytes_images},
                            {"parameters", e.bytes_parameters}};
-  json["seconds"] = {
-      {"load", input.seconds},
-      {"voxelise", e.seconds_voxelise},
-      {"geometry", e.seconds_geometry},
-      {"images", e.seconds_images},
-      {"total", input.seconds + e.seconds_voxelise + e.seconds_geometry + e.seconds_images}};
+  json["seconds"] = {{"load", input.seconds},
+                     {"refine", e.refined.seconds},
+                     {"voxelise", e.seconds_voxelise},
+                     {"geometry", e.seconds_geometry},
+                     {"images", e.seconds_images},
+                     {"total", input.seconds + e.refined.seconds + e.seconds_voxelise +
+                                   e.seconds_geometry + e.seconds_images}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(settings);
   return json;
 }
 
 std::string report_text(const IgcEncoded& e, const CaptureInput& input) {
-  std::string out;
+  std::string out = refined_text(e.refined);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   out += text("cameras       %zu\n", input.cameras.size());

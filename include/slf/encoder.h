@@ -9,6 +9,7 @@
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"
+#include "slf/refine.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -81,6 +82,7 @@ struct EncoderSettings {
   Preset preset = Preset::kDefault;
   int grid_bits = 9;      ///< 1 .. 21
   double voxel_size = 0;  ///< > 0: instead of grid_bits
+  RefineGeometry refine_geometry = RefineGeometry::kAuto;  ///< kOff without cameras
   ObserveSettings observe;
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;                ///< changes fit; not without cameras
@@ -115,8 +117,9 @@ struct Encoded {
   std::vector<std::uint8_t> stream;
   double q = 0;  ///< the step it was coded with
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  ChosenFit fit;        ///< of a capture with cameras
-  PictureFit pictures;  ///< where fit.settings.pictures has rounds
+  RefineReport refined;  ///< what became of the capture's points before anything else
+  ChosenFit fit;         ///< of a capture with cameras
+  PictureFit pictures;   ///< where fit.settings.pictures has rounds
   double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
          seconds_pictures = 0, seconds_code = 0;
   std::vector<std::string> warnings;

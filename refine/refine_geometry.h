@@ -1,0 +1,40 @@
+// Mends a capture's cloud where photographs disagree about it. Encoder only, before voxelisation.
+#pragma once
+
+#include <span>
+
+#include "slf/capture.h"
+#include "slf/error.h"
+#include "slf/refine.h"
+#include "slf/types.h"
+
+namespace slf {
+
+struct RefineSettings {
+  RefineGeometry mode = RefineGeometry::kAuto;
+  int grid_bits = 9;      ///< of the grid that follows
+  double voxel_size = 0;  ///< > 0: in place of grid_bits
+  int threads = 0;
+};
+
+struct RefinedCloud {
+  PointCloud cloud;  ///< kMended: positions and normals; empty otherwise
+  /// > 0: the points lie on a lattice of this step; voxelise with it, or they alias with the grid.
+  double voxel_size = 0;
+  RefineReport report;
+};
+
+/// Moves points along their normals to where patches of the photographs agree (normalised
+/// correlation, the best of the cameras that face the point and see it), smoothly over the surface,
+/// coarse to fine; samples the surface anew after each round; goes back to the capture's points
+/// wherever photographs left out of all this are predicted no better.
+/// @param cameras  the input cameras: no other photograph is looked at
+/// @errors those of load_image and observe.
+/// The same for any thread count. O(points * offsets * cameras per point * samples of a patch);
+/// memory: the photographs as floats, at about two pixels a point spacing or coarser.
+Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
+                                                 std::span<const int> cameras,
+                                                 const RefineSettings& settings,
+                                                 const Progress& progress = {});
+
+}  // namespace slf

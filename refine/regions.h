@@ -1,0 +1,22 @@
+// Where mending helped, and where the capture's points are better.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "refine/held_out.h"
+
+namespace slf {
+
+/// [P of before] 1: held-out photographs are predicted worse after than before around this point.
+/// Decided for cubes of `side` with their neighbours; points after count where they come from.
+std::vector<std::uint8_t> worse_after(const SurfacePoints& before,
+                                      const HeldOutErrors& errors_before,
+                                      const SurfacePoints& after, const HeldOutErrors& errors_after,
+                                      double side);
+
+/// `after`, but with the points of `before` that are marked in place of what came of them.
+SurfacePoints with_kept(const SurfacePoints& before, const SurfacePoints& after,
+                        const std::vector<std::uint8_t>& marked);
+
+}  // namespace slf

@@ -1,0 +1,117 @@
+#include "refine/resample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/nearest.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kGrain = 1024;
+constexpr int kNear = 16;
+
+using Node = std::array<std::int32_t, 3>;
+
+/// Nodes within two steps of a point, each once, in a fixed order.
+std::vector<Node> candidates(const SurfacePoints& points, const Lattice& lattice) {
+  std::vector<Node> nodes;
+  for (const Float3& position : points.positions) {
+    Node at{};
+    for (std::size_t a = 0; a < 3; ++a)
+      at[a] = static_cast<std::int32_t>(
+          std::floor((double(position[a]) - lattice.origin[a]) / lattice.step + 0.5));
+    for (std::int32_t z = -1; z <= 1; ++z)
+      for (std::int32_t y = -1; y <= 1; ++y)
+        for (std::int32_t x = -1; x <= 1; ++x) nodes.push_back({at[0] + x, at[1] + y, at[2] + z});
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+struct Surface {
+  double distance = 0;  ///< of the query from it, along the normal
+  Float3 normal{};
+  float support = 0;  ///< sum of weights
+};
+
+/// The mean plane of the points near `query` that face as the nearest does.
+Surface surface_at(const SurfacePoints& points, const Float3& query,
+                   std::span<const std::uint32_t> near, std::span<const float> squared,
+                   double reach) {
+  Surface surface;
+  const Float3& facing = points.normals[near[0]];
+  const auto scale = float(1 / (2 * reach * reach));
+  float heights = 0;
+  Float3 normal{};
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const Float3& n = points.normals[near[i]];
+    const float agree = dot(n, facing);
+    if (agree <= 0.2f) continue;
+    const float w = agree * std::exp(-squared[i] * scale);
+    heights += w * dot(minus(query, points.positions[near[i]]), n);
+    normal = along(normal, w, n);
+    surface.support += w;
+  }
+  if (!(surface.support > 0)) return surface;
+  const float length = std::sqrt(dot(normal, normal));
+  surface.distance = double(heights / surface.support);
+  surface.normal = {normal[0] / length, normal[1] / length, normal[2] / length};
+  return surface;
+}
+
+}  // namespace
+
+SurfacePoints resample(const SurfacePoints& points, const Lattice& lattice,
+                       const ResampleSettings& settings) {
+  const std::vector<Node> nodes = candidates(points, lattice);
+  const NearestPoints tree(points.positions);
+  const int k = static_cast<int>(std::min<std::size_t>(kNear, points.size()));
+  const double reach = settings.reach * lattice.step, support = settings.support * lattice.step;
+  std::vector<Float3> position(nodes.size()), normal(nodes.size());
+  std::vector<std::uint32_t> source(nodes.size());
+  std::vector<std::uint8_t> kept(nodes.size(), 0);
+  parallel_ranges(nodes.size(), kGrain, settings.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> near(static_cast<std::size_t>(k));
+    std::vector<float> squared(static_cast<std::size_t>(k));
+    for (std::size_t i = begin; i < end; ++i) {
+      bool inside = true;
+      Float3 query{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        query[a] = float(lattice.origin[a] + lattice.step * nodes[i][a]);
+        inside =
+            inside && (lattice.size[a] == 0 || (nodes[i][a] >= 0 && nodes[i][a] < lattice.size[a]));
+      }
+      if (!inside) continue;
+      tree.nearest(query, k, near.data(), squared.data());
+      if (double(squared[0]) > support * support) continue;
+      const Surface at = surface_at(points, query, near, squared, reach);
+      const float steepest =
+          std::max({std::abs(at.normal[0]), std::abs(at.normal[1]), std::abs(at.normal[2])});
+      // Half open, so that a line that passes midway between two nodes keeps one of them.
+      const double half = 0.5 * lattice.step * double(steepest);
+      if (!(at.distance > -half && at.distance <= half)) continue;
+      const Float3 foot = along(query, -float(at.distance), at.normal);
+      // Beyond the rim: no point on all sides.
+      const Float3 beside = minus(foot, points.positions[near[0]]);
+      if (double(dot(beside, beside)) > 0.81 * lattice.step * lattice.step * settings.support)
+        continue;
+      position[i] = settings.on_lattice ? query : foot;
+      normal[i] = at.normal;
+      source[i] = points.source[near[0]];
+      kept[i] = 1;
+    }
+  });
+  SurfacePoints sampled;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (kept[i] != 0) {
+      sampled.positions.push_back(position[i]);
+      sampled.normals.push_back(normal[i]);
+      sampled.source.push_back(source[i]);
+    }
+  return sampled;
+}
+
+}  // namespace slf

@@ -1,0 +1,28 @@
+// The surface sampled anew: one point for every lattice line that crosses it.
+#pragma once
+
+#include "refine/surface_points.h"
+#include "slf/types.h"
+
+namespace slf {
+
+struct Lattice {
+  Vec3 origin{};
+  double step = 1;
+  std::array<std::int64_t, 3> size{};  ///< nodes per axis; 0: no limit
+};
+
+struct ResampleSettings {
+  double reach = 1.2;       ///< lattice steps: standard deviation of a point's influence
+  double support = 1.6;     ///< lattice steps: no surface farther than this from every point
+  bool on_lattice = false;  ///< points at lattice nodes, not on the surface beside them
+  int threads = 0;
+};
+
+/// A smooth surface through the points (weighted mean of their planes), sampled where it passes a
+/// lattice node within half a step along the axis that it faces most. Duplicates vanish, holes of
+/// a step or two close; points that agree with no neighbour are gone.
+SurfacePoints resample(const SurfacePoints& points, const Lattice& lattice,
+                       const ResampleSettings& settings);
+
+}  // namespace slf

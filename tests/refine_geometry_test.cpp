@@ -1,0 +1,246 @@
+#include "refine/refine_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "capture/nearest.h"
+#include "capture/spacing.h"
+#include "refine/offset_field.h"
+#include "refine/regions.h"
+#include "refine/resample.h"
+#include "tests/capture_support.h"
+#include "tools/synth/rings.h"
+#include "tools/synth/sample_points.h"
+#include "tools/synth/scene.h"
+#include "tools/synth/synth.h"
+#include "tools/synth/trace.h"
+
+namespace slf {
+namespace {
+
+/// A sphere of radius 1 by the golden spiral, normals exact.
+SurfacePoints sphere(std::size_t count) {
+  SurfacePoints points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1 - (2 * double(i) + 1) / double(count), r = std::sqrt(1 - z * z);
+    const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * double(i);
+    const Float3 n{float(r * std::cos(turn)), float(r * std::sin(turn)), float(z)};
+    points.positions.push_back(n);
+    points.normals.push_back(n);
+    points.source.push_back(std::uint32_t(i));
+  }
+  return points;
+}
+
+double radius(const Float3& p) { return std::sqrt(double(dot(p, p))); }
+
+TEST(SurfacePointsTest, ASphereIsItsOwnNeighboursSurface) {
+  const SurfacePoints points = sphere(4000);
+  const Neighbours near = find_neighbours(points, 12, 0.08, 2);
+  for (const float distance : distance_to_neighbours(points, near, 2))
+    EXPECT_NEAR(distance, 0, 1e-4);
+  const auto normals = plane_normals(points, near, 2);
+  // The spiral is not symmetric about a point: planes lean by a little of a spacing (0.056).
+  for (std::size_t p = 0; p < points.size(); ++p)
+    EXPECT_GT(dot(normals[p], points.normals[p]), 0.995f);
+}
+
+TEST(ResampleTest, PointsAreOnTheSurfaceAndCloseSmallHolesAndDropDuplicates) {
+  SurfacePoints points = sphere(8000);
+  const double spacing = typical_spacing(points.positions);
+  SurfacePoints holed;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (int copies = p % 7 == 0 ? 0 : 2; copies > 0; --copies) {
+      holed.positions.push_back(points.positions[p]);
+      holed.normals.push_back(points.normals[p]);
+      holed.source.push_back(std::uint32_t(p));
+    }
+  const Lattice lattice{{-1.1, -1.1, -1.1}, spacing, {}};
+  const SurfacePoints whole = resample(points, lattice, {}), mended = resample(holed, lattice, {});
+  for (const Float3& p : mended.positions) EXPECT_NEAR(radius(p), 1, 0.1 * spacing);
+  EXPECT_NEAR(double(mended.size()), double(whole.size()), 0.03 * double(whole.size()));
+  for (const std::uint32_t source : mended.source) EXPECT_NE(source % 7, 0u);
+}
+
+TEST(ResampleTest, OnTheLatticePointsAreNodesWithinItsSize) {
+  const SurfacePoints points = sphere(2000);
+  ResampleSettings settings;
+  settings.on_lattice = true;
+  const Lattice lattice{{-1, -1, -1}, 0.125, {17, 17, 9}};
+  const SurfacePoints nodes = resample(points, lattice, settings);
+  ASSERT_GT(nodes.size(), 100u);
+  for (const Float3& p : nodes.positions)
+    for (std::size_t a = 0; a < 3; ++a) {
+      const float node = (p[a] + 1) / 0.125f;
+      EXPECT_FLOAT_EQ(node, std::round(node));
+      EXPECT_LE(node, a == 2 ? 8 : 16);
+      EXPECT_GE(node, 0);
+    }
+}
+
+class OffsetFieldTest : public testing::Test {
+ protected:
+  static constexpr OffsetRange kRange{-0.04, 0.01, 9};
+  const SurfacePoints points_ = sphere(2000);
+  const Neighbours near_ = find_neighbours(points_, 12, 0.1, 2);
+
+  std::vector<float> costs_at(std::size_t label) const {
+    std::vector<float> costs(points_.size() * kRange.count);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      const double apart = double(i % kRange.count) - double(label);
+      costs[i] = float(std::min(0.1 * apart * apart, 1.0));
+    }
+    return costs;
+  }
+};
+
+TEST_F(OffsetFieldTest, TheCheapestOffsetIsTaken) {
+  for (const float offset : choose_offsets(costs_at(6), kRange, near_, {}))
+    EXPECT_NEAR(offset, 0.02, 1e-3);
+}
+
+TEST_F(OffsetFieldTest, NothingMovesWhereAllOffsetsCostTheSame) {
+  const std::vector<float> flat(points_.size() * kRange.count, 0.7f);
+  for (const float offset : choose_offsets(flat, kRange, near_, {})) EXPECT_NEAR(offset, 0, 1e-6);
+}
+
+TEST_F(OffsetFieldTest, APointThatDisagreesFollowsItsNeighbours) {
+  std::vector<float> costs = costs_at(6);
+  for (std::size_t l = 0; l < kRange.count; ++l) costs[100 * kRange.count + l] = l == 0 ? 0 : 1;
+  EXPECT_NEAR(choose_offsets(costs, kRange, near_, {})[100], 0.02, 0.01);
+}
+
+TEST(RegionsTest, PointsStayWhereErrorsGrowAndMoveWhereTheyFall) {
+  const SurfacePoints before = sphere(3000);
+  SurfacePoints after = before;
+  move_along_normals(after, std::vector<float>(after.size(), -0.05f));
+  HeldOutErrors old_errors{std::vector<float>(3000, 10), std::vector<float>(3000, 1)};
+  HeldOutErrors new_errors = old_errors;
+  for (std::size_t p = 0; p < 3000; ++p)
+    new_errors.squares[p] = before.positions[p][2] > 0 ? 5.0f : 20.0f;
+  const auto worse = worse_after(before, old_errors, after, new_errors, 0.1);
+  const SurfacePoints both = with_kept(before, after, worse);
+  ASSERT_EQ(both.size(), 3000u);
+  for (const Float3& p : both.positions) {
+    if (p[2] > 0.25f) {
+      EXPECT_NEAR(radius(p), 0.95, 1e-4);
+    }
+    if (p[2] < -0.25f) {
+      EXPECT_NEAR(radius(p), 1, 1e-4);
+    }
+  }
+}
+
+/// A textured vase in memory: what the mending of a cloud is tried on.
+class RefineGeometryTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const auto scene = synth::make_scene("vase");
+    const auto rings = synth::make_rings(5, 12, 160, 160, scene->bounds().radius);
+    capture_ = new Capture;
+    capture_->cameras = rings.cameras;
+    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
+      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 2));
+      cameras_.push_back(int(i));
+    }
+    exact_ = new PointCloud(synth::sample_points(*scene, 12000, 2, &step_));
+  }
+  static void TearDownTestSuite() {
+    delete capture_;
+    delete exact_;
+  }
+
+  static Capture with(const PointCloud& cloud) {
+    Capture capture = *capture_;
+    capture.cloud = cloud;
+    return capture;
+  }
+  static Capture disturbed() {
+    PointCloud fat = *exact_;
+    synth::disturb(fat, step_, {.hull = 4});
+    return with(fat);
+  }
+  /// Root mean square distance from the true surface, in point spacings.
+  static double distance(const PointCloud& cloud) {
+    const NearestPoints tree(exact_->positions);
+    double squares = 0;
+    for (const Float3& p : cloud.positions) {
+      std::uint32_t nearest = 0;
+      tree.nearest(p, 1, &nearest, nullptr);
+      const double along =
+          double(dot(minus(p, exact_->positions[nearest]), exact_->normals[nearest])) / step_;
+      squares += along * along;
+    }
+    return std::sqrt(squares / double(cloud.positions.size()));
+  }
+
+  static inline Capture* capture_ = nullptr;
+  static inline PointCloud* exact_ = nullptr;
+  static inline std::vector<int> cameras_;
+  static inline double step_ = 0;
+};
+
+TEST_F(RefineGeometryTest, AFatCloudComesCloserToTheSurface) {
+  const Capture fat = disturbed();
+  const auto refined = refine_geometry(fat, cameras_, {.grid_bits = 7});
+  ASSERT_TRUE(refined);
+  EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
+  EXPECT_GT(refined->report.held_out_after, refined->report.held_out_before + 0.3);
+  EXPECT_GT(distance(fat.cloud), 1.5);
+  EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat.cloud));
+  EXPECT_GT(refined->report.moved, 1000u);
+  EXPECT_GT(refined->report.max_move, refined->report.median_move);
+}
+
+TEST_F(RefineGeometryTest, AnExactCloudStays) {
+  const auto refined = refine_geometry(with(*exact_), cameras_, {.grid_bits = 7});
+  ASSERT_TRUE(refined);
+  EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
+  EXPECT_TRUE(refined->cloud.positions.empty());
+}
+
+TEST_F(RefineGeometryTest, ThreadsDoNotChangeTheResult) {
+  const Capture fat = disturbed();
+  const auto one = refine_geometry(fat, cameras_, {.grid_bits = 7, .threads = 1});
+  const auto three = refine_geometry(fat, cameras_, {.grid_bits = 7, .threads = 3});
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->cloud.positions, three->cloud.positions);
+  EXPECT_EQ(one->cloud.normals, three->cloud.normals);
+}
+
+TEST_F(RefineGeometryTest, OfMendedPointsNoneFallIntoOneVoxel) {
+  const auto refined = refine_geometry(disturbed(), cameras_, {.grid_bits = 6});
+  ASSERT_TRUE(refined);
+  ASSERT_GT(refined->voxel_size, 0);
+  const auto voxels = voxelise(refined->cloud, 6, refined->voxel_size);
+  ASSERT_TRUE(voxels);
+  EXPECT_EQ(voxels->merged, 0u);
+  EXPECT_LE(voxels->grid.bits, 6);
+}
+
+TEST_F(RefineGeometryTest, NothingIsTriedWhenOffOrWithFewCamerasOrPoints) {
+  Capture capture = disturbed();
+  const auto outcome = [&](std::span<const int> cameras, RefineGeometry mode) {
+    const auto refined = refine_geometry(capture, cameras, {.mode = mode});
+    return refined ? refined->report.outcome : RefineReport::kMended;
+  };
+  EXPECT_EQ(outcome(cameras_, RefineGeometry::kOff), RefineReport::kNotAsked);
+  EXPECT_EQ(outcome(std::span(cameras_).first(7), RefineGeometry::kOn),
+            RefineReport::kTooFewCameras);
+  capture.cloud.positions.resize(900);
+  EXPECT_EQ(outcome(cameras_, RefineGeometry::kOn), RefineReport::kTooFewPoints);
+}
+
+TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
+  PointCloud away = *exact_;
+  for (Float3& p : away.positions) p[2] += 1000;
+  const auto refined = refine_geometry(with(away), cameras_, {.mode = RefineGeometry::kOn});
+  if (refined) {
+    EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
+  }
+}
+
+}  // namespace
+}  // namespace slf
