@@ -86,8 +86,10 @@ Result<HeldOutErrors, InputError> held_out_errors(const Capture& capture,
   HeldOutErrors errors;
   errors.squares.assign(points.size(), 0);
   errors.views.assign(points.size(), 0);
+  errors.seen.assign(points.size(), 0);
   parallel_ranges(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
+      errors.seen[p] = seen.first[p] < seen.first[p + 1];
       Equations equations;
       const auto row_of = [&](std::uint64_t i, double& cosine) {
         const Vec3 d = vector_of(seen.direction[i]);

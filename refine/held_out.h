@@ -16,6 +16,8 @@ struct HeldOutErrors {
   std::vector<float> squares;  ///< [P] sum over views of (8-bit levels)^2, mean of R, G and B
   std::vector<float> views;    ///< [P] sum of weights: the cosines, as that much area is seen
 
+  std::vector<std::uint8_t> seen;  ///< [P] 1: by any of the cameras, held out or not
+
   double mean() const;
 };
 

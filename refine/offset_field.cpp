@@ -68,7 +68,7 @@ std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetR
       for (std::size_t p = begin; p < end; ++p)
         choice[p] = best_label(&sums[p * labels], labels, field[p], coupling);
     });
-    const auto smooth = float(settings.smooth);
+    const auto smooth = float(settings.smooth), tear = float(settings.tear);
     for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
       parallel_ranges(points, kGrain, settings.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
@@ -77,7 +77,7 @@ std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetR
           float sum = choice[p], total = 1;
           for (std::size_t i = 0; i < near.size(); ++i) {
             const float apart = field[near[i]] - field[p];
-            const float w = smooth * weights[i] / (1 + 0.25f * apart * apart);
+            const float w = smooth * weights[i] / (1 + tear * apart * apart);
             sum += w * field[near[i]];
             total += w;
           }

@@ -7,9 +7,10 @@
 namespace slf {
 
 struct OffsetSettings {
-  double smooth = 3;  ///< weight of smoothness
-  int rounds = 30;    ///< data and smoothness in turns
-  int sweeps = 6;     ///< of smoothing in a round
+  double smooth = 3;   ///< weight of smoothness
+  int rounds = 30;     ///< data and smoothness in turns
+  int sweeps = 6;      ///< of smoothing in a round
+  double tear = 0.25;  ///< how soon neighbours count less, as their offsets (in steps) differ
   int threads = 0;
 };
 

@@ -25,6 +25,7 @@ constexpr std::size_t kNearOffsets = 12;           // points whose offsets agree
 constexpr int kFirstSmoothings = 2;                // the steps of a voxel grid are no surface
 constexpr std::array<int, 4> kLevels{2, 2, 1, 1};  // of the photographs, a round each
 constexpr double kRegion = 8;        // spacings: side of the cubes that are kept or not
+constexpr double kUnseenMove = 2;    // lattice steps: moved farther, a point must be seen
 constexpr double kLeastGain = 0.05;  // of the squared error, for kAuto
 
 struct Job {
@@ -197,6 +198,7 @@ Result<SurfacePoints, InputError> accept(Job& job, const SurfacePoints& mended, 
   const double least = job.settings.mode == RefineGeometry::kAuto ? kLeastGain : 0;
   if (!(last.mean() < (1 - least) * before.mean())) return SurfacePoints{};
   report.held_out_after = decibels(last.mean());
+  final = without_unsupported(job.start, final, last.seen, kUnseenMove * lattice.step);
   out.voxel_size = of_grid ? lattice.step : 0;
   count_moves(job.start, final, lattice.step, report);
   return final;

@@ -20,6 +20,12 @@ Cube cube_of(const Float3& at, double side) {
   return cube;
 }
 
+void append(SurfacePoints& to, const SurfacePoints& from, std::size_t p) {
+  to.positions.push_back(from.positions[p]);
+  to.normals.push_back(from.normals[p]);
+  to.source.push_back(from.source[p]);
+}
+
 Sums sum_around(const std::map<Cube, Sums>& cubes, const Cube& centre) {
   Sums sum;
   for (std::int32_t z = -1; z <= 1; ++z)
@@ -69,16 +75,21 @@ std::vector<std::uint8_t> worse_after(const SurfacePoints& before,
 SurfacePoints with_kept(const SurfacePoints& before, const SurfacePoints& after,
                         const std::vector<std::uint8_t>& marked) {
   SurfacePoints both;
-  const auto add = [&both](const SurfacePoints& from, std::size_t p) {
-    both.positions.push_back(from.positions[p]);
-    both.normals.push_back(from.normals[p]);
-    both.source.push_back(from.source[p]);
-  };
   for (std::size_t p = 0; p < after.size(); ++p)
-    if (marked[after.source[p]] == 0) add(after, p);
+    if (marked[after.source[p]] == 0) append(both, after, p);
   for (std::size_t p = 0; p < before.size(); ++p)
-    if (marked[p] != 0) add(before, p);
+    if (marked[p] != 0) append(both, before, p);
   return both;
+}
+
+SurfacePoints without_unsupported(const SurfacePoints& before, const SurfacePoints& after,
+                                  const std::vector<std::uint8_t>& seen, double move) {
+  SurfacePoints supported;
+  for (std::size_t p = 0; p < after.size(); ++p) {
+    const Float3 apart = minus(after.positions[p], before.positions[after.source[p]]);
+    if (seen[p] != 0 || double(dot(apart, apart)) <= move * move) append(supported, after, p);
+  }
+  return supported;
 }
 
 }  // namespace slf

@@ -19,4 +19,9 @@ std::vector<std::uint8_t> worse_after(const SurfacePoints& before,
 SurfacePoints with_kept(const SurfacePoints& before, const SurfacePoints& after,
                         const std::vector<std::uint8_t>& marked);
 
+/// Without the points that were moved by more than `move` and that no camera sees: folds inside of
+/// the object, which nothing supports. Points that stayed (a base that stood on a table) remain.
+SurfacePoints without_unsupported(const SurfacePoints& before, const SurfacePoints& after,
+                                  const std::vector<std::uint8_t>& seen, double move);
+
 }  // namespace slf
