@@ -19,7 +19,7 @@ constexpr int kBandRows = 16;  // of one band: worked on by one thread, small en
 /// Indices of the splats that touch each band, ascending.
 std::vector<std::vector<std::uint32_t>> bin_splats(const std::vector<Splat>& splats, int height);
 
-/// A band of rows: draw, then normalise.
+/// A band of rows. Its functions are called in this order; shows() is optional.
 class SplatBand {
  public:
   /// Writes to its rows of `coverage` and `depth`, [height][width], 0 before.
@@ -37,14 +37,28 @@ class SplatBand {
   std::size_t first_pixel() const { return std::size_t(first_row_) * std::size_t(width_); }
   std::size_t pixels() const { return std::size_t(rows_) * std::size_t(width_); }
 
-  /// count(point, pixel of the band, weight) for what shows, splat by splat in the order given.
-  template <class Count>
-  void draw(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
-            Count&& count) {
+  /// First of all.
+  void draw_depths(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     for (const std::uint32_t i : shown) draw_depth(splats[i]);
+  }
+
+  /// Whether any pixel shows the splat.
+  bool shows(const Splat& s) const {
+    return find(s, 1.0f, [&](std::size_t pixel, float, float du, float dv) {
+      return nearness(s, pixel, inverse_depth(s, du, dv)) > 0;
+    });
+  }
+
+  /// count(splat, pixel of the band, weight) for what shows, splat by splat in the order given.
+  template <class Count>
+  void draw_weights(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
+                    Count&& count) {
     for (const std::uint32_t i : shown)
-      draw_weights(splats[i],
-                   [&](std::size_t pixel, float weight) { count(splats[i].point, pixel, weight); });
+      draw_weight(splats[i], [&](std::size_t pixel, float weight) { count(i, pixel, weight); });
+  }
+
+  /// Needs all splats of the band, hidden ones too.
+  void draw_coverage(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     cover_by_density();
     for (const std::uint32_t i : shown) draw_cover(splats[i]);
   }
@@ -72,14 +86,19 @@ class SplatBand {
     });
   }
 
+  /// 1 at the nearest surface, 0 or less where the splat is hidden.
+  float nearness(const Splat& s, std::size_t pixel, float inverse) const {
+    return 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
+  }
+
   template <class Count>
-  void draw_weights(const Splat& s, Count&& count) {
+  void draw_weight(const Splat& s, Count&& count) {
     visit(s, 1.0f, [&](std::size_t pixel, float r2, float du, float dv) {
       const float inverse = inverse_depth(s, du, dv);
-      const float nearness = 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
-      if (!(nearness > 0)) return;
+      const float near = nearness(s, pixel, inverse);
+      if (!(near > 0)) return;
       static_assert(kReferenceKernel.exponent == 4);
-      const float kernel = (1 - r2) * (1 - r2) * nearness;
+      const float kernel = (1 - r2) * (1 - r2) * near;
       const float weight = s.weight * kernel * kernel;
       count(pixel, weight);
       weight_[pixel] += weight;
@@ -139,6 +158,15 @@ class SplatBand {
   /// `limit`.
   template <class Visitor>
   void visit(const Splat& s, float limit, Visitor&& visitor) const {
+    find(s, limit, [&](std::size_t pixel, float r2, float du, float dv) {
+      visitor(pixel, r2, du, dv);
+      return false;
+    });
+  }
+
+  /// Whether `wanted` says so of one of these.
+  template <class Wanted>
+  bool find(const Splat& s, float limit, Wanted&& wanted) const {
     const int top = std::max(first_row_, static_cast<int>(std::ceil(s.v - s.half_height - 0.5f)));
     const int bottom =
         std::min(first_row_ + rows_ - 1, static_cast<int>(std::floor(s.v + s.half_height - 0.5f)));
@@ -152,9 +180,10 @@ class SplatBand {
         const float du = static_cast<float>(column) + 0.5f - s.u;
         const float r2 = du * (s.a * du + row_mixed) + row_square;
         if (r2 >= limit) continue;
-        visitor(start + std::size_t(column), r2, du, dv);
+        if (wanted(start + std::size_t(column), r2, du, dv)) return true;
       }
     }
+    return false;
   }
 
   int width_, first_row_, rows_;
