@@ -110,6 +110,7 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.inverse_depth = static_cast<float>(1 / z);
   splat.inverse_depth_du = static_cast<float>(tame * du);
   splat.inverse_depth_dv = static_cast<float>(tame * dv);
+  splat.inverse_depth_change = static_cast<float>(tame * change);
   splat.fade = static_cast<float>(z * z / band);
   // Area of the surface over that of the disc, times that of the disc over that of the ellipse.
   const double share = disc.area > 0 ? disc.area / (disc.radius * disc.radius)
