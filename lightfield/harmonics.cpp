@@ -41,4 +41,38 @@ void Harmonics::evaluate(const std::array<double, 3>& direction, Real* row) cons
 template void Harmonics::evaluate(const std::array<double, 3>&, float*) const;
 template void Harmonics::evaluate(const std::array<double, 3>&, double*) const;
 
+void Harmonics::evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
+                         std::array<float, kLanes>* rows) const {
+  const auto& [x, y, z] = directions;
+  std::array<float, kLanes> cosine, sine{}, before, legendre;
+  cosine.fill(1);
+  float diagonal = 1;
+  const Step* step = steps_.data();
+  for (int m = 0; m <= degree_; ++m) {
+    before.fill(0);
+    legendre.fill(diagonal);
+    for (int l = m; l <= degree_; ++l, ++step) {
+      const auto norm = static_cast<float>(step->norm);
+      const auto from_this = static_cast<float>(step->from_this);
+      const auto from_before = static_cast<float>(step->from_before);
+      auto& plus = rows[l * l + l + m];
+      auto& minus = rows[l * l + l - m];
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const float scaled = norm * legendre[i];
+        const float next = from_this * z[i] * legendre[i] - from_before * before[i];
+        minus[i] = scaled * sine[i];
+        plus[i] = scaled * cosine[i];  // last: one of both where m = 0
+        before[i] = legendre[i];
+        legendre[i] = next;
+      }
+    }
+    diagonal *= static_cast<float>(2 * m + 1);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float turned = cosine[i] * x[i] - sine[i] * y[i];
+      sine[i] = sine[i] * x[i] + cosine[i] * y[i];
+      cosine[i] = turned;
+    }
+  }
+}
+
 }  // namespace slf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace slf {
@@ -16,12 +17,21 @@ class Harmonics {
   /// @param degree  L, 0 .. kMaxDegree
   explicit Harmonics(int degree);
 
+  static constexpr std::size_t kLanes = 8;  ///< directions at once
+  static constexpr std::size_t kMost = std::size_t{kMaxDegree + 1} * (kMaxDegree + 1);
+
   int size() const { return (degree_ + 1) * (degree_ + 1); }
 
   /// @param direction  unit length
   /// @param row  receives size() values. Exact to 1e-12 in double, 1e-4 in float.
   template <class Real>
   void evaluate(const std::array<double, 3>& direction, Real* row) const;
+
+  /// Of kLanes directions at once, in float: exact to 1e-4.
+  /// @param directions  [3] unit length
+  /// @param rows  [size()] receives the values
+  void evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
+                std::array<float, kLanes>* rows) const;
 
  private:
   /// Of function (l, m), m >= 0: from the Legendre functions of l and l - 1 to that of l + 1.

@@ -67,13 +67,12 @@ Renderer::Renderer(const ViewMaps& maps, const RenderSettings& settings)
 Rendering Renderer::render(const Camera& camera) const {
   const auto splats = project_surfels(*surfels_, camera, settings_.threads);
   const Vec3 eye = camera.centre();
-  const auto colour = [&](std::uint32_t p) {
-    if (!settings_.view_dependent) return maps_.mean(p);
-    const Vec3 at = maps_.header().grid.world(maps_.positions()[p]);
-    const auto [theta, gamma] = direction_of({eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]});
-    return maps_.radiance(p, theta, gamma);
+  const ColourSource colours = [&](std::span<const std::uint32_t> points,
+                                   std::span<std::array<float, 3>> out) {
+    if (settings_.view_dependent) return maps_.radiances(eye, points, out);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = maps_.mean(points[i]);
   };
-  return compose(rasterise(splats, camera.width, camera.height, settings_.threads, colour), camera,
+  return compose(rasterise(splats, camera.width, camera.height, settings_.threads, colours), camera,
                  settings_, maps_.header().transfer);
 }
 

@@ -110,6 +110,7 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.inverse_depth = static_cast<float>(1 / z);
   splat.inverse_depth_du = static_cast<float>(tame * du);
   splat.inverse_depth_dv = static_cast<float>(tame * dv);
+  splat.inverse_depth_change = static_cast<float>(tame * change);
   splat.fade = static_cast<float>(z * z / band);
   // Area of the surface over that of the disc, times that of the disc over that of the ellipse.
   const double share = disc.area > 0 ? disc.area / (disc.radius * disc.radius)
@@ -121,31 +122,84 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   return splat;
 }
 
+namespace {
+
+/// Indices of the splats of a band that no other hides.
+std::vector<std::uint32_t> shown_by(const SplatBand& band, const std::vector<Splat>& splats,
+                                    const std::vector<std::uint32_t>& all) {
+  std::vector<std::uint32_t> shown;
+  for (const std::uint32_t i : all)
+    if (band.shows(splats[i])) shown.push_back(i);
+  return shown;
+}
+
+/// Colours [splats] of those that are in a list.
+std::vector<std::array<float, 3>> colours_of(const std::vector<Splat>& splats,
+                                             const std::vector<std::vector<std::uint32_t>>& shown,
+                                             int threads, const ColourSource& source) {
+  std::vector<std::uint8_t> in_list(splats.size(), 0);
+  for (const auto& list : shown)
+    for (const std::uint32_t i : list) in_list[i] = 1;
+  std::vector<std::array<float, 3>> colours(splats.size());
+  parallel_ranges(splats.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> points;
+    for (std::size_t i = begin; i < end; ++i)
+      if (in_list[i]) points.push_back(splats[i].point);
+    std::vector<std::array<float, 3>> own(points.size());
+    source(points, own);
+    for (std::size_t i = begin, next = 0; i < end; ++i)
+      if (in_list[i]) colours[i] = own[next++];
+  });
+  return colours;
+}
+
+}  // namespace
+
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
-                     const std::function<std::array<float, 3>(std::uint32_t)>& colour) {
+                     const ColourSource& source) {
   const std::size_t pixels = std::size_t(width) * std::size_t(height);
   SplatImage image;
   image.colour.assign(pixels, {0, 0, 0});
   image.coverage.assign(pixels, 0);
   image.depth.assign(pixels, 0);
   const auto bins = bin_splats(splats, height);
+  std::vector<std::vector<std::uint32_t>> shown(bins.size());
+  std::vector<SplatBand> bands;
+  bands.reserve(bins.size());
+  for (std::size_t i = 0; i < bins.size(); ++i)
+    bands.emplace_back(image.coverage, image.depth, width, height, i);
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      SplatBand band(image.coverage, image.depth, width, height, i);
-      std::array<float, 3>* const colours = image.colour.data() + band.first_pixel();
-      std::uint32_t last = ~std::uint32_t{0};
-      std::array<float, 3> own{};
-      band.draw(splats, bins[i], [&](std::uint32_t point, std::size_t pixel, float weight) {
-        if (point != last) own = colour(point);
-        last = point;
-        for (std::size_t k = 0; k < 3; ++k) colours[pixel][k] += weight * own[k];
-      });
+      bands[i].draw_depths(splats, bins[i]);
+      shown[i] = shown_by(bands[i], splats, bins[i]);
+    }
+  });
+  const auto colours = colours_of(splats, shown, threads, source);
+  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      SplatBand& band = bands[i];
+      std::array<float, 3>* const sums = image.colour.data() + band.first_pixel();
+      band.draw_weights(splats, shown[i],
+                        [&](std::uint32_t splat, std::size_t pixel, float weight) {
+                          for (std::size_t k = 0; k < 3; ++k)
+                            sums[pixel][k] += weight * colours[splat][k];
+                        });
+      band.draw_coverage(splats, bins[i]);
       band.normalise([&](std::size_t pixel, float scale) {
-        for (float& c : colours[pixel]) c *= scale;
+        for (float& c : sums[pixel]) c *= scale;
       });
     }
   });
   return image;
+}
+
+SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+                     const std::function<std::array<float, 3>(std::uint32_t)>& colour) {
+  return rasterise(splats, width, height, threads,
+                   ColourSource([&](std::span<const std::uint32_t> points,
+                                    std::span<std::array<float, 3>> colours) {
+                     std::transform(points.begin(), points.end(), colours.begin(), colour);
+                   }));
 }
 
 }  // namespace slf

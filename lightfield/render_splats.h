@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "slf/capture.h"
@@ -28,6 +29,7 @@ struct Splat {
   float a, b, c;                  ///< 1 / pixel^2
   float half_width, half_height;  ///< of the ellipse's box, pixels
   float inverse_depth, inverse_depth_du, inverse_depth_dv;
+  float inverse_depth_change;  ///< at most, within the ellipse
   float fade;    ///< 1 / the inverse depth behind the nearest at which it no longer counts
   float weight;  ///< at the centre: the number of such discs on a pixel times it is their density
   float full;    ///< squared ellipse radius within which the disc covers pixels entirely
@@ -44,9 +46,16 @@ struct SplatImage {
   std::vector<float> depth;                  ///< [height][width] +inf where nothing is
 };
 
-/// Two passes: depth of the nearest discs, then the mean of what lies close behind it, spec annex
-/// E. `colour` is called from several threads, once per band of rows that shows the
-/// point. The same for any thread count.
+/// Writes the colours of points, [points]; called from several threads, once per point at most.
+using ColourSource =
+    std::function<void(std::span<const std::uint32_t> points, std::span<std::array<float, 3>>)>;
+
+/// Depth of the nearest discs, then the mean of what lies close behind it, spec annex E. Asks for
+/// the colours of points that show, no others. The same for any thread count.
+SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+                     const ColourSource& source);
+
+/// The same with one colour at a time.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const std::function<std::array<float, 3>(std::uint32_t point)>& colour);
 

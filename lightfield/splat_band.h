@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,7 +20,7 @@ constexpr int kBandRows = 16;  // of one band: worked on by one thread, small en
 /// Indices of the splats that touch each band, ascending.
 std::vector<std::vector<std::uint32_t>> bin_splats(const std::vector<Splat>& splats, int height);
 
-/// A band of rows: draw, then normalise.
+/// A band of rows. Its functions are called in this order; shows() is optional.
 class SplatBand {
  public:
   /// Writes to its rows of `coverage` and `depth`, [height][width], 0 before.
@@ -32,19 +33,42 @@ class SplatBand {
         depth_(depth.data() + first_pixel()),
         weight_(pixels(), 0),
         nearest_(pixels(), 0),
-        open_(std::size_t(width + kBlock - 1) / kBlock, false) {}
+        farthest_(std::size_t(width + kBlock - 1) / kBlock, std::numeric_limits<float>::infinity()),
+        open_(farthest_.size(), 0) {}
 
   std::size_t first_pixel() const { return std::size_t(first_row_) * std::size_t(width_); }
   std::size_t pixels() const { return std::size_t(rows_) * std::size_t(width_); }
 
-  /// count(point, pixel of the band, weight) for what shows, splat by splat in the order given.
-  template <class Count>
-  void draw(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
-            Count&& count) {
+  /// First of all.
+  void draw_depths(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     for (const std::uint32_t i : shown) draw_depth(splats[i]);
+    for (std::size_t i = 0; i < pixels(); ++i) {
+      float& farthest = farthest_[i % std::size_t(width_) / kBlock];
+      farthest = std::min(farthest, nearest_[i]);
+    }
+  }
+
+  /// Whether any pixel shows the splat.
+  bool shows(const Splat& s) const {
+    const auto [first, last] = blocks_of(s);
+    float farthest = farthest_[first];
+    for (std::size_t i = first + 1; i <= last; ++i) farthest = std::min(farthest, farthest_[i]);
+    if ((farthest - s.inverse_depth - s.inverse_depth_change) * s.fade >= 1) return false;
+    return find(s, 1.0f, [&](std::size_t pixel, float, float du, float dv) {
+      return nearness(s, pixel, inverse_depth(s, du, dv)) > 0;
+    });
+  }
+
+  /// count(splat, pixel of the band, weight) for what shows, splat by splat in the order given.
+  template <class Count>
+  void draw_weights(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
+                    Count&& count) {
     for (const std::uint32_t i : shown)
-      draw_weights(splats[i],
-                   [&](std::size_t pixel, float weight) { count(splats[i].point, pixel, weight); });
+      draw_weight(splats[i], [&](std::size_t pixel, float weight) { count(i, pixel, weight); });
+  }
+
+  /// Needs all splats of the band, hidden ones too.
+  void draw_coverage(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     cover_by_density();
     for (const std::uint32_t i : shown) draw_cover(splats[i]);
   }
@@ -64,22 +88,37 @@ class SplatBand {
   }
 
  private:
+  static constexpr float kCoreReach = 0.6324555f;  // ellipse radius
+  static_assert(kReferenceKernel.core == 0.4);     // its square
   static constexpr int kBlock = 8;  // columns that are looked at together for pixels not covered
 
   void draw_depth(const Splat& s) {
-    visit(s, float(kReferenceKernel.core), [&](std::size_t pixel, float, float du, float dv) {
+    visit(s, kCoreReach, [&](std::size_t pixel, float, float du, float dv) {
       nearest_[pixel] = std::max(nearest_[pixel], inverse_depth(s, du, dv));
     });
   }
 
+  /// First and last block of columns that the splat may touch.
+  std::array<std::size_t, 2> blocks_of(const Splat& s) const {
+    const auto block = [&](float u) {
+      return std::size_t(std::clamp(static_cast<int>(u), 0, width_ - 1) / kBlock);
+    };
+    return {block(s.u - s.half_width), block(s.u + s.half_width)};
+  }
+
+  /// 1 at the nearest surface, 0 or less where the splat is hidden.
+  float nearness(const Splat& s, std::size_t pixel, float inverse) const {
+    return 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
+  }
+
   template <class Count>
-  void draw_weights(const Splat& s, Count&& count) {
+  void draw_weight(const Splat& s, Count&& count) {
     visit(s, 1.0f, [&](std::size_t pixel, float r2, float du, float dv) {
       const float inverse = inverse_depth(s, du, dv);
-      const float nearness = 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
-      if (!(nearness > 0)) return;
+      const float near = nearness(s, pixel, inverse);
+      if (!(near > 0)) return;
       static_assert(kReferenceKernel.exponent == 4);
-      const float kernel = (1 - r2) * (1 - r2) * nearness;
+      const float kernel = (1 - r2) * (1 - r2) * near;
       const float weight = s.weight * kernel * kernel;
       count(pixel, weight);
       weight_[pixel] += weight;
@@ -95,16 +134,15 @@ class SplatBand {
       if (!(weight_[i] > 0)) continue;
       coverage_[i] =
           std::clamp(kGain * weight_[i] - float(kReferenceKernel.density_offset), 0.0f, 1.0f);
-      if (coverage_[i] < 1) open_[i % std::size_t(width_) / kBlock] = true;
+      if (coverage_[i] < 1) open_[i % std::size_t(width_) / kBlock] = 1;
     }
   }
 
   void draw_cover(const Splat& s) {
-    const int first = std::clamp(static_cast<int>(s.u - s.half_width), 0, width_ - 1) / kBlock;
-    const int last = std::clamp(static_cast<int>(s.u + s.half_width), 0, width_ - 1) / kBlock;
-    if (std::find(open_.begin() + first, open_.begin() + last + 1, true) ==
-        open_.begin() + last + 1)
-      return;
+    const auto [first, last] = blocks_of(s);
+    bool open = false;
+    for (std::size_t i = first; i <= last; ++i) open = open || open_[i] != 0;
+    if (!open) return;
     visit(s, 1.0f, [&](std::size_t pixel, float r2, float du, float dv) {
       if (coverage_[pixel] < 1 && weight_[pixel] > 0)
         coverage_[pixel] = std::max(coverage_[pixel], disc_cover(s, r2, du, dv));
@@ -135,34 +173,57 @@ class SplatBand {
     return std::clamp(0.5f + (kShare * reach - distance) * across, 0.0f, 1.0f);
   }
 
-  /// visitor(pixel, squared ellipse radius, offset) for pixel centres with that radius below
-  /// `limit`.
+  // Without a call into the library, which has no better code for every processor.
+  static int floor_of(float x) {
+    const int i = static_cast<int>(x);
+    return i - (static_cast<float>(i) > x);
+  }
+  static int ceil_of(float x) {
+    const int i = static_cast<int>(x);
+    return i + (static_cast<float>(i) < x);
+  }
+
+  /// visitor(pixel, squared ellipse radius, offset) for pixel centres with a radius below `reach`.
   template <class Visitor>
-  void visit(const Splat& s, float limit, Visitor&& visitor) const {
-    const int top = std::max(first_row_, static_cast<int>(std::ceil(s.v - s.half_height - 0.5f)));
-    const int bottom =
-        std::min(first_row_ + rows_ - 1, static_cast<int>(std::floor(s.v + s.half_height - 0.5f)));
-    const int first = std::max(0, static_cast<int>(std::ceil(s.u - s.half_width - 0.5f)));
-    const int last = std::min(width_ - 1, static_cast<int>(std::floor(s.u + s.half_width - 0.5f)));
+  void visit(const Splat& s, float reach, Visitor&& visitor) const {
+    find(s, reach, [&](std::size_t pixel, float r2, float du, float dv) {
+      visitor(pixel, r2, du, dv);
+      return false;
+    });
+  }
+
+  /// Whether `wanted` says so of one of these.
+  template <class Wanted>
+  bool find(const Splat& s, float reach, Wanted&& wanted) const {
+    const float height = reach * s.half_height, per_a = 1 / s.a;
+    const int top = std::max(first_row_, ceil_of(s.v - height - 0.5f));
+    const int bottom = std::min(first_row_ + rows_ - 1, floor_of(s.v + height - 0.5f));
     for (int row = top; row <= bottom; ++row) {
       const float dv = static_cast<float>(row) + 0.5f - s.v;
-      const float row_square = s.c * dv * dv, row_mixed = 2 * s.b * dv;
+      // a du^2 + 2 b dv du + c dv^2 = reach^2 at the ends of the row.
+      const float mixed = s.b * dv, row_square = s.c * dv * dv;
+      const float root = mixed * mixed - s.a * (row_square - reach * reach);
+      if (!(root > 0)) continue;
+      const float half = std::sqrt(root) * per_a, middle = s.u - mixed * per_a - 0.5f;
+      const int first = std::max(0, ceil_of(middle - half));
+      const int last = std::min(width_ - 1, floor_of(middle + half));
       const std::size_t start = std::size_t(row - first_row_) * std::size_t(width_);
       for (int column = first; column <= last; ++column) {
         const float du = static_cast<float>(column) + 0.5f - s.u;
-        const float r2 = du * (s.a * du + row_mixed) + row_square;
-        if (r2 >= limit) continue;
-        visitor(start + std::size_t(column), r2, du, dv);
+        const float r2 = std::min(1.0f, du * (s.a * du + 2 * mixed) + row_square);
+        if (wanted(start + std::size_t(column), r2, du, dv)) return true;
       }
     }
+    return false;
   }
 
   int width_, first_row_, rows_;
   float* coverage_;
   float* depth_;  // sum of weighted inverse depths until normalise()
   std::vector<float> weight_;
-  std::vector<float> nearest_;  // greatest inverse depth
-  std::vector<bool> open_;      // [blocks of columns] has a pixel that is not wholly covered
+  std::vector<float> nearest_;      // greatest inverse depth
+  std::vector<float> farthest_;     // [blocks of columns] least of nearest_
+  std::vector<std::uint8_t> open_;  // [blocks] has a pixel that is not wholly covered
 };
 
 }  // namespace slf

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "geometry/morton.h"
 #include "lightfield/octahedral.h"
 #include "lightfield/render_surfels.h"
 #include "lightfield/splat_weights.h"
@@ -332,6 +334,40 @@ TEST(RenderTest, CodedNormalsShapeTheDiscs) {
   };
   EXPECT_LT(covered({1, 0, 0}), 0.4 * covered({0, 0, 1}));
   EXPECT_NEAR(covered({0, 0, 1}), covered({0, 0, -1}), 1e-9);
+}
+
+TEST(RadiancesTest, ManyPointsAtOnceHaveTheColoursOfEach) {
+  for (const FrameId frame : {FrameId::kGlobal, FrameId::kReflected})
+    for (const int degree : {0, 3, 8}) {
+      LightField field;
+      field.header.grid = {{-1, 2, 0.5}, 0.25, 5};
+      field.header.basis = {BasisId::kHarmonics, 0, 0, 0};
+      field.header.basis.degree = degree;
+      field.header.frame = frame;
+      field.header.num_functions = field.header.basis.num_functions();
+      field.header.gamma_min_q7 = -40;
+      field.header.gamma_max_q7 = 100;
+      field.header.shift.assign(std::size_t(field.header.num_functions), 4);
+      field.positions = test::sphere(10, 6);
+      std::sort(field.positions.begin(), field.positions.end(),
+                [](const Voxel& a, const Voxel& b) { return morton(a) < morton(b); });
+      const std::size_t size = field.positions.size() * 3 * std::size_t(field.header.num_functions);
+      for (std::size_t i = 0; i < size; ++i)
+        field.components.push_back(static_cast<std::int32_t>(i * 7919 % 301) - 100);
+      const ViewMaps maps(field);
+      std::vector<std::uint32_t> points;  // not a multiple of what goes together
+      for (std::uint32_t p = 0; p + 3 < field.positions.size(); p += 2) points.push_back(p);
+      if (points.size() % 8 == 0) points.pop_back();
+      std::vector<std::array<float, 3>> colours(points.size());
+      const Vec3 eye{4, 1, 7};
+      maps.radiances(eye, points, colours);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 at = field.header.grid.world(field.positions[points[i]]);
+        const auto [theta, gamma] = direction_of({eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]});
+        const auto one = maps.radiance(points[i], theta, gamma);
+        for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(colours[i][k], one[k], 0.02);
+      }
+    }
 }
 
 TEST(OrbitTest, TheUpAxisPointsUpInTheImageAndTheCloudFits) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,6 +37,10 @@ class ViewMaps {
   /// γ is first clamped to the header's range; the result to 0 .. 255. Agrees with the sum over the
   /// basis functions within 1/256 grey level (header.shift aside).
   std::array<float, 3> radiance(std::size_t p, float theta, float gamma) const;
+  /// The same of many points seen from a place in the world; quicker, and within 1/50 grey level.
+  /// @param colours  [points] receives R, G, B
+  void radiances(const Vec3& eye, std::span<const std::uint32_t> points,
+                 std::span<std::array<float, 3>> colours) const;
   /// The same without any clamp.
   std::array<float, 3> radiance_unclamped(std::size_t p, float theta, float gamma) const;
   /// The mean over all directions (the DC), 0 .. 255.
@@ -51,6 +56,7 @@ class ViewMaps {
   std::vector<Voxel> positions_;
   CodedNormals normals_;
   std::array<float, 3> sum_of_functions(std::size_t p, const std::array<float, 2>& direction) const;
+  std::array<float, 3> seen_from(std::size_t p, const Vec3& eye) const;
 
   std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][K][3] harmonic coefficients
   std::vector<std::array<float, 3>> frame_normals_;  // [P], or empty: global frame

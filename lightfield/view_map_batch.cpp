@@ -1,0 +1,82 @@
+// Colours of many points at once, as a renderer asks for them.
+#include <algorithm>
+#include <cmath>
+
+#include "lightfield/harmonics.h"
+#include "slf/view_map.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kLanes = Harmonics::kLanes;
+
+std::array<float, 3> unit(const Vec3& from, const Vec3& to) {
+  const Vec3 v{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (!(square > 0)) return {1, 0, 0};  // as direction_of(0, 0, 0)
+  const double scale = 1 / std::sqrt(square);
+  return {float(v[0] * scale), float(v[1] * scale), float(v[2] * scale)};
+}
+
+/// With z, which is gamma, in low .. high, and theta as it was.
+std::array<float, 3> with_gamma(std::array<float, 3> v, float low, float high) {
+  const float gamma = std::min(std::max(v[2], low), high);
+  if (gamma == v[2]) return v;
+  const float across = std::hypot(v[0], v[1]);
+  const float length = std::sqrt(std::max(0.0f, 1 - gamma * gamma));
+  if (!(across > 0)) return {length, 0, gamma};
+  return {v[0] * length / across, v[1] * length / across, gamma};
+}
+
+}  // namespace
+
+std::array<float, 3> ViewMaps::seen_from(std::size_t p, const Vec3& eye) const {
+  const Vec3 at = header_.grid.world(positions_[p]);
+  const auto [theta, gamma] = direction_of({eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]});
+  return radiance(p, theta, gamma);
+}
+
+void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
+                         std::span<std::array<float, 3>> colours) const {
+  if (!harmonics_) {
+    for (std::size_t i = 0; i < points.size(); ++i) colours[i] = seen_from(points[i], eye);
+    return;
+  }
+  const float low = static_cast<float>(header_.gamma_min_q7) / 127.0f;
+  const float high = static_cast<float>(header_.gamma_max_q7) / 127.0f;
+  const auto functions = static_cast<std::size_t>(harmonics_->size());
+  std::array<std::array<float, kLanes>, 3> directions{};
+  std::array<std::array<float, kLanes>, Harmonics::kMost> rows;
+  std::array<float, Harmonics::kMost> row;
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, points.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t p = points[first + i];
+      auto w = unit(header_.grid.world(positions_[p]), eye);
+      if (!frame_normals_.empty()) {  // mirrored at the normal, spec 6.4
+        const auto& n = frame_normals_[p];
+        const float twice = 2 * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2]);
+        w = {twice * n[0] - w[0], twice * n[1] - w[1], twice * n[2] - w[2]};
+      }
+      w = with_gamma(w, low, high);
+      for (std::size_t k = 0; k < 3; ++k) directions[k][i] = w[k];
+    }
+    harmonics_->evaluate(directions, rows.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < functions; ++k) row[k] = rows[k][i];
+      const float* node = nodes_.data() + points[first + i] * 3 * functions;
+      // Four sums per channel, so that none waits for the one before.
+      std::array<float, 12> sums{};
+      std::size_t k = 0;
+      for (; k + 4 <= functions; k += 4, node += 12)
+        for (std::size_t j = 0; j < 12; ++j) sums[j] += row[k + j / 3] * node[j];
+      for (; k < functions; ++k, node += 3)
+        for (std::size_t c = 0; c < 3; ++c) sums[c] += row[k] * node[c];
+      for (std::size_t c = 0; c < 3; ++c)
+        colours[first + i][c] =
+            std::clamp(sums[c] + sums[c + 3] + sums[c + 6] + sums[c + 9], 0.0f, 255.0f);
+    }
+  }
+}
+
+}  // namespace slf
