@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slf/camera_trust.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"
@@ -82,6 +83,7 @@ struct EncoderSettings {
   int grid_bits = 9;      ///< 1 .. 21
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   ObserveSettings observe;
+  bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;                ///< changes fit; not without cameras
   double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
@@ -113,7 +115,8 @@ struct Encoded {
   std::vector<std::uint8_t> stream;
   double q = 0;  ///< the step it was coded with
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  ChosenFit fit;  ///< of a capture with cameras
+  ChosenFit fit;                     ///< of a capture with cameras
+  std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty
   double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
          seconds_code = 0;
   std::vector<std::string> warnings;
@@ -122,7 +125,7 @@ struct Encoded {
 /// From a capture to an .slf stream. With no cameras (a coloured cloud) the colours are coded as a
 /// light field of one component.
 /// @param cameras  the input cameras (split_cameras); empty only where the capture has none.
-/// @errors those of the steps: voxelise, observe, fit_view_maps, pack.
+/// @errors those of the steps: voxelise, observe, check_cameras, fit_view_maps, pack.
 /// Deterministic for any thread count of one binary.
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress = {});
