@@ -17,24 +17,34 @@ namespace {
 // 16 times as much.
 constexpr double kLeastShare = 0.65;         // of the peers' agreement that is enough
 constexpr double kLeastPeerAgreement = 0.7;  // of peers that can be judged by
-constexpr std::size_t kLeastPatches = 12;
-constexpr double kMostColourRatio = 16;  // 7.4 at most of cameras that belong: highlights
+constexpr std::size_t kLeastPatches = 24;    // that have a pattern; of fewer, chance decides
+constexpr double kMostColourRatio = 16;      // 7.4 at most of cameras that belong: highlights
 constexpr double kLeastLogGain = 0.08, kLeastGainOverSpread = 0.6;
 constexpr std::size_t kLeastGainSamples = 100;
 constexpr double kMostClipped = 0.5, kMostClippedOfOthers = 0.25;
 constexpr std::size_t kLeastCameras = 4;
 constexpr double kLeastSupport = 0.4;  // agreement of the median camera with the others
 
-/// Observations at the upper end, of all, per camera.
-std::vector<double> clipped_shares(const Observations& seen, std::size_t cameras) {
-  std::vector<double> clipped(cameras), all(cameras);
+/// One of each camera that sees anything, ascending, with what of it is clipped.
+std::vector<CameraTrust> cameras_that_see(const Observations& seen) {
+  std::vector<double> clipped, all;
   for (std::size_t i = 0; i < seen.camera.size(); ++i) {
+    const std::size_t camera = seen.camera[i];
+    if (camera >= all.size()) {
+      all.resize(camera + 1);
+      clipped.resize(camera + 1);
+    }
     const auto& c = seen.colour[i];
-    clipped[seen.camera[i]] += std::max({c[0], c[1], c[2]}) >= kClipped;
-    ++all[seen.camera[i]];
+    clipped[camera] += std::max({c[0], c[1], c[2]}) >= kClipped ? 1 : 0;
+    ++all[camera];
   }
-  for (std::size_t i = 0; i < cameras; ++i) clipped[i] /= std::max(all[i], 1.0);
-  return clipped;
+  std::vector<CameraTrust> trust;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (all[c] == 0) continue;
+    trust.emplace_back().camera = static_cast<int>(c);
+    trust.back().clipped_share = clipped[c] / all[c];
+  }
+  return trust;
 }
 
 /// Most of what it sees is white, and not so of the median camera.
@@ -77,10 +87,19 @@ struct Check {
   const Observations& seen;
   std::vector<std::size_t> patches;
   std::vector<CameraState> states;
-  std::vector<CameraAgreement> agreement;
-  int threads;
+  std::vector<CameraAgreement> agreement, when_dropped;
+  std::size_t cameras = 0, dropped = 0;
+  int threads = 0;
 
   void look() { agreement = camera_agreement(seen, patches, states, threads); }
+  /// @return false where a third of the cameras would be exceeded
+  bool drop(std::size_t camera) {
+    if (3 * (dropped + 1) > cameras) return false;
+    ++dropped;
+    states[camera].dropped = true;
+    when_dropped[camera] = agreement[camera];
+    return true;
+  }
 };
 
 /// The camera whose gain, not yet corrected, is the furthest from 1.
@@ -126,6 +145,24 @@ std::optional<double> support(const std::vector<CameraAgreement>& agreement) {
   return *middle;
 }
 
+/// Drops and corrects until what is left agrees. One at a time, the worst first: it spoils the
+/// predictions of its neighbours.
+void settle(Check& check, const std::vector<CameraTrust>& trust) {
+  for (const CameraTrust& t : trust)
+    if (is_burnt_out(t, trust)) check.drop(std::size_t(t.camera));
+  if (check.dropped > 0) check.look();
+  while (true) {
+    if (const auto foreign = most_foreign(check)) {
+      if (!check.drop(*foreign)) return;
+    } else if (const auto exposed = most_exposed(check)) {
+      check.states[*exposed] = {false, true, *gain_of(check.agreement[*exposed])};
+    } else {
+      return;
+    }
+    check.look();
+  }
+}
+
 std::string text(const char* format, double a, double b = 0, double c = 0) {
   char buffer[128];
   std::snprintf(buffer, sizeof buffer, format, a, b, c);
@@ -135,21 +172,17 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
 }  // namespace
 
 Result<std::vector<CameraTrust>, InputError> check_cameras(const Observations& seen, int threads) {
-  std::vector<std::uint8_t> sees;
-  for (const std::uint16_t camera : seen.camera) {
-    if (camera >= sees.size()) sees.resize(camera + std::size_t{1});
-    sees[camera] = 1;
-  }
-  std::vector<CameraTrust> trust;
-  const std::vector<double> clipped = clipped_shares(seen, sees.size());
-  for (std::size_t c = 0; c < sees.size(); ++c) {
-    if (!sees[c]) continue;
-    trust.emplace_back().camera = static_cast<int>(c);
-    trust.back().clipped_share = clipped[c];
-  }
+  std::vector<CameraTrust> trust = cameras_that_see(seen);
   if (trust.size() < kLeastCameras) return trust;
-
-  Check check{seen, choose_patches(seen), std::vector<CameraState>(sees.size()), {}, threads};
+  const auto count = static_cast<std::size_t>(trust.back().camera) + 1;
+  Check check{seen,
+              choose_patches(seen),
+              std::vector<CameraState>(count),
+              {},
+              std::vector<CameraAgreement>(count),
+              trust.size(),
+              0,
+              threads};
   check.look();
   if (const auto agreement = support(check.agreement); agreement && *agreement < kLeastSupport)
     return InputError{Errc::kInvalidInput,
@@ -158,33 +191,11 @@ Result<std::vector<CameraTrust>, InputError> check_cameras(const Observations& s
                           text("%.2f", *agreement) +
                           " of 1). Do cloud, poses and photographs belong together? Without the "
                           "check of cameras it is encoded all the same"};
-  std::vector<CameraAgreement> when_dropped(sees.size());
-  std::size_t dropped = 0;
-  const auto drop_camera = [&](std::size_t c) {
-    if (3 * (dropped + 1) > trust.size()) return false;
-    ++dropped;
-    check.states[c].dropped = true;
-    when_dropped[c] = check.agreement[c];
-    return true;
-  };
-  for (const CameraTrust& t : trust)
-    if (is_burnt_out(t, trust)) drop_camera(std::size_t(t.camera));
-  if (dropped > 0) check.look();
-  // One at a time, the worst first: it spoils the predictions of its neighbours.
-  while (true) {
-    if (const auto foreign = most_foreign(check)) {
-      if (!drop_camera(*foreign)) break;
-    } else if (const auto exposed = most_exposed(check)) {
-      check.states[*exposed] = {false, true, *gain_of(check.agreement[*exposed])};
-    } else {
-      break;
-    }
-    check.look();
-  }
+  settle(check, trust);
   for (CameraTrust& t : trust) {
     const auto c = static_cast<std::size_t>(t.camera);
     const CameraState& state = check.states[c];
-    const CameraAgreement& a = state.dropped ? when_dropped[c] : check.agreement[c];
+    const CameraAgreement& a = state.dropped ? check.when_dropped[c] : check.agreement[c];
     if (can_be_judged(a)) {
       t.agreement = a.agreement;
       t.peer_agreement = a.peer_agreement;
