@@ -110,6 +110,11 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
                           : fit_capture(capture, cameras, job.cloud, settings, progress));
   if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
   encoded.fit = job.fit.chosen;
+  encoded.cameras = job.fit.cameras;
+  for (const CameraTrust& trust : encoded.cameras)
+    if (trust.verdict != CameraVerdict::kKept)
+      encoded.warnings.push_back(capture.cameras[std::size_t(trust.camera)].name + ": " +
+                                 reason_of(trust));
   encoded.observations = job.fit.observations;
   encoded.unobserved_points = job.fit.unobserved_points;
   encoded.seconds_observe = job.fit.seconds_observe;

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "lightfield/reference_kernel.h"
 
@@ -16,6 +17,15 @@ std::string text(double value) {
 }
 
 std::string hundredths(double value) { return text(std::round(value * 100) / 100); }
+
+/// Indices of the cameras with a verdict, in the order of the capture: "3 17".
+std::string cameras_with(CameraVerdict verdict, const std::vector<CameraTrust>& cameras) {
+  std::string indices;
+  for (const CameraTrust& trust : cameras)
+    if (trust.verdict == verdict) indices += std::to_string(trust.camera) + " ";
+  if (!indices.empty()) indices.pop_back();
+  return indices;
+}
 
 std::string cross_validation(const ChosenFit& chosen) {
   switch (chosen.outcome) {
@@ -129,6 +139,10 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
                         {"occlusion_resolution", text(s.observe.occlusion_resolution)},
                         {"depth_tolerance", text(s.observe.depth_tolerance)},
                     });
+    for (const auto& [key, verdict] : {std::pair{"cameras_dropped", CameraVerdict::kDropped},
+                                       {"cameras_gain_corrected", CameraVerdict::kGainCorrected}})
+      if (const auto indices = cameras_with(verdict, encoded.cameras); !indices.empty())
+        metadata.emplace_back(key, indices);
     const Metadata fit = fit_metadata(encoded.fit);
     metadata.insert(metadata.end(), fit.begin(), fit.end());
     if (encoded.fit.settings.pictures.rounds > 0) {

@@ -87,6 +87,10 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
   SLF_TRY(Observations world,
           observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
+  if (settings.check_cameras) {
+    SLF_TRY(fit.cameras, check_cameras(world, settings.threads));
+    world = trusted_observations(std::move(world), fit.cameras);
+  }
   fit.seconds_observe = watch.lap();
   SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, settings.fit, settings.search, progress));
   const FitSettings& chosen = fit.chosen.settings;

@@ -49,6 +49,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
     settings.refine_geometry = RefineGeometry::kOff;
+    settings.check_cameras = false;
     settings.fit = {};
     settings.search = FitSearch::none();
     settings.fit.penalise_dc = true;

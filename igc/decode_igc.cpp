@@ -157,6 +157,7 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   SLF_CHECK(decode_images(sections.images, parameters, options.limits, order, capture, progress));
   decoded.seconds_images = watch.lap();
   EncoderSettings& settings = parameters.settings.slf;
+  settings.check_cameras = settings.fit.method == FitMethod::kHierarchical;
   settings.threads = settings.observe.threads = settings.fit.threads = options.threads;
   const VoxelCloud cloud = with_normals(std::move(geometry), capture, given.cloud, options);
   const double seconds_normals = watch.lap();

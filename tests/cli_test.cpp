@@ -3,6 +3,7 @@
 #include <map>
 
 #include "cli_support.h"
+#include "slf/capture.h"
 #include "tools/npy.h"
 
 namespace slf {
@@ -231,6 +232,30 @@ TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
   EXPECT_EQ(slf("eval a.slf tiny --min-image-psnr 5").code, 0);
   EXPECT_EQ(slf("eval a.slf tiny --no-images --min-image-psnr 5").code, 2);
   expect_failure(slf("eval a.slf tiny --unquantised nowhere.slf"), 3, "nowhere.slf", "");
+}
+
+TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
+  const std::string how = "encode tiny -o a.slf --grid-bits 5 --effort 1 --json";
+  EXPECT_TRUE(parsed(slf(how).out)["camera_check"].empty());
+  const auto cameras = parsed(read("tiny/cameras.json"));
+  const std::string darker = cameras["splits"]["dense"][6];
+  auto image = read_image(path("tiny/" + darker));
+  ASSERT_TRUE(image) << image.error().message;
+  for (std::uint8_t& value : image->data) value /= 2;
+  ASSERT_TRUE(write_png(path("tiny/" + darker), *image));
+  const Ran ran = slf(how);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = parsed(ran.out);
+  ASSERT_EQ(report["camera_check"].size(), 1u) << report["camera_check"];
+  EXPECT_EQ(report["camera_check"][0]["image"], darker);
+  EXPECT_EQ(report["camera_check"][0]["verdict"], "gain");
+  for (const double gain : report["camera_check"][0]["gain"]) EXPECT_NEAR(gain, 2, 0.1);
+  EXPECT_NE(ran.err.find("slf: warning: " + darker + ": another exposure"), std::string::npos)
+      << ran.err;
+  EXPECT_TRUE(report["settings"].contains("cameras_gain_corrected"));
+  const auto off = parsed(slf(how + " --check-cameras off").out);
+  EXPECT_TRUE(off["camera_check"].empty());
+  EXPECT_FALSE(off["settings"].contains("cameras_gain_corrected"));
 }
 
 TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {

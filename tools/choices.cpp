@@ -149,6 +149,13 @@ CLI::Option* add_cross_validate_choice(CLI::App& verb, bool& choice) {
                           "--block-growth, --point-penalty by predicting held-out input images");
 }
 
+CLI::Option* add_check_cameras_choice(CLI::App& verb, bool& choice) {
+  return add_choice<bool>(
+      verb, "--check-cameras", choice, {{"on", true}, {"off", false}},
+      "Leave out input images that the others contradict (another object, a "
+      "wrong pose), and correct those of another exposure; off in preset paper");
+}
+
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice) {
   return add_choice<Preset>(verb, "--preset", choice,
                             {{"default", Preset::kDefault}, {"paper", Preset::kPaper}},

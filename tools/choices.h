@@ -28,6 +28,8 @@ CLI::Option* add_refine_choice(CLI::App& verb, RefineGeometry& choice);
 CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice);  ///< none: auto
 /// --cross-validate on|off.
 CLI::Option* add_cross_validate_choice(CLI::App& verb, bool& choice);
+/// --check-cameras on|off.
+CLI::Option* add_check_cameras_choice(CLI::App& verb, bool& choice);
 CLI::Option* add_preset_choice(CLI::App& verb, Preset& choice);
 CLI::Option* add_up_choice(CLI::App& verb, UpAxis& choice);
 CLI::Option* add_igc_codec_choice(CLI::App& verb, IgcCodec& choice);

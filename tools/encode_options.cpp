@@ -323,6 +323,9 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
 
 void add_encode_options(CLI::App& verb, EncodeOptions& o) {
   add_view_map_options(verb, o, ".slf");
+  add_check_cameras_choice(verb, o.check_cameras)
+      ->each([&o](const std::string&) { o.check_cameras_given = true; })
+      ->group("Observation (paper III-A)");
   add_coding_options(verb, o, settings_of(Preset::kDefault));
 }
 
@@ -360,6 +363,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.max_slice_points, given.slice_points);
   if (s.normal_bits > 0 && s.normal_bits < 4)
     return usage(given, "--normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12");
+  if (given.check_cameras_given) s.check_cameras = given.check_cameras;
   SLF_CHECK(resolve_fit(given, s));
   if (given.penalise_dc) s.fit.penalise_dc = true;
   if (given.free_dc) s.fit.penalise_dc = false;

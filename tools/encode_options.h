@@ -35,6 +35,7 @@ struct EncodeOptions {
   std::optional<BasisId> basis;  ///< none: auto, if given
   std::optional<FrameId> frame;
   bool cross_validate = true, cross_validate_given = false;
+  bool check_cameras = true, check_cameras_given = false;
   bool klt_given = false;
   TransformMode klt = TransformMode::kFunctions;
   std::optional<double> chroma_step;

@@ -12,8 +12,24 @@
 namespace slf::tools {
 namespace {
 
-nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std::size_t cameras,
-                                   double load) {
+/// The input cameras that do not count as they are.
+nlohmann::ordered_json camera_check_json(const Encoded& e, const Capture& capture) {
+  auto json = nlohmann::ordered_json::array();
+  for (const CameraTrust& t : e.cameras)
+    if (t.verdict != CameraVerdict::kKept)
+      json.push_back({{"image", capture.cameras[std::size_t(t.camera)].name},
+                      {"verdict", t.verdict == CameraVerdict::kDropped ? "dropped" : "gain"},
+                      {"gain", t.gain},
+                      {"agreement", t.agreement},
+                      {"peer_agreement", t.peer_agreement},
+                      {"reason", reason_of(t)}});
+  return json;
+}
+
+nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
+                                   const CaptureInput& input) {
+  const std::size_t cameras = input.cameras.size();
+  const double load = input.seconds;
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["q"] = e.q;
@@ -23,6 +39,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info, std
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
+  json["camera_check"] = camera_check_json(e, input.capture);
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
   json["pictures"] = nullptr;
@@ -92,7 +109,7 @@ Outcome run_encode(const EncodeOptions& given) {
   SLF_CHECK(save(given.output, encoded.stream.data(), encoded.stream.size()));
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
-    return print(report_json(encoded, info, input.cameras.size(), input.seconds));
+    return print(report_json(encoded, info, input));
   }
   if (!given.common.quiet)
     std::fputs(report_text(encoded, input.cameras.size(), input.seconds).c_str(), stderr);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slf/camera_trust.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"
@@ -84,6 +85,7 @@ struct EncoderSettings {
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   RefineGeometry refine_geometry = RefineGeometry::kAuto;  ///< kOff without cameras
   ObserveSettings observe;
+  bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;                ///< changes fit; not without cameras
   double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
@@ -120,6 +122,7 @@ struct Encoded {
   RefineReport refined;  ///< what became of the capture's points before anything else
   ChosenFit fit;         ///< of a capture with cameras
   PictureFit pictures;   ///< where fit.settings.pictures has rounds
+  std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty
   double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
          seconds_pictures = 0, seconds_code = 0;
   std::vector<std::string> warnings;
@@ -128,7 +131,7 @@ struct Encoded {
 /// From a capture to an .slf stream. With no cameras (a coloured cloud) the colours are coded as a
 /// light field of one component.
 /// @param cameras  the input cameras (split_cameras); empty only where the capture has none.
-/// @errors those of the steps: voxelise, observe, fit_view_maps, pack.
+/// @errors those of the steps: voxelise, observe, check_cameras, fit_view_maps, pack.
 /// Deterministic for any thread count of one binary.
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress = {});

@@ -65,6 +65,7 @@ OPTIONS = {
     "basis": (Choice("bspline", "harmonics", "auto"), CODECS),
     "frame": (Choice("global", "reflected", "auto"), CODECS),
     "cross-validate": (Choice("on", "off"), CODECS),
+    "check-cameras": (Choice("on", "off"), ("raht", "tmc")),
     "effort": (Number(1, 9, whole=True), CODECS),
     "degree": (Number(0, 10, whole=True), CODECS),
     "block-log2": (Number(0, 21, whole=True), CODECS),
