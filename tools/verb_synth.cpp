@@ -87,6 +87,7 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("--supersampling", s.supersampling, "Rays per pixel and axis")
       ->capture_default_str()
       ->check(whole_range(1, 8));
+  verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");
   verb->add_flag("--list", o->list, "List the scenes");
   add_threads(*verb, o->common);

@@ -16,6 +16,7 @@ struct SynthSettings {
   int threads = 0;  ///< 0: all cores. The result does not depend on it
   int circles = 11, per_circle = 50;  ///< cameras, 1 .. 99 and 1 .. 360
   int supersampling = 2;              ///< rays per pixel and axis, 1 .. 8
+  bool mesh = false;                  ///< mesh.obj as well; of the can and the vase
   bool force = false;                 ///< write into a foreign directory that is not empty
 };
 
