@@ -38,8 +38,8 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
-  if (s.voxel_size == 0 && (s.grid_bits < 1 || s.grid_bits > 21))
-    return invalid("grid bits: 1 to 21");
+  if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
+    return invalid("grid bits: 1 to 21, or 0 for automatic");
   if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
     return invalid("delta: 0 to 90 degrees");
   SLF_CHECK(check_fit_settings(s.fit));
@@ -55,13 +55,15 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings) {
   const bool needs_normals = !cameras.empty() || settings.normal_bits > 0;
-  if (!needs_normals || !capture.cloud.normals.empty())
-    return voxelise(capture.cloud, settings.grid_bits, settings.voxel_size);
+  const auto on_grid = [&](const PointCloud& cloud) {
+    return voxelise_geometry(capture, cloud, cameras, settings.grid_bits, settings.voxel_size);
+  };
+  if (!needs_normals || !capture.cloud.normals.empty()) return on_grid(capture.cloud);
   PointCloud cloud = capture.cloud;
   std::vector<Vec3> viewpoints;
   for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
   cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
-  return voxelise(cloud, settings.grid_bits, settings.voxel_size);
+  return on_grid(cloud);
 }
 
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,

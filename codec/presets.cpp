@@ -45,6 +45,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
   set_effort(effort, settings);
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
+    settings.grid_bits = 9;
     settings.fit = {};
     settings.search = FitSearch::none();
     settings.fit.penalise_dc = true;
