@@ -61,6 +61,9 @@ bool principal_point_is_far_off(const Camera& camera) {
 }
 
 Result<Done, InputError> check_size(const std::filesystem::path& file, const Camera& camera) {
+  std::error_code error;  // a pipe would be waited for
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    return invalid(file.string(), "is not a regular file");
   SLF_TRY(const ImageSize size, read_image_size(file));
   if (size.width == static_cast<std::uint32_t>(camera.width) &&
       size.height == static_cast<std::uint32_t>(camera.height))

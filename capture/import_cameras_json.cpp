@@ -102,8 +102,7 @@ Result<Import, InputError> import_cameras_json(const std::filesystem::path& file
   if (!has_masks) import.masks.clear();
   if (const auto splits = json.find("splits")) {
     SLF_CHECK(splits->expect_object());
-    for (const auto& name : splits->names()) {
-      SLF_TRY(const auto split, splits->at(name));
+    for (const auto& [name, split] : splits->members()) {
       SLF_TRY(import.capture.splits[name], read_split(split, camera_of));
     }
   }

@@ -208,10 +208,11 @@ Result<Done, InputError> JsonView::expect_object() const {
   return wrong_kind(*this, JsonValue::Kind::kObject, value_->kind);
 }
 
-std::vector<std::string> JsonView::names() const {
-  std::vector<std::string> names;
-  for (const auto& member : value_->members) names.push_back(member.name);
-  return names;
+std::vector<std::pair<std::string, JsonView>> JsonView::members() const {
+  std::vector<std::pair<std::string, JsonView>> views;
+  for (const auto& member : value_->members)
+    views.emplace_back(member.name, JsonView(member.value, file_, member_path(path_, member.name)));
+  return views;
 }
 
 }  // namespace slf

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slf/error.h"
@@ -51,8 +52,8 @@ class JsonView {
   Result<std::vector<JsonView>, InputError> items() const;
   Result<std::vector<JsonView>, InputError> items(std::size_t count) const;  ///< exactly so many
   Result<Done, InputError> expect_object() const;
-  /// Names of an object, in the order of the file; none of anything else.
-  std::vector<std::string> names() const;
+  /// Names and values of an object, in the order of the file; none of anything else.
+  std::vector<std::pair<std::string, JsonView>> members() const;
 
   InputError error(const std::string& cause) const;  ///< kInvalidInput: "file: path: cause"
 

@@ -3,6 +3,7 @@
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
+#include "capture/mesh_sampling.h"
 
 namespace slf {
 
@@ -73,13 +74,43 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
                                              "transforms.json"};
 }
 
+// The file that the format names, else one of a usual name; empty where there is none.
+fs::path geometry_file(const Import& import) {
+  if (!import.cloud_file.empty() && is_file(import.cloud_file)) return import.cloud_file;
+  for (const char* name : {"points.ply", "mesh.ply", "mesh.obj", "mesh.glb"})
+    if (is_file(import.capture.root / name)) return import.capture.root / name;
+  return import.cloud_file;
+}
+
+// Turns the mesh towards the cameras, and samples it as finely as all of them together resolve it.
+Result<Done, InputError> sample_surface(const std::string& name, Mesh mesh, Capture& capture) {
+  if (capture.cameras.empty()) {
+    capture.warnings.push_back(name +
+                               ": without cameras faces are ignored: its vertices are coded");
+    capture.cloud = std::move(mesh.vertices);
+    return Done{};
+  }
+  if (turn_towards(capture.cameras, mesh))
+    capture.warnings.push_back(name + ": faces point inwards: they are turned");
+  auto sampled = sample_for_cameras(capture, mesh);
+  if (!sampled) return InputError{sampled.error().code, name + ": " + sampled.error().message};
+  capture.cloud = *std::move(sampled);
+  if (capture.cloud.positions.empty())
+    return InputError{Errc::kInvalidInput, name + ": no face has an area that a camera resolves"};
+  capture.mesh = std::move(mesh);
+  return Done{};
+}
+
 // Reads the cloud from where it is; returns its name for messages.
 Result<std::string, InputError> load_cloud(const fs::path& given, Import& import) {
   auto& capture = import.capture;
-  fs::path file = !given.empty() ? given : import.cloud_file;
-  if (file.empty() && is_file(capture.root / "points.ply")) file = capture.root / "points.ply";
+  const fs::path file = !given.empty() ? given : geometry_file(import);
   if (!file.empty()) {
-    SLF_TRY(capture.cloud, read_ply(file, &capture.warnings));
+    SLF_TRY(Mesh mesh, read_mesh(file, &capture.warnings));
+    if (mesh.triangles.empty())
+      capture.cloud = std::move(mesh.vertices);
+    else
+      SLF_CHECK(sample_surface(file.string(), std::move(mesh), capture));
     return file.string();
   }
   if (!import.cloud_name.empty()) return std::string(import.cloud_name);

@@ -13,6 +13,7 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kMaxViewpoints = 32;  // more add time, not knowledge
+constexpr std::size_t kMaxSide = 2048;      // of a depth map, cells
 constexpr std::size_t kGrain = 4096;
 constexpr int kMaxRounds = 64;    // of asking the neighbours
 constexpr double kGrazing = 0.3;  // cosine; just behind a silhouette points still count as seen
@@ -36,6 +37,12 @@ double distance(const Vec3& a, const Vec3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+// Clouds may reach further than the largest float.
+float to_float(double value) {
+  constexpr double kLargest = double{std::numeric_limits<float>::max()};
+  return static_cast<float>(std::min(value, kLargest));
+}
+
 // Depth around one viewpoint on an octahedral map, in cells two point spacings wide.
 class DepthAround {
  public:
@@ -50,8 +57,8 @@ class DepthAround {
     const double far = distance(viewpoint, centroid_);
     // The map covers the 4 pi of the sphere: a cell spans sqrt(4 pi) / side.
     const double cells = 3.54 * far / (2 * spacing_);
-    side_ = static_cast<std::size_t>(std::clamp(cells, 8.0, 2048.0));
-    tolerance_ = static_cast<float>(2 * std::max(spacing_, 3.54 * far / (2 * double(side_))));
+    side_ = cells < kMaxSide ? static_cast<std::size_t>(std::max(cells, 8.0)) : kMaxSide;
+    tolerance_ = to_float(2 * std::max(spacing_, 3.54 * far / (2 * double(side_))));
     parallel_ranges(positions_.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) place(viewpoint, i);
     });
@@ -70,7 +77,7 @@ class DepthAround {
     const double y = double{positions_[i][1]} - viewpoint[1];
     const double z = double{positions_[i][2]} - viewpoint[2];
     const double norm = std::abs(x) + std::abs(y) + std::abs(z);
-    depth_[i] = static_cast<float>(std::hypot(x, y, z));
+    depth_[i] = to_float(std::hypot(x, y, z));
     cell_[i] = 0;
     if (!(norm > 0)) return;
     double u = x / norm, v = y / norm;
@@ -80,8 +87,9 @@ class DepthAround {
       u = folded;
     }
     const auto coordinate = [&](double w) {
-      const auto at = static_cast<std::size_t>(std::max((w + 1) / 2 * double(side_), 0.0));
-      return std::min(at, side_ - 1);
+      // Not a number where distances are beyond a double: any cell will do.
+      const double at = (w + 1) / 2 * double(side_);
+      return at > 0 ? static_cast<std::size_t>(std::min(at, double(side_ - 1))) : std::size_t{0};
     };
     cell_[i] = static_cast<std::uint32_t>(coordinate(v) * side_ + coordinate(u));
   }
@@ -90,7 +98,7 @@ class DepthAround {
   void cover(std::size_t i) {
     const double cell_angle = 3.54 / static_cast<double>(side_);
     const double cells = 0.75 * spacing_ / (std::max(depth(i), spacing_) * cell_angle);
-    const auto reach = static_cast<std::size_t>(std::min(cells + 0.5, 16.0));
+    const std::size_t reach = cells < 15.5 ? static_cast<std::size_t>(cells + 0.5) : 16;
     const std::size_t u = cell_[i] % side_, v = cell_[i] / side_;
     const std::size_t u_end = std::min(u + reach + 1, side_),
                       v_end = std::min(v + reach + 1, side_);

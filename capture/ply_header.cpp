@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace slf {
@@ -108,8 +109,9 @@ class HeaderParser {
     const auto* end = words[2].data() + words[2].size();
     const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
     if (error != std::errc() || stop != end) return bad_line();
-    for (const auto& other : header_.elements)
-      if (other.name == element.name) return invalid("PLY element '" + element.name + "' twice");
+    if (!names_.insert(element.name).second)
+      return invalid("PLY element '" + element.name + "' twice");
+    property_names_.clear();
     header_.elements.push_back(std::move(element));
     return Done{};
   }
@@ -122,8 +124,8 @@ class HeaderParser {
     if (!type || !count_type || *count_type >= PlyType::kFloat) return bad_line();
     auto& properties = header_.elements.back().properties;
     PlyProperty property{std::string(words.back()), *type, is_list, *count_type};
-    for (const auto& other : properties)
-      if (other.name == property.name) return invalid("PLY property '" + property.name + "' twice");
+    if (!property_names_.insert(property.name).second)
+      return invalid("PLY property '" + property.name + "' twice");
     properties.push_back(std::move(property));
     return Done{};
   }
@@ -144,6 +146,7 @@ class HeaderParser {
   std::size_t at_ = 0;
   bool line_ended_ = false;
   PlyHeader header_;
+  std::set<std::string> names_, property_names_;  // of elements; of the last one's properties
 };
 
 }  // namespace

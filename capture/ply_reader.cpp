@@ -1,12 +1,12 @@
-// PLY to a point cloud, properties by name.
+// PLY to a point cloud or mesh, properties by name.
 #include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
-#include "capture/ply_header.h"
+#include "capture/ply_body.h"
+#include "capture/ply_faces.h"
+#include "capture/ply_reader.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -17,87 +17,6 @@ constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
                                              "nz", "red", "green", "blue"};
 constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
 using Row = std::array<double, kWanted.size()>;
-
-// Values one after the other. Every read is checked against the end.
-class PlyBody {
- public:
-  PlyBody(std::span<const std::uint8_t> bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
-
-  bool value(PlyType type, double& out) {
-    return format_ == PlyFormat::kAscii ? text(out) : binary(type, out);
-  }
-
-  bool list(const PlyProperty& property) {
-    double count = 0;
-    if (!value(property.count_type, count)) return false;
-    if (!(count >= 0 && count < 4294967296.0) || count != std::floor(count)) return false;
-    const auto items = static_cast<std::uint64_t>(count);
-    if (format_ != PlyFormat::kAscii) return skip(items * size_of(property.type));
-    double ignored = 0;
-    for (std::uint64_t i = 0; i < items; ++i)
-      if (!text(ignored)) return false;
-    return true;
-  }
-
-  bool skip(std::uint64_t bytes) {
-    if (bytes > bytes_.size() - at_) return false;
-    at_ += static_cast<std::size_t>(bytes);
-    return true;
-  }
-
- private:
-  bool binary(PlyType type, double& out) {
-    const std::size_t size = size_of(type);
-    if (size > bytes_.size() - at_) return false;
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t from = format_ == PlyFormat::kBigEndian ? i : size - 1 - i;
-      bits = bits << 8 | bytes_[at_ + from];
-    }
-    at_ += size;
-    switch (type) {
-      case PlyType::kInt8:
-        out = static_cast<std::int8_t>(bits);
-        break;
-      case PlyType::kInt16:
-        out = static_cast<std::int16_t>(bits);
-        break;
-      case PlyType::kInt32:
-        out = static_cast<std::int32_t>(bits);
-        break;
-      case PlyType::kUint8:
-      case PlyType::kUint16:
-      case PlyType::kUint32:
-        out = static_cast<double>(bits);
-        break;
-      case PlyType::kFloat:
-        out = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-        break;
-      case PlyType::kDouble:
-        out = std::bit_cast<double>(bits);
-        break;
-    }
-    return true;
-  }
-
-  // Rows of an ascii file are lines, but only white space is relied on.
-  bool text(double& out) {
-    const auto is_space = [](std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
-    while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
-    std::size_t end = at_;
-    while (end < bytes_.size() && !is_space(bytes_[end])) ++end;
-    if (end - at_ > 1 && bytes_[at_] == '+') ++at_;  // from_chars does not know it
-    const char* data = reinterpret_cast<const char*>(bytes_.data());
-    const auto [stop, error] = std::from_chars(data + at_, data + end, out);
-    if (error != std::errc() || stop != data + end) return false;
-    at_ = end;
-    return true;
-  }
-
-  std::span<const std::uint8_t> bytes_;
-  PlyFormat format_;
-  std::size_t at_ = 0;
-};
 
 // Where each property of the vertex goes; which of the optional groups are there in full.
 struct Columns {
@@ -157,7 +76,7 @@ class VertexReader {
       for (std::size_t p = 0; p < vertex_.properties.size(); ++p) {
         const auto& property = vertex_.properties[p];
         double value = 0;
-        if (!(property.is_list ? body.list(property) : body.value(property.type, value)))
+        if (!(property.is_list ? body.skip_list(property) : body.value(property.type, value)))
           return invalid(at(i, property.name) + " is missing or damaged");
         if (!columns_.wanted[p]) continue;
         if (!std::isfinite(value)) return invalid(at(i, property.name) + " is not finite");
@@ -240,43 +159,40 @@ class VertexReader {
   std::size_t zero_normals_ = 0, other_normals_ = 0;
 };
 
-bool skip_element(PlyBody& body, const PlyElement& element, PlyFormat format) {
-  if (element.properties.empty()) return true;  // its rows take no bytes, whatever their count
-  if (format != PlyFormat::kAscii && !element.has_lists())
-    return body.skip(element.count * element.min_row_bytes(format));  // bounded by the file's size
-  double ignored = 0;
-  for (std::uint64_t i = 0; i < element.count; ++i)
-    for (const auto& property : element.properties)
-      if (!(property.is_list ? body.list(property) : body.value(property.type, ignored)))
-        return false;
-  return true;
-}
-
 }  // namespace
 
-Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
-                                        std::vector<std::string>* warnings) {
+Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool with_faces,
+                                       std::vector<std::string>* warnings) {
   const std::string name = file == "-" ? "standard input" : file.string();
   SLF_TRY(const auto bytes, read_file(file));
   SLF_TRY(const auto header, parse_ply_header(name, bytes));
   PlyBody body(std::span<const std::uint8_t>(bytes).subspan(header.body), header.format);
   std::optional<PointCloud> cloud;
+  Mesh mesh;
   for (const auto& element : header.elements) {
-    if (element.name != "vertex") {
-      if (!skip_element(body, element, header.format))
-        return InputError{Errc::kInvalidInput,
-                          name + ": PLY element '" + element.name + "' is cut off or damaged"};
-      continue;
+    if (element.name == "vertex") {
+      if (element.count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
+      VertexReader reader(name, element);
+      SLF_CHECK(reader.read(body));
+      if (warnings != nullptr) reader.warn(*warnings);
+      reader.drop_unusable_normals();
+      cloud = std::move(reader.cloud);
+    } else if (with_faces && element.name == "face") {
+      SLF_TRY(mesh.triangles, read_ply_faces(name, element, body));
+    } else if (!body.skip_element(element)) {
+      return InputError{Errc::kInvalidInput,
+                        name + ": PLY element '" + element.name + "' is cut off or damaged"};
     }
-    if (element.count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
-    VertexReader reader(name, element);
-    SLF_CHECK(reader.read(body));
-    if (warnings != nullptr) reader.warn(*warnings);
-    reader.drop_unusable_normals();
-    cloud = std::move(reader.cloud);
   }
   if (!cloud) return InputError{Errc::kInvalidInput, name + ": PLY without vertices"};
-  return *std::move(cloud);
+  mesh.vertices = *std::move(cloud);
+  return mesh;
+}
+
+Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
+                                        std::vector<std::string>* warnings) {
+  SLF_TRY(Mesh mesh, read_ply_mesh(file, false, warnings));
+  return std::move(mesh.vertices);
 }
 
 }  // namespace slf

@@ -1,9 +1,10 @@
 // A float cloud onto the grid.
+#include "capture/voxelise.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/morton.h"
-#include "slf/capture.h"
 
 namespace slf {
 
@@ -14,14 +15,6 @@ constexpr int kMaxBits = 21;
 InputError invalid(const std::string& cause) {
   return {Errc::kInvalidInput, "point cloud: " + cause};
 }
-
-struct Box {
-  Vec3 min{}, max{};
-
-  double largest_extent() const {
-    return std::max({max[0] - min[0], max[1] - min[1], max[2] - min[2]});
-  }
-};
 
 Result<Box, InputError> bounding_box(const PointCloud& cloud) {
   Box box;
@@ -37,6 +30,8 @@ Result<Box, InputError> bounding_box(const PointCloud& cloud) {
 }
 
 double cell_of(double x, double min, double step) { return std::floor((x - min) / step + 0.5); }
+
+}  // namespace
 
 Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bits,
                                      double voxel_size) {
@@ -61,6 +56,8 @@ Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bit
   grid.step = 1;  // one point: any will do
   return grid;
 }
+
+namespace {
 
 struct Cell {
   std::uint64_t code;  // Morton
@@ -116,9 +113,15 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
     return argument("point cloud: as many normals and colours as positions are needed");
 
   SLF_TRY(const Box box, bounding_box(cloud));
+  SLF_TRY(const Grid grid, choose_grid(box, count, bits, voxel_size));
+  return voxelise_on(cloud, grid);
+}
+
+VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid) {
+  const std::size_t count = cloud.positions.size();
   VoxelCloud voxels;
-  SLF_TRY(voxels.grid, choose_grid(box, count, bits, voxel_size));
-  const auto cells = sorted_cells(cloud, voxels.grid);
+  voxels.grid = grid;
+  const auto cells = sorted_cells(cloud, grid);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     while (end < count && cells[end].code == cells[begin].code) ++end;
     voxels.positions.push_back(from_morton(cells[begin].code));

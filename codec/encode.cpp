@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "capture/density.h"
 #include "codec/component_planes.h"
 #include "codec/encode_metadata.h"
 #include "codec/encode_to_target.h"
@@ -104,6 +105,11 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_TRY(job.cloud, voxelise_mended(capture, cameras, settings, encoded.refined, progress));
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
+  encoded.grid = job.cloud.grid;
+  encoded.density = job.cloud.density;
+  const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
+  if (std::string warning = density_warning(encoded.density); automatic && !warning.empty())
+    encoded.warnings.push_back(std::move(warning));
   encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)

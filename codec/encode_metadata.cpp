@@ -107,6 +107,13 @@ Metadata fit_metadata(const ChosenFit& chosen) {
   return metadata;
 }
 
+Metadata grid_metadata(const EncoderSettings& s, const Grid& grid, const Density& density) {
+  Metadata metadata = {{"grid", s.voxel_size > 0 || s.grid_bits > 0 ? "given" : "auto"}};
+  if (density.pixel > 0)
+    metadata.emplace_back("voxel_pixels", hundredths(grid.step / density.pixel));
+  return metadata;
+}
+
 Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std::size_t cameras) {
   Metadata metadata = {
       {"encoder", "slf " SLF_VERSION},
@@ -132,6 +139,8 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
                             s.transform == TransformMode::kFunctions ? "functions" : "joint");
     if (s.chroma_step != 1) metadata.emplace_back("chroma_step", text(s.chroma_step));
   }
+  const Metadata grid = grid_metadata(s, encoded.grid, encoded.density);
+  metadata.insert(metadata.end(), grid.begin(), grid.end());
   if (cameras > 0) {
     metadata.insert(metadata.end(),
                     {

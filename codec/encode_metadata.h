@@ -12,4 +12,7 @@ Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encode
 /// What of it is of the fit.
 Metadata fit_metadata(const ChosenFit& chosen);
 
+/// What is recorded of the grid: whether it was given, and its voxels in pixels.
+Metadata grid_metadata(const EncoderSettings& settings, const Grid& grid, const Density& density);
+
 }  // namespace slf

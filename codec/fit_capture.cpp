@@ -40,8 +40,8 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
-  if (s.voxel_size == 0 && (s.grid_bits < 1 || s.grid_bits > 21))
-    return invalid("grid bits: 1 to 21");
+  if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
+    return invalid("grid bits: 1 to 21, or 0 for automatic");
   if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
     return invalid("delta: 0 to 90 degrees");
   SLF_CHECK(check_fit_settings(s.fit));
@@ -57,25 +57,35 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings) {
   const bool needs_normals = !cameras.empty() || settings.normal_bits > 0;
-  if (!needs_normals || !capture.cloud.normals.empty())
-    return voxelise(capture.cloud, settings.grid_bits, settings.voxel_size);
+  const auto on_grid = [&](const PointCloud& cloud) {
+    return voxelise_geometry(capture, cloud, cameras, settings.grid_bits, settings.voxel_size);
+  };
+  if (!needs_normals || !capture.cloud.normals.empty()) return on_grid(capture.cloud);
   PointCloud cloud = capture.cloud;
   std::vector<Vec3> viewpoints;
   for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
   cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
-  return voxelise(cloud, settings.grid_bits, settings.voxel_size);
+  return on_grid(cloud);
 }
 
 Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
                                                const EncoderSettings& settings,
                                                RefineReport& report, const Progress& progress) {
-  const RefineSettings refining{settings.refine_geometry, settings.grid_bits, settings.voxel_size,
-                                settings.threads};
+  RefineSettings refining{settings.refine_geometry, settings.grid_bits, settings.voxel_size,
+                          settings.threads};
+  Density density;
+  if (settings.grid_bits == 0 && settings.voxel_size == 0) {
+    density = choose_density(capture, cameras);
+    refining.voxel_size = density.voxel_size;
+  }
+  if (!capture.mesh.triangles.empty()) refining.mode = RefineGeometry::kOff;  // as exact as it is
   SLF_TRY(const RefinedCloud refined, refine_geometry(capture, cameras, refining, progress));
   report = refined.report;
   if (report.outcome != RefineReport::kMended) return voxelise_capture(capture, cameras, settings);
-  return voxelise(refined.cloud, settings.grid_bits,
-                  refined.voxel_size > 0 ? refined.voxel_size : settings.voxel_size);
+  const double step = refined.voxel_size > 0 ? refined.voxel_size : refining.voxel_size;
+  SLF_TRY(VoxelCloud cloud, voxelise(refined.cloud, refining.grid_bits, step));
+  cloud.density = density;
+  return cloud;
 }
 
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
@@ -110,9 +120,15 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   if (chosen.pictures.rounds > 0) {
     const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
     const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
-    SLF_TRY(fit.pictures, fit_to_pictures({capture, cameras, cloud.grid, cloud.positions, normals,
-                                           settings.observe.transfer, gamma_range},
-                                          chosen, settings.search.pictures, fit.coefficients, progress));
+    std::vector<int> trusted(cameras.begin(), cameras.end());
+    std::vector<std::array<float, 3>> gains;
+    if (!fit.cameras.empty()) trusted = trusted_cameras(fit.cameras);
+    for (const CameraTrust& t : fit.cameras)
+      if (t.verdict != CameraVerdict::kDropped) gains.push_back(t.gain);
+    SLF_TRY(fit.pictures,
+            fit_to_pictures({capture, trusted, gains, cloud.grid, cloud.positions, normals,
+                             settings.observe.transfer, gamma_range},
+                            chosen, settings.search.pictures, fit.coefficients, progress));
     fit.seconds_pictures = watch.lap();
   }
   return fit;

@@ -29,7 +29,7 @@ Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span
 struct CaptureFit {
   std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K of chosen.settings.basis
   ChosenFit chosen;
-  PictureFit pictures;  ///< where chosen.settings.pictures has rounds
+  PictureFit pictures;               ///< where chosen.settings.pictures has rounds
   std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty
   int gamma_min_q7 = -127, gamma_max_q7 = 127;
   std::size_t observations = 0, unobserved_points = 0;

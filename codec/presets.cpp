@@ -50,6 +50,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
     settings.preset = Preset::kPaper;
     settings.refine_geometry = RefineGeometry::kOff;
     settings.check_cameras = false;
+    settings.grid_bits = 9;
     settings.fit = {};
     settings.search = FitSearch::none();
     settings.fit.penalise_dc = true;

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <optional>
 
+#include "codec/encode_metadata.h"
 #include "codec/fit_capture.h"
 #include "codec/stopwatch.h"
 #include "igc/camera_walk.h"
@@ -106,6 +107,8 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
           voxelise_mended(capture, cameras, settings.slf, encoded.refined, progress));
   encoded.points = cloud.positions.size();
   encoded.merged = cloud.merged;
+  encoded.grid = cloud.grid;
+  encoded.density = cloud.density;
   encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(const auto geometry, encode_geometry(cloud, capture, settings.slf));
   encoded.seconds_geometry = watch.lap();
@@ -116,6 +119,8 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
   encoded.seconds_images = watch.lap();
   const Camera& first = capture.cameras[static_cast<std::size_t>(cameras[0])];
   IgcParameters parameters{first.width, first.height, settings, {}};
+  for (auto& pair : grid_metadata(settings.slf, cloud.grid, cloud.density))
+    parameters.settings.slf.metadata.push_back(std::move(pair));
   for (const int camera : walk)
     parameters.cameras.push_back(capture.cameras[static_cast<std::size_t>(camera)].name);
   SLF_TRY(const auto text, write_igc_parameters(parameters));

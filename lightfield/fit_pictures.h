@@ -14,6 +14,7 @@ namespace slf {
 struct PictureFitInput {
   const Capture& capture;
   std::span<const int> cameras;
+  std::span<const std::array<float, 3>> gains;  ///< [cameras] of their photographs, or empty: 1
   const Grid& grid;
   std::span<const Voxel> positions;        ///< Morton order
   const CodedNormals& normals;             ///< those of the file, or none

@@ -13,6 +13,8 @@ namespace slf {
 namespace {
 
 constexpr float kCovered = 0.99f;  // a pixel of less is part background, which no point can explain
+constexpr std::uint8_t kClipped = 250;  // such a sample may have been any brighter
+constexpr std::array<float, 3> kNoGain{1, 1, 1};
 constexpr double kMemory = 3.0 * (1u << 30);
 constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
 constexpr double kBytesPerRay = 6 * 16 + 12;    // vectors of the solver
@@ -30,6 +32,7 @@ std::size_t stride_of(const Capture& capture, std::span<const int> cameras, std:
 }
 
 Result<PictureView, InputError> picture_view(const Capture& capture, int camera_index,
+                                             const std::array<float, 3>& gain,
                                              const SurfelCloud& cloud,
                                              const std::array<float, 256>& transfer) {
   const Camera& camera = capture.cameras[static_cast<std::size_t>(camera_index)];
@@ -44,13 +47,16 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
   for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
     const std::uint8_t* sample = &image.data[channels * i];
     if (splatted.coverage[i] < kCovered || (channels == 4 && sample[3] < 255)) continue;
+    if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
     for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {
       view.local.push_back(splatted.point[j]);
       view.weight.push_back(splatted.weight[j]);
       local_of[splatted.point[j]] = 0;
     }
     view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
-    view.photograph.push_back({transfer[sample[0]], transfer[sample[1]], transfer[sample[2]], 0});
+    Colour4 colour{};
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = gain[c] * transfer[sample[c]];
+    view.photograph.push_back(colour);
   }
   for (std::uint32_t p = 0; p < local_of.size(); ++p) {
     if (local_of[p] == kUnseen) continue;
@@ -82,6 +88,7 @@ Rays connect(std::vector<PictureView>& views, std::size_t points) {
 }  // namespace
 
 Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
+                                               std::span<const std::array<float, 3>> gains,
                                                const SurfelCloud& cloud, Transfer transfer,
                                                int threads, const Progress& progress) {
   PictureViews pictures;
@@ -94,7 +101,8 @@ Result<PictureViews, InputError> picture_views(const Capture& capture, std::span
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
           if (v % stride != 0) continue;
-          auto view = picture_view(capture, cameras[v], cloud, table);
+          auto view =
+              picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud, table);
           if (view) {
             pictures.views[v] = std::move(*view);
           } else {

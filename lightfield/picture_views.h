@@ -40,12 +40,16 @@ struct PictureViews {
   Rays rays;
 };
 
-/// Reads the photographs. A pixel counts if discs cover it and no mask or alpha is in it. Where
+/// Reads the photographs.
+/// @param gains  [cameras] of R, G, B; where one is not 1, what is at the upper end does not count.
+/// Or
+///               empty: 1. A pixel counts if discs cover it and no mask or alpha is in it. Where
 /// pixels or rays are too many for the memory of a fit (3 GiB), every n-th camera shows something,
 /// the others nothing.
 /// @errors those of load_image
 /// The same for any thread count.
 Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
+                                               std::span<const std::array<float, 3>> gains,
                                                const SurfelCloud& cloud, Transfer transfer,
                                                int threads, const Progress& progress);
 

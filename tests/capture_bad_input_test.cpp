@@ -1,5 +1,6 @@
 // Captures that cannot be meant are refused with file and cause; suspicious ones are warned about.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "capture_formats.h"
 
@@ -68,6 +69,13 @@ INSTANTIATE_TEST_SUITE_P(
               write_text(p / "images/b.png", "text");
             },
             "kInvalidInput: images/b.png: neither PNG nor JPEG"},
+        Bad{"image_is_a_pipe",
+            [](const fs::path& p) {
+              write_shared(p);
+              fs::remove(p / "images/b.png");
+              ASSERT_EQ(::mkfifo((p / "images/b.png").c_str(), 0600), 0);
+            },
+            "kInvalidInput: images/b.png: is not a regular file"},
         Bad{"image_of_another_size",
             [](const fs::path& p) {
               write_shared(p);

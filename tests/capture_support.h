@@ -52,10 +52,8 @@ struct ByteString {
   template <class T>
   ByteString& put(T value, bool big_endian = false) {
     const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);  // x86: little endian
-    if (big_endian)
-      bytes.append(raw.rbegin(), raw.rend());
-    else
-      bytes.append(raw.begin(), raw.end());
+    for (std::size_t i = 0; i < raw.size(); ++i)
+      bytes.push_back(raw[big_endian ? raw.size() - 1 - i : i]);
     return *this;
   }
   ByteString& text(const std::string& value) {

@@ -258,6 +258,20 @@ TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
   EXPECT_FALSE(off["settings"].contains("cameras_gain_corrected"));
 }
 
+TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
+  const auto report = parsed(slf("encode tiny -o a.slf --effort 1 --json").out);
+  EXPECT_EQ(report["settings"]["grid"], "auto");
+  EXPECT_EQ(report["grid"]["bits"], report["settings"]["grid_bits"]);
+  EXPECT_NEAR(report["grid"]["voxel_pixels"].get<double>(),
+              std::stod(report["settings"]["voxel_pixels"].get<std::string>()), 0.006);
+  ASSERT_EQ(slf("encode tiny -o b.slf --effort 1 --grid-bits auto").code, 0);
+  EXPECT_EQ(read("a.slf"), read("b.slf"));
+  const auto given = parsed(slf("encode tiny -o a.slf --effort 1 --grid-bits 4 --json").out);
+  EXPECT_EQ(given["settings"]["grid"], "given");
+  EXPECT_EQ(given["grid"]["bits"], 4);
+  expect_failure(slf("encode tiny -o a.slf --grid-bits 0"), 2, "--grid-bits", "1 to 21");
+}
+
 TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
   const auto coded =
       slf("igc tiny -o a.igc --grid-bits 6 --functions 8 --qp 22 --speed fast --json");

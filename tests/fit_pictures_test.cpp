@@ -60,7 +60,7 @@ struct Scene {
   }
 
   PictureFitInput input() const {
-    return {capture, cameras, grid, positions, normals, Transfer::kDisplay, {-1, 1}};
+    return {capture, cameras, {}, grid, positions, normals, Transfer::kDisplay, {-1, 1}};
   }
 
   std::array<float, 2> direction(const FitSettings& settings, std::size_t p, int camera) const {

@@ -220,5 +220,14 @@ TEST(Normals, AreTheSameForAnyThreadCountAndForDegenerateClouds) {
       EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1, 1e-6);
 }
 
+TEST(Normals, OfACloudBeyondFloatsAreOrientedWithoutConversionsThatOverflow) {
+  std::vector<std::array<float, 3>> positions;
+  for (int i = 0; i < 100; ++i)
+    positions.push_back({3e38f * static_cast<float>(std::cos(i)),
+                         -3e38f * static_cast<float>(std::sin(i)),
+                         1e38f * static_cast<float>(i % 3)});
+  EXPECT_EQ(estimate_normals(cloud_of(positions), {{0, 0, 1e39}, {-1e308, 0, 0}}).size(), 100u);
+}
+
 }  // namespace
 }  // namespace slf

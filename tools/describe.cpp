@@ -122,6 +122,23 @@ nlohmann::ordered_json settings_json(const StreamInfo& info) {
   return json;
 }
 
+nlohmann::ordered_json density_json(const Grid& grid, const Density& density) {
+  nlohmann::ordered_json json = {{"bits", grid.bits}, {"voxel_size", grid.step}};
+  if (density.pixel > 0) {
+    json["pixel_size"] = density.pixel;
+    json["voxel_pixels"] = grid.step / density.pixel;
+  }
+  if (density.spacing > 0) json["cloud_spacing"] = density.spacing;
+  json["limited_by_cloud"] = density.limited_by_cloud;
+  return json;
+}
+
+std::string density_text(const Grid& grid, const Density& density) {
+  std::string out = text("grid          %d bits per axis, voxels of %g", grid.bits, grid.step);
+  if (density.pixel > 0) out += text(", %.2f pixels", grid.step / density.pixel);
+  return out + (density.limited_by_cloud ? ": the cloud's spacing\n" : "\n");
+}
+
 nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const TypeTotal& total : totals(info)) json[total.type] = total.bytes;

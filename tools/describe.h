@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "slf/capture.h"
 #include "slf/decoder.h"
 #include "slf/refine.h"
 
@@ -20,6 +21,11 @@ nlohmann::ordered_json metadata_json(const Metadata& metadata);
 nlohmann::ordered_json settings_json(const StreamInfo& info);
 
 /// Bytes of the whole file by unit type; "signature" is what no unit holds.
+/// The chosen grid, and what it is to the photographs. Keys: bits, voxel_size, limited_by_cloud;
+/// pixel_size, voxel_pixels and cloud_spacing where they are known.
+nlohmann::ordered_json density_json(const Grid& grid, const Density& density);
+std::string density_text(const Grid& grid, const Density& density);
+
 nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info);
 std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes);
 

@@ -30,7 +30,8 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
                   std::string("The ") + file + " file; - is standard output")
       ->type_name("FILE")
       ->required();
-  verb.add_option("--points", o.points, "PLY cloud to use in place of the capture's own")
+  verb.add_option("--points", o.points,
+                  "Cloud (PLY) or mesh (PLY with faces, OBJ, GLB) in place of the capture's own")
       ->type_name("FILE");
   verb.add_option(
       "--split", o.split,
@@ -134,9 +135,19 @@ void add_fit_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& in
 
 CLI::Option* coding(CLI::Option* option) { return option->group("Coding"); }
 
-void add_grid_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings& initial) {
-  auto* bits = coding(add(verb, "--grid-bits", o.grid_bits, initial.grid_bits,
-                          "Voxel grid, bits per axis", whole_range(1, 21)));
+void add_grid_options(CLI::App& verb, EncodeOptions& o) {
+  const CLI::Validator bits_or_auto(
+      [](std::string& given) {
+        if (given != "auto") return whole_range(1, 21)(given);
+        given = "0";
+        return std::string();
+      },
+      "1 to 21 or auto");
+  auto* bits = coding(verb.add_option("--grid-bits", o.grid_bits,
+                                      "Voxel grid, bits per axis; auto: a voxel is what the "
+                                      "sharpest photographs resolve, or the cloud's own spacing")
+                          ->default_str("auto")
+                          ->transform(bits_or_auto));
   coding(verb.add_option("--voxel-size", o.voxel_size,
                          "Voxel edge in world units, in place of --grid-bits")
              ->check(range(1e-12, 1e12))
@@ -335,7 +346,7 @@ void add_view_map_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   add_preset_choice(verb, o.preset);
   add(verb, "--effort", o.effort, kDefaultEffort,
       "Time for bytes: 1 is quickest, 9 looks furthest (docs/rate.md)", whole_range(1, 9));
-  add_grid_options(verb, o, initial);
+  add_grid_options(verb, o);
   add_observe_options(verb, o, initial);
   add_fit_options(verb, o, initial);
   add_threads(verb, o.common);

@@ -33,6 +33,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["q"] = e.q;
+  json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
   json["merged"] = e.merged;
   json["refine_geometry"] = refined_json(e.refined);
@@ -70,7 +71,7 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  std::string out = refined_text(e.refined);
+  std::string out = refined_text(e.refined) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {

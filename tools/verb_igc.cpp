@@ -19,14 +19,14 @@ struct IgcOptions {
   IgcSettings igc;  ///< its slf comes from `encode`
 };
 
-nlohmann::ordered_json settings_json(const IgcSettings& s) {
+nlohmann::ordered_json settings_json(const IgcSettings& s, int grid_bits) {
   nlohmann::ordered_json json;
   json["codec"] = igc_codec_name(s.codec);
   json["qp"] = s.qp;
   json["chroma"] = s.chroma == IgcChroma::k420 ? "420" : "444";
   json["speed"] = s.speed.empty() ? "default" : s.speed;
   json["preset"] = s.slf.preset == Preset::kPaper ? "paper" : "default";
-  json["grid_bits"] = s.slf.grid_bits;
+  json["grid_bits"] = grid_bits;
   json["functions"] = s.slf.fit.basis.num_functions();
   json["lambda"] = s.slf.fit.lambda;
   json["beta"] = s.slf.fit.beta;
@@ -39,6 +39,7 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
                                    const IgcSettings& settings) {
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
+  json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
   json["refine_geometry"] = refined_json(e.refined);
   json["cameras"] = input.cameras.size();
@@ -53,12 +54,12 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
                      {"total", input.seconds + e.refined.seconds + e.seconds_voxelise +
                                    e.seconds_geometry + e.seconds_images}};
   json["peak_memory_mib"] = peak_memory_mib();
-  json["settings"] = settings_json(settings);
+  json["settings"] = settings_json(settings, e.grid.bits);
   return json;
 }
 
 std::string report_text(const IgcEncoded& e, const CaptureInput& input) {
-  std::string out = refined_text(e.refined);
+  std::string out = refined_text(e.refined) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   out += text("cameras       %zu\n", input.cameras.size());

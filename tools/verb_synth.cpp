@@ -102,6 +102,7 @@ void add_synth(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 20));
   verb->add_option("--seed", s.disturb.seed, "Of --noise and --hull")->capture_default_str();
+  verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");
   verb->add_flag("--list", o->list, "List the scenes");
   add_threads(*verb, o->common);

@@ -30,7 +30,7 @@ struct CameraTrust {
                               ///< correlations over patches of points
   double peer_agreement = 1;  ///< the same of its nearest camera, without it; where too little of
                               ///< the surface has a pattern, both are 1
-  double clipped_share = 0;  ///< of its observations, at the upper end of a channel
+  double clipped_share = 0;   ///< of its observations, at the upper end of a channel
 };
 
 /// Compares what every camera sees with a prediction from the others, at some of the points.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,11 +46,19 @@ struct PointCloud {
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< [P]; or empty
 };
 
+/// A surface of triangles; may be open, and may have triangles without area.
+struct Mesh {
+  PointCloud vertices;  ///< normals: those of the vertices; empty: of the faces
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [F] vertices, counter-clockwise outside
+};
+
 /// Cameras and cloud are in memory; images are read when they are needed (load_image), or in memory
 /// too where `images` has them.
 struct Capture {
   std::filesystem::path root;
   PointCloud cloud;
+  Mesh mesh;  ///< what `cloud` is a sample of, one point for every voxel that the photographs
+              ///< resolve; without triangles: the cloud is the capture's own
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
   std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
@@ -61,7 +70,7 @@ struct Capture {
 
 /// What load_capture looks for, all optional.
 struct CaptureOptions {
-  std::filesystem::path points;  ///< the cloud, where it is not the capture's own
+  std::filesystem::path points;  ///< the cloud or mesh, where it is not the capture's own
   bool check_images = true;      ///< open every image and compare its size with the calibration
 };
 
@@ -94,6 +103,14 @@ Result<Done, InputError> write_png(const std::filesystem::path& file, const Imag
 /// one warning appended to `warnings`.
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings = nullptr);
+/// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension. Polygons are taken apart
+/// into fans; nodes of a GLB are put where they stand; materials, textures and points that no face
+/// has are left out.
+/// @errors kUnreadable. kInvalidInput: names the file, the face or vertex and the cause: an index
+///         that is no vertex, a coordinate that is not finite, a damaged file, no vertices.
+///         Bounded: OBJ and GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
+Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
+                                   std::vector<std::string>* warnings = nullptr);
 /// Binary little endian. Atomic like write_png; "-" is standard output.
 Result<Done, InputError> write_ply(const std::filesystem::path& file, const PointCloud& cloud);
 
@@ -113,6 +130,21 @@ std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
                                                    const std::vector<Vec3>& viewpoints, int k = 16,
                                                    int threads = 0);
 
+/// How finely the photographs of a capture resolve its surface, and what grid follows from that.
+struct Density {
+  double pixel = 0;    ///< world units that a pixel spans on the surface, in the sharpest view of a
+                       ///< point (median over points); 0: no camera sees the cloud
+  double spacing = 0;  ///< between neighbouring points of the cloud, world units (median); 0: a
+                       ///< surface, which has points anywhere
+  double voxel_size = 0;          ///< a pixel, or half a spacing where that is more
+  bool limited_by_cloud = false;  ///< the photographs would resolve more than the cloud has
+};
+
+/// Without cameras, or where they see nothing, half of the cloud's own spacing.
+/// @param cameras  the input cameras
+/// The same for any thread count. O(cameras + log P) for each of a sample of points.
+Density choose_density(const Capture& capture, std::span<const int> cameras);
+
 /// A cloud on the grid: Morton order, duplicates merged.
 struct VoxelCloud {
   Grid grid;
@@ -120,6 +152,7 @@ struct VoxelCloud {
   std::vector<std::array<float, 3>> normals;  ///< [P] mean of the merged, renormalised; or empty
   std::vector<std::array<float, 3>> colours;  ///< [P] mean of the merged, 0 .. 255; or empty
   std::size_t merged = 0;                     ///< points that fell into an occupied voxel
+  Density density;                            ///< of a capture: voxelise_geometry
 };
 
 /// voxel = floor((x - min) / step + 1/2), step = largest extent / (2^bits - 1), or `voxel_size`
@@ -128,5 +161,13 @@ struct VoxelCloud {
 /// @errors kInvalidInput: no points; NaN or Inf; all points in one voxel (a cloud of two or more);
 ///         voxel_size so small that more than 21 bits are needed.
 Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size = 0);
+
+/// A capture's geometry on the grid that it is coded on: `bits` or `voxel_size` as voxelise has
+/// them, or with both 0 what choose_density finds. VoxelCloud::density is filled in.
+/// @param cloud  capture.cloud, or that with normals
+/// @errors those of voxelise
+Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,
+                                                 std::span<const int> cameras, int bits,
+                                                 double voxel_size);
 
 }  // namespace slf

@@ -81,7 +81,7 @@ enum class Preset { kDefault, kPaper };
 
 struct EncoderSettings {
   Preset preset = Preset::kDefault;
-  int grid_bits = 9;      ///< 1 .. 21
+  int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   RefineGeometry refine_geometry = RefineGeometry::kAuto;  ///< kOff without cameras
   ObserveSettings observe;
@@ -117,11 +117,13 @@ EncoderSettings settings_of(Preset preset, int effort = kDefaultEffort);
 
 struct Encoded {
   std::vector<std::uint8_t> stream;
-  double q = 0;  ///< the step it was coded with
+  double q = 0;     ///< the step it was coded with
+  Grid grid;        ///< with the bits and the step that were given or chosen
+  Density density;  ///< what the photographs resolve; all of it where grid_bits was 0
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  RefineReport refined;  ///< what became of the capture's points before anything else
-  ChosenFit fit;         ///< of a capture with cameras
-  PictureFit pictures;   ///< where fit.settings.pictures has rounds
+  RefineReport refined;              ///< what became of the capture's points before anything else
+  ChosenFit fit;                     ///< of a capture with cameras
+  PictureFit pictures;               ///< where fit.settings.pictures has rounds
   std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty
   double seconds_voxelise = 0, seconds_observe = 0, seconds_choose = 0, seconds_fit = 0,
          seconds_pictures = 0, seconds_code = 0;

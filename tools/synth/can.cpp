@@ -150,6 +150,7 @@ class Can final : public Scene {
             std::hypot(kRadius, shape_.top())};
   }
   int default_lattice() const override { return 255; }
+  Mesh mesh() const override { return shape_.mesh(kMeshSegments); }
   void crossings(const Ray& ray, std::vector<SurfacePoint>& out) const override {
     shape_.crossings(ray, out);
   }

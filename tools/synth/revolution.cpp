@@ -1,6 +1,7 @@
 #include "tools/synth/revolution.h"
 
 #include <limits>
+#include <numbers>
 
 namespace slf::synth {
 namespace {
@@ -126,6 +127,31 @@ void Revolution::visit_crossings(const Ray& ray, double z_low, double z_high, Vi
       if (z >= low && z < high && at_origin + t * rate >= 0) visit(t, f);
     }
   }
+}
+
+Mesh Revolution::mesh(std::uint32_t segments) const {
+  Mesh mesh;
+  for (const Frustum& f : frusta_) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.positions.size());
+    for (std::uint32_t s = 0; s <= segments; ++s) {
+      const double angle = 2 * std::numbers::pi * s / segments;
+      const double c = std::cos(angle), n = std::sin(angle);
+      const auto add = [&](double r, double z, double nr, double nz) {
+        mesh.vertices.positions.push_back(
+            {static_cast<float>(r * c), static_cast<float>(r * n), static_cast<float>(z)});
+        mesh.vertices.normals.push_back(
+            {static_cast<float>(nr * c), static_cast<float>(nr * n), static_cast<float>(nz)});
+      };
+      add(f.r0, f.z0, f.nr0, f.nz0);
+      add(f.r1, f.z1, f.nr1, f.nz1);
+    }
+    for (std::uint32_t s = 0; s < segments; ++s) {
+      const std::uint32_t a = first + 2 * s;  // a + 1 is above it, a + 2 beside it
+      mesh.triangles.push_back({a, a + 2, a + 3});
+      mesh.triangles.push_back({a, a + 3, a + 1});
+    }
+  }
+  return mesh;
 }
 
 void Revolution::crossings(const Ray& ray, std::vector<SurfacePoint>& out) const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slf/capture.h"
 #include "tools/synth/vec.h"
 
 namespace slf::synth {
@@ -24,6 +25,10 @@ class Revolution {
   double radius() const { return radius_; }
   double bottom() const { return bottom_; }
   double top() const { return top_; }
+
+  /// Triangles with the surface's own normals at their corners.
+  /// @param segments  of a circle
+  Mesh mesh(std::uint32_t segments) const;
 
   void crossings(const Ray& ray, std::vector<SurfacePoint>& out) const;
   /// The first crossing in front of the ray's origin, which must be outside.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "slf/capture.h"
 #include "tools/synth/vec.h"
 
 namespace slf::synth {
@@ -26,6 +27,9 @@ class Scene {
   /// All crossings of the line with the surface, in any order.
   virtual void crossings(const Ray& ray, std::vector<SurfacePoint>& out) const = 0;
 
+  /// The surface as triangles; without any: the scene has none to offer.
+  virtual Mesh mesh() const { return {}; }
+
   /// Diffuse colour of a surface point.
   virtual Colour albedo(const SurfacePoint& point) const = 0;
 
@@ -33,6 +37,9 @@ class Scene {
   /// that shines through; false if the ray misses.
   virtual bool radiance(const Ray& ray, Colour& light, double& transmittance) const = 0;
 };
+
+/// Segments of a circle in a mesh: the chord is off by less than 4e-5 of the radius.
+inline constexpr std::uint32_t kMeshSegments = 360;
 
 /// "can", "die", "vase"; null for any other name.
 std::unique_ptr<Scene> make_scene(const std::string& name);

@@ -1,6 +1,7 @@
 #include "tools/synth/synth.h"
 
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 
@@ -96,6 +97,28 @@ std::string cameras_json(const std::string& scene, const Rings& rings) {
   return json + "}}\n";
 }
 
+/// mesh.obj, a normal for every vertex.
+Result<Done, InputError> write_mesh(const Scene& scene, const fs::path& directory) {
+  const Mesh mesh = scene.mesh();
+  if (mesh.triangles.empty())
+    return InputError{Errc::kInvalidArgument, "this scene has no mesh; can and vase have one"};
+  std::string obj;
+  char line[128];
+  for (const auto& p : mesh.vertices.positions)
+    obj.append(line,
+               static_cast<std::size_t>(std::snprintf(line, sizeof line, "v %.7g %.7g %.7g\n",
+                                                      double{p[0]}, double{p[1]}, double{p[2]})));
+  for (const auto& n : mesh.vertices.normals)
+    obj.append(line,
+               static_cast<std::size_t>(std::snprintf(line, sizeof line, "vn %.5f %.5f %.5f\n",
+                                                      double{n[0]}, double{n[1]}, double{n[2]})));
+  for (const auto& t : mesh.triangles)
+    obj.append(line, static_cast<std::size_t>(
+                         std::snprintf(line, sizeof line, "f %u//%u %u//%u %u//%u\n", t[0] + 1,
+                                       t[0] + 1, t[1] + 1, t[1] + 1, t[2] + 1, t[2] + 1)));
+  return write_file(directory / "mesh.obj", obj.data(), obj.size());
+}
+
 Result<Done, InputError> write_cameras(const fs::path& directory, const std::string& json) {
   return write_file(directory / "cameras.json", json.data(), json.size());
 }
@@ -173,6 +196,7 @@ Result<Done, InputError> synthesise(const SynthSettings& settings, const fs::pat
                                  settings.height, scene->bounds().radius);
   SLF_TRY([[maybe_unused]] const Done prepared, prepare(directory, settings));
   SLF_CHECK(write_points(*scene, settings, directory));
+  if (settings.mesh) SLF_CHECK(write_mesh(*scene, directory));
   SLF_TRY([[maybe_unused]] const Done images,
           write_images(*scene, rings, settings, directory, progress));
   return write_cameras(directory, cameras_json(settings.scene, rings));

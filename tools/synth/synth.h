@@ -18,6 +18,7 @@ struct SynthSettings {
   int circles = 11, per_circle = 50;  ///< cameras, 1 .. 99 and 1 .. 360
   int supersampling = 2;              ///< rays per pixel and axis, 1 .. 8
   DisturbSettings disturb;            ///< of the cloud; the photographs stay those of the scene
+  bool mesh = false;                  ///< mesh.obj as well; of the can and the vase
   bool force = false;                 ///< write into a foreign directory that is not empty
 };
 

@@ -85,6 +85,7 @@ class Vase final : public Scene {
     return {{-r, -r, shape_.bottom()}, {r, r, shape_.top()}, 0.88};
   }
   int default_lattice() const override { return 200; }
+  Mesh mesh() const override { return shape_.mesh(kMeshSegments); }
   void crossings(const Ray& ray, std::vector<SurfacePoint>& out) const override {
     shape_.crossings(ray, out);
   }

@@ -1,0 +1,188 @@
+// From the cameras' pixels to the grid's step.
+#include "capture/density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "capture/mesh_sampling.h"
+#include "capture/nearest.h"
+#include "capture/thin_layer.h"
+
+namespace slf {
+
+namespace {
+
+using Floats = std::array<float, 3>;
+
+constexpr std::size_t kSampledPoints = 1000;
+constexpr double kMostCells = (1 << 21) - 2;  // along an axis: 21 bits
+constexpr double kFacing = 0.5;  // least cosine: a slanted view resolves one direction less
+// How much finer than the cloud a grid may be, over the distance of the fourth neighbour: half a
+// spacing puts points nearer to the surface and merges none, and costs positions alone.
+constexpr double kVoxelPerSpacing = 0.54;
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::size_t stride_of(std::size_t points) {
+  return std::max<std::size_t>((points + kSampledPoints - 1) / kSampledPoints, 1);
+}
+
+/// The median, not the mean: clouds of structure from motion have points far from the others.
+double median_spacing(std::span<const Floats> points) {
+  if (points.size() < 2) return 0;
+  const int k = static_cast<int>(std::min<std::size_t>(points.size(), 5));  // itself and four more
+  const NearestPoints tree(points);
+  std::array<std::uint32_t, 5> index{};
+  std::array<float, 5> squared{};
+  std::vector<double> distances;
+  for (std::size_t p = 0; p < points.size(); p += stride_of(points.size())) {
+    tree.nearest(points[p], k, index.data(), squared.data());
+    distances.push_back(std::sqrt(static_cast<double>(squared[static_cast<std::size_t>(k - 1)])));
+  }
+  return median(distances);
+}
+
+double largest_extent(std::span<const Floats> points) {
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = double{points[0][k]}, high = low;
+    for (const Floats& p : points) {
+      low = std::min(low, double{p[k]});
+      high = std::max(high, double{p[k]});
+    }
+    extent = std::max(extent, high - low);
+  }
+  return extent;
+}
+
+bool whole_numbers(std::span<const Floats> points) {
+  return std::all_of(points.begin(), points.end(), [](const Floats& p) {
+    return std::all_of(p.begin(), p.end(), [](float x) { return x == std::floor(x); });
+  });
+}
+
+Result<VoxelCloud, InputError> voxelise_mesh(const Mesh& mesh, int bits, double voxel_size) {
+  SLF_TRY(const Grid grid,
+          choose_grid(bounding_box(mesh), mesh.triangles.size(), bits, voxel_size));
+  SLF_TRY(const PointCloud points, sample_mesh(mesh, grid));
+  if (points.positions.empty())
+    return InputError{Errc::kInvalidInput, "mesh: no face has an area on this grid"};
+  return voxelise_on(points, grid);
+}
+
+struct View {
+  const Camera* camera;
+  Vec3 centre;
+  double focal;
+};
+
+/// World units that a pixel of this view spans at the point; 0: it does not see it.
+double span_of_pixel(const View& view, const Vec3& point, const Floats* normal) {
+  double depth = 0;
+  const auto image = view.camera->project(point, &depth);
+  if (!image || (*image)[0] < 0 || (*image)[1] < 0 || (*image)[0] > view.camera->width ||
+      (*image)[1] > view.camera->height)
+    return 0;
+  if (normal != nullptr) {
+    double along = 0, squared = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double to_camera = view.centre[k] - point[k];
+      along += to_camera * double{(*normal)[k]};
+      squared += to_camera * to_camera;
+    }
+    if (!(along >= kFacing * std::sqrt(squared))) return 0;
+  }
+  return depth / view.focal;
+}
+
+}  // namespace
+
+double pixel_on_surface(const Capture& capture, std::span<const int> cameras,
+                        std::span<const Floats> points, std::span<const Floats> normals) {
+  std::vector<View> views;
+  for (const int c : cameras) {
+    const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
+    views.push_back({&camera, camera.centre(), std::sqrt(camera.fx * camera.fy)});
+  }
+  std::vector<double> sharpest;
+  for (std::size_t p = 0; p < points.size(); p += stride_of(points.size())) {
+    const Vec3 point{double{points[p][0]}, double{points[p][1]}, double{points[p][2]}};
+    double least = 0;
+    for (const View& view : views) {
+      const double span = span_of_pixel(view, point, normals.empty() ? nullptr : &normals[p]);
+      if (span > 0 && (least == 0 || span < least)) least = span;
+    }
+    if (least > 0) sharpest.push_back(least);
+  }
+  return median(sharpest);
+}
+
+Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,
+                                                 std::span<const int> cameras, int bits,
+                                                 double voxel_size) {
+  Density density;
+  if (bits == 0 && voxel_size == 0) {
+    density = choose_density(capture, cameras);
+    voxel_size = density.voxel_size;
+    if (voxel_size == 0) bits = 1;  // a single point, or all at one place
+  } else {
+    density.pixel =
+        pixel_on_surface(capture, cameras, capture.cloud.positions, capture.cloud.normals);
+  }
+  const bool automatic = density.voxel_size > 0, surface = !capture.mesh.triangles.empty();
+  const auto on_grid = [&] {
+    return surface ? voxelise_mesh(capture.mesh, bits, voxel_size)
+                   : voxelise(cloud, bits, voxel_size);
+  };
+  SLF_TRY(VoxelCloud voxels, on_grid());
+  const double most = double(kMostAutomaticPoints), count = double(voxels.positions.size());
+  if (automatic && density.pixel > 0 && count > most) {
+    voxel_size *= std::sqrt(count / most);
+    SLF_TRY(voxels, on_grid());
+  }
+  if (automatic && !surface && !density.limited_by_cloud && !voxels.normals.empty())
+    thin_layer(cloud, voxels);
+  density.voxel_size = voxels.grid.step;
+  voxels.density = density;
+  return voxels;
+}
+
+std::string density_warning(const Density& density) {
+  const double wanted = kPixelsPerVoxel * density.pixel;
+  if (wanted == 0 || density.voxel_size <= 1.001 * wanted) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the photographs resolve more than %s: a voxel is %.2f pixels, not %.2f",
+                density.limited_by_cloud ? "the cloud has" : "2^20 points can show",
+                density.voxel_size / density.pixel, kPixelsPerVoxel);
+  return text;
+}
+
+Density choose_density(const Capture& capture, std::span<const int> cameras) {
+  const PointCloud& cloud = capture.cloud;
+  Density density;
+  if (cloud.positions.empty()) return density;
+  density.pixel = pixel_on_surface(capture, cameras, cloud.positions, cloud.normals);
+  const bool surface = !capture.mesh.triangles.empty() && density.pixel > 0;
+  if (!surface) density.spacing = median_spacing(cloud.positions);
+  const double resolved =
+      surface ? automatic_step(capture.mesh, density.pixel) : kPixelsPerVoxel * density.pixel;
+  const double held = kVoxelPerSpacing * density.spacing;
+  density.limited_by_cloud = held > resolved;
+  density.voxel_size = std::max(resolved, held);
+  const double extent = largest_extent(cloud.positions);
+  if (extent > 0) density.voxel_size = std::clamp(density.voxel_size, extent / kMostCells, extent);
+  // A cloud of voxels stays what it is.
+  if (density.limited_by_cloud && whole_numbers(cloud.positions))
+    density.voxel_size = std::max(std::floor(density.spacing), 1.0);
+  return density;
+}
+
+}  // namespace slf

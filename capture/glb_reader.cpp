@@ -1,0 +1,288 @@
+// Binary glTF 2.0: the triangles of a scene. Numbers in brackets are clauses of its specification.
+#include <algorithm>
+#include <cmath>
+
+#include "capture/glb_accessor.h"
+#include "capture/json_numbers.h"
+#include "capture/mesh_formats.h"
+
+namespace slf {
+
+namespace {
+
+constexpr std::size_t kMostTriangles = std::size_t{1} << 24, kMostVertices = std::size_t{1} << 25;
+constexpr std::size_t kMostNumbers = std::size_t{1}
+                                     << 28;  // nodes can share what the file has once
+constexpr int kMostDepth = 64;
+
+using Matrix = std::array<std::array<double, 4>, 3>;  // rows of an affine transform
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix m{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      m[i][j] = j == 3 ? a[i][3] : 0;
+      for (std::size_t k = 0; k < 3; ++k) m[i][j] += a[i][k] * b[k][j];
+    }
+  return m;
+}
+
+Vec3 moved(const Matrix& m, const Vec3& p) {
+  Vec3 out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
+  return out;
+}
+
+/// Transposed inverse, but for its length: what normals take.
+Matrix cofactors(const Matrix& m) {
+  Matrix c{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      c[i][j] = m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
+    }
+  return c;
+}
+
+bool mirrors(const Matrix& m) {
+  const Matrix c = cofactors(m);
+  return m[0][0] * c[0][0] + m[0][1] * c[0][1] + m[0][2] * c[0][2] < 0;
+}
+
+/// [3.5.3] "matrix" by columns, or scale, then rotation, then translation.
+Result<Matrix, InputError> transform_of(const JsonView& node) {
+  Matrix m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  if (const auto given = node.find("matrix")) {
+    SLF_TRY(const auto values, json_vector<16>(*given));
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 4; ++j) m[i][j] = values[j * 4 + i];
+    return m;
+  }
+  std::array<double, 4> q{0, 0, 0, 1};
+  Vec3 scale{1, 1, 1}, translation{0, 0, 0};
+  if (const auto given = node.find("rotation")) {
+    SLF_TRY(q, json_vector<4>(*given));
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(length > 0) || !std::isfinite(length)) return given->error("rotation of length 0");
+    for (double& x : q) x /= length;
+  }
+  if (const auto given = node.find("scale")) {
+    SLF_TRY(scale, json_vector<3>(*given));
+  }
+  if (const auto given = node.find("translation")) {
+    SLF_TRY(translation, json_vector<3>(*given));
+  }
+  const auto [x, y, z, w] = q;
+  m = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
+        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
+        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) m[i][j] *= scale[j];
+    m[i][3] = translation[i];
+  }
+  return m;
+}
+
+std::array<float, 3> to_float(const Vec3& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+/// [3.7.2.1] Corners of triangles from a primitive's indices; empty for points and lines.
+std::vector<std::array<std::size_t, 3>> triangles_of(std::uint64_t mode, std::size_t indices) {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  if (mode == 4)
+    for (std::size_t i = 0; i + 2 < indices; i += 3) triangles.push_back({i, i + 1, i + 2});
+  if (mode == 5)
+    for (std::size_t i = 0; i + 2 < indices; ++i)
+      triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
+  if (mode == 6)
+    for (std::size_t i = 1; i + 1 < indices; ++i) triangles.push_back({0, i, i + 1});
+  return triangles;
+}
+
+Result<std::vector<JsonView>, InputError> list_of(const JsonView& json, const char* key) {
+  const auto found = json.find(key);
+  if (!found) return std::vector<JsonView>{};
+  return found->items();
+}
+
+class SceneReader {
+ public:
+  SceneReader(const JsonView& json, std::span<const std::uint8_t> binary) : json_(json) {
+    data_.binary = binary;
+  }
+
+  Result<Mesh, InputError> read(std::vector<std::string>* warnings) {
+    SLF_CHECK(check_extensions());
+    SLF_TRY(data_.accessors, list_of(json_, "accessors"));
+    SLF_TRY(data_.buffer_views, list_of(json_, "bufferViews"));
+    SLF_TRY(data_.buffers, list_of(json_, "buffers"));
+    SLF_TRY(meshes_, list_of(json_, "meshes"));
+    SLF_TRY(nodes_, list_of(json_, "nodes"));
+    SLF_TRY(const auto scenes, list_of(json_, "scenes"));
+    reached_.resize(nodes_.size());
+    SLF_TRY(const auto first, glb_number(json_, "scene", 0, UINT32_MAX));
+    if (first >= scenes.size()) return json_.error("there is no such scene");
+    SLF_TRY(const auto roots, list_of(scenes[static_cast<std::size_t>(first)], "nodes"));
+    for (const JsonView& root : roots)
+      SLF_CHECK(add_node(root, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, 0));
+    if (!has_normals_) mesh_.vertices.normals.clear();
+    if (other_primitives_ > 0 && warnings != nullptr)
+      warnings->push_back(json_
+                              .error(std::to_string(other_primitives_) +
+                                     " primitives of points or lines are left out")
+                              .message);
+    return std::move(mesh_);
+  }
+
+ private:
+  /// What only changes how a surface looks can be left out; what hides its triangles cannot.
+  Result<Done, InputError> check_extensions() const {
+    SLF_TRY(const auto required, list_of(json_, "extensionsRequired"));
+    for (const JsonView& item : required) {
+      SLF_TRY(const std::string name, item.string());
+      const bool harmless = name.starts_with("KHR_materials_") ||
+                            name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
+                            name == "KHR_mesh_quantization" || name == "KHR_lights_punctual";
+      if (!harmless) return item.error("an extension that is not supported");
+    }
+    return Done{};
+  }
+
+  Result<Done, InputError> add_node(const JsonView& index, const Matrix& above, int depth) {
+    SLF_TRY(const JsonView node, glb_item(index, nodes_, "node"));
+    SLF_TRY(const double number, index.number());
+    auto&& reached = reached_[static_cast<std::size_t>(number)];
+    if (reached || depth >= kMostDepth) return node.error("is reached twice, or too deep");
+    reached = true;
+    SLF_TRY(const Matrix own, transform_of(node));
+    const Matrix matrix = product(above, own);
+    if (const auto mesh = node.find("mesh")) {
+      SLF_TRY(const JsonView item, glb_item(*mesh, meshes_, "mesh"));
+      SLF_TRY(const auto primitives, list_of(item, "primitives"));
+      for (const JsonView& primitive : primitives) SLF_CHECK(add_primitive(primitive, matrix));
+    }
+    SLF_TRY(const auto children, list_of(node, "children"));
+    for (const JsonView& child : children) SLF_CHECK(add_node(child, matrix, depth + 1));
+    return Done{};
+  }
+
+  Result<Done, InputError> add_primitive(const JsonView& primitive, const Matrix& matrix) {
+    SLF_TRY(const auto mode, glb_number(primitive, "mode", 4, 6));
+    if (mode < 4) {
+      ++other_primitives_;
+      return Done{};
+    }
+    SLF_TRY(const JsonView attributes, primitive.at("attributes"));
+    SLF_TRY(const auto positions, attribute(attributes, "POSITION", "VEC3", 3));
+    SLF_TRY(const auto normals, attribute(attributes, "NORMAL", "VEC3", 3));
+    const std::size_t count = positions.size() / 3, base = mesh_.vertices.positions.size();
+    SLF_TRY(const auto indices, indices_of(primitive, count));
+    const auto triangles = triangles_of(mode, indices.size());
+    if (mesh_.triangles.size() + triangles.size() > kMostTriangles || base + count > kMostVertices)
+      return primitive.error("the scene has more than 2^24 triangles or 2^25 vertices");
+    add_vertices(matrix, positions, normals);
+    const bool swap = mirrors(matrix);
+    const auto vertex = [&](std::size_t corner) {
+      return static_cast<std::uint32_t>(base + static_cast<std::size_t>(indices[corner]));
+    };
+    for (const auto& t : triangles)
+      mesh_.triangles.push_back({vertex(t[0]), vertex(t[swap ? 2 : 1]), vertex(t[swap ? 1 : 2])});
+    return Done{};
+  }
+
+  Result<std::vector<double>, InputError> attribute(const JsonView& attributes, const char* key,
+                                                    const char* type, std::size_t components) {
+    const auto index = attributes.find(key);
+    if (!index) return std::vector<double>{};
+    SLF_TRY(const JsonView accessor, glb_item(*index, data_.accessors, "accessor"));
+    return numbers_of(accessor, type, components);
+  }
+
+  Result<std::vector<double>, InputError> numbers_of(const JsonView& accessor, const char* type,
+                                                     std::size_t components) {
+    SLF_TRY(auto numbers, read_accessor(data_, accessor, type, components));
+    numbers_read_ += numbers.size();
+    if (numbers_read_ > kMostNumbers) return accessor.error("is used too often");
+    return numbers;
+  }
+
+  /// Without indices the vertices come as they are used.
+  Result<std::vector<double>, InputError> indices_of(const JsonView& primitive, std::size_t count) {
+    std::vector<double> indices;
+    const auto given = primitive.find("indices");
+    if (!given) {
+      for (std::size_t i = 0; i < count; ++i) indices.push_back(static_cast<double>(i));
+      return indices;
+    }
+    SLF_TRY(const JsonView accessor, glb_item(*given, data_.accessors, "accessor"));
+    SLF_TRY(indices, numbers_of(accessor, "SCALAR", 1));
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      if (!(indices[i] >= 0 && indices[i] < static_cast<double>(count)) ||
+          indices[i] != std::floor(indices[i]))
+        return accessor.error("index " + std::to_string(i) + " is no vertex of the primitive");
+    return indices;
+  }
+
+  void add_vertices(const Matrix& matrix, const std::vector<double>& positions,
+                    const std::vector<double>& normals) {
+    PointCloud& vertices = mesh_.vertices;
+    has_normals_ = has_normals_ && normals.size() == positions.size();
+    Matrix turn = cofactors(matrix);
+    const double sign = mirrors(matrix) ? -1 : 1;  // cofactors of a mirror point inwards
+    for (auto& row : turn)
+      for (double& x : row) x *= sign;
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+      vertices.positions.push_back(
+          to_float(moved(matrix, {positions[i], positions[i + 1], positions[i + 2]})));
+      if (!has_normals_) continue;
+      Vec3 normal = moved(turn, {normals[i], normals[i + 1], normals[i + 2]});
+      const double length = std::hypot(normal[0], normal[1], normal[2]);
+      for (double& n : normal) n = length > 0 ? n / length : 0;
+      vertices.normals.push_back(to_float(normal));
+    }
+  }
+
+  const JsonView& json_;
+  GlbData data_;
+  std::vector<JsonView> meshes_, nodes_;
+  std::vector<bool> reached_;
+  bool has_normals_ = true;
+  std::size_t numbers_read_ = 0;
+  std::size_t other_primitives_ = 0;
+  Mesh mesh_;
+};
+
+std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = word << 8 | bytes[at + i];
+  return word;
+}
+
+}  // namespace
+
+// [4.4] Magic, version and length; then chunks of length, type and data: JSON first, then BIN.
+Result<Mesh, InputError> parse_glb(const std::string& name, std::span<const std::uint8_t> file,
+                                   std::vector<std::string>* warnings) {
+  const auto invalid = [&](const char* cause) {
+    return InputError{Errc::kInvalidInput, name + ": " + cause};
+  };
+  constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+  if (file.size() < 20 || word_at(file, 0) != kMagic) return invalid("not a GLB file");
+  if (word_at(file, 4) != 2) return invalid("GLB of another version than 2");
+  if (word_at(file, 8) != file.size()) return invalid("GLB of another length than it says");
+  const std::size_t json_bytes = word_at(file, 12);
+  if (word_at(file, 16) != kJson || json_bytes > file.size() - 20 || json_bytes > kMaxJsonBytes)
+    return invalid("GLB without a whole JSON chunk");
+  const auto rest = file.subspan(20 + json_bytes);
+  std::span<const std::uint8_t> binary;
+  if (rest.size() >= 8 && word_at(rest, 4) == kBinary) {
+    if (word_at(rest, 0) > rest.size() - 8) return invalid("GLB: the binary chunk is cut off");
+    binary = rest.subspan(8, word_at(rest, 0));
+  }
+  SLF_TRY(const JsonValue document, parse_json(name, file.subspan(20, json_bytes)));
+  return SceneReader(JsonView(document, name), binary).read(warnings);
+}
+
+}  // namespace slf

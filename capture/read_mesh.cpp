@@ -1,0 +1,66 @@
+// Which reader a mesh file has, and what every mesh has to be.
+#include <algorithm>
+#include <cmath>
+
+#include "capture/mesh_formats.h"
+#include "capture/ply_reader.h"
+#include "slf/capture.h"
+
+namespace slf {
+
+namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;  // of an OBJ or GLB file
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
+                                           std::vector<std::string>* warnings) {
+  const std::string extension = extension_of(file);
+  if (extension != ".obj" && extension != ".glb") return read_ply_mesh(file, true, warnings);
+  SLF_TRY(const auto bytes, read_file(file, kMostBytes));
+  if (extension == ".obj") return parse_obj(file.string(), bytes);
+  return parse_glb(file.string(), bytes, warnings);
+}
+
+}  // namespace
+
+Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
+                                   std::vector<std::string>* warnings) {
+  SLF_TRY(Mesh mesh, read_by_extension(file, warnings));
+  SLF_CHECK(check_mesh(file == "-" ? "standard input" : file.string(), mesh));
+  return mesh;
+}
+
+Result<Done, InputError> check_mesh(const std::string& name, Mesh& mesh) {
+  const auto invalid = [&](const char* what, std::size_t i, const std::string& cause) {
+    return InputError{Errc::kInvalidInput, name + ": " + what + " " + std::to_string(i) + cause};
+  };
+  auto& vertices = mesh.vertices;
+  const std::size_t count = vertices.positions.size();
+  if (count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (const std::uint32_t v : mesh.triangles[f])
+      if (v >= count)
+        return invalid("triangle", f,
+                       " has the vertex " + std::to_string(v) + " of " + std::to_string(count));
+  for (std::size_t v = 0; v < count; ++v)
+    for (const float x : vertices.positions[v])
+      if (!std::isfinite(x)) return invalid("vertex", v, " is not finite");
+  for (auto& normal : vertices.normals) {
+    const double length = std::hypot(double{normal[0]}, double{normal[1]}, double{normal[2]});
+    if (!(length > 0) || !std::isfinite(length)) {  // the faces know better
+      vertices.normals.clear();
+      break;
+    }
+    for (float& n : normal) n = static_cast<float>(double{n} / length);
+  }
+  return Done{};
+}
+
+}  // namespace slf

@@ -1,0 +1,106 @@
+// A cube of side 1 about the origin as a mesh file of every format, written by hand.
+#pragma once
+
+#include "capture_support.h"
+
+namespace slf::test {
+
+inline constexpr std::array<std::array<float, 3>, 8> kCubeCorners{{{-0.5f, -0.5f, -0.5f},
+                                                                   {0.5f, -0.5f, -0.5f},
+                                                                   {0.5f, 0.5f, -0.5f},
+                                                                   {-0.5f, 0.5f, -0.5f},
+                                                                   {-0.5f, -0.5f, 0.5f},
+                                                                   {0.5f, -0.5f, 0.5f},
+                                                                   {0.5f, 0.5f, 0.5f},
+                                                                   {-0.5f, 0.5f, 0.5f}}};
+// Counter-clockwise from outside.
+inline constexpr std::array<std::array<std::uint8_t, 4>, 6> kCubeFaces{
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}}};
+
+inline std::string line_of(const std::string& keyword, const std::array<float, 3>& values) {
+  std::string line = keyword;
+  for (const float x : values) line.append(" ").append(std::to_string(x));
+  return line.append("\r\n");
+}
+
+inline std::string cube_ply_ascii() {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& p : kCubeCorners) text.append(line_of("", p));
+  for (const auto& f : kCubeFaces) {
+    text += "4";
+    for (const auto i : f) text.append(" ").append(std::to_string(i));
+    text += "\n";
+  }
+  return text;
+}
+
+/// Faces first, with a property of their own before the indices.
+inline std::string cube_ply_binary(bool big_endian) {
+  ByteString out;
+  out.text(std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+           "_endian 1.0\nelement face 6\nproperty uchar flags\n"
+           "property list uchar ushort vertex_index\nelement vertex 8\nproperty double x\n"
+           "property double y\nproperty double z\nend_header\n");
+  for (const auto& f : kCubeFaces) {
+    out.put('\7').put('\4');
+    for (const auto i : f) out.put(std::uint16_t{i}, big_endian);
+  }
+  for (const auto& p : kCubeCorners)
+    for (const float x : p) out.put(double{x}, big_endian);
+  return out.bytes;
+}
+
+inline std::string cube_obj() {
+  std::string text = "# a cube\r\nmtllib no.mtl\no cube\n";
+  for (const auto& p : kCubeCorners) text.append(line_of("v", p));
+  text += "vt 0 0\nusemtl paint\ns off\n";
+  for (const auto& f : kCubeFaces) {
+    text += "f";
+    for (const auto i : f)  // back from the last
+      text.append(" ").append(std::to_string(i - 8)).append("/1");
+    text += "\n";
+  }
+  return text;
+}
+
+inline std::string glb_of(std::string json, std::string binary) {
+  while (json.size() % 4 != 0) json += ' ';
+  while (binary.size() % 4 != 0) binary += '\0';
+  ByteString out;
+  out.text("glTF").put(std::uint32_t{2});
+  out.put(static_cast<std::uint32_t>(28 + json.size() + binary.size()));
+  out.put(static_cast<std::uint32_t>(json.size())).text("JSON").text(json);
+  out.put(static_cast<std::uint32_t>(binary.size())).text("BIN").put('\0').text(binary);
+  return out.bytes;
+}
+
+/// Corners times two about (1, 2, 3), which its nodes take back.
+inline const std::string kCubeGltf = R"({"asset": {"version": "2.0"}, "scene": 0,
+ "scenes": [{"nodes": [1]}],
+ "nodes": [{"mesh": 0, "scale": [0.5, 0.5, 0.5]},
+           {"children": [0], "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, -0.5,-1,-1.5,1]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+               {"bufferView": 1, "componentType": 5121, "count": 36, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 128, "byteStride": 16},
+                 {"buffer": 0, "byteOffset": 128, "byteLength": 36}],
+ "buffers": [{"byteLength": 164}]})";
+
+inline std::string cube_glb_binary() {
+  ByteString out;
+  for (const auto& p : kCubeCorners) {
+    out.put(2 * p[0] + 1).put(2 * p[1] + 2).put(2 * p[2] + 3);
+    out.put(0.0f);  // of the stride
+  }
+  for (const auto& f : kCubeFaces)
+    for (const std::size_t i : {0, 1, 2, 0, 2, 3}) out.put(f[i]);
+  return out.bytes;
+}
+
+inline std::string cube_glb(const std::string& json = kCubeGltf) {
+  return glb_of(json, cube_glb_binary());
+}
+
+}  // namespace slf::test
