@@ -7,10 +7,11 @@
 namespace slf {
 
 struct OffsetSettings {
-  double smooth = 3;   ///< weight of smoothness
-  int rounds = 30;     ///< data and smoothness in turns
-  int sweeps = 6;      ///< of smoothing in a round
-  double tear = 0.25;  ///< how soon neighbours count less, as their offsets (in steps) differ
+  double smooth = 1.5;  ///< weight of smoothness
+  int rounds = 30;      ///< data and smoothness in turns
+  int sweeps = 6;       ///< of smoothing in a round
+  double tear = 0.03;   ///< how soon neighbours count less, as their offsets (in steps) differ
+  double pull = 0;      ///< cost of a step of offset: what texture does not say stays
   int threads = 0;
 };
 
