@@ -57,10 +57,8 @@ float best_label(const float* costs, std::size_t labels, float field, float coup
 std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetRange& range,
                                   const Neighbours& neighbours, const OffsetSettings& settings) {
   const std::size_t labels = range.count, points = costs.size() / labels;
-  std::vector<float> sums = aggregated(costs, labels, neighbours, settings.threads);
+  const std::vector<float> sums = aggregated(costs, labels, neighbours, settings.threads);
   const auto none = float(-range.first / range.step);  // the label of no offset
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    sums[i] += float(settings.pull) * std::abs(float(i % labels) - none);
   std::vector<float> field(points, none), choice(points), next(points);
   for (int round = 0; round < settings.rounds; ++round) {
     // From weak to strong: the field first learns where the costs are, then they agree.

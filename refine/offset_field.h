@@ -1,5 +1,5 @@
-// One offset per point from what offsets cost: smooth over the surface, pulled to none where the
-// photographs do not say.
+// One offset per point from what offsets cost: smooth over the surface; where the photographs
+// do not say, as its neighbours.
 #pragma once
 
 #include "refine/photo_consistency.h"
@@ -11,7 +11,6 @@ struct OffsetSettings {
   int rounds = 30;      ///< data and smoothness in turns
   int sweeps = 6;       ///< of smoothing in a round
   double tear = 0.03;   ///< how soon neighbours count less, as their offsets (in steps) differ
-  double pull = 0;      ///< cost of a step of offset: what texture does not say stays
   int threads = 0;
 };
 
