@@ -1,5 +1,5 @@
-// One offset per point from what offsets cost: smooth over the surface, pulled to none where the
-// photographs do not say.
+// One offset per point from what offsets cost: smooth over the surface; where the photographs
+// do not say, as its neighbours.
 #pragma once
 
 #include "refine/photo_consistency.h"
@@ -7,10 +7,10 @@
 namespace slf {
 
 struct OffsetSettings {
-  double smooth = 3;   ///< weight of smoothness
-  int rounds = 30;     ///< data and smoothness in turns
-  int sweeps = 6;      ///< of smoothing in a round
-  double tear = 0.25;  ///< how soon neighbours count less, as their offsets (in steps) differ
+  double smooth = 1.5;  ///< weight of smoothness
+  int rounds = 30;      ///< data and smoothness in turns
+  int sweeps = 6;       ///< of smoothing in a round
+  double tear = 0.03;   ///< how soon neighbours count less, as their offsets (in steps) differ
   int threads = 0;
 };
 

@@ -13,6 +13,7 @@
 #include "refine/photo_consistency.h"
 #include "refine/regions.h"
 #include "refine/resample.h"
+#include "refine/shine_through.h"
 
 namespace slf {
 namespace {
@@ -184,7 +185,10 @@ Result<SurfacePoints, InputError> accept(Job& job, const SurfacePoints& mended, 
   SLF_TRY(const HeldOutErrors after, errors(mended));
   RefineReport& report = out.report;
   report.held_out_before = report.held_out_after = decibels(before.mean());
-  const auto keep = worse_after(job.start, before, mended, after, kRegion * job.spacing);
+  auto keep = worse_after(job.start, before, mended, after, kRegion * job.spacing);
+  const auto torn = shines_through(job.capture, job.cameras, job.start,
+                                   with_kept(job.start, mended, keep), job.spacing, threads);
+  for (std::size_t p = 0; p < keep.size(); ++p) keep[p] |= torn[p];
   report.kept_back = std::size_t(std::count(keep.begin(), keep.end(), 1));
   const SurfacePoints both = with_kept(job.start, mended, keep);
   bool of_grid = false;
