@@ -42,10 +42,10 @@ class SplatBand {
   /// First of all.
   void draw_depths(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     for (const std::uint32_t i : shown) draw_depth(splats[i]);
-    for (std::size_t i = 0; i < pixels(); ++i) {
-      float& farthest = farthest_[i % std::size_t(width_) / kBlock];
-      farthest = std::min(farthest, nearest_[i]);
-    }
+    const auto width = std::size_t(width_);
+    for (std::size_t row = 0; row < pixels(); row += width)
+      for (std::size_t i = 0; i < width; ++i)
+        farthest_[i / kBlock] = std::min(farthest_[i / kBlock], nearest_[row + i]);
   }
 
   /// Those splats that any pixel shows.
