@@ -124,23 +124,14 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
 
 namespace {
 
-/// Indices of the splats of a band that no other hides.
-std::vector<std::uint32_t> shown_by(const SplatBand& band, const std::vector<Splat>& splats,
-                                    const std::vector<std::uint32_t>& all) {
-  std::vector<std::uint32_t> shown;
-  for (const std::uint32_t i : all)
-    if (band.shows(splats[i])) shown.push_back(i);
-  return shown;
-}
-
-/// Colours [splats] of those that are in a list.
-std::vector<std::array<float, 3>> colours_of(const std::vector<Splat>& splats,
+/// Colours [splats] of those that are in a list; the fourth is 0 and makes a sum one instruction.
+std::vector<std::array<float, 4>> colours_of(const std::vector<Splat>& splats,
                                              const std::vector<std::vector<std::uint32_t>>& shown,
                                              int threads, const ColourSource& source) {
   std::vector<std::uint8_t> in_list(splats.size(), 0);
   for (const auto& list : shown)
     for (const std::uint32_t i : list) in_list[i] = 1;
-  std::vector<std::array<float, 3>> colours(splats.size());
+  std::vector<std::array<float, 4>> colours(splats.size());
   parallel_ranges(splats.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> points;
     for (std::size_t i = begin; i < end; ++i)
@@ -148,7 +139,10 @@ std::vector<std::array<float, 3>> colours_of(const std::vector<Splat>& splats,
     std::vector<std::array<float, 3>> own(points.size());
     source(points, own);
     for (std::size_t i = begin, next = 0; i < end; ++i)
-      if (in_list[i]) colours[i] = own[next++];
+      if (in_list[i]) {
+        std::copy(own[next].begin(), own[next].end(), colours[i].begin());
+        ++next;
+      }
   });
   return colours;
 }
@@ -171,22 +165,24 @@ SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, in
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       bands[i].draw_depths(splats, bins[i]);
-      shown[i] = shown_by(bands[i], splats, bins[i]);
+      shown[i] = bands[i].shown(splats, bins[i]);
     }
   });
   const auto colours = colours_of(splats, shown, threads, source);
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::array<float, 4>> sums;
     for (std::size_t i = begin; i < end; ++i) {
       SplatBand& band = bands[i];
-      std::array<float, 3>* const sums = image.colour.data() + band.first_pixel();
+      sums.assign(band.pixels(), {});
       band.draw_weights(splats, shown[i],
                         [&](std::uint32_t splat, std::size_t pixel, float weight) {
-                          for (std::size_t k = 0; k < 3; ++k)
+                          for (std::size_t k = 0; k < 4; ++k)
                             sums[pixel][k] += weight * colours[splat][k];
                         });
-      band.draw_coverage(splats, bins[i]);
+      band.draw_coverage(splats, shown[i], bins[i]);
+      std::array<float, 3>* const colour = image.colour.data() + band.first_pixel();
       band.normalise([&](std::size_t pixel, float scale) {
-        for (float& c : sums[pixel]) c *= scale;
+        for (std::size_t k = 0; k < 3; ++k) colour[pixel][k] = sums[pixel][k] * scale;
       });
     }
   });

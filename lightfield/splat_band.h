@@ -15,12 +15,12 @@
 
 namespace slf {
 
-constexpr int kBandRows = 16;  // of one band: worked on by one thread, small enough for its cache
+constexpr int kBandRows = 32;  // of one band: worked on by one thread, small enough for its cache
 
 /// Indices of the splats that touch each band, ascending.
 std::vector<std::vector<std::uint32_t>> bin_splats(const std::vector<Splat>& splats, int height);
 
-/// A band of rows. Its functions are called in this order; shows() is optional.
+/// A band of rows. Its functions are called in this order.
 class SplatBand {
  public:
   /// Writes to its rows of `coverage` and `depth`, [height][width], 0 before.
@@ -42,21 +42,19 @@ class SplatBand {
   /// First of all.
   void draw_depths(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
     for (const std::uint32_t i : shown) draw_depth(splats[i]);
-    for (std::size_t i = 0; i < pixels(); ++i) {
-      float& farthest = farthest_[i % std::size_t(width_) / kBlock];
-      farthest = std::min(farthest, nearest_[i]);
-    }
+    const auto width = std::size_t(width_);
+    for (std::size_t row = 0; row < pixels(); row += width)
+      for (std::size_t i = 0; i < width; ++i)
+        farthest_[i / kBlock] = std::min(farthest_[i / kBlock], nearest_[row + i]);
   }
 
-  /// Whether any pixel shows the splat.
-  bool shows(const Splat& s) const {
-    const auto [first, last] = blocks_of(s);
-    float farthest = farthest_[first];
-    for (std::size_t i = first + 1; i <= last; ++i) farthest = std::min(farthest, farthest_[i]);
-    if ((farthest - s.inverse_depth - s.inverse_depth_change) * s.fade >= 1) return false;
-    return find(s, 1.0f, [&](std::size_t pixel, float, float du, float dv) {
-      return nearness(s, pixel, inverse_depth(s, du, dv)) > 0;
-    });
+  /// Those splats that any pixel shows.
+  std::vector<std::uint32_t> shown(const std::vector<Splat>& splats,
+                                   const std::vector<std::uint32_t>& all) const {
+    std::vector<std::uint32_t> list;
+    for (const std::uint32_t i : all)
+      if (shows(splats[i])) list.push_back(i);
+    return list;
   }
 
   /// count(splat, pixel of the band, weight) for what shows, splat by splat in the order given.
@@ -67,10 +65,15 @@ class SplatBand {
       draw_weight(splats[i], [&](std::size_t pixel, float weight) { count(i, pixel, weight); });
   }
 
-  /// Needs all splats of the band, hidden ones too.
-  void draw_coverage(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown) {
+  /// All splats of the band count, hidden ones too; those that show come first, as they leave
+  /// little to do.
+  void draw_coverage(const std::vector<Splat>& splats, const std::vector<std::uint32_t>& shown,
+                     const std::vector<std::uint32_t>& all) {
     cover_by_density();
+    find_open();
     for (const std::uint32_t i : shown) draw_cover(splats[i]);
+    find_open();
+    for (const std::uint32_t i : all) draw_cover(splats[i]);
   }
 
   /// scale(pixel of the band, what its weights must be multiplied by to have the sum 1), where
@@ -106,6 +109,16 @@ class SplatBand {
     return {block(s.u - s.half_width), block(s.u + s.half_width)};
   }
 
+  bool shows(const Splat& s) const {
+    const auto [first, last] = blocks_of(s);
+    float farthest = farthest_[first];
+    for (std::size_t i = first + 1; i <= last; ++i) farthest = std::min(farthest, farthest_[i]);
+    if ((farthest - s.inverse_depth - s.inverse_depth_change) * s.fade >= 1) return false;
+    return find(s, 1.0f, [&](std::size_t pixel, float, float du, float dv) {
+      return nearness(s, pixel, inverse_depth(s, du, dv)) > 0;
+    });
+  }
+
   /// 1 at the nearest surface, 0 or less where the splat is hidden.
   float nearness(const Splat& s, std::size_t pixel, float inverse) const {
     return 1 - std::max(0.0f, (nearest_[pixel] - inverse) * s.fade);
@@ -134,8 +147,14 @@ class SplatBand {
       if (!(weight_[i] > 0)) continue;
       coverage_[i] =
           std::clamp(kGain * weight_[i] - float(kReferenceKernel.density_offset), 0.0f, 1.0f);
-      if (coverage_[i] < 1) open_[i % std::size_t(width_) / kBlock] = 1;
     }
+  }
+
+  /// Blocks of columns with pixels that show something but are not wholly covered.
+  void find_open() {
+    std::fill(open_.begin(), open_.end(), std::uint8_t{0});
+    for (std::size_t i = 0; i < pixels(); ++i)
+      if (coverage_[i] < 1 && weight_[i] > 0) open_[i % std::size_t(width_) / kBlock] = 1;
   }
 
   void draw_cover(const Splat& s) {

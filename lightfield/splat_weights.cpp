@@ -52,11 +52,12 @@ SplatWeights splat_weights(const std::vector<Splat>& splats, int width, int heig
       std::vector<float> scale(band.pixels());
       entries.clear();
       band.draw_depths(splats, bins[i]);
-      band.draw_weights(splats, bins[i], [&](std::uint32_t splat, std::size_t pixel, float weight) {
+      const std::vector<std::uint32_t> shown = band.shown(splats, bins[i]);
+      band.draw_weights(splats, shown, [&](std::uint32_t splat, std::size_t pixel, float weight) {
         entries.push_back({static_cast<std::uint32_t>(pixel), splats[splat].point, weight});
         ++count[pixel];
       });
-      band.draw_coverage(splats, bins[i]);
+      band.draw_coverage(splats, shown, bins[i]);
       band.normalise([&](std::size_t pixel, float factor) { scale[pixel] = factor; });
       bands[i] = sort_by_pixel(entries, std::move(count), scale);
     }

@@ -187,20 +187,22 @@ TEST(RenderTest, DepthIsThatOfTheSurfaceWithinAVoxel) {
     }
 }
 
-TEST(RenderTest, ANearSurfaceHidesAFarOne) {
-  std::vector<Voxel> voxels = test::plane(64, 0);
-  const std::vector<Voxel> far = test::plane(64, 8);
-  std::vector<std::array<int, 3>> colours(voxels.size(), {250, 10, 10});
-  voxels.insert(voxels.end(), far.begin(), far.end());
-  colours.resize(voxels.size(), {10, 10, 250});
-  const ViewMaps maps(constant_light_field(voxels, colours, 6));
-  const auto rendering = Renderer(maps).render(frontal_camera(31.5, 31.5, 100, 50, 1.0));
-  for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 50; ++x) {
-      const auto c = colour(rendering, x, y);
-      ASSERT_NEAR(c[0], 250, 1);
-      ASSERT_NEAR(c[2], 10, 1);
-    }
+TEST(RenderTest, ANearSurfaceHidesAFarOneThreeVoxelsBehindToo) {
+  for (const int distance : {8, 3}) {
+    std::vector<Voxel> voxels = test::plane(64, 0);
+    const std::vector<Voxel> far = test::plane(64, distance);
+    std::vector<std::array<int, 3>> colours(voxels.size(), {250, 10, 10});
+    voxels.insert(voxels.end(), far.begin(), far.end());
+    colours.resize(voxels.size(), {10, 10, 250});
+    const ViewMaps maps(constant_light_field(voxels, colours, 6));
+    const auto rendering = Renderer(maps).render(frontal_camera(31.5, 31.5, 100, 50, 1.0));
+    for (int y = 0; y < 50; ++y)
+      for (int x = 0; x < 50; ++x) {
+        const auto c = colour(rendering, x, y);
+        ASSERT_NEAR(c[0], 250, 1);
+        ASSERT_NEAR(c[2], 10, 1);
+      }
+  }
 }
 
 TEST(RenderTest, TheResultDoesNotDependOnThreads) {
