@@ -22,6 +22,9 @@ constexpr double kFacing = 0.5;  // least cosine: a slanted view resolves one di
 // How much finer than the cloud a grid may be, over the distance of the fourth neighbour: half a
 // spacing puts points nearer to the surface and merges none, and costs positions alone.
 constexpr double kVoxelPerSpacing = 0.54;
+// Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
+// each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
+constexpr double kDense = 0.8;
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -147,8 +150,7 @@ Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const P
     voxel_size *= std::sqrt(count / most);
     SLF_TRY(voxels, on_grid());
   }
-  if (automatic && !surface && !density.limited_by_cloud && !voxels.normals.empty())
-    thin_layer(cloud, voxels);
+  if (automatic && !surface && density.merged && !voxels.normals.empty()) thin_layer(cloud, voxels);
   density.voxel_size = voxels.grid.step;
   voxels.density = density;
   return voxels;
@@ -176,11 +178,12 @@ Density choose_density(const Capture& capture, std::span<const int> cameras) {
       surface ? automatic_step(capture.mesh, density.pixel) : kPixelsPerVoxel * density.pixel;
   const double held = kVoxelPerSpacing * density.spacing;
   density.limited_by_cloud = held > resolved;
-  density.voxel_size = std::max(resolved, held);
+  density.merged = surface || density.spacing < kDense * resolved;
+  density.voxel_size = density.merged ? resolved : held;
   const double extent = largest_extent(cloud.positions);
   if (extent > 0) density.voxel_size = std::clamp(density.voxel_size, extent / kMostCells, extent);
   // A cloud of voxels stays what it is.
-  if (density.limited_by_cloud && whole_numbers(cloud.positions))
+  if (!density.merged && whole_numbers(cloud.positions))
     density.voxel_size = std::max(std::floor(density.spacing), 1.0);
   return density;
 }

@@ -112,15 +112,17 @@ float disagreement(std::span<const Patch> patches, std::size_t samples) {
 
 std::vector<float> photo_costs(std::span<const PhotoView> views, const SurfacePoints& points,
                                double spacing, const OffsetRange& range,
-                               const ConsistencySettings& settings) {
+                               const ConsistencySettings& settings, std::size_t every) {
   const auto facing = facing_views(views, points, spacing, settings);
   const std::size_t most = settings.cameras;
   const auto samples = std::size_t((2 * settings.radius + 1) * (2 * settings.radius + 1));
-  std::vector<float> costs(points.size() * range.count, 1);
-  parallel_ranges(points.size(), 256, settings.threads, [&](std::size_t begin, std::size_t end) {
+  const std::size_t chosen = (points.size() + every - 1) / every;
+  std::vector<float> costs(chosen * range.count, 1);
+  parallel_ranges(chosen, 64, settings.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Patch> patches;
     std::vector<std::pair<const PhotoView*, PatchPath>> paths;
-    for (std::size_t p = begin; p < end; ++p) {
+    for (std::size_t i_chosen = begin; i_chosen < end; ++i_chosen) {
+      const std::size_t p = i_chosen * every;
       Float3 a, b;
       tangents(points.normals[p], a, b);
       paths.clear();
@@ -137,7 +139,7 @@ std::vector<float> photo_costs(std::span<const PhotoView> views, const SurfacePo
         for (const auto& [view, path] : paths)
           good += take_patch(*view, path, range.at(l), settings.radius, float(settings.spacing),
                              float(settings.noise), patches[good]);
-        costs[p * range.count + l] = disagreement({patches.data(), good}, samples);
+        costs[i_chosen * range.count + l] = disagreement({patches.data(), good}, samples);
       }
     }
   });

@@ -23,9 +23,10 @@ struct ConsistencySettings {
   int threads = 0;
 };
 
-/// [P][range.count] 0 (all agree) .. about 1 (nothing in common)
+/// [(P + every - 1) / every][range.count], of every so many-th point: 0 (all agree) .. about 1
+/// (nothing in common)
 std::vector<float> photo_costs(std::span<const PhotoView> views, const SurfacePoints& points,
                                double spacing, const OffsetRange& range,
-                               const ConsistencySettings& settings);
+                               const ConsistencySettings& settings, std::size_t every = 1);
 
 }  // namespace slf

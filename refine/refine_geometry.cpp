@@ -28,6 +28,7 @@ constexpr std::array<int, 4> kLevels{2, 2, 1, 1};  // of the photographs, a roun
 constexpr double kRegion = 8;        // spacings: side of the cubes that are kept or not
 constexpr double kUnseenMove = 2;    // lattice steps: moved farther, a point must be seen
 constexpr double kLeastGain = 0.05;  // of the squared error, for kAuto
+constexpr double kExact = 0.25;      // pixels of half-size photographs: a cloud that kAuto leaves
 
 struct Job {
   const Capture& capture;
@@ -208,9 +209,37 @@ Result<SurfacePoints, InputError> accept(Job& job, const SurfacePoints& mended, 
   return final;
 }
 
+/// Median distance, in pixels of half-size photographs, between some points and where photographs
+/// agree best along their normals, 4 pixels at most; of points where they agree well somewhere and
+/// not everywhere.
+double typical_miss(const Job& job) {
+  constexpr int kLevel = 1;
+  constexpr float kAgree = 0.5f, kTells = 0.2f;
+  constexpr std::size_t kLooked = 3000;
+  const double pixel = job.pixel * std::pow(2.0, kLevel);
+  const OffsetRange range{-4 * pixel, 0.5 * pixel, 17};
+  ConsistencySettings matching;
+  matching.spacing = pixel;
+  matching.tolerance = 4 * job.spacing;
+  matching.threads = job.settings.threads;
+  const auto costs = photo_costs(job.levels[kLevel], job.start, job.spacing, range, matching,
+                                 std::max<std::size_t>(job.start.size() / kLooked, 1));
+  std::vector<double> misses;
+  for (auto row = costs.begin(); row != costs.end(); row += std::ptrdiff_t(range.count)) {
+    const auto [least, most] = std::minmax_element(row, row + std::ptrdiff_t(range.count));
+    if (*least<kAgree&& * most - *least> kTells)
+      misses.push_back(std::abs(double(range.at(std::size_t(least - row)))) / pixel);
+  }
+  if (misses.size() < kLeastPoints / 10) return 0;  // nothing to go by
+  const auto middle = misses.begin() + std::ptrdiff_t(misses.size() / 2);
+  std::nth_element(misses.begin(), middle, misses.end());
+  return *middle;
+}
+
 Result<Done, InputError> mend(Job& job, RefinedCloud& out, const Progress& progress) {
   SLF_CHECK(load_levels(job));
   if (!(job.pixel > 0)) return Done{};
+  if (job.settings.mode == RefineGeometry::kAuto && typical_miss(job) <= kExact) return Done{};
   SurfacePoints mended = job.start;
   for (int i = 0; i < kFirstSmoothings; ++i) smooth(mended, job.spacing, job.settings.threads);
   for (std::size_t round = 0; round < kLevels.size(); ++round) {

@@ -136,7 +136,8 @@ struct Density {
                        ///< point (median over points); 0: no camera sees the cloud
   double spacing = 0;  ///< between neighbouring points of the cloud, world units (median); 0: a
                        ///< surface, which has points anywhere
-  double voxel_size = 0;          ///< a pixel, or half a spacing where that is more
+  double voxel_size = 0;          ///< a pixel where points are merged, else half a spacing
+  bool merged = false;            ///< the cloud has more points than the photographs resolve
   bool limited_by_cloud = false;  ///< the photographs would resolve more than the cloud has
 };
 
