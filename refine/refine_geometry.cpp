@@ -18,7 +18,7 @@
 namespace slf {
 namespace {
 
-// All measured on middlebury_dino: docs/notes-refine.md.
+// All measured on middlebury_dino: docs/pictures/geometry.md.
 constexpr std::size_t kLeastCameras = 8, kLeastPoints = 1000, kMostPoints = 2'000'000;
 constexpr std::size_t kNear = 24;                  // points of a plane
 constexpr double kReach = 1.5;                     // spacings: of a neighbour's influence

@@ -279,7 +279,7 @@ TEST(Density, IsNoFinerThanTheCloud) {
   const Density density = choose_density(capture, all);
   EXPECT_TRUE(density.limited_by_cloud);
   EXPECT_NEAR(density.spacing, 0.1, 1e-6);
-  EXPECT_GT(density.voxel_size, 0.05);
+  EXPECT_GT(density.voxel_size, 0.04);
   EXPECT_LT(density.voxel_size, 0.1);
   const auto voxels = voxelise_geometry(capture, capture.cloud, all, 0, 0);
   ASSERT_TRUE(voxels) << voxels.error().message;

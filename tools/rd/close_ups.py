@@ -17,9 +17,16 @@ import numpy as np
 ZOOM = 4
 
 
-def rendered(program, file, capture, image, size, folder):
+def border(picture):
+    """What stands behind the object, as slf eval has it: the median of the photograph's edge."""
+    edge = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
+    return ",".join(str(round(255 * float(v))) for v in np.median(edge, axis=0))
+
+
+def rendered(program, file, capture, image, background, size, folder):
     out = pathlib.Path(folder) / "view.png"
-    words = [program, "render", file, "--capture", capture, "--image", image, "-o", out, "--quiet"]
+    words = [program, "render", file, "--capture", capture, "--image", image, "-o", out, "--quiet",
+             "--background", background]
     subprocess.run(words + (["--size", size] if size else []), check=True)
     return matplotlib.image.imread(out)[..., :3]
 
@@ -50,8 +57,9 @@ def main():
         for entry in given.files:
             label, rest = entry.split("=", 1)
             program, file = rest.split(":", 1)
-            view = rendered(program, file, given.capture, given.image, None, folder)
-            large = rendered(program, file, given.capture, given.image, f"{ZOOM * width}x{ZOOM * height}", folder)
+            view = rendered(program, file, given.capture, given.image, border(was), None, folder)
+            large = rendered(program, file, given.capture, given.image, border(was),
+                             f"{ZOOM * width}x{ZOOM * height}", folder)
             columns.append((label, view, large, np.clip(128 / 255 + 4 * (view - was), 0, 1)))
     figure, axes = plt.subplots(3, len(columns), figsize=(2.8 * len(columns), 8.2), constrained_layout=True)
     for column, (label, view, large, error) in zip(axes.T, columns):
