@@ -13,24 +13,26 @@ struct Effort {
   int picture_rounds, picture_steps;
   std::size_t search_points;  ///< 0: no cross-validation
   bool search_basis;
+  bool refine;  ///< geometry, where photographs disagree
 };
 
 constexpr std::array<Effort, 9> kEfforts = {{
-    {2, 0, 0, 0, 0, false},
-    {4, 0, 1, 4, 0, false},
-    {6, 0, 1, 6, 0, false},
-    {8, 0, 2, 4, 0, false},
-    {8, 16, 2, 6, 0, false},
-    {10, 16, 2, 6, 0, false},
-    {10, 16, 2, 6, 12000, false},
-    {10, 16, 2, 8, 12000, true},
-    {10, 16, 2, 8, 24000, true},
+    {2, 0, 0, 0, 0, false, false},
+    {4, 0, 1, 4, 0, false, false},
+    {6, 0, 1, 6, 0, false, false},
+    {8, 0, 2, 4, 0, false, true},
+    {8, 16, 2, 6, 0, false, true},
+    {10, 16, 2, 6, 0, false, true},
+    {10, 16, 2, 6, 12000, false, true},
+    {10, 16, 2, 8, 12000, true, true},
+    {10, 16, 2, 8, 24000, true, true},
 }};
 
 void set_effort(int effort, EncoderSettings& settings) {
   const Effort& e = kEfforts[static_cast<std::size_t>(std::clamp(effort, 1, 9) - 1)];
   settings.fit.basis.degree = e.degree;
   settings.fit.environment.degree = e.environment_degree;
+  settings.refine_geometry = e.refine ? RefineGeometry::kAuto : RefineGeometry::kOff;
   settings.fit.pictures.rounds = e.picture_rounds;
   settings.fit.pictures.steps = std::max(e.picture_steps, 1);
   if (e.search_points == 0) {
