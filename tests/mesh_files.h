@@ -95,7 +95,7 @@ inline std::string cube_glb_binary() {
     out.put(0.0f);  // of the stride
   }
   for (const auto& f : kCubeFaces)
-    for (const std::size_t i : {0, 1, 2, 0, 2, 3}) out.put(f[i]);
+    for (const std::size_t i : std::initializer_list<std::size_t>{0, 1, 2, 0, 2, 3}) out.put(f[i]);
   return out.bytes;
 }
 

@@ -188,7 +188,7 @@ Mesh slope(std::size_t n) {
 }
 
 TEST(SampleMesh, ALayerIsOneVoxelThickWithoutHolesHoweverFineTheTriangles) {
-  for (const std::size_t n : {1, 7, 300}) {
+  for (const std::size_t n : std::initializer_list<std::size_t>{1, 7, 300}) {
     const Mesh mesh = slope(n);
     const Grid grid = grid_of(mesh, 1.0 / 64);
     const auto points = sample_mesh(mesh, grid);
