@@ -79,8 +79,10 @@ Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span
     refining.voxel_size = density.voxel_size;
   }
   if (!capture.mesh.triangles.empty()) refining.mode = RefineGeometry::kOff;  // as exact as it is
+  Stopwatch watch;
   SLF_TRY(const RefinedCloud refined, refine_geometry(capture, cameras, refining, progress));
   report = refined.report;
+  report.seconds = watch.lap();
   if (report.outcome != RefineReport::kMended) return voxelise_capture(capture, cameras, settings);
   const double step = refined.voxel_size > 0 ? refined.voxel_size : refining.voxel_size;
   SLF_TRY(VoxelCloud cloud, voxelise(refined.cloud, refining.grid_bits, step));

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "capture/spacing.h"
-#include "codec/stopwatch.h"
 #include "refine/held_out.h"
 #include "refine/offset_field.h"
 #include "refine/photo_consistency.h"
@@ -273,7 +272,6 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
                                                  std::span<const int> cameras,
                                                  const RefineSettings& settings,
                                                  const Progress& progress) {
-  Stopwatch watch;
   RefinedCloud out;
   out.report.points_before = out.report.points_after = capture.cloud.positions.size();
   out.report.outcome = obstacle(capture, cameras, settings.mode);
@@ -284,7 +282,6 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
   job.start = surface_of(capture, settings.threads);
   SLF_CHECK(mend(job, out, progress));
   if (progress) progress("refine", 1);
-  out.report.seconds = watch.lap();
   return out;
 }
 
