@@ -99,8 +99,10 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   if (fit.pull == 0) return fit;
   system.set_pull(fit.pull);
   for (int round = 0; round < s.rounds; ++round) {
-    if (round > 0) next();
-    if (round > 0) system.set_trust(colours, s.outlier);
+    if (round > 0) {
+      next();
+      system.set_trust(colours, s.outlier);
+    }
     system.improve(all, s.steps, colours, z);
   }
   fit.psnr_after = psnr(system.errors(colours), all);
