@@ -76,8 +76,8 @@ DirectionKernel::DirectionKernel(const Basis& basis, const DirectionRows& rows,
 }
 
 void DirectionKernel::apply(std::span<const std::array<float, 3>> world,
-                            std::span<const std::array<float, 2>> in_frame,
-                            std::span<const Colour4> x, std::span<Colour4> out) const {
+                            std::span<const Vec3> in_frame, std::span<const Colour4> x,
+                            std::span<Colour4> out) const {
   if (!zonal_) return apply_rows(in_frame, x, out);
   const std::size_t m = world.size(), stride = (m + kLanes - 1) / kLanes * kLanes;
   static thread_local std::vector<float> columns;
@@ -90,16 +90,15 @@ void DirectionKernel::apply(std::span<const std::array<float, 3>> world,
   apply_zonal(polynomial_, columns.data(), stride, out);
 }
 
-void DirectionKernel::apply_rows(std::span<const std::array<float, 2>> in_frame,
-                                 std::span<const Colour4> x, std::span<Colour4> out) const {
+void DirectionKernel::apply_rows(std::span<const Vec3> in_frame, std::span<const Colour4> x,
+                                 std::span<Colour4> out) const {
   const std::size_t m = in_frame.size(), size = rows_.size();
   std::vector<float> rows(m * size);
   std::vector<Colour4> sums(size);  // B^T x, then P^-1 of it
-  for (std::size_t i = 0; i < m; ++i) {
-    rows_.evaluate(in_frame[i], rows.data() + i * size);
+  rows_.evaluate(in_frame, rows.data());
+  for (std::size_t i = 0; i < m; ++i)
     for (std::size_t k = 0; k < size; ++k)
       for (std::size_t c = 0; c < 4; ++c) sums[k][c] += rows[i * size + k] * x[i][c];
-  }
   for (std::size_t k = 0; k < size; ++k)
     for (float& c : sums[k]) c *= inverse_[k];
   for (std::size_t i = 0; i < m; ++i) {

@@ -27,14 +27,13 @@ class DirectionKernel {
   /// Covariances of one point's M directions, times x.
   /// @param world  [M] unit vectors to the cameras
   /// @param in_frame  [M] the same in the point's frame; read where needs_frame()
-  void apply(std::span<const std::array<float, 3>> world,
-             std::span<const std::array<float, 2>> in_frame, std::span<const Colour4> x,
-             std::span<Colour4> out) const;
+  void apply(std::span<const std::array<float, 3>> world, std::span<const Vec3> in_frame,
+             std::span<const Colour4> x, std::span<Colour4> out) const;
 
   bool needs_frame() const { return !zonal_; }
 
  private:
-  void apply_rows(std::span<const std::array<float, 2>> in_frame, std::span<const Colour4> x,
+  void apply_rows(std::span<const Vec3> in_frame, std::span<const Colour4> x,
                   std::span<Colour4> out) const;
 
   const DirectionRows& rows_;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lightfield/basis_table.h"
@@ -22,6 +23,12 @@ class DirectionRows {
   /// @param direction  (theta, gamma) in the frame
   /// @param row  receives size() values b_k / ||b_k||; element 0 is 1
   void evaluate(const std::array<float, 2>& direction, float* row) const;
+
+  /// Of many directions, faster where there are eight.
+  /// @param directions  (theta, gamma), or unit vectors, in the frame
+  /// @param rows  receives [directions][size()]
+  void evaluate(std::span<const std::array<float, 2>> directions, float* rows) const;
+  void evaluate(std::span<const Vec3> directions, float* rows) const;
 
   /// [K] ||b_k||: a coefficient of b_k / ||b_k||, over it, is one of b_k.
   const std::vector<double>& norms() const { return norms_; }

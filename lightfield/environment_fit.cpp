@@ -62,14 +62,16 @@ Matrix functions_of(const ReflectedViews& views, std::size_t begin, std::size_t 
                     int degree) {
   const Harmonics harmonics(degree);
   const std::size_t first = views.first[begin];
-  std::vector<float> row(unknowns(degree) + 1);
-  Matrix out(index(views.first[end] - first), index(unknowns(degree)));
-  for (std::size_t p = begin; p < end; ++p)
-    for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j) {
-      harmonics.evaluate(place_on_sphere(views.position[p], views.reflected[j], radius),
-                         row.data());
-      std::copy(row.begin() + 1, row.end(), out.row(index(j - first)).data());
-    }
+  std::vector<Vec3> places;
+  Matrix rows, out(index(views.first[end] - first), index(unknowns(degree)));
+  for (std::size_t p = begin; p < end; ++p) {
+    places.clear();
+    for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
+      places.push_back(place_on_sphere(views.position[p], views.reflected[j], radius));
+    rows.resize(index(places.size()), out.cols() + 1);
+    harmonics.evaluate(places, rows.data());
+    out.middleRows(index(views.first[p] - first), rows.rows()) = rows.rightCols(out.cols());
+  }
   return out;
 }
 

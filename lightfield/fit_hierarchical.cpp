@@ -32,11 +32,10 @@ void read_rows(const Observations& seen, std::span<const float> light, std::size
   rows.count = last - first;
   rows.functions.resize(rows.count * basis.size());
   rows.colours.clear();
-  for (std::size_t i = first; i < last; ++i) {
-    basis.evaluate(seen.direction[i], rows.functions.data() + (i - first) * basis.size());
+  basis.evaluate(std::span(seen.direction).subspan(first, rows.count), rows.functions.data());
+  for (std::size_t i = first; i < last; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       rows.colours.push_back(seen.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]));
-  }
 }
 
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.

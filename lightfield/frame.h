@@ -27,16 +27,18 @@ inline Vec3 vector_of(const std::array<float, 2>& direction) {
 std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
                                                 int threads);
 
+/// 2 (n . w) n - w.
+inline Vec3 mirrored(const std::array<float, 3>& n, const Vec3& w) {
+  const double twice = 2 * (w[0] * double(n[0]) + w[1] * double(n[1]) + w[2] * double(n[2]));
+  return {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]};
+}
+
 /// World (theta, gamma) to those in the frame of a point: 2 (n . w) n - w, the same for either sign
 /// of n. No normals: the global frame.
 inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> normals,
                                      std::size_t point, const std::array<float, 2>& world) {
   if (normals.empty()) return world;
-  const auto& n = normals[point];
-  const Vec3 w = vector_of(world);
-  const double twice = 2 * (w[0] * double(n[0]) + w[1] * double(n[1]) + w[2] * double(n[2]));
-  return direction_of(
-      {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]});
+  return direction_of(mirrored(normals[point], vector_of(world)));
 }
 
 /// gamma_min and gamma_max of the directions that are there.

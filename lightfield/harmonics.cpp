@@ -1,6 +1,9 @@
 #include "lightfield/harmonics.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "bitstream/multiversion.h"
 
 namespace slf {
 
@@ -41,8 +44,9 @@ void Harmonics::evaluate(const std::array<double, 3>& direction, Real* row) cons
 template void Harmonics::evaluate(const std::array<double, 3>&, float*) const;
 template void Harmonics::evaluate(const std::array<double, 3>&, double*) const;
 
-void Harmonics::evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
-                         std::array<float, kLanes>* rows) const {
+SLF_MULTIVERSION_ALL void Harmonics::evaluate(
+    const std::array<std::array<float, kLanes>, 3>& directions,
+    std::array<float, kLanes>* rows) const {
   const auto& [x, y, z] = directions;
   std::array<float, kLanes> cosine, sine{}, before, legendre;
   cosine.fill(1);
@@ -72,6 +76,21 @@ void Harmonics::evaluate(const std::array<std::array<float, kLanes>, 3>& directi
       sine[i] = sine[i] * x[i] + cosine[i] * y[i];
       cosine[i] = turned;
     }
+  }
+}
+
+void Harmonics::evaluate(std::span<const std::array<double, 3>> directions, float* rows) const {
+  const auto functions = static_cast<std::size_t>(size());
+  std::array<std::array<float, kLanes>, 3> lanes{};
+  std::vector<std::array<float, kLanes>> values(functions);
+  for (std::size_t first = 0; first < directions.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, directions.size() - first);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        lanes[a][i] = static_cast<float>(directions[first + i][a]);
+    evaluate(lanes, values.data());
+    for (std::size_t i = 0; i < count; ++i, rows += functions)
+      for (std::size_t k = 0; k < functions; ++k) rows[k] = values[k][i];
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace slf {
@@ -32,6 +33,11 @@ class Harmonics {
   /// @param rows  [size()] receives the values
   void evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
                 std::array<float, kLanes>* rows) const;
+
+  /// The same of any number.
+  /// @param directions  unit length
+  /// @param rows  [directions][size()] receives the values
+  void evaluate(std::span<const std::array<double, 3>> directions, float* rows) const;
 
  private:
   /// Of function (l, m), m >= 0: from the Legendre functions of l and l - 1 to that of l + 1.

@@ -117,15 +117,15 @@ PictureSystem::Vector PictureSystem::colours(std::span<const float> coefficients
   Vector colours(pictures_.rays.size());
   const std::size_t size = rows_.size();
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
-    std::vector<float> row(size);
-    const float* of_point = coefficients.data() + 3 * size * p;
-    for (std::size_t r = from; r < to; ++r) {
-      rows_.evaluate(direction(p, r), row.data());
-      for (std::size_t k = 0; k < size; ++k) {
-        const float value = row[k] * static_cast<float>(rows_.norms()[k]);
-        for (std::size_t c = 0; c < 3; ++c) colours[r][c] += value * of_point[3 * k + c];
-      }
-    }
+    const std::vector<float> rows = rows_of(p, from, to);
+    std::vector<Colour4> of_point(size);  // padded, so that a step is one operation
+    for (std::size_t k = 0; k < size; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        of_point[k][c] =
+            static_cast<float>(rows_.norms()[k]) * coefficients[3 * (size * p + k) + c];
+    for (std::size_t r = from; r < to; ++r)
+      for (std::size_t k = 0; k < size; ++k)
+        add_scaled(rows[(r - from) * size + k], of_point[k], colours[r]);
   });
   return colours;
 }
@@ -133,15 +133,14 @@ PictureSystem::Vector PictureSystem::colours(std::span<const float> coefficients
 void PictureSystem::add(const Vector& z, std::span<float> coefficients) const {
   const std::size_t size = rows_.size();
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
-    std::vector<float> row(size), sum(3 * size);
-    for (std::size_t r = from; r < to; ++r) {
-      rows_.evaluate(direction(p, r), row.data());
-      for (std::size_t k = 0; k < size; ++k)
-        for (std::size_t c = 0; c < 3; ++c) sum[3 * k + c] += row[k] * z[r][c];
-    }
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      coefficients[3 * size * p + i] +=
-          sum[i] / (pull_ * static_cast<float>(penalty_[i / 3] * rows_.norms()[i / 3]));
+    const std::vector<float> rows = rows_of(p, from, to);
+    std::vector<Colour4> sum(size);
+    for (std::size_t r = from; r < to; ++r)
+      for (std::size_t k = 0; k < size; ++k) add_scaled(rows[(r - from) * size + k], z[r], sum[k]);
+    for (std::size_t k = 0; k < size; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        coefficients[3 * (size * p + k) + c] +=
+            sum[k][c] / (pull_ * static_cast<float>(penalty_[k] * rows_.norms()[k]));
   });
 }
 
@@ -244,7 +243,7 @@ void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
   parallel_ranges(positions_.size(), kPointsPerRange, threads_,
                   [&](std::size_t begin, std::size_t end) {
                     std::vector<std::array<float, 3>> world;
-                    std::vector<std::array<float, 2>> in_frame;
+                    std::vector<Vec3> in_frame;
                     for (std::size_t p = begin; p < end; ++p) {
                       const auto from = static_cast<std::size_t>(pictures_.rays.first[p]),
                                  to = static_cast<std::size_t>(pictures_.rays.first[p + 1]);
@@ -273,10 +272,25 @@ Vec3 PictureSystem::towards(std::size_t point, std::size_t ray) const {
   return d;
 }
 
-std::array<float, 2> PictureSystem::direction(std::size_t point, std::size_t ray) const {
-  auto d = to_frame(normals_, point, direction_of(towards(point, ray)));
-  d[1] = std::clamp(d[1], gamma_range_[0], gamma_range_[1]);
-  return d;
+/// Unit, in the frame of the point, gamma in range.
+Vec3 PictureSystem::direction(std::size_t point, std::size_t ray) const {
+  Vec3 d = towards(point, ray);
+  if (!normals_.empty()) d = mirrored(normals_[point], d);
+  const double low = double(gamma_range_[0]), high = double(gamma_range_[1]);
+  if (d[2] >= low && d[2] <= high) return d;
+  const double z = std::clamp(d[2], low, high), from = std::hypot(d[0], d[1]);
+  const double scale = from > 0 ? std::sqrt(1 - z * z) / from : 0;
+  return {scale * d[0], scale * d[1], z};
+}
+
+/// [rays][K] of rays from .. to of a point.
+std::vector<float> PictureSystem::rows_of(std::size_t point, std::size_t from,
+                                          std::size_t to) const {
+  std::vector<Vec3> directions;
+  for (std::size_t r = from; r < to; ++r) directions.push_back(direction(point, r));
+  std::vector<float> rows(directions.size() * rows_.size());
+  rows_.evaluate(directions, rows.data());
+  return rows;
 }
 
 /// body(point, first ray, last ray) of every point that is seen.

@@ -67,7 +67,8 @@ class PictureSystem {
 
  private:
   Vec3 towards(std::size_t point, std::size_t ray) const;
-  std::array<float, 2> direction(std::size_t point, std::size_t ray) const;
+  Vec3 direction(std::size_t point, std::size_t ray) const;
+  std::vector<float> rows_of(std::size_t point, std::size_t from, std::size_t to) const;
   void apply_kernel(const Vector& x, Vector& out) const;
   void add_pictures(const std::vector<bool>& used, const Vector& x, Vector& out) const;
   Vector residual(const std::vector<bool>& used, const Vector& colours) const;

@@ -218,14 +218,38 @@ TEST(DirectionKernel, OfHarmonicsIsASumOverTheirRows) {
     kernel.apply(world, {}, unit, out);
     for (std::size_t i = 0; i < 3; ++i) {
       std::vector<float> a(rows.size()), b(rows.size());
-      rows.evaluate(direction_of({double(world[i][0]), double(world[i][1]), double(world[i][2])}),
-                    a.data());
-      rows.evaluate(direction_of({double(world[j][0]), double(world[j][1]), double(world[j][2])}),
-                    b.data());
+      const auto along = [&](std::size_t d) {
+        return direction_of({double(world[d][0]), double(world[d][1]), double(world[d][2])});
+      };
+      rows.evaluate(along(i), a.data());
+      rows.evaluate(along(j), b.data());
       double sum = 0;
       for (std::size_t k = 0; k < a.size(); ++k) sum += double(a[k]) * double(b[k]) / penalty[k];
       EXPECT_NEAR(double(out[i][0]), sum, 1e-3) << i << ' ' << j;
       EXPECT_NEAR(double(out[i][1]), 2 * sum, 2e-3);
+    }
+  }
+}
+
+TEST(DirectionRows, OfManyDirectionsAreThoseOfEach) {
+  for (const Basis& basis : {Basis{BasisId::kHarmonics, 2, 0, 0, 10}, Basis{}}) {
+    const DirectionRows rows(basis);
+    std::vector<std::array<float, 2>> directions;
+    std::vector<Vec3> vectors;
+    for (int i = 0; i < 11; ++i) {
+      directions.push_back(
+          {-3 + 0.55f * static_cast<float>(i), -0.95f + 0.19f * static_cast<float>(i)});
+      vectors.push_back(vector_of(directions.back()));
+    }
+    std::vector<float> many(11 * rows.size()), of_vectors(many), one(rows.size());
+    rows.evaluate(directions, many.data());
+    rows.evaluate(vectors, of_vectors.data());
+    for (std::size_t i = 0; i < 11; ++i) {
+      rows.evaluate(directions[i], one.data());
+      for (std::size_t k = 0; k < one.size(); ++k) {
+        EXPECT_NEAR(many[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
+        EXPECT_NEAR(of_vectors[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
+      }
     }
   }
 }
