@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "capture/densify.h"
 #include "capture/mesh_sampling.h"
 #include "capture/nearest.h"
 #include "capture/thin_layer.h"
@@ -25,6 +26,8 @@ constexpr double kVoxelPerSpacing = 0.46;
 // Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
 // each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
 constexpr double kDense = 0.8;
+constexpr double kMostDensified =
+    4;  // voxels between points of the cloud: what is between is a guess
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -80,6 +83,17 @@ Result<VoxelCloud, InputError> voxelise_mesh(const Mesh& mesh, int bits, double 
   return voxelise_on(points, grid);
 }
 
+Result<VoxelCloud, InputError> voxelise_densely(const PointCloud& cloud, double spacing, int bits,
+                                                double voxel_size, int threads) {
+  SLF_TRY(const VoxelCloud coarse, voxelise(cloud, bits, voxel_size));  // for its grid and checks
+  const double steps = spacing / coarse.grid.step;
+  if (steps * steps * double(cloud.positions.size()) > double(1 << 24))
+    return InputError{Errc::kInvalidInput, "densify: more than 2^24 points: the grid is too fine"};
+  PointCloud dense = densify(cloud, spacing, coarse.grid, threads);
+  return dense.positions.size() < coarse.positions.size() ? coarse
+                                                          : voxelise_on(dense, coarse.grid);
+}
+
 struct View {
   const Camera* camera;
   Vec3 centre;
@@ -129,20 +143,25 @@ double pixel_on_surface(const Capture& capture, std::span<const int> cameras,
 
 Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,
                                                  std::span<const int> cameras, int bits,
-                                                 double voxel_size) {
+                                                 double voxel_size, DensifySettings densify,
+                                                 int threads) {
+  const bool surface = !capture.mesh.triangles.empty();
   Density density;
   if (bits == 0 && voxel_size == 0) {
-    density = choose_density(capture, cameras);
+    density = choose_density(capture, cameras, cloud.normals.empty() ? DensifySettings{} : densify);
     voxel_size = density.voxel_size;
     if (voxel_size == 0) bits = 1;  // a single point, or all at one place
   } else {
     density.pixel =
         pixel_on_surface(capture, cameras, capture.cloud.positions, capture.cloud.normals);
+    density.densified = densify.mode == Densify::kOn && !surface && !cloud.normals.empty();
+    if (density.densified) density.spacing = median_spacing(cloud.positions);
   }
-  const bool automatic = density.voxel_size > 0, surface = !capture.mesh.triangles.empty();
+  const bool automatic = density.voxel_size > 0;
   const auto on_grid = [&] {
-    return surface ? voxelise_mesh(capture.mesh, bits, voxel_size)
-                   : voxelise(cloud, bits, voxel_size);
+    return surface             ? voxelise_mesh(capture.mesh, bits, voxel_size)
+           : density.densified ? voxelise_densely(cloud, density.spacing, bits, voxel_size, threads)
+                               : voxelise(cloud, bits, voxel_size);
   };
   SLF_TRY(VoxelCloud voxels, on_grid());
   const double most = double(kMostAutomaticPoints), count = double(voxels.positions.size());
@@ -158,16 +177,18 @@ Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const P
 
 std::string density_warning(const Density& density) {
   const double wanted = kPixelsPerVoxel * density.pixel;
-  if (wanted == 0 || density.voxel_size <= 1.001 * wanted) return {};
+  if (wanted == 0 || density.densified || density.voxel_size <= 1.001 * wanted) return {};
   char text[160];
   std::snprintf(text, sizeof text,
-                "the photographs resolve more than %s: a voxel is %.2f pixels, not %.2f",
+                "the photographs resolve more than %s: a voxel is %.2f pixels, not %.2f%s",
                 density.limited_by_cloud ? "the cloud has" : "2^20 points can show",
-                density.voxel_size / density.pixel, kPixelsPerVoxel);
+                density.voxel_size / density.pixel, kPixelsPerVoxel,
+                density.limited_by_cloud ? " (--densify on makes up points between)" : "");
   return text;
 }
 
-Density choose_density(const Capture& capture, std::span<const int> cameras) {
+Density choose_density(const Capture& capture, std::span<const int> cameras,
+                       DensifySettings densify) {
   const PointCloud& cloud = capture.cloud;
   Density density;
   if (cloud.positions.empty()) return density;
@@ -180,10 +201,16 @@ Density choose_density(const Capture& capture, std::span<const int> cameras) {
   density.limited_by_cloud = held > resolved;
   density.merged = surface || density.spacing < kDense * resolved;
   density.voxel_size = density.merged ? resolved : held;
+  if (!density.merged && resolved > 0 && density.spacing > resolved)
+    density.densified =
+        densify.mode == Densify::kOn ||
+        (densify.mode == Densify::kAuto && density.spacing >= densify.from * resolved &&
+         !whole_numbers(cloud.positions) && on_even_surface(cloud, density.spacing));
+  if (density.densified) density.voxel_size = std::max(resolved, density.spacing / kMostDensified);
   const double extent = largest_extent(cloud.positions);
   if (extent > 0) density.voxel_size = std::clamp(density.voxel_size, extent / kMostCells, extent);
   // A cloud of voxels stays what it is.
-  if (!density.merged && whole_numbers(cloud.positions))
+  if (!density.merged && !density.densified && whole_numbers(cloud.positions))
     density.voxel_size = std::max(std::floor(density.spacing), 1.0);
   return density;
 }

@@ -109,6 +109,7 @@ Metadata fit_metadata(const ChosenFit& chosen) {
 
 Metadata grid_metadata(const EncoderSettings& s, const Grid& grid, const Density& density) {
   Metadata metadata = {{"grid", s.voxel_size > 0 || s.grid_bits > 0 ? "given" : "auto"}};
+  if (density.densified) metadata.emplace_back("densified", "yes");
   if (density.pixel > 0)
     metadata.emplace_back("voxel_pixels", hundredths(grid.step / density.pixel));
   return metadata;

@@ -56,9 +56,11 @@ Result<Done, InputError> check_settings(const EncoderSettings& s) {
 Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings) {
-  const bool needs_normals = !cameras.empty() || settings.normal_bits > 0;
+  const bool needs_normals =
+      !cameras.empty() || settings.normal_bits > 0 || settings.densify.mode == Densify::kOn;
   const auto on_grid = [&](const PointCloud& cloud) {
-    return voxelise_geometry(capture, cloud, cameras, settings.grid_bits, settings.voxel_size);
+    return voxelise_geometry(capture, cloud, cameras, settings.grid_bits, settings.voxel_size,
+                             settings.densify, settings.threads);
   };
   if (!needs_normals || !capture.cloud.normals.empty()) return on_grid(capture.cloud);
   PointCloud cloud = capture.cloud;

@@ -11,7 +11,7 @@
 #include "refine/offset_field.h"
 #include "refine/photo_consistency.h"
 #include "refine/regions.h"
-#include "refine/resample.h"
+#include "capture/resample.h"
 #include "refine/shine_through.h"
 
 namespace slf {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "refine/surface_points.h"
+#include "capture/surface_points.h"
 #include "slf/capture.h"
 
 namespace slf {

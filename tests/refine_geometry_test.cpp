@@ -10,7 +10,7 @@
 #include "capture/spacing.h"
 #include "refine/offset_field.h"
 #include "refine/regions.h"
-#include "refine/resample.h"
+#include "capture/resample.h"
 #include "refine/shine_through.h"
 #include "tests/capture_support.h"
 #include "tools/synth/rings.h"

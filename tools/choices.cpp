@@ -38,6 +38,14 @@ CLI::Option* add_choice(CLI::App& verb, const char* name, T& choice, const Words
 
 }  // namespace
 
+CLI::Option* add_densify_choice(CLI::App& verb, Densify& choice) {
+  return add_choice<Densify>(
+      verb, "--densify", choice,
+      {{"on", Densify::kOn}, {"off", Densify::kOff}, {"auto", Densify::kAuto}},
+      "Make up points between those of a cloud that is coarser than the grid; auto: on automatic "
+      "grids, where an even surface has two pixels or more between points (effort 8 and 9: 1.25)");
+}
+
 CLI::Option* add_refine_choice(CLI::App& verb, RefineGeometry& choice) {
   return add_choice<RefineGeometry>(
       verb, "--refine-geometry", choice,

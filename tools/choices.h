@@ -24,6 +24,7 @@ CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);
 CLI::Option* add_fit_to_choice(CLI::App& verb, bool& pictures);
 CLI::Option* add_basis_choice(CLI::App& verb, std::optional<BasisId>& choice);  ///< none: auto
 /// --refine-geometry on|off|auto
+CLI::Option* add_densify_choice(CLI::App& verb, Densify& choice);
 CLI::Option* add_refine_choice(CLI::App& verb, RefineGeometry& choice);
 CLI::Option* add_frame_choice(CLI::App& verb, std::optional<FrameId>& choice);  ///< none: auto
 /// --cross-validate on|off.

@@ -130,13 +130,16 @@ nlohmann::ordered_json density_json(const Grid& grid, const Density& density) {
   }
   if (density.spacing > 0) json["cloud_spacing"] = density.spacing;
   json["limited_by_cloud"] = density.limited_by_cloud;
+  json["densified"] = density.densified;
   return json;
 }
 
 std::string density_text(const Grid& grid, const Density& density) {
   std::string out = text("grid          %d bits per axis, voxels of %g", grid.bits, grid.step);
   if (density.pixel > 0) out += text(", %.2f pixels", grid.step / density.pixel);
-  return out + (density.limited_by_cloud ? ": the cloud's spacing\n" : "\n");
+  return out + (density.densified          ? ": points made up between the cloud's\n"
+                : density.limited_by_cloud ? ": the cloud's spacing\n"
+                                           : "\n");
 }
 
 nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info) {

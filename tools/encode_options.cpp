@@ -152,6 +152,9 @@ void add_grid_options(CLI::App& verb, EncodeOptions& o) {
                          "Voxel edge in world units, in place of --grid-bits")
              ->check(range(1e-12, 1e12))
              ->excludes(bits));
+  coding(add_densify_choice(verb, o.densify)->each([&o](const std::string&) {
+    o.densify_given = true;
+  }));
   coding(
       add_refine_choice(verb, o.refine)->each([&o](const std::string&) { o.refine_given = true; }));
   coding(add_geometry_choice(verb, o.geometry)->each([&o](const std::string&) {
@@ -381,6 +384,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   if (given.linear) s.observe.transfer = Transfer::kLinear;
   if (given.steps_given) s.steps_by_norm = given.by_norm;
   if (given.colour_given) s.colour = given.colour;
+  if (given.densify_given) s.densify.mode = given.densify;
   if (given.refine_given) s.refine_geometry = given.refine;
   if (given.geometry_given) s.geometry = given.geometry;
   if (given.coefficients_given) s.coefficients = given.coefficients;

@@ -27,6 +27,8 @@ struct EncodeOptions {
   std::vector<int> scales;
   bool penalise_dc = false, free_dc = false, linear = false;
   bool steps_given = false, by_norm = true;
+  bool densify_given = false;
+  Densify densify = Densify::kAuto;
   bool refine_given = false;
   RefineGeometry refine = RefineGeometry::kAuto;
   bool fit_given = false, basis_given = false, frame_given = false;

@@ -130,6 +130,19 @@ std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
                                                    const std::vector<Vec3>& viewpoints, int k = 16,
                                                    int threads = 0);
 
+/// Whether points are made up between those of a cloud that is coarser than the photographs.
+enum class Densify : std::uint8_t {
+  kOff,
+  kOn,    ///< wherever the grid is finer than the cloud
+  kAuto,  ///< of automatic grids: where enough pixels lie between points that lie on a surface,
+          ///< evenly
+};
+
+struct DensifySettings {
+  Densify mode = Densify::kOff;
+  double from = 2;  ///< kAuto: pixels between neighbouring points, 1 or more
+};
+
 /// How finely the photographs of a capture resolve its surface, and what grid follows from that.
 struct Density {
   double pixel = 0;    ///< world units that a pixel spans on the surface, in the sharpest view of a
@@ -139,12 +152,14 @@ struct Density {
   double voxel_size = 0;          ///< a pixel where points are merged, else half a spacing
   bool merged = false;            ///< the cloud has more points than the photographs resolve
   bool limited_by_cloud = false;  ///< the photographs would resolve more than the cloud has
+  bool densified = false;         ///< points were made up between the cloud's own
 };
 
 /// Without cameras, or where they see nothing, half of the cloud's own spacing.
 /// @param cameras  the input cameras
 /// The same for any thread count. O(cameras + log P) for each of a sample of points.
-Density choose_density(const Capture& capture, std::span<const int> cameras);
+Density choose_density(const Capture& capture, std::span<const int> cameras,
+                       DensifySettings densify = {});
 
 /// A cloud on the grid: Morton order, duplicates merged.
 struct VoxelCloud {
@@ -165,10 +180,11 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
 
 /// A capture's geometry on the grid that it is coded on: `bits` or `voxel_size` as voxelise has
 /// them, or with both 0 what choose_density finds. VoxelCloud::density is filled in.
-/// @param cloud  capture.cloud, or that with normals
-/// @errors those of voxelise
+/// @param cloud  capture.cloud, or that with normals, which densifying needs
+/// @errors those of voxelise. kInvalidInput: densified, it has more than 2^24 points.
 Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,
                                                  std::span<const int> cameras, int bits,
-                                                 double voxel_size);
+                                                 double voxel_size, DensifySettings densify = {},
+                                                 int threads = 0);
 
 }  // namespace slf

@@ -83,6 +83,7 @@ struct EncoderSettings {
   Preset preset = Preset::kDefault;
   int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
   double voxel_size = 0;  ///< > 0: instead of grid_bits
+  DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
   RefineGeometry refine_geometry = RefineGeometry::kAuto;  ///< kOff without cameras
   ObserveSettings observe;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict

@@ -1,4 +1,4 @@
-#include "refine/surface_points.h"
+#include "capture/surface_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "refine/resample.h"
+#include "capture/resample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,28 @@ constexpr int kNear = 16;
 
 using Node = std::array<std::int32_t, 3>;
 
-/// Nodes within two steps of a point, each once, in a fixed order.
-std::vector<Node> candidates(const SurfacePoints& points, const Lattice& lattice) {
+/// Nodes around a point, each once, in a fixed order.
+std::vector<Node> candidates(const SurfacePoints& points, const Lattice& lattice,
+                             const ResampleSettings& settings) {
   std::vector<Node> nodes;
-  for (const Float3& position : points.positions) {
+  const auto node_near = [&](std::size_t p, const Node& node) {
+    double off = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      off += double(points.normals[p][a]) *
+             (lattice.origin[a] + lattice.step * node[a] - double(points.positions[p][a]));
+    return std::abs(off) <= settings.off_plane * lattice.step;
+  };
+  const std::int32_t n = settings.around;
+  for (std::size_t p = 0; p < points.size(); ++p) {
     Node at{};
     for (std::size_t a = 0; a < 3; ++a)
       at[a] = static_cast<std::int32_t>(
-          std::floor((double(position[a]) - lattice.origin[a]) / lattice.step + 0.5));
-    for (std::int32_t z = -1; z <= 1; ++z)
-      for (std::int32_t y = -1; y <= 1; ++y)
-        for (std::int32_t x = -1; x <= 1; ++x) nodes.push_back({at[0] + x, at[1] + y, at[2] + z});
+          std::floor((double(points.positions[p][a]) - lattice.origin[a]) / lattice.step + 0.5));
+    for (std::int32_t z = -n; z <= n; ++z)
+      for (std::int32_t y = -n; y <= n; ++y)
+        for (std::int32_t x = -n; x <= n; ++x)
+          if (const Node node{at[0] + x, at[1] + y, at[2] + z}; node_near(p, node))
+            nodes.push_back(node);
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -34,6 +45,7 @@ std::vector<Node> candidates(const SurfacePoints& points, const Lattice& lattice
 struct Surface {
   double distance = 0;  ///< of the query from it, along the normal
   Float3 normal{};
+  Float3 centre{};    ///< weighted mean of the points
   float support = 0;  ///< sum of weights
 };
 
@@ -53,11 +65,13 @@ Surface surface_at(const SurfacePoints& points, const Float3& query,
     const float w = agree * std::exp(-squared[i] * scale);
     heights += w * dot(minus(query, points.positions[near[i]]), n);
     normal = along(normal, w, n);
+    surface.centre = along(surface.centre, w, points.positions[near[i]]);
     surface.support += w;
   }
   if (!(surface.support > 0)) return surface;
   const float length = std::sqrt(dot(normal, normal));
   surface.distance = double(heights / surface.support);
+  for (float& x : surface.centre) x /= surface.support;
   surface.normal = {normal[0] / length, normal[1] / length, normal[2] / length};
   return surface;
 }
@@ -66,10 +80,11 @@ Surface surface_at(const SurfacePoints& points, const Float3& query,
 
 SurfacePoints resample(const SurfacePoints& points, const Lattice& lattice,
                        const ResampleSettings& settings) {
-  const std::vector<Node> nodes = candidates(points, lattice);
+  const std::vector<Node> nodes = candidates(points, lattice, settings);
   const NearestPoints tree(points.positions);
   const int k = static_cast<int>(std::min<std::size_t>(kNear, points.size()));
-  const double reach = settings.reach * lattice.step, support = settings.support * lattice.step;
+  const double reach = settings.reach * lattice.step, support = settings.support * lattice.step,
+               rim = settings.rim * lattice.step, off_centre = settings.off_centre * lattice.step;
   std::vector<Float3> position(nodes.size()), normal(nodes.size());
   std::vector<std::uint32_t> source(nodes.size());
   std::vector<std::uint8_t> kept(nodes.size(), 0);
@@ -95,8 +110,9 @@ SurfacePoints resample(const SurfacePoints& points, const Lattice& lattice,
       if (!(at.distance > -half && at.distance <= half)) continue;
       const Float3 foot = along(query, -float(at.distance), at.normal);
       // Beyond the rim: no point on all sides.
-      const Float3 beside = minus(foot, points.positions[near[0]]);
-      if (double(dot(beside, beside)) > 0.81 * lattice.step * lattice.step * settings.support)
+      const Float3 beside = minus(foot, points.positions[near[0]]), off = minus(foot, at.centre);
+      if (double(dot(beside, beside)) > rim * rim ||
+          double(dot(off, off)) > off_centre * off_centre)
         continue;
       position[i] = settings.on_lattice ? query : foot;
       normal[i] = at.normal;

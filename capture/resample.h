@@ -1,7 +1,9 @@
 // The surface sampled anew: one point for every lattice line that crosses it.
 #pragma once
 
-#include "refine/surface_points.h"
+#include <limits>
+
+#include "capture/surface_points.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -13,8 +15,15 @@ struct Lattice {
 };
 
 struct ResampleSettings {
-  double reach = 1.2;       ///< lattice steps: standard deviation of a point's influence
-  double support = 1.6;     ///< lattice steps: no surface farther than this from every point
+  // Lengths in lattice steps.
+  int around = 1;        ///< per axis, nodes as near as this to a point are looked at
+  double reach = 1.2;    ///< standard deviation of a point's influence
+  double support = 1.6;  ///< no node farther than this from every point
+  double rim = 1.138;    ///< no surface farther than this from every point
+  double off_plane = std::numeric_limits<double>::infinity();   ///< nodes farther from the plane of
+                                                                ///< their point are not looked at
+  double off_centre = std::numeric_limits<double>::infinity();  ///< no surface farther than this
+                                                                ///< from the mean of points there
   bool on_lattice = false;  ///< points at lattice nodes, not on the surface beside them
   int threads = 0;
 };
