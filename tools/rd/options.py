@@ -39,6 +39,15 @@ class Flag:
         return None if isinstance(value, bool) else "true or false is expected"
 
 
+class Either:
+    def __init__(self, *ranges):
+        self.ranges = ranges
+
+    def problem(self, value):
+        problems = [r.problem(value) for r in self.ranges]
+        return None if None in problems else " or ".join(problems)
+
+
 # The rate knob of each codec: option of the program and its range.
 RATES = {"raht": ("quality", Number(0.05, 4096)), "tmc": ("texture-qp", Number(0, 51, whole=True)),
          "tmc3": ("qp", Number(4, 51, whole=True)), "igc-hevc": ("qp", Number(0, 51, whole=True)),
@@ -48,7 +57,7 @@ X265_PRESETS = ("ultrafast", "superfast", "veryfast", "faster", "fast", "medium"
 
 # name: (range, codecs that take it)
 OPTIONS = {
-    "grid-bits": (Number(1, 21, whole=True), CODECS),
+    "grid-bits": (Either(Number(1, 21, whole=True), Choice("auto")), CODECS),
     "delta": (Number(0, 90), CODECS),
     "occlusion-resolution": (Number(0.05, 8), CODECS),
     "depth-tolerance": (Number(0, 1000), CODECS),
