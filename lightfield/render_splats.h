@@ -28,11 +28,12 @@ struct Splat {
   float u, v;                     ///< pixels, centre of the top left pixel at (0.5, 0.5)
   float a, b, c;                  ///< 1 / pixel^2
   float half_width, half_height;  ///< of the ellipse's box, pixels
+  float half_chord;               ///< of the ellipse, along the row through its centre
+  float slope;                    ///< columns that the middles of chords move by a row, to the left
   float inverse_depth, inverse_depth_du, inverse_depth_dv;
   float inverse_depth_change;  ///< at most, within the ellipse
   float fade;    ///< 1 / the inverse depth behind the nearest at which it no longer counts
   float weight;  ///< at the centre: the number of such discs on a pixel times it is their density
-  float full;    ///< squared ellipse radius within which the disc covers pixels entirely
   std::uint32_t point;
 };
 
