@@ -141,35 +141,48 @@ std::vector<std::array<float, 4>> colours_of(const std::vector<Splat>& splats,
   return colours;
 }
 
-/// Sums that the ranges of work take in turn, so that each thread needs but one.
-class SumsPool {
+/// What a band is drawn in.
+struct BandScratch {
+  BandSums sums;
+  SplatImage rows;
+};
+
+/// Memory that the ranges of work take in turn, so that there is one per thread and not per band.
+class ScratchPool {
  public:
-  std::unique_ptr<BandSums> take() {
+  std::unique_ptr<BandScratch> take() {
     const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<BandSums>();
-    auto sums = std::move(free_.back());
+    if (free_.empty()) return std::make_unique<BandScratch>();
+    auto scratch = std::move(free_.back());
     free_.pop_back();
-    return sums;
+    return scratch;
   }
-  void give(std::unique_ptr<BandSums>&& sums) {
+  void give(std::unique_ptr<BandScratch>&& scratch) {
     const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(sums));
+    free_.push_back(std::move(scratch));
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::unique_ptr<BandSums>> free_;
+  std::vector<std::unique_ptr<BandScratch>> free_;
 };
+
+void take_rows(const SplatBand& band, BandSums& sums, SplatImage& rows) {
+  rows.colour.assign(band.pixels(), {0, 0, 0});
+  rows.coverage.assign(band.pixels(), 0);
+  rows.depth.assign(band.pixels(), std::numeric_limits<float>::infinity());
+  band.take(sums, [&](std::size_t pixel, const BlockSums& own, std::size_t lane) {
+    const float scale = 1 / own.weight[lane];
+    rows.colour[pixel] = {own.red[lane] * scale, own.green[lane] * scale, own.blue[lane] * scale};
+    rows.coverage[pixel] = own.coverage[lane];
+    rows.depth[pixel] = own.weight[lane] / own.inverse_depth[lane];
+  });
+}
 
 }  // namespace
 
-SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
-                     const ColourSource& source) {
-  const std::size_t pixels = std::size_t(width) * std::size_t(height);
-  SplatImage image;
-  image.colour.assign(pixels, {0, 0, 0});
-  image.coverage.assign(pixels, 0);
-  image.depth.assign(pixels, std::numeric_limits<float>::infinity());
+void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+               const ColourSource& source, const RowSink& sink) {
   const auto bins = bin_splats(splats, height);
   std::vector<std::vector<std::uint32_t>> shown(bins.size());
   std::vector<SplatBand> bands;
@@ -179,24 +192,33 @@ SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, in
     for (std::size_t i = begin; i < end; ++i) shown[i] = bands[i].find_shown(splats, bins[i]);
   });
   const auto colours = colours_of(splats, shown, threads, source);
-  SumsPool pool;
+  ScratchPool pool;
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<BandSums> sums = pool.take();
+    auto scratch = pool.take();
     for (std::size_t i = begin; i < end; ++i) {
-      const SplatBand& band = bands[i];
-      band.blend(splats, shown[i], colours, *sums);
-      band.cover(splats, shown[i], bins[i], *sums);
-      const std::size_t first = band.first_pixel();
-      band.take(*sums, [&](std::size_t pixel, const BlockSums& own, std::size_t lane) {
-        const float scale = 1 / own.weight[lane];
-        image.colour[first + pixel] = {own.red[lane] * scale, own.green[lane] * scale,
-                                       own.blue[lane] * scale};
-        image.coverage[first + pixel] = own.coverage[lane];
-        image.depth[first + pixel] = own.weight[lane] / own.inverse_depth[lane];
-      });
+      bands[i].blend(splats, shown[i], colours, scratch->sums);
+      bands[i].cover(splats, shown[i], bins[i], scratch->sums);
+      take_rows(bands[i], scratch->sums, scratch->rows);
+      sink(bands[i].first_pixel(), scratch->rows);
     }
-    pool.give(std::move(sums));
+    pool.give(std::move(scratch));
   });
+}
+
+SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+                     const ColourSource& source) {
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
+  SplatImage image;
+  image.colour.resize(pixels);
+  image.coverage.resize(pixels);
+  image.depth.resize(pixels);
+  rasterise(splats, width, height, threads, source,
+            [&](std::size_t first_pixel, const SplatImage& rows) {
+              const auto at = static_cast<std::ptrdiff_t>(first_pixel);
+              std::copy(rows.colour.begin(), rows.colour.end(), image.colour.begin() + at);
+              std::copy(rows.coverage.begin(), rows.coverage.end(), image.coverage.begin() + at);
+              std::copy(rows.depth.begin(), rows.depth.end(), image.depth.begin() + at);
+            });
   return image;
 }
 

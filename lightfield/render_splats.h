@@ -40,12 +40,15 @@ struct Splat {
 /// Nothing where the disc is behind the camera, or its ellipse outside the image.
 std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::uint32_t point);
 
-/// Weighted means per pixel.
+/// Weighted means per pixel, of an image or some rows of it.
 struct SplatImage {
   std::vector<std::array<float, 3>> colour;  ///< [height][width] 0 where nothing is
   std::vector<float> coverage;               ///< [height][width] 0 .. 1
   std::vector<float> depth;                  ///< [height][width] +inf where nothing is
 };
+
+/// Receives some rows from the one of `first_pixel` on; called from several threads.
+using RowSink = std::function<void(std::size_t first_pixel, const SplatImage& rows)>;
 
 /// Writes the colours of points, [points]; called from several threads, once per point at most.
 using ColourSource =
@@ -55,6 +58,10 @@ using ColourSource =
 /// the colours of points that show, no others. The same for any thread count.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const ColourSource& source);
+
+/// The same with rows as they are done, in any order.
+void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+               const ColourSource& source, const RowSink& sink);
 
 /// The same with one colour at a time.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,

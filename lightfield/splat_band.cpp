@@ -60,7 +60,7 @@ SplatBand::SplatBand(int width, int height, std::size_t index)
           nearest_[pair * blocks_ + block].nearest[lane] = outside;
 }
 
-SplatBand::TileBox SplatBand::tiles_of(const Splat& s) const {
+[[gnu::always_inline]] inline SplatBand::TileBox SplatBand::tiles_of(const Splat& s) const {
   const auto tile = [](float x, int size) {
     return std::size_t(std::clamp(static_cast<int>(x), 0, size - 1) / 8);
   };
