@@ -27,6 +27,13 @@ bool any(const LaneMask& mask) {
   return (words[0] | words[1] | words[2] | words[3]) != 0;
 }
 
+void set_root(const Lanes& square, Lanes& root) {
+  std::array<float, 8> values;
+  std::memcpy(values.data(), &square, sizeof square);
+  for (float& value : values) value = std::sqrt(value);
+  std::memcpy(&root, values.data(), sizeof root);
+}
+
 /// 1 at the nearest surface, 0 where the splat is hidden.
 void set_nearness(const Splat& s, const Lanes& nearest, const Lanes& inverse_depth, Lanes& near) {
   const Lanes behind = (nearest - inverse_depth) * s.fade;
@@ -112,11 +119,9 @@ inline void SplatBand::draw_depth(const Splat& s) {
 
 inline void SplatBand::find_farthest() {
   for (std::size_t tile = 0; tile < farthest_.size(); ++tile) {
-    const Block* block =
-        &nearest_[tile / tiles_ * kTilePairs * blocks_ + tile % tiles_ * kTileBlocks];
-    Lanes least = block->nearest;
+    Lanes least = nearest_[block_of(tile, 0)].nearest;
     for (std::size_t i = 1; i < kTilePairs * kTileBlocks; ++i) {
-      const Lanes& own = block[i / kTileBlocks * blocks_ + i % kTileBlocks].nearest;
+      const Lanes& own = nearest_[block_of(tile, i)].nearest;
       least = own < least ? own : least;
     }
     farthest_[tile] = least[0];
@@ -212,7 +217,7 @@ SLF_MULTIVERSION_ALL void SplatBand::list(const std::vector<Splat>& splats,
   for (const std::uint32_t i : shown)
     draw_weight(splats[i], sums, [&](std::size_t block, const Lanes& weight, BlockSums&) {
       if (!any(weight > 0.0f)) return;
-      const std::size_t pixel = 2 * (block / blocks_) * std::size_t(width_) + 4 * (block % blocks_);
+      const std::size_t pixel = first_pixel_of(block);
       for (std::size_t lane = 0; lane < 8; ++lane)
         if (weight[lane] > 0)
           entries.push_back(
@@ -221,44 +226,41 @@ SLF_MULTIVERSION_ALL void SplatBand::list(const std::vector<Splat>& splats,
     });
 }
 
-/// Tells which tiles have pixels that show something but are not wholly covered.
-inline void SplatBand::find_open(const BandSums& sums, std::vector<std::uint8_t>& open) const {
-  for (std::size_t tile = 0; tile < open.size(); ++tile) {
-    if (open[tile] == 0) continue;
-    const BlockSums* own =
-        &sums.blocks[tile / tiles_ * kTilePairs * blocks_ + tile % tiles_ * kTileBlocks];
-    LaneMask mask{};
+/// Looks for pixels that show something but are not wholly covered.
+inline void SplatBand::find_open(const BandSums& sums, OpenPixels& open) const {
+  for (std::size_t tile = 0; tile < open.tiles.size(); ++tile) {
+    if (open.tiles[tile] == 0) continue;
+    std::uint8_t found = 0;
     for (std::size_t i = 0; i < kTilePairs * kTileBlocks; ++i) {
-      const BlockSums& block = own[i / kTileBlocks * blocks_ + i % kTileBlocks];
-      mask |= (block.coverage < 1.0f) & (block.weight > 0.0f);
+      const std::size_t block = block_of(tile, i);
+      const BlockSums& own = sums.blocks[block];
+      open.blocks[block] = any((own.coverage < 1.0f) & (own.weight > 0.0f));
+      found |= open.blocks[block];
     }
-    open[tile] = any(mask);
+    open.tiles[tile] = found;
   }
 }
 
-inline void SplatBand::cover_by_density(BandSums& sums, std::vector<std::uint8_t>& open) const {
+inline void SplatBand::cover_by_density(BandSums& sums) const {
   // The integral of (1 - r^2)^n over the unit circle is pi / (n + 1).
   constexpr auto kGain = float(kKernel.density_gain * (kKernel.exponent + 1) / std::numbers::pi);
-  for (std::size_t tile = 0; tile < open.size(); ++tile) {
-    if (open[tile] == 0) continue;
-    BlockSums* own =
-        &sums.blocks[tile / tiles_ * kTilePairs * blocks_ + tile % tiles_ * kTileBlocks];
+  for (std::size_t tile = 0; tile < touched_.size(); ++tile) {
+    if (touched_[tile] == 0) continue;
     for (std::size_t i = 0; i < kTilePairs * kTileBlocks; ++i) {
-      BlockSums& block = own[i / kTileBlocks * blocks_ + i % kTileBlocks];
-      const Lanes density = kGain * block.weight - float(kKernel.density_offset);
+      BlockSums& own = sums.blocks[block_of(tile, i)];
+      const Lanes density = kGain * own.weight - float(kKernel.density_offset);
       const Lanes positive = density > 0 ? density : Lanes{};
-      block.coverage = positive < 1.0f ? positive : Lanes{} + 1;
+      own.coverage = positive < 1.0f ? positive : Lanes{} + 1;
     }
   }
 }
 
 /// Share of each pixel that the disc covers: distance to its edge in pixels, to first order.
-inline void SplatBand::cover_by_disc(const Splat& s, BandSums& sums,
-                                     const std::vector<std::uint8_t>& open) const {
+inline void SplatBand::cover_by_disc(const Splat& s, BandSums& sums, const OpenPixels& open) const {
   const TileBox box = tiles_of(s);
   std::uint8_t wanted = 0;
   for (std::size_t y = box.top; y <= box.bottom; ++y)
-    for (std::size_t x = box.left; x <= box.right; ++x) wanted |= open[y * tiles_ + x];
+    for (std::size_t x = box.left; x <= box.right; ++x) wanted |= open.tiles[y * tiles_ + x];
   if (wanted == 0) return;
   constexpr auto kShare = float(kKernel.disc_share);
   // Within this squared radius the disc covers pixels in every direction: S has the eigenvalues
@@ -271,39 +273,37 @@ inline void SplatBand::cover_by_disc(const Splat& s, BandSums& sums,
   // At the centre the direction is that in which the ellipse is narrow, along an axis.
   const float at_centre =
       0.5f + kShare * std::sqrt(std::max(0.0f, 1 / std::max(s.a, s.c) - kFilterSquare));
-  visit(
-      s, 1.0f, [&](std::size_t i, const Lanes& r2, const Lanes& du, const Lanes& dv, const Lanes&) {
-        BlockSums& own = sums.blocks[i];
-        const LaneMask wanting = (own.coverage < 1.0f) & (own.weight > 0.0f) & (r2 < 1.0f);
-        if (!any(wanting)) return false;
-        // In this direction the ellipse reaches sqrt(square / r2), the disc itself less by the
-        // filter. Across the edge: along the gradient of r^2 / 2.
-        const Lanes square = du * du + dv * dv;
-        const Lanes gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv;
-        const Lanes gradient = gu * gu + gv * gv;
-        for (std::size_t lane = 0; lane < 8; ++lane) {
-          if (!wanting[lane]) continue;
-          float share = 1;
-          if (square[lane] < 1e-4f) {
-            share = at_centre;
-          } else if (r2[lane] > full) {
-            const float distance = std::sqrt(square[lane]);
-            const float reach = std::sqrt(std::max(0.0f, square[lane] / r2[lane] - kFilterSquare));
-            share = 0.5f +
-                    (kShare * reach - distance) * r2[lane] / (distance * std::sqrt(gradient[lane]));
-          }
-          own.coverage[lane] = std::max(own.coverage[lane], std::min(share, 1.0f));
-        }
-        return false;
-      });
+  visit(s, 1.0f,
+        [&](std::size_t i, const Lanes& r2, const Lanes& du, const Lanes& dv, const Lanes&) {
+          if (open.blocks[i] == 0) return false;
+          BlockSums& own = sums.blocks[i];
+          const LaneMask wanting = (own.coverage < 1.0f) & (own.weight > 0.0f) & (r2 < 1.0f);
+          if (!any(wanting)) return false;
+          // In this direction the ellipse reaches sqrt(square / r2), the disc itself less by the
+          // filter. Across the edge: along the gradient of r^2 / 2.
+          const Lanes square = du * du + dv * dv;
+          const Lanes gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv;
+          const Lanes gradient = gu * gu + gv * gv;
+          const Lanes beyond = square / r2 - kFilterSquare;
+          Lanes distance, reach, slope;
+          set_root(square, distance);
+          set_root(beyond > 0 ? beyond : Lanes{}, reach);
+          set_root(square * gradient, slope);
+          Lanes share = 0.5f + (kShare * reach - distance) * r2 / slope;
+          share = r2 > full ? share : Lanes{} + 1;
+          share = square < 1e-4f ? Lanes{} + at_centre : share;
+          share = share < 1.0f ? share : Lanes{} + 1;
+          own.coverage = wanting & (share > own.coverage) ? share : own.coverage;
+          return false;
+        });
 }
 
 SLF_MULTIVERSION_ALL void SplatBand::cover(const std::vector<Splat>& splats,
                                            const std::vector<std::uint32_t>& shown,
                                            const std::vector<std::uint32_t>& all,
                                            BandSums& sums) const {
-  std::vector<std::uint8_t> open = touched_;
-  cover_by_density(sums, open);
+  OpenPixels open{touched_, std::vector<std::uint8_t>(nearest_.size(), 0)};
+  cover_by_density(sums);
   find_open(sums, open);
   for (const std::uint32_t i : shown) cover_by_disc(splats[i], sums, open);
   find_open(sums, open);

@@ -70,10 +70,9 @@ class SplatBand {
     for (std::size_t tile = 0; tile < touched_.size(); ++tile) {
       if (touched_[tile] == 0) continue;
       for (std::size_t i = 0; i < kTilePairs * kTileBlocks; ++i) {
-        const std::size_t pair = tile / tiles_ * kTilePairs + i / kTileBlocks;
-        const std::size_t block = tile % tiles_ * kTileBlocks + i % kTileBlocks;
-        BlockSums& own = sums.blocks[pair * blocks_ + block];
-        const std::size_t pixel = 2 * pair * std::size_t(width_) + 4 * block;
+        const std::size_t block = block_of(tile, i);
+        BlockSums& own = sums.blocks[block];
+        const std::size_t pixel = first_pixel_of(block);
         for (std::size_t lane = 0; lane < 8; ++lane)
           if (own.weight[lane] > 0)
             visit(pixel + lane / 4 * std::size_t(width_) + lane % 4, own, lane);
@@ -93,6 +92,20 @@ class SplatBand {
     std::size_t left, right, top, bottom;
   };
 
+  /// Where there are pixels that show something but are not wholly covered.
+  struct OpenPixels {
+    std::vector<std::uint8_t> tiles, blocks;
+  };
+
+  /// The i-th block of a tile.
+  std::size_t block_of(std::size_t tile, std::size_t i) const {
+    return (tile / tiles_ * kTilePairs + i / kTileBlocks) * blocks_ + tile % tiles_ * kTileBlocks +
+           i % kTileBlocks;
+  }
+  /// The pixel of its lane 0.
+  std::size_t first_pixel_of(std::size_t block) const {
+    return 2 * (block / blocks_) * std::size_t(width_) + 4 * (block % blocks_);
+  }
   TileBox tiles_of(const Splat& s) const;
   void draw_depth(const Splat& s);
   void find_farthest();
@@ -102,9 +115,9 @@ class SplatBand {
   void visit(const Splat& s, float reach, Visit&& visit) const;
   template <class Add>
   void draw_weight(const Splat& s, BandSums& sums, Add&& add) const;
-  void cover_by_density(BandSums& sums, std::vector<std::uint8_t>& open) const;
-  void find_open(const BandSums& sums, std::vector<std::uint8_t>& open) const;
-  void cover_by_disc(const Splat& s, BandSums& sums, const std::vector<std::uint8_t>& open) const;
+  void cover_by_density(BandSums& sums) const;
+  void find_open(const BandSums& sums, OpenPixels& open) const;
+  void cover_by_disc(const Splat& s, BandSums& sums, const OpenPixels& open) const;
 
   int width_, first_row_, rows_;
   std::size_t blocks_, tiles_;         // in a row
