@@ -7,7 +7,6 @@
 #include "lightfield/colour.h"
 #include "lightfield/render_splats.h"
 #include "lightfield/surfel_cloud.h"
-#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -28,31 +27,39 @@ class DisplayCurve {
   std::vector<float> table_;
 };
 
-/// Colours over the background, 8 bit.
-Rendering compose(SplatImage&& splatted, const Camera& camera, const RenderSettings& settings,
-                  Transfer transfer) {
-  static const DisplayCurve to_display;
+/// An image without anything yet.
+Rendering empty_rendering(const Camera& camera) {
+  const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
   Rendering out;
   out.image.width = camera.width;
   out.image.height = camera.height;
-  const std::size_t width = std::size_t(camera.width);
-  out.image.data.resize(3 * splatted.coverage.size());
-  out.coverage.resize(splatted.coverage.size());
-  out.depth = std::move(splatted.depth);
-  parallel_ranges(std::size_t(camera.height), 64, settings.threads,
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin * width; i < end * width; ++i) {
-                      const float cover = splatted.coverage[i];
-                      out.coverage[i] = static_cast<std::uint8_t>(255 * cover + 0.5f);
-                      for (std::size_t k = 0; k < 3; ++k) {
-                        float c = splatted.colour[i][k];
-                        if (transfer == Transfer::kLinear) c = to_display(c);
-                        c = cover * c + (1 - cover) * settings.background[k];
-                        out.image.data[3 * i + k] = static_cast<std::uint8_t>(c + 0.5f);
-                      }
-                    }
-                  });
+  out.image.data.resize(3 * pixels);
+  out.coverage.resize(pixels);
+  out.depth.resize(pixels);
   return out;
+}
+
+/// Rows over the background, 8 bit.
+void compose(const SplatImage& rows, std::size_t first_pixel, const RenderSettings& settings,
+             Transfer transfer, Rendering& out) {
+  static const DisplayCurve to_display;
+  std::copy(rows.depth.begin(), rows.depth.end(),
+            out.depth.begin() + static_cast<std::ptrdiff_t>(first_pixel));
+  std::uint8_t* sample = out.image.data.data() + 3 * first_pixel;
+  for (std::size_t i = 0; i < rows.coverage.size(); ++i, sample += 3) {
+    const float cover = rows.coverage[i];
+    if (!(cover > 0)) {
+      std::copy(settings.background.begin(), settings.background.end(), sample);
+      continue;
+    }
+    out.coverage[first_pixel + i] = static_cast<std::uint8_t>(255 * cover + 0.5f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      float c = rows.colour[i][k];
+      if (transfer == Transfer::kLinear) c = to_display(c);
+      c = cover * c + (1 - cover) * settings.background[k];
+      sample[k] = static_cast<std::uint8_t>(c + 0.5f);
+    }
+  }
 }
 
 }  // namespace
@@ -72,8 +79,12 @@ Rendering Renderer::render(const Camera& camera) const {
     if (settings_.view_dependent) return maps_.radiances(eye, points, out);
     for (std::size_t i = 0; i < points.size(); ++i) out[i] = maps_.mean(points[i]);
   };
-  return compose(rasterise(splats, camera.width, camera.height, settings_.threads, colours), camera,
-                 settings_, maps_.header().transfer);
+  Rendering out = empty_rendering(camera);
+  rasterise(splats, camera.width, camera.height, settings_.threads, colours,
+            [&](std::size_t first_pixel, const SplatImage& rows) {
+              compose(rows, first_pixel, settings_, maps_.header().transfer, out);
+            });
+  return out;
 }
 
 }  // namespace slf

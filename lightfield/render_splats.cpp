@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "lightfield/reference_kernel.h"
 #include "lightfield/splat_band.h"
@@ -57,15 +59,6 @@ Spread image_spread(const Camera& camera, const Vec3& p, const Vec3& n, double r
   return {r2 * (dot(ju, ju) - nu * nu), r2 * (dot(ju, jv) - nu * nv), r2 * (dot(jv, jv) - nv * nv)};
 }
 
-/// Squared radius of the ellipse within which its disc covers whole pixels in every direction.
-float full_cover(const Spread& filtered) {
-  const double mean = (filtered.uu + filtered.vv) / 2;
-  const double minor = mean - std::hypot((filtered.uu - filtered.vv) / 2, filtered.uv);
-  const double disc = std::sqrt(std::max(0.0, minor - kFilterSquare));
-  const double radius = std::max(0.0, (kKernel.disc_share * disc - 0.5) / std::sqrt(minor));
-  return static_cast<float>(radius * radius);
-}
-
 }  // namespace
 
 std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::uint32_t point) {
@@ -107,6 +100,8 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.c = static_cast<float>(s.uu * inverse);
   splat.half_width = static_cast<float>(half_width);
   splat.half_height = static_cast<float>(half_height);
+  splat.half_chord = static_cast<float>(1 / std::sqrt(s.vv * inverse));
+  splat.slope = static_cast<float>(-s.uv / s.vv);
   splat.inverse_depth = static_cast<float>(1 / z);
   splat.inverse_depth_du = static_cast<float>(tame * du);
   splat.inverse_depth_dv = static_cast<float>(tame * dv);
@@ -117,7 +112,6 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
                                      : 1 / (kKernel.spacing_reach * kKernel.spacing_reach);
   splat.weight =
       static_cast<float>(share * std::sqrt(std::max(disc_spread.determinant() * inverse, 1e-9)));
-  splat.full = full_cover(s);
   splat.point = point;
   return splat;
 }
@@ -147,45 +141,84 @@ std::vector<std::array<float, 4>> colours_of(const std::vector<Splat>& splats,
   return colours;
 }
 
+/// What a band is drawn in.
+struct BandScratch {
+  BandSums sums;
+  SplatImage rows;
+};
+
+/// Memory that the ranges of work take in turn, so that there is one per thread and not per band.
+class ScratchPool {
+ public:
+  std::unique_ptr<BandScratch> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<BandScratch>();
+    auto scratch = std::move(free_.back());
+    free_.pop_back();
+    return scratch;
+  }
+  void give(std::unique_ptr<BandScratch>&& scratch) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scratch));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<BandScratch>> free_;
+};
+
+void take_rows(const SplatBand& band, BandSums& sums, SplatImage& rows) {
+  rows.colour.assign(band.pixels(), {0, 0, 0});
+  rows.coverage.assign(band.pixels(), 0);
+  rows.depth.assign(band.pixels(), std::numeric_limits<float>::infinity());
+  band.take(sums, [&](std::size_t pixel, const BlockSums& own, std::size_t lane) {
+    const float scale = 1 / own.weight[lane];
+    rows.colour[pixel] = {own.red[lane] * scale, own.green[lane] * scale, own.blue[lane] * scale};
+    rows.coverage[pixel] = own.coverage[lane];
+    rows.depth[pixel] = own.weight[lane] / own.inverse_depth[lane];
+  });
+}
+
 }  // namespace
+
+void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+               const ColourSource& source, const RowSink& sink) {
+  const auto bins = bin_splats(splats, height);
+  std::vector<std::vector<std::uint32_t>> shown(bins.size());
+  std::vector<SplatBand> bands;
+  bands.reserve(bins.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) bands.emplace_back(width, height, i);
+  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) shown[i] = bands[i].find_shown(splats, bins[i]);
+  });
+  const auto colours = colours_of(splats, shown, threads, source);
+  ScratchPool pool;
+  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    auto scratch = pool.take();
+    for (std::size_t i = begin; i < end; ++i) {
+      bands[i].blend(splats, shown[i], colours, scratch->sums);
+      bands[i].cover(splats, shown[i], bins[i], scratch->sums);
+      take_rows(bands[i], scratch->sums, scratch->rows);
+      sink(bands[i].first_pixel(), scratch->rows);
+    }
+    pool.give(std::move(scratch));
+  });
+}
 
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const ColourSource& source) {
   const std::size_t pixels = std::size_t(width) * std::size_t(height);
   SplatImage image;
-  image.colour.assign(pixels, {0, 0, 0});
-  image.coverage.assign(pixels, 0);
-  image.depth.assign(pixels, 0);
-  const auto bins = bin_splats(splats, height);
-  std::vector<std::vector<std::uint32_t>> shown(bins.size());
-  std::vector<SplatBand> bands;
-  bands.reserve(bins.size());
-  for (std::size_t i = 0; i < bins.size(); ++i)
-    bands.emplace_back(image.coverage, image.depth, width, height, i);
-  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      bands[i].draw_depths(splats, bins[i]);
-      shown[i] = bands[i].shown(splats, bins[i]);
-    }
-  });
-  const auto colours = colours_of(splats, shown, threads, source);
-  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::array<float, 4>> sums;
-    for (std::size_t i = begin; i < end; ++i) {
-      SplatBand& band = bands[i];
-      sums.assign(band.pixels(), {});
-      band.draw_weights(splats, shown[i],
-                        [&](std::uint32_t splat, std::size_t pixel, float weight) {
-                          for (std::size_t k = 0; k < 4; ++k)
-                            sums[pixel][k] += weight * colours[splat][k];
-                        });
-      band.draw_coverage(splats, shown[i], bins[i]);
-      std::array<float, 3>* const colour = image.colour.data() + band.first_pixel();
-      band.normalise([&](std::size_t pixel, float scale) {
-        for (std::size_t k = 0; k < 3; ++k) colour[pixel][k] = sums[pixel][k] * scale;
-      });
-    }
-  });
+  image.colour.resize(pixels);
+  image.coverage.resize(pixels);
+  image.depth.resize(pixels);
+  rasterise(splats, width, height, threads, source,
+            [&](std::size_t first_pixel, const SplatImage& rows) {
+              const auto at = static_cast<std::ptrdiff_t>(first_pixel);
+              std::copy(rows.colour.begin(), rows.colour.end(), image.colour.begin() + at);
+              std::copy(rows.coverage.begin(), rows.coverage.end(), image.coverage.begin() + at);
+              std::copy(rows.depth.begin(), rows.depth.end(), image.depth.begin() + at);
+            });
   return image;
 }
 

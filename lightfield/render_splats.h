@@ -28,23 +28,27 @@ struct Splat {
   float u, v;                     ///< pixels, centre of the top left pixel at (0.5, 0.5)
   float a, b, c;                  ///< 1 / pixel^2
   float half_width, half_height;  ///< of the ellipse's box, pixels
+  float half_chord;               ///< of the ellipse, along the row through its centre
+  float slope;                    ///< columns that the middles of chords move by a row, to the left
   float inverse_depth, inverse_depth_du, inverse_depth_dv;
   float inverse_depth_change;  ///< at most, within the ellipse
   float fade;    ///< 1 / the inverse depth behind the nearest at which it no longer counts
   float weight;  ///< at the centre: the number of such discs on a pixel times it is their density
-  float full;    ///< squared ellipse radius within which the disc covers pixels entirely
   std::uint32_t point;
 };
 
 /// Nothing where the disc is behind the camera, or its ellipse outside the image.
 std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::uint32_t point);
 
-/// Weighted means per pixel.
+/// Weighted means per pixel, of an image or some rows of it.
 struct SplatImage {
   std::vector<std::array<float, 3>> colour;  ///< [height][width] 0 where nothing is
   std::vector<float> coverage;               ///< [height][width] 0 .. 1
   std::vector<float> depth;                  ///< [height][width] +inf where nothing is
 };
+
+/// Receives some rows from the one of `first_pixel` on; called from several threads.
+using RowSink = std::function<void(std::size_t first_pixel, const SplatImage& rows)>;
 
 /// Writes the colours of points, [points]; called from several threads, once per point at most.
 using ColourSource =
@@ -54,6 +58,10 @@ using ColourSource =
 /// the colours of points that show, no others. The same for any thread count.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const ColourSource& source);
+
+/// The same with rows as they are done, in any order.
+void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
+               const ColourSource& source, const RowSink& sink);
 
 /// The same with one colour at a time.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,

@@ -1,6 +1,8 @@
 #include "lightfield/splat_weights.h"
 
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 #include "lightfield/splat_band.h"
 #include "slf/parallel.h"
@@ -15,21 +17,16 @@ struct BandWeights {
   std::vector<float> weight;
 };
 
-struct Entry {
-  std::uint32_t pixel, point;
-  float weight;
-};
-
-BandWeights sort_by_pixel(const std::vector<Entry>& entries, std::vector<std::uint32_t>&& count,
-                          const std::vector<float>& scale) {
+BandWeights sort_by_pixel(const std::vector<SplatEntry>& entries, const std::vector<Splat>& splats,
+                          std::vector<std::uint32_t>&& count, const std::vector<float>& scale) {
   BandWeights band{std::move(count), {}, {}};
   band.point.resize(entries.size());
   band.weight.resize(entries.size());
   std::vector<std::uint32_t> next(band.count.size());
   for (std::size_t i = 1; i < next.size(); ++i) next[i] = next[i - 1] + band.count[i - 1];
-  for (const Entry& e : entries) {
+  for (const SplatEntry& e : entries) {
     const std::uint32_t at = next[e.pixel]++;
-    band.point[at] = e.point;
+    band.point[at] = splats[e.splat].point;
     band.weight[at] = e.weight * scale[e.pixel];
   }
   return band;
@@ -41,25 +38,28 @@ SplatWeights splat_weights(const std::vector<Splat>& splats, int width, int heig
   const std::size_t pixels = std::size_t(width) * std::size_t(height);
   SplatWeights out;
   out.coverage.assign(pixels, 0);
-  out.depth.assign(pixels, 0);
+  out.depth.assign(pixels, std::numeric_limits<float>::infinity());
   const auto bins = bin_splats(splats, height);
   std::vector<BandWeights> bands(bins.size());
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Entry> entries;
+    std::vector<SplatEntry> entries;
+    BandSums sums;
     for (std::size_t i = begin; i < end; ++i) {
-      SplatBand band(out.coverage, out.depth, width, height, i);
-      std::vector<std::uint32_t> count(band.pixels());
-      std::vector<float> scale(band.pixels());
+      SplatBand band(width, height, i);
       entries.clear();
-      band.draw_depths(splats, bins[i]);
-      const std::vector<std::uint32_t> shown = band.shown(splats, bins[i]);
-      band.draw_weights(splats, shown, [&](std::uint32_t splat, std::size_t pixel, float weight) {
-        entries.push_back({static_cast<std::uint32_t>(pixel), splats[splat].point, weight});
-        ++count[pixel];
+      const std::vector<std::uint32_t> shown = band.find_shown(splats, bins[i]);
+      band.list(splats, shown, sums, entries);
+      band.cover(splats, shown, bins[i], sums);
+      std::vector<std::uint32_t> count(band.pixels());
+      for (const SplatEntry& e : entries) ++count[e.pixel];
+      std::vector<float> scale(band.pixels());
+      const std::size_t first = band.first_pixel();
+      band.take(sums, [&](std::size_t pixel, const BlockSums& own, std::size_t lane) {
+        scale[pixel] = 1 / own.weight[lane];
+        out.coverage[first + pixel] = own.coverage[lane];
+        out.depth[first + pixel] = own.weight[lane] / own.inverse_depth[lane];
       });
-      band.draw_coverage(splats, shown, bins[i]);
-      band.normalise([&](std::size_t pixel, float factor) { scale[pixel] = factor; });
-      bands[i] = sort_by_pixel(entries, std::move(count), scale);
+      bands[i] = sort_by_pixel(entries, splats, std::move(count), scale);
     }
   });
   std::size_t total = 0;

@@ -45,22 +45,28 @@ SurfelCloud surfel_cloud(const Grid& grid, std::span<const Voxel> positions,
 
 std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads) {
   constexpr std::size_t kGrain = 4096;
-  std::vector<std::vector<Splat>> parts((cloud.size() + kGrain - 1) / kGrain);
+  std::vector<Splat> splats(cloud.size());
+  std::vector<std::size_t> counts((cloud.size() + kGrain - 1) / kGrain);
   parallel_ranges(cloud.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Splat>& part = parts[begin / kGrain];
-    part.reserve(end - begin);
+    std::size_t next = begin;
     for (std::size_t p = begin; p < end; ++p) {
       const auto& n = cloud.normals[p];
       const Disc disc{cloud.centres[p], {n[0], n[1], n[2]}, cloud.radii[p], cloud.areas[p]};
       if (const auto splat = project_disc(camera, disc, static_cast<std::uint32_t>(p)))
-        part.push_back(*splat);
+        splats[next++] = *splat;
     }
+    counts[begin / kGrain] = next - begin;
   });
-  std::vector<Splat> splats;
-  std::size_t count = 0;
-  for (const auto& part : parts) count += part.size();
-  splats.reserve(count);
-  for (const auto& part : parts) splats.insert(splats.end(), part.begin(), part.end());
+  // Every range has left its splats at its own start.
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto from = splats.begin() + static_cast<std::ptrdiff_t>(i * kGrain);
+    if (total != i * kGrain)
+      std::copy(from, from + static_cast<std::ptrdiff_t>(counts[i]),
+                splats.begin() + static_cast<std::ptrdiff_t>(total));
+    total += counts[i];
+  }
+  splats.resize(total);
   return splats;
 }
 
