@@ -17,21 +17,24 @@ namespace {
 
 Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
                                    const DecodeOptions& options) {
-  SequencePlan plan{set, {}, {}, {}, static_cast<int>(set.grid_bits()), true};
+  SequencePlan plan{set, {}, {}, {}, {}, static_cast<int>(set.grid_bits()), true};
   if (options.levels < 0 || options.levels > plan.levels)
     return Error{Errc::kInvalidArgument, "levels", 0};
   if (options.groups < 0 || options.groups > static_cast<int>(set.num_groups()))
     return Error{Errc::kInvalidArgument, "groups", 0};
+  if (options.levels > 0) plan.levels = options.levels;
+  PlaneGroups groups = plane_groups(set);
+  SLF_TRY(plan.transforms, collect_transforms(units, set, groups));  // 7.11
+  if (options.groups > 0) groups.resize(static_cast<std::size_t>(options.groups));
+  CodedFunctions coded = code_functions(std::move(groups), plan.transforms);  // 8.7.1
+  plan.groups = std::move(coded.groups);
+  plan.coded = std::move(coded.functions);
   if (plan.planes() > options.limits.max_planes)
     return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
-  if (options.levels > 0) plan.levels = options.levels;
-  plan.groups = plane_groups(set);
-  SLF_TRY(plan.transforms, collect_transforms(units, set, plan.groups));  // 7.11
-  if (options.groups > 0) plan.groups.resize(static_cast<std::size_t>(options.groups));
-  plan.groups = coded_groups(std::move(plan.groups), plan.transforms);
   plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups();
-  for (const auto& step : function_steps(set))
-    plan.steps.insert(plan.steps.end(), step.begin(), step.end());
+  const auto steps = function_steps(set);
+  for (const std::uint16_t k : plan.coded)
+    plan.steps.insert(plan.steps.end(), steps[k].begin(), steps[k].end());
   return plan;
 }
 
@@ -87,6 +90,9 @@ LightField gather_points(const std::vector<SliceDecoder>& slices, const Sequence
   LightField field;
   field.header = header_of(plan.set);
   field.header.grid = coarser_grid(field.header.grid, plan.levels);
+  if (plan.coded.size() != plan.set.sps_num_functions) field.header.coded = plan.coded;
+  for (const PlaneTransform& transform : plan.transforms)
+    if (!transform.components.empty()) field.header.transforms.push_back(transform);
   for (const SliceDecoder& slice : slices)
     field.positions.insert(field.positions.end(), slice.positions.begin(), slice.positions.end());
   assign_zeros(field.components, field.num_points() * plan.planes());

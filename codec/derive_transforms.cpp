@@ -55,7 +55,7 @@ class Derivation {
     PlaneTransform& t = forward.inverse;
     t.rank = t.functions.size();
     unit_ = std::sqrt(weights_[t.functions[0]]);
-    step_ = steps_[t.plane(0)];
+    step_ = steps_[std::size_t{3} * t.functions[0]];
     for (std::size_t i = 0; i < t.rows(); ++i)
       forward.weights.push_back(weights_[t.functions[t.lanes == 3 ? i : i / 3]] / (unit_ * unit_));
     Statistics s = collect(t, forward.weights);
@@ -219,7 +219,6 @@ class Derivation {
   /// Weighted least squares of the columns.
   static void invert(const Square& coded, ForwardTransform& forward) {
     const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(coded).pseudoInverse();
-    forward.gain = inverse.rowwise().norm().maxCoeff();
     forward.matrix.clear();
     for (Eigen::Index c = 0; c < inverse.rows(); ++c)
       for (Eigen::Index i = 0; i < inverse.cols(); ++i)

@@ -111,32 +111,27 @@ void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_leve
       modes[level - above] = static_cast<std::uint8_t>(unit.cu_prediction[i]);
 }
 
-/// Spec 8.7.4 - 8.7.6, 8.8.
+/// Spec 8.7.4, 8.7.6, 8.8.
 Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupModes& modes,
                                        const CoefficientRows& rows, int threads) const {
   const std::span<std::int32_t> components = rows.values;
-  std::vector<std::uint32_t> steps = plan.steps;
-  for (const PlaneTransform& transform : plan.transforms) {
-    SLF_CHECK(expand_components(transform, plan.steps, components, threads, rows.nonzero));
-    for (const std::size_t j : planes_of(transform.functions)) steps[j] = 1;
-  }
   const auto is_predicted = [](const auto& levels) {
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
   if (std::none_of(modes.begin(), modes.end(), is_predicted))
-    return raht_inverse(tree_, steps, components, threads, rows.nonzero);
-  const std::vector<int> group = function_groups(plan.set);
+    return raht_inverse(tree_, plan.steps, components, threads, rows.nonzero);
+  std::vector<std::size_t> group(plan.coded.size());
+  for (std::size_t g = 0; g < plan.groups.size(); ++g)
+    for (const std::uint16_t place : plan.groups[g]) group[place] = g;
   std::vector<PredictedPlanes> planes;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const auto g = static_cast<std::size_t>(group[k]);
-    const bool same = k > 0 && group[k] == group[k - 1];
-    if (!same) planes.push_back({3 * k, 3 * k, {}});
-    planes.back().end = 3 * k + 3;
-    if (!same && g < modes.size()) planes.back().modes = modes[g];
+  for (std::size_t r = 0; r < group.size(); ++r) {
+    if (r == 0 || group[r] != group[r - 1]) planes.push_back({3 * r, 3 * r, modes[group[r]]});
+    planes.back().end = 3 * r + 3;
   }
   TransformLevels levels(codes_, static_cast<int>(header.slice_depth),
                          static_cast<int>(plan.set.grid_bits()) - plan.levels);
-  return raht_inverse_predicted(tree_, levels, planes, steps, components, threads, rows.nonzero);
+  return raht_inverse_predicted(tree_, levels, planes, plan.steps, components, threads,
+                                rows.nonzero);
 }
 
 Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,

@@ -4,6 +4,7 @@
 
 #include "slf/decoder.h"
 #include "slf/encoder.h"
+#include "slf/given_planes.h"
 #include "tests/field_support.h"
 
 namespace slf {
@@ -140,7 +141,7 @@ TEST(Spec_8_2_Levels, FewerLevelsGiveTheMeansOfTheNodes) {
   }
 }
 
-TEST(Spec_8_2_Groups, AbsentGroupsCountAsZero) {
+TEST(Spec_8_9_Groups, OnlyThoseAskedForAreGivenOut) {
   const LightField field = test::make_field(test::sphere_cloud(5), 5, 4);
   CodingParameters parameters = with_step(4, 2);
   parameters.group = {0, 1, 1, 2};
@@ -151,8 +152,11 @@ TEST(Spec_8_2_Groups, AbsentGroupsCountAsZero) {
   const auto fewer = decode(stream, options);
   ASSERT_TRUE(whole && fewer);
   EXPECT_TRUE(fewer->partial);
+  EXPECT_EQ(fewer->header.coded, (std::vector<std::uint16_t>{0, 1, 2}));
+  ASSERT_EQ(fewer->components.size(), whole->components.size() / 4 * 3);
+  const std::vector<std::int32_t> planes = given_planes(*fewer);
   for (std::size_t i = 0; i < whole->components.size(); ++i)
-    EXPECT_EQ(fewer->components[i], i / 3 % 4 == 3 ? 0 : whole->components[i]);
+    EXPECT_EQ(planes[i], i / 3 % 4 == 3 ? 0 : whole->components[i]);
 }
 
 TEST(Spec_7_1_Prefix, EveryCutAtAUnitBoundaryDecodesAndIsPartial) {
