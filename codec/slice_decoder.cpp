@@ -82,25 +82,41 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
   const int dropped = bits - plan.levels;                            // grid levels below those kept
   const int unknown = static_cast<int>(header.slice_depth) - depth;  // slice levels not decoded
   if (!partial) {
-    RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
+    RahtTop top = build_raht_top(codes, 3 * dropped);
     tree_ = std::move(top.tree);
     first_ = std::move(top.first);
-    codes_ = codes;
   }
-  std::uint64_t last = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const Voxel cell = from_morton(codes[i]);
+  const auto place = [&](std::uint64_t code) {
+    const Voxel cell = from_morton(code);
     Voxel v;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t middle = unknown > 0 ? 1 << (unknown - 1) : 0;
       const auto corner = static_cast<std::int32_t>(header.slice_cell[axis] << header.slice_depth);
       v[axis] = (corner + (cell[axis] << unknown) + middle) >> dropped;
     }
-    const std::uint64_t code = morton(v);
-    if (positions.empty() || code != last) positions.push_back(v);
-    last = code;
+    return v;
+  };
+  if (partial) {
+    for (const std::uint64_t code : codes)
+      if (const Voxel v = place(code); positions.empty() || v != positions.back())
+        positions.push_back(v);
+    return;
   }
+  positions.reserve(tree_.size());
+  for (std::size_t row = 0; row < tree_.size(); ++row)
+    positions.push_back(place(codes[first_[row]]));
+  codes_ = std::move(codes);
 }
+
+namespace {
+
+/// All levels of a coefficient unit are below those kept: it is not even opened.
+bool unit_begins_below(const SliceUnitHeader& unit, const SequencePlan& plan) {
+  return unit.range > 0 && range_end(plan.set.sps_coefficient_range_end, unit.range - 1,
+                                     plan.set.grid_bits()) >= static_cast<unsigned>(plan.levels);
+}
+
+}  // namespace
 
 /// cu_prediction to the levels of the slice; what is said of levels above its cube has no meaning.
 void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_level,
@@ -154,7 +170,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
           unit.header.group >= groups || unit.header.range >= ranges)
         return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
       ++expected;
-      if (unit.header.group >= plan.groups.size()) continue;
+      if (unit.header.group >= plan.groups.size() || unit_begins_below(unit.header, plan)) continue;
       // Level l of the slice is joined by splits 3 (depth - 1 - l) .. + 2.
       const auto order_at = [&](std::uint32_t grid_level) {
         const int level = slice_level(grid_level, set.grid_bits(), header.slice_depth);
@@ -174,10 +190,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
     SLF_CHECK(reconstruct(plan, modes, rows, threads));
     if (plan.kept_levels_only())
       for (std::size_t row = 0; row + 1 < first_.size(); ++row)
-        for (std::size_t j = 0; j < planes; ++j) {
-          std::int32_t& value = components[row * planes + j];
-          value = node_mean(value, first_[row + 1] - first_[row]);
-        }
+        to_node_means(components.subspan(row * planes, planes), first_[row + 1] - first_[row]);
   }
   partial = partial || expected < ranges * groups;
   return Done{};

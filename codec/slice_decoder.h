@@ -52,11 +52,12 @@ struct SliceDecoder {
   Result<Done> check_digest(std::span<const std::int32_t> components,
                             std::span<const std::array<std::uint16_t, 2>> normals) const;
 
-  /// Leaves nothing of the slice.
+  /// Leaves nothing of the slice's points.
   void drop() {
-    positions.clear();
+    positions = {};
     tree_ = {};
     codes_ = {};
+    first_ = {};
   }
 
   std::vector<Voxel> positions;
