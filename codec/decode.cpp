@@ -131,14 +131,27 @@ Result<Done> decode_values(const Batch& batch, const SequencePlan& plan, int thr
   return for_each_slice(batch.slices.size(), threads, decode_slice).result;
 }
 
-/// Slices in batches of as many as there are threads.
+/// The slices after `begin` to work on at a time: one a thread, or more that are small, so that
+/// threads which are done early have another. What a point needs beside its output is some 40
+/// bytes.
+std::size_t batch_size(const std::vector<SliceDecoder>& slices, std::size_t begin, int threads) {
+  constexpr std::size_t kMostPoints = std::size_t{1} << 19;
+  const auto least = static_cast<std::size_t>(thread_count(threads, slices.size() - begin));
+  std::size_t count = 0, points = 0;
+  for (; begin + count < slices.size(); ++count) {
+    points += std::size_t{slices[begin + count].header.slice_num_points_minus1} + 1;
+    if (count >= least && points > kMostPoints) break;
+  }
+  return count;
+}
+
+/// Slices batch by batch.
 Result<Done> decode_slices(std::vector<SliceDecoder>& slices, const SequencePlan& plan, int threads,
                            DecodeSeconds& seconds, LightField& field) {
-  const auto side_by_side = static_cast<std::size_t>(thread_count(threads, slices.size()));
   Stopwatch watch;
-  for (std::size_t begin = 0; begin < slices.size(); begin += side_by_side) {
-    const auto some =
-        std::span(slices).subspan(begin, std::min(side_by_side, slices.size() - begin));
+  for (std::size_t begin = 0, count = 0; begin < slices.size(); begin += count) {
+    count = batch_size(slices, begin, threads);
+    const auto some = std::span(slices).subspan(begin, count);
     const Failure geometry = for_each_slice(some.size(), threads, [&](std::size_t i) {
       return some[i].decode_geometry(plan);  // 8.4 - 8.6
     });

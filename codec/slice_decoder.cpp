@@ -37,6 +37,8 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePla
     if (unit.type != UnitType::kGeometry) continue;
     if (unit.header.range != range || range > plan.set.sps_num_geometry_ranges_minus1)
       return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
+    const int known = static_cast<int>(plan.set.grid_bits() - header.slice_depth) + octree.level();
+    if (!plan.needs_points() && known >= plan.levels) break;
     const std::uint32_t end =
         range_end(plan.set.sps_geometry_range_end, range, plan.set.grid_bits());
     SLF_CHECK(
@@ -44,7 +46,7 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePla
     ++range;
   }
   depth = octree.level();
-  if (range <= plan.set.sps_num_geometry_ranges_minus1) partial = true;
+  if (range <= plan.set.sps_num_geometry_ranges_minus1 && plan.needs_points()) partial = true;
   return octree.morton();
 }
 
@@ -68,7 +70,8 @@ Result<Done> SliceDecoder::decode_geometry(const SequencePlan& plan) {
   int depth = static_cast<int>(header.slice_depth);
   SLF_TRY(auto codes,
           plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit());
-  if (!partial && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
+  const bool all = !partial && depth == static_cast<int>(header.slice_depth);
+  if (all && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
     return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
   keep(std::move(codes), depth, plan);
   return Done{};
@@ -81,7 +84,8 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
   const int bits = static_cast<int>(plan.set.grid_bits());
   const int dropped = bits - plan.levels;                            // grid levels below those kept
   const int unknown = static_cast<int>(header.slice_depth) - depth;  // slice levels not decoded
-  if (!partial) {
+  const bool values = !partial && (plan.planes() > 0 || plan.set.sps_normal_bits > 0);
+  if (values) {
     RahtTop top = build_raht_top(codes, 3 * dropped);
     tree_ = std::move(top.tree);
     first_ = std::move(top.first);
@@ -96,7 +100,8 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
     }
     return v;
   };
-  if (partial) {
+  if (!values) {
+    positions.reserve(unknown == 0 && dropped == 0 ? codes.size() : 0);
     for (const std::uint64_t code : codes)
       if (const Voxel v = place(code); positions.empty() || v != positions.back())
         positions.push_back(v);

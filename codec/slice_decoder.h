@@ -34,6 +34,10 @@ struct SequencePlan {
   bool whole = true;                 ///< no levels or groups are left out: digests are checked
 
   std::size_t planes() const { return 3 * coded.size(); }
+  /// Weights, and normals, need all points, whatever levels are kept.
+  bool needs_points() const {
+    return !kept_levels_only() || planes() > 0 || set.sps_normal_bits > 0;
+  }
   bool kept_levels_only() const { return levels < static_cast<int>(set.grid_bits()); }
 };
 
