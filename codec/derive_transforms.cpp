@@ -22,8 +22,9 @@ constexpr double kMostWork = 4294967296.0;  // samples n^2
 /// Squared steps of distortion that a bit of a value is worth, and bits of a value of one step.
 constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
 /// The same for a bit of the matrix. Lower: what falls outside its span is lost at every quality,
-/// and by measurement dropping components earlier saves less than a larger step does.
-constexpr double kSquaredStepsPerMatrixBit = 0.025;
+/// and by measurement dropping components earlier than at this saves less than a larger step does;
+/// keeping more costs decoders time and memory, and no quality that a smaller step would not give.
+constexpr double kSquaredStepsPerMatrixBit = 0.05;
 /// Quantised to zero below this many steps, about.
 constexpr double kZeroBelow = 0.6;
 
