@@ -71,17 +71,10 @@ class LevelQuantiser {
         planes_(input.steps.size()),
         threads_(threads),
         levels_(input.morton, input.depth, 0) {
-    for (const auto& functions : input.coded)
+    for (const auto& functions : input.groups)
       rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
-    own_step_.assign(input.steps.begin(), input.steps.end());
-    for (const ForwardTransform& transform : input.transforms) {
-      finders_.emplace_back(transform, input.steps);
-      for (const std::size_t j : planes_of(transform.inverse.functions)) own_step_[j] = 1;
-    }
     code_whole_row(0);
   }
-
-  bool fits() const { return fits_; }
 
   /// Chosen modes of the groups on the next level, which is coded with them.
   std::vector<std::uint8_t> next_level() {
@@ -114,21 +107,17 @@ class LevelQuantiser {
     return quantised * static_cast<std::int32_t>(input_.steps[plane]);
   }
 
-  bool needs_whole_rows() const { return input_.rdo > 0 || !finders_.empty(); }
+  bool needs_whole_rows() const { return input_.rdo > 0; }
 
   /// Coefficients of all planes of a row to quantised ones, and what a decoder makes of them.
   void code_whole_row(std::uint32_t row) {
     std::int32_t* coefficients = coefficients_.data() + row * planes_;
     std::int32_t* values = values_.data() + row * planes_;
-    for (ComponentFinder& finder : finders_) finder.find(coefficients);
     const std::uint32_t parent = input_.tree.parent[row];
     for (RowQuantiser& group : rows_)
       group.quantise_row(coefficients, row,
                          parent != 0 ? coefficients_.data() + parent * planes_ : nullptr, parent);
-    for (std::size_t j = 0; j < planes_; ++j)
-      values[j] = coefficients[j] * static_cast<std::int32_t>(own_step_[j]);
-    for (const ForwardTransform& transform : input_.transforms)
-      fits_ = expand_row(transform.inverse, input_.steps, values, scratch_) && fits_;
+    for (std::size_t j = 0; j < planes_; ++j) values[j] = dequantised(j, coefficients[j]);
   }
 
   /// Tries every mode on all planes; a group takes the one that its planes together like best.
@@ -275,11 +264,7 @@ class LevelQuantiser {
   const TransformLevel* level_ = nullptr;
   std::span<const Merge> merges_;
   std::vector<RowQuantiser> rows_;
-  std::vector<ComponentFinder> finders_;
-  std::vector<std::uint32_t> own_step_;  // [planes] 1 where a transform dequantises
   std::vector<std::int32_t> means_;
-  ExpansionScratch scratch_;
-  bool fits_ = true;
 };
 
 }  // namespace
@@ -294,7 +279,6 @@ Quantised quantise_coefficients(const QuantiserInput& input, std::span<std::int3
     const auto modes = quantiser.next_level();
     for (std::size_t g = 0; g < modes.size(); ++g) out.modes[g].push_back(modes[g]);
   }
-  out.fits = quantiser.fits();
   return out;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
-#include "attributes/forward_transform.h"
 #include "attributes/raht_tree.h"
 #include "attributes/transform_levels.h"
 
@@ -18,15 +17,12 @@ struct QuantiserInput {
   std::span<const std::uint64_t> morton;  ///< of the slice's points
   int depth = 0;                          ///< of the slice
   const PlaneGroups& groups;
-  const PlaneGroups& coded;  ///< of each group, the functions that are coded or hold components
-  const std::vector<ForwardTransform>& transforms;
   std::span<const std::uint32_t> steps;  ///< [planes]
   bool predict = false;
   double rdo = 0;  ///< 0 .. 1
 };
 
 struct Quantised {
-  bool fits = true;  ///< false: a transform gives values that no decoder takes
   std::vector<std::vector<std::uint8_t>> modes;  ///< [groups][levels] cu_prediction
   std::vector<std::int32_t> values;              ///< [P][planes] what a decoder gets
 };

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "attributes/plane_transform.h"
@@ -18,22 +17,20 @@ struct ForwardTransform {
   std::vector<double> weights;                    ///< [rows] of the squared errors that are least
   std::vector<double> matrix;                     ///< [columns][rows] values to components
   std::array<std::array<double, 3>, 3> colour{};  ///< inverse of that of `inverse`, for 3 lanes
-  double gain = 0;  ///< no component exceeds this times the root of its lane's weighted squares
 };
 
-/// Finds the components of one row at a time.
+/// Finds the components of one point at a time.
 class ComponentFinder {
  public:
-  /// steps: [planes]. Both are kept by reference.
-  ComponentFinder(const ForwardTransform& transform, std::span<const std::uint32_t> steps);
+  /// Kept by reference.
+  explicit ComponentFinder(const ForwardTransform& transform);
 
-  /// Replaces the values of the functions in a row by components, rounded: those of the planes
-  /// behind the rank, and all where none would reach half a step, become 0.
-  void find(std::int32_t* row);
+  /// @param planes      [K][3] given values of a point
+  /// @param components  [R][3] receives those of the transform, rounded
+  void find(const std::int32_t* planes, std::int32_t* components);
 
  private:
   const ForwardTransform& forward_;
-  double least_step_;
   std::vector<double> values_, components_;  // [elements][lanes]
 };
 

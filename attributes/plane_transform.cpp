@@ -1,137 +1,86 @@
 #include "attributes/plane_transform.h"
 
-#include <atomic>
-
-#include "attributes/quantiser.h"
 #include "bitstream/multiversion.h"
-#include "bitstream/prefetch.h"
+#include "slf/given_planes.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-constexpr std::size_t kRowGrain = 1024;
-constexpr std::size_t kAhead = 8;  // rows
+constexpr std::size_t kPointGrain = 1024;
 
-/// sums[i] += component * column[i]. |component| < 2^27, |column[i]| <= 2^20, fewer than 2^12
-/// columns of as many rows (their product is at most 2^20): below 2^59.
+/// Of what no 32 bits hold; no encoder makes it.
+std::int32_t clamped(std::int64_t value) {
+  constexpr std::int64_t kMost = 0x7FFFFFFF;
+  return static_cast<std::int32_t>(std::clamp(value, -kMost, kMost));
+}
+
+/// sums[i] += component * column[i]. |component| < 2^31, |column[i]| <= 2^20, at most 2^10 columns
+/// (their product with as many rows or more is at most 2^20): below 2^61.
 SLF_MULTIVERSION
 void add_column(const std::int32_t* column, std::int32_t component, std::int64_t* sums,
                 std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) sums[i] += std::int64_t{column[i]} * component;
 }
 
-/// Dequantises, and lists the columns whose components are not all zero: few are. False where a
-/// component reaches 2^27.
-bool dequantise_components(const PlaneTransform& t, std::span<const std::uint32_t> steps,
-                           std::int32_t* row, std::vector<std::uint32_t>& columns) {
-  bool fits = true;
-  columns.clear();
-  for (std::size_t c = 0, count = t.columns(); c < count; ++c) {
-    const std::size_t begin = t.plane(c), end = begin + t.lanes;
-    std::int32_t any = 0;
-    for (std::size_t j = begin; j < end; ++j) any |= row[j];
-    if (any == 0) continue;
-    columns.push_back(static_cast<std::uint32_t>(c));
-    for (std::size_t j = begin; j < end; ++j) {
-      const std::int64_t product = std::int64_t{row[j]} * steps[j];
-      const bool good = product < kCoefficientLimit && product > -kCoefficientLimit;
-      row[j] = static_cast<std::int32_t>(good ? product : 0);
-      fits = fits && good;
-    }
+std::array<std::int32_t, 3> mix_channels(const PlaneTransform& t, const std::int32_t* v) {
+  std::array<std::int32_t, 3> mixed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& m = t.colour[i];
+    mixed[i] = clamped((std::int64_t{m[0]} * v[0] + std::int64_t{m[1]} * v[1] +
+                        std::int64_t{m[2]} * v[2] + (1 << (PlaneTransform::kColourBits - 1))) >>
+                       PlaneTransform::kColourBits);
   }
-  return fits;
-}
-
-/// The channels of the components of a row. False where a value is out of range.
-bool mix_channels(const PlaneTransform& t, std::span<const std::uint32_t> columns,
-                  std::int32_t* row) {
-  bool fits = true;
-  for (const std::uint32_t c : columns) {
-    std::int32_t* v = row + t.plane(c);
-    std::array<std::int64_t, 3> mixed{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& m = t.colour[i];
-      mixed[i] = (std::int64_t{m[0]} * v[0] + std::int64_t{m[1]} * v[1] +
-                  std::int64_t{m[2]} * v[2] + (1 << (PlaneTransform::kColourBits - 1))) >>
-                 PlaneTransform::kColourBits;
-      fits = fits && mixed[i] < kCoefficientLimit && mixed[i] > -kCoefficientLimit;
-    }
-    for (std::size_t i = 0; i < 3; ++i) v[i] = static_cast<std::int32_t>(fits ? mixed[i] : 0);
-  }
-  return fits;
-}
-
-/// sum / 2^kFractionBits is within the limit, of all.
-SLF_MULTIVERSION
-bool sums_fit(const std::int64_t* sums, std::size_t rows) {
-  constexpr std::int64_t kLeast = (1 - kCoefficientLimit) * (1 << PlaneTransform::kFractionBits);
-  constexpr std::int64_t kMost = kCoefficientLimit * (1 << PlaneTransform::kFractionBits) - 1;
-  std::int64_t bad = 0;  // negative: one is not
-  for (std::size_t i = 0; i < rows; ++i) bad |= (sums[i] - kLeast) | (kMost - sums[i]);
-  return bad >= 0;
-}
-
-/// The values of a row in one lane, before rounding down. False where one is out of range.
-bool sum_lane(const PlaneTransform& t, std::span<const std::uint32_t> columns,
-              const std::int32_t* row, std::size_t lane, std::span<std::int64_t> sums) {
-  std::fill(sums.begin(), sums.end(), 1 << (PlaneTransform::kFractionBits - 1));
-  for (const std::uint32_t c : columns)
-    if (const std::int32_t component = row[t.plane(c) + lane]; component != 0)
-      add_column(&t.matrix[c * sums.size()], component, sums.data(), sums.size());
-  if (sums_fit(sums.data(), sums.size())) return true;
-  std::fill(sums.begin(), sums.end(), 0);
-  return false;
+  return mixed;
 }
 
 }  // namespace
 
-bool expand_row(const PlaneTransform& t, std::span<const std::uint32_t> steps, std::int32_t* row,
-                ExpansionScratch& scratch) {
-  bool fits = dequantise_components(t, steps, row, scratch.columns);
-  if (scratch.columns.empty()) return true;
-  if (t.lanes == 3 && t.colour != PlaneTransform::kNoColour)
-    fits = mix_channels(t, scratch.columns, row) && fits;
-  const std::size_t rows = t.rows();
+void expand_point(const PlaneTransform& t, const std::int32_t* components, std::int32_t* planes,
+                  ExpansionScratch& scratch) {
+  const std::size_t rows = t.rows(), per_function = 3 / t.lanes;
   auto& sums = scratch.sums;
-  sums.resize(t.lanes * rows);
-  for (std::size_t lane = 0; lane < t.lanes; ++lane)
-    fits =
-        sum_lane(t, scratch.columns, row, lane, std::span(sums).subspan(lane * rows, rows)) && fits;
-  const auto value = [&](std::size_t i) {
-    return static_cast<std::int32_t>(sums[i] >> PlaneTransform::kFractionBits);
-  };
-  if (t.lanes == 3) {
-    for (std::size_t i = 0; i < rows; ++i) {
-      std::int32_t* function = row + t.plane(i);
-      function[0] = value(i);
-      function[1] = value(rows + i);
-      function[2] = value(2 * rows + i);
-    }
-  } else {
-    for (std::size_t i = 0; i < rows; ++i) row[t.plane(i)] = value(i);
+  sums.assign(t.lanes * rows, 1 << (PlaneTransform::kFractionBits - 1));
+  for (std::size_t r = 0; r < t.components.size(); ++r) {
+    const std::int32_t* component = components + std::size_t{3} * t.components[r];
+    if ((component[0] | component[1] | component[2]) == 0) continue;  // most
+    const auto mixed = t.colour == PlaneTransform::kNoColour
+                           ? std::array{component[0], component[1], component[2]}
+                           : mix_channels(t, component);
+    for (std::size_t c = 0; c < 3; ++c)
+      add_column(&t.matrix[(r * per_function + (t.lanes == 3 ? 0 : c)) * rows], mixed[c],
+                 &sums[t.lanes == 3 ? c * rows : 0], rows);
   }
-  return fits;
+  for (std::size_t i = 0; i < t.functions.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      planes[std::size_t{3} * t.functions[i] + c] =
+          clamped(sums[t.lanes == 3 ? c * rows + i : 3 * i + c] >> PlaneTransform::kFractionBits);
 }
 
-Result<Done> expand_components(const PlaneTransform& transform,
-                               std::span<const std::uint32_t> steps, std::span<std::int32_t> values,
-                               int threads, std::span<const std::uint8_t> nonzero) {
-  std::atomic<bool> fits{true};
-  const std::size_t planes = steps.size();
-  const auto is_zero = [&](std::size_t row) { return !nonzero.empty() && nonzero[row] == 0; };
-  parallel_ranges(
-      values.size() / planes, kRowGrain, threads, [&](std::size_t begin, std::size_t end) {
-        ExpansionScratch scratch;
-        for (std::size_t row = begin; row < end; ++row) {
-          if (const std::size_t next = row + kAhead; next < end && !is_zero(next))
-            prefetch_row(&values[next * planes], planes);
-          if (!is_zero(row) && !expand_row(transform, steps, &values[row * planes], scratch))
-            fits = false;
-        }
-      });
-  if (!fits) return Error{Errc::kOutOfRange, "cu_magnitude", 0};
-  return Done{};
+std::vector<std::int32_t> given_planes(const LightField& field, int threads) {
+  const LightFieldHeader& header = field.header;
+  if (header.coded.empty() && header.transforms.empty()) return field.components;
+  const std::size_t row = 3 * static_cast<std::size_t>(header.num_functions),
+                    coded = 3 * static_cast<std::size_t>(header.num_components());
+  std::vector<std::uint16_t> alone(static_cast<std::size_t>(header.num_components()));
+  for (std::size_t r = 0; r < alone.size(); ++r)
+    alone[r] = header.coded.empty() ? static_cast<std::uint16_t>(r) : header.coded[r];
+  std::vector<std::int32_t> planes(field.num_points() * row);
+  parallel_ranges(field.num_points(), kPointGrain, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    ExpansionScratch scratch;
+                    for (std::size_t p = begin; p < end; ++p) {
+                      const std::int32_t* from = &field.components[p * coded];
+                      std::int32_t* to = &planes[p * row];
+                      for (std::size_t r = 0; r < alone.size(); ++r)
+                        std::copy_n(from + 3 * r, 3, to + std::size_t{3} * alone[r]);
+                      // A transform writes all of its functions, those too where its components
+                      // stand.
+                      for (const PlaneTransform& t : header.transforms)
+                        expand_point(t, from, to, scratch);
+                    }
+                  });
+  return planes;
 }
 
 }  // namespace slf

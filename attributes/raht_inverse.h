@@ -36,7 +36,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<std::int32_t> values, int threads,
                                     std::span<const std::uint8_t> nonzero = {});
 
-/// The mean of a node of `weight` points, from the value raht_inverse leaves in its row.
-std::int32_t node_mean(std::int32_t value, std::uint32_t weight);
+/// The means of a node of `weight` points, of the values raht_inverse leaves in its row; in place.
+void to_node_means(std::span<std::int32_t> row, std::uint32_t weight);
 
 }  // namespace slf

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <bit>
-#include <numeric>
 #include <utility>
 
 namespace slf {
@@ -71,43 +70,38 @@ std::vector<std::uint32_t> coding_order(const std::vector<std::uint8_t>& split) 
   return order;
 }
 
-/// Merges by octree level, coarsest first, otherwise in their order.
-std::vector<Merge> by_level(const std::vector<Merge>& merges,
-                            const std::vector<std::uint8_t>& split) {
+/// Level of a merge, coarsest first.
+std::size_t level_of(int split) { return static_cast<std::size_t>(kSplits / 3 - split / 3); }
+
+/// Place of the first merge of each level, where merges are by level.
+std::array<std::size_t, kSplits / 3 + 2> level_begins(const std::vector<std::uint8_t>& split) {
   std::array<std::size_t, kSplits / 3 + 2> begin{};
-  const auto level = [&](const Merge& m) { return kSplits / 3u - split[m.right] / 3u; };
-  for (const Merge& m : merges) ++begin[level(m) + 1];
+  for (std::size_t row = 1; row < split.size(); ++row) ++begin[level_of(split[row]) + 1];
   for (std::size_t l = 1; l < begin.size(); ++l) begin[l] += begin[l - 1];
-  std::vector<Merge> sorted(merges.size());
-  for (const Merge& m : merges) sorted[begin[level(m)]++] = m;
-  return sorted;
+  return begin;
 }
 
-}  // namespace
-
-RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
-  const std::size_t count = morton.size();
-  RahtTree tree;
-  tree.split.assign(count, 255);
-  for (std::size_t row = 1; row < count; ++row)
-    tree.split[row] = static_cast<std::uint8_t>(std::bit_width(morton[row] ^ morton[row - 1]) - 1);
-  tree.parent.assign(count, 0);
-  tree.order = coding_order(tree.split);
-  tree.merges.reserve(count - 1);
-
+/// Merges with their weights, by level and otherwise from the top down; fills in the parents too.
+void add_merges(RahtTree& tree, std::span<const std::uint32_t> first) {
+  const auto count = static_cast<std::uint32_t>(tree.size());
   const Children children = cartesian_tree(tree.split);
+  auto place = level_begins(tree.split);
+  tree.merges.resize(count - 1);
   struct Open {
-    std::uint32_t merge, first, end;  // the merge's row; the points it joins
+    std::uint32_t merge, first, end;  // the merge's row; the rows it joins
   };
   std::vector<Open> open;
   Shares shares;
-  if (children.root != kNone) open.push_back({children.root, 0, static_cast<std::uint32_t>(count)});
+  if (children.root != kNone) open.push_back({children.root, 0, count});
   while (!open.empty()) {
     const Open node = open.back();
     open.pop_back();
-    const std::uint64_t left = node.merge - node.first, right = node.end - node.merge;
-    const auto [cosine, sine] = shares.of(left, right);
-    tree.merges.push_back({node.first, node.merge, cosine, sine});
+    const auto points = [&](std::uint32_t begin, std::uint32_t end) -> std::uint64_t {
+      return first.empty() ? end - begin : first[end] - first[begin];
+    };
+    const auto [cosine, sine] =
+        shares.of(points(node.first, node.merge), points(node.merge, node.end));
+    tree.merges[place[level_of(tree.split[node.merge])]++] = {node.first, node.merge, cosine, sine};
     if (const std::uint32_t below = children.right[node.merge]; below != kNone) {
       tree.parent[below] = node.merge;
       open.push_back({below, node.merge, node.end});
@@ -117,35 +111,38 @@ RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
       open.push_back({below, node.first, node.merge});
     }
   }
-  tree.merges = by_level(tree.merges, tree.split);
+}
+
+/// first: [rows + 1] first point of each row; empty: every row is one.
+RahtTree build_tree(std::vector<std::uint8_t> split, std::span<const std::uint32_t> first) {
+  RahtTree tree;
+  tree.split = std::move(split);
+  tree.parent.assign(tree.size(), 0);
+  tree.order = coding_order(tree.split);
+  add_merges(tree, first);
   return tree;
 }
 
-RahtTop cut_raht_tree(RahtTree tree, int lowest_split) {
+}  // namespace
+
+RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
+  std::vector<std::uint8_t> split(morton.size(), 255);
+  for (std::size_t row = 1; row < morton.size(); ++row)
+    split[row] = static_cast<std::uint8_t>(std::bit_width(morton[row] ^ morton[row - 1]) - 1);
+  return build_tree(std::move(split), {});
+}
+
+RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split) {
   RahtTop top;
-  if (lowest_split == 0) {
-    top.first.resize(tree.size() + 1);
-    std::iota(top.first.begin(), top.first.end(), 0u);
-    top.tree = std::move(tree);
-    return top;
+  std::vector<std::uint8_t> split;
+  for (std::size_t p = 0; p < morton.size(); ++p) {
+    const int bit = p == 0 ? 255 : static_cast<int>(std::bit_width(morton[p] ^ morton[p - 1])) - 1;
+    if (bit < lowest_split) continue;
+    split.push_back(static_cast<std::uint8_t>(bit));
+    top.first.push_back(static_cast<std::uint32_t>(p));
   }
-  std::vector<std::uint32_t> kept(tree.size(), kNone);  // new number of each row
-  const auto stays = [&](std::uint32_t row) { return row == 0 || tree.split[row] >= lowest_split; };
-  for (std::uint32_t row = 0; row < tree.size(); ++row) {
-    if (!stays(row)) continue;
-    kept[row] = static_cast<std::uint32_t>(top.first.size());
-    top.first.push_back(row);
-    top.tree.split.push_back(tree.split[row]);
-    // A parent's split is higher, so it stays too; it may be numbered later.
-    top.tree.parent.push_back(tree.parent[row]);
-  }
-  top.first.push_back(static_cast<std::uint32_t>(tree.size()));
-  for (auto& parent : top.tree.parent) parent = kept[parent];
-  for (const Merge& m : tree.merges)
-    if (stays(m.right))
-      top.tree.merges.push_back({kept[m.left], kept[m.right], m.cos_q30, m.sin_q30});
-  for (const std::uint32_t row : tree.order)
-    if (stays(row)) top.tree.order.push_back(kept[row]);
+  top.first.push_back(static_cast<std::uint32_t>(morton.size()));
+  top.tree = build_tree(std::move(split), top.first);
   return top;
 }
 

@@ -31,12 +31,13 @@ struct RahtTree {
 /// morton: distinct, ascending, at least one, at most 2^22. O(P).
 RahtTree build_raht_tree(std::span<const std::uint64_t> morton);
 
-/// The top of a tree: only merges of split >= lowest_split, rows renumbered to those that remain.
+/// The top of the tree over points: only merges of split >= lowest_split; a row is what they join.
 struct RahtTop {
   RahtTree tree;
   std::vector<std::uint32_t> first;  ///< [rows + 1] first point of each row's node, and P
 };
-RahtTop cut_raht_tree(RahtTree tree, int lowest_split);
+/// O(P) time to count, O(rows) for the rest and in memory.
+RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split);
 
 /// Position in tree.order of the first row whose split is below `bit`.
 std::size_t order_end(const RahtTree& tree, int bit);

@@ -9,6 +9,10 @@ Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::u
   sequence_parameter_set(parse, set);
   in.trailing_bits("sps_trailing_bits");
   if (!in.ok()) return in.error();
+  std::uint32_t used = 0;  // groups, by bit: each has a function
+  for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;
+  if (used + 1 != 1u << set.num_groups())
+    return Error{Errc::kOutOfRange, "sps_num_groups_minus1", 0};
   return set;
 }
 

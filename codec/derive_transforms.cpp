@@ -22,8 +22,9 @@ constexpr double kMostWork = 4294967296.0;  // samples n^2
 /// Squared steps of distortion that a bit of a value is worth, and bits of a value of one step.
 constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
 /// The same for a bit of the matrix. Lower: what falls outside its span is lost at every quality,
-/// and by measurement dropping components earlier saves less than a larger step does.
-constexpr double kSquaredStepsPerMatrixBit = 0.025;
+/// and by measurement dropping components earlier than at this saves less than a larger step does;
+/// keeping more costs decoders time and memory, and no quality that a smaller step would not give.
+constexpr double kSquaredStepsPerMatrixBit = 0.05;
 /// Quantised to zero below this many steps, about.
 constexpr double kZeroBelow = 0.6;
 
@@ -55,7 +56,7 @@ class Derivation {
     PlaneTransform& t = forward.inverse;
     t.rank = t.functions.size();
     unit_ = std::sqrt(weights_[t.functions[0]]);
-    step_ = steps_[t.plane(0)];
+    step_ = steps_[std::size_t{3} * t.functions[0]];
     for (std::size_t i = 0; i < t.rows(); ++i)
       forward.weights.push_back(weights_[t.functions[t.lanes == 3 ? i : i / 3]] / (unit_ * unit_));
     Statistics s = collect(t, forward.weights);
@@ -219,7 +220,6 @@ class Derivation {
   /// Weighted least squares of the columns.
   static void invert(const Square& coded, ForwardTransform& forward) {
     const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(coded).pseudoInverse();
-    forward.gain = inverse.rowwise().norm().maxCoeff();
     forward.matrix.clear();
     for (Eigen::Index c = 0; c < inverse.rows(); ++c)
       for (Eigen::Index i = 0; i < inverse.cols(); ++i)

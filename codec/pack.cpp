@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "attributes/forward_transform.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/derive_transforms.h"
@@ -96,9 +97,28 @@ Result<Done, InputError> choose_texture(const SortedField& sorted,
   return Done{};
 }
 
+/// The given planes [P][3 K] to components [P][3 R].
+void find_components(const std::vector<ForwardTransform>& transforms,
+                     const std::vector<std::uint16_t>& coded, std::size_t row, int threads,
+                     std::vector<std::int32_t>& values) {
+  constexpr std::size_t kPointGrain = 256;
+  const std::size_t points = values.size() / row, width = 3 * coded.size();
+  std::vector<std::int32_t> components(points * width);
+  parallel_ranges(points, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<ComponentFinder> finders(transforms.begin(), transforms.end());
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::int32_t* planes = &values[p * row];
+      for (std::size_t r = 0; r < coded.size(); ++r)  // those of no transform stay
+        std::copy_n(planes + std::size_t{3} * coded[r], 3, &components[p * width + 3 * r]);
+      for (ComponentFinder& finder : finders) finder.find(planes, &components[p * width]);
+    }
+  });
+  values = std::move(components);
+}
+
 /// Transforms across planes where they pay, with their units. Components have the steps of the
 /// transform's first function, in whose units they are.
-Result<Done, InputError> choose_transforms(const LightField& field, const SortedField& sorted,
+Result<Done, InputError> choose_transforms(const LightField& field, SortedField& sorted,
                                            const std::vector<SliceCut>& cuts,
                                            CodingParameters parameters, SequenceParameterSet& set,
                                            SliceCoding& coding, std::vector<CodedUnit>& units) {
@@ -107,24 +127,31 @@ Result<Done, InputError> choose_transforms(const LightField& field, const Sorted
   if (header.has_basis) weights = basis_norms(header.basis);
   for (std::size_t k = 0; k < weights.size(); ++k)
     weights[k] = std::pow(std::ldexp(weights[k], header.shift.empty() ? 0 : -header.shift[k]), 2);
-  coding.transforms =
+  auto transforms =
       derive_transforms({sorted.morton, sorted.components, cuts}, coding.groups, weights,
                         coding.steps, parameters.transform, parameters.threads);
-  if (coding.transforms.empty()) return Done{};
+  if (transforms.empty()) return Done{};
   parameters.step = function_steps(set);
   std::vector<PlaneTransform> inverse;
-  for (const ForwardTransform& transform : coding.transforms) {
+  for (const ForwardTransform& transform : transforms) {
     inverse.push_back(transform.inverse);
     for (const std::uint16_t k : transform.inverse.functions)
       parameters.step[k] = parameters.step[transform.inverse.functions[0]];
   }
   SLF_TRY(set, sequence_of(field, parameters));
   set.sps_transform_flag = 1;
-  set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(coding.transforms.size() - 1);
-  for (const ForwardTransform& transform : coding.transforms)
+  set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);
+  for (const ForwardTransform& transform : transforms)
     units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups())});
-  coding.steps = plane_steps(set);
-  coding.groups = coded_groups(std::move(coding.groups), inverse);
+  CodedFunctions coded = code_functions(std::move(coding.groups), inverse);
+  for (std::size_t i = 0; i < transforms.size(); ++i)
+    transforms[i].inverse.components = inverse[i].components;
+  find_components(transforms, coded.functions, 3 * weights.size(), parameters.threads,
+                  sorted.components);
+  coding.groups = std::move(coded.groups);
+  const std::vector<std::uint32_t> steps = plane_steps(set);
+  coding.steps.clear();
+  for (const std::size_t j : planes_of(coded.functions)) coding.steps.push_back(steps[j]);
   return Done{};
 }
 
@@ -160,7 +187,7 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
     return InputError{Errc::kInvalidArgument, "points per slice: more than 2^16 slices are needed"};
   if (set.has_texture()) SLF_CHECK(choose_texture(sorted, cuts, parameters.texture.bits, set));
   SliceCoding coding{
-      set,           plane_groups(set), {}, plane_steps(set), parameters.digest, parameters.texture,
+      set,           plane_groups(set), plane_steps(set), parameters.digest, parameters.texture,
       parameters.rdo};
   std::vector<CodedUnit> units;
   if (parameters.transform != TransformMode::kNone && field.header.num_functions > 0)

@@ -49,6 +49,8 @@ Result<Done, InputError> check_field(const LightField& field) {
     if (!in_grid(v, h.grid.bits)) return invalid("positions: one lies outside the grid");
   if (h.num_functions < 0 || h.num_functions > 4096)
     return invalid("number of functions: 0 to 4096");
+  if (!h.coded.empty() || !h.transforms.empty())
+    return invalid("components: of coded functions; given_planes() makes those of all");
   if (field.components.size() != points * functions * 3)
     return invalid("components: not [points][functions][3]");
   if (h.has_basis && h.basis.id == BasisId::kHarmonics &&

@@ -37,6 +37,8 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePla
     if (unit.type != UnitType::kGeometry) continue;
     if (unit.header.range != range || range > plan.set.sps_num_geometry_ranges_minus1)
       return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
+    const int known = static_cast<int>(plan.set.grid_bits() - header.slice_depth) + octree.level();
+    if (!plan.needs_points() && known >= plan.levels) break;
     const std::uint32_t end =
         range_end(plan.set.sps_geometry_range_end, range, plan.set.grid_bits());
     SLF_CHECK(
@@ -44,7 +46,7 @@ Result<std::vector<std::uint64_t>> SliceDecoder::decode_octree(const SequencePla
     ++range;
   }
   depth = octree.level();
-  if (range <= plan.set.sps_num_geometry_ranges_minus1) partial = true;
+  if (range <= plan.set.sps_num_geometry_ranges_minus1 && plan.needs_points()) partial = true;
   return octree.morton();
 }
 
@@ -68,7 +70,8 @@ Result<Done> SliceDecoder::decode_geometry(const SequencePlan& plan) {
   int depth = static_cast<int>(header.slice_depth);
   SLF_TRY(auto codes,
           plan.set.sps_geometry_coder == 0 ? decode_octree(plan, depth) : decode_draco_unit());
-  if (!partial && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
+  const bool all = !partial && depth == static_cast<int>(header.slice_depth);
+  if (all && codes.size() != std::size_t{header.slice_num_points_minus1} + 1)
     return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
   keep(std::move(codes), depth, plan);
   return Done{};
@@ -81,26 +84,44 @@ void SliceDecoder::keep(std::vector<std::uint64_t> codes, int depth, const Seque
   const int bits = static_cast<int>(plan.set.grid_bits());
   const int dropped = bits - plan.levels;                            // grid levels below those kept
   const int unknown = static_cast<int>(header.slice_depth) - depth;  // slice levels not decoded
-  if (!partial) {
-    RahtTop top = cut_raht_tree(build_raht_tree(codes), 3 * dropped);
+  const bool values = !partial && (plan.planes() > 0 || plan.set.sps_normal_bits > 0);
+  if (values) {
+    RahtTop top = build_raht_top(codes, 3 * dropped);
     tree_ = std::move(top.tree);
     first_ = std::move(top.first);
-    codes_ = codes;
   }
-  std::uint64_t last = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const Voxel cell = from_morton(codes[i]);
+  const auto place = [&](std::uint64_t code) {
+    const Voxel cell = from_morton(code);
     Voxel v;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t middle = unknown > 0 ? 1 << (unknown - 1) : 0;
       const auto corner = static_cast<std::int32_t>(header.slice_cell[axis] << header.slice_depth);
       v[axis] = (corner + (cell[axis] << unknown) + middle) >> dropped;
     }
-    const std::uint64_t code = morton(v);
-    if (positions.empty() || code != last) positions.push_back(v);
-    last = code;
+    return v;
+  };
+  if (!values) {
+    positions.reserve(unknown == 0 && dropped == 0 ? codes.size() : 0);
+    for (const std::uint64_t code : codes)
+      if (const Voxel v = place(code); positions.empty() || v != positions.back())
+        positions.push_back(v);
+    return;
   }
+  positions.reserve(tree_.size());
+  for (std::size_t row = 0; row < tree_.size(); ++row)
+    positions.push_back(place(codes[first_[row]]));
+  codes_ = std::move(codes);
 }
+
+namespace {
+
+/// All levels of a coefficient unit are below those kept: it is not even opened.
+bool unit_begins_below(const SliceUnitHeader& unit, const SequencePlan& plan) {
+  return unit.range > 0 && range_end(plan.set.sps_coefficient_range_end, unit.range - 1,
+                                     plan.set.grid_bits()) >= static_cast<unsigned>(plan.levels);
+}
+
+}  // namespace
 
 /// cu_prediction to the levels of the slice; what is said of levels above its cube has no meaning.
 void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_level,
@@ -111,32 +132,27 @@ void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_leve
       modes[level - above] = static_cast<std::uint8_t>(unit.cu_prediction[i]);
 }
 
-/// Spec 8.7.4 - 8.7.6, 8.8.
+/// Spec 8.7.4, 8.7.6, 8.8.
 Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupModes& modes,
                                        const CoefficientRows& rows, int threads) const {
   const std::span<std::int32_t> components = rows.values;
-  std::vector<std::uint32_t> steps = plan.steps;
-  for (const PlaneTransform& transform : plan.transforms) {
-    SLF_CHECK(expand_components(transform, plan.steps, components, threads, rows.nonzero));
-    for (const std::size_t j : planes_of(transform.functions)) steps[j] = 1;
-  }
   const auto is_predicted = [](const auto& levels) {
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
   if (std::none_of(modes.begin(), modes.end(), is_predicted))
-    return raht_inverse(tree_, steps, components, threads, rows.nonzero);
-  const std::vector<int> group = function_groups(plan.set);
+    return raht_inverse(tree_, plan.steps, components, threads, rows.nonzero);
+  std::vector<std::size_t> group(plan.coded.size());
+  for (std::size_t g = 0; g < plan.groups.size(); ++g)
+    for (const std::uint16_t place : plan.groups[g]) group[place] = g;
   std::vector<PredictedPlanes> planes;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const auto g = static_cast<std::size_t>(group[k]);
-    const bool same = k > 0 && group[k] == group[k - 1];
-    if (!same) planes.push_back({3 * k, 3 * k, {}});
-    planes.back().end = 3 * k + 3;
-    if (!same && g < modes.size()) planes.back().modes = modes[g];
+  for (std::size_t r = 0; r < group.size(); ++r) {
+    if (r == 0 || group[r] != group[r - 1]) planes.push_back({3 * r, 3 * r, modes[group[r]]});
+    planes.back().end = 3 * r + 3;
   }
   TransformLevels levels(codes_, static_cast<int>(header.slice_depth),
                          static_cast<int>(plan.set.grid_bits()) - plan.levels);
-  return raht_inverse_predicted(tree_, levels, planes, steps, components, threads, rows.nonzero);
+  return raht_inverse_predicted(tree_, levels, planes, plan.steps, components, threads,
+                                rows.nonzero);
 }
 
 Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
@@ -159,7 +175,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
           unit.header.group >= groups || unit.header.range >= ranges)
         return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
       ++expected;
-      if (unit.header.group >= plan.groups.size()) continue;
+      if (unit.header.group >= plan.groups.size() || unit_begins_below(unit.header, plan)) continue;
       // Level l of the slice is joined by splits 3 (depth - 1 - l) .. + 2.
       const auto order_at = [&](std::uint32_t grid_level) {
         const int level = slice_level(grid_level, set.grid_bits(), header.slice_depth);
@@ -179,10 +195,7 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
     SLF_CHECK(reconstruct(plan, modes, rows, threads));
     if (plan.kept_levels_only())
       for (std::size_t row = 0; row + 1 < first_.size(); ++row)
-        for (std::size_t j = 0; j < planes; ++j) {
-          std::int32_t& value = components[row * planes + j];
-          value = node_mean(value, first_[row + 1] - first_[row]);
-        }
+        to_node_means(components.subspan(row * planes, planes), first_[row + 1] - first_[row]);
   }
   partial = partial || expected < ranges * groups;
   return Done{};

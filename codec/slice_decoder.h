@@ -26,13 +26,18 @@ struct SliceUnit {
 /// What a decode needs to know of the sequence.
 struct SequencePlan {
   SequenceParameterSet set;
-  PlaneGroups groups;  ///< those to decode; functions that components stand in
+  PlaneGroups groups;                ///< those to decode: places of their components
+  std::vector<std::uint16_t> coded;  ///< [R] functions that components stand in
   std::vector<PlaneTransform> transforms;
-  std::vector<std::uint32_t> steps;  ///< [3 K]
+  std::vector<std::uint32_t> steps;  ///< [3 R]
   int levels = 0;                    ///< octree levels to keep, 1 .. grid_bits
   bool whole = true;                 ///< no levels or groups are left out: digests are checked
 
-  std::size_t planes() const { return std::size_t{3} * set.sps_num_functions; }
+  std::size_t planes() const { return 3 * coded.size(); }
+  /// Weights, and normals, need all points, whatever levels are kept.
+  bool needs_points() const {
+    return !kept_levels_only() || planes() > 0 || set.sps_normal_bits > 0;
+  }
   bool kept_levels_only() const { return levels < static_cast<int>(set.grid_bits()); }
 };
 
@@ -43,7 +48,7 @@ struct SliceDecoder {
 
   /// Occupancy to `positions` (on the grid of plan.levels bits) and the transform tree.
   Result<Done> decode_geometry(const SequencePlan& plan);
-  /// Coefficients to components [positions][3 K]; the span is zero on entry.
+  /// Coefficients to components [positions][3 R]; the span is zero on entry.
   Result<Done> decode_components(const SequencePlan& plan, std::span<std::int32_t> components,
                                  int threads);
   Result<Done> decode_normals(const SequencePlan& plan,
@@ -51,11 +56,12 @@ struct SliceDecoder {
   Result<Done> check_digest(std::span<const std::int32_t> components,
                             std::span<const std::array<std::uint16_t, 2>> normals) const;
 
-  /// Leaves nothing of the slice.
+  /// Leaves nothing of the slice's points.
   void drop() {
-    positions.clear();
+    positions = {};
     tree_ = {};
     codes_ = {};
+    first_ = {};
   }
 
   std::vector<Voxel> positions;

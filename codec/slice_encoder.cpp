@@ -119,18 +119,17 @@ std::vector<std::uint32_t> modes_of_range(const SequenceParameterSet& set, const
 }
 
 /// Returns the components that a decoder will get.
-Result<std::vector<std::int32_t>, InputError> code_components(
-    const SliceCut& cut, const SliceInput& input, std::span<const std::uint64_t> morton,
-    const RahtTree& tree, const SliceCoding& coding, int threads, std::vector<CodedUnit>& units) {
+std::vector<std::int32_t> code_components(const SliceCut& cut, const SliceInput& input,
+                                          std::span<const std::uint64_t> morton,
+                                          const RahtTree& tree, const SliceCoding& coding,
+                                          int threads, std::vector<CodedUnit>& units) {
   const SequenceParameterSet& set = coding.set;
   const std::size_t planes = coding.steps.size();
   raht_forward(tree, static_cast<int>(planes), input.components, threads);
-  Quantised quantised = quantise_coefficients(
-      {tree, morton, static_cast<int>(cut.header.slice_depth), plane_groups(set), coding.groups,
-       coding.transforms, coding.steps, set.sps_prediction_flag != 0, coding.rdo},
-      input.components, threads);
-  if (!quantised.fits)
-    return InputError{Errc::kInvalidArgument, "transform: its steps are too large"};
+  Quantised quantised =
+      quantise_coefficients({tree, morton, static_cast<int>(cut.header.slice_depth), coding.groups,
+                             coding.steps, set.sps_prediction_flag != 0, coding.rdo},
+                            input.components, threads);
   std::vector<std::uint32_t> first(tree.size() + 1);  // every row is a point
   std::iota(first.begin(), first.end(), 0u);
   CoefficientModels models(coding.groups, tree, morton, first, set.sps_coefficient_coder == 0);
@@ -183,8 +182,7 @@ Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, Sli
       return InputError{
           Errc::kInvalidArgument,
           "components: the largest, times the root of the number of points, reaches 2^27"};
-    SLF_TRY(decoded,
-            code_components(cut, input, local, build_raht_tree(local), coding, threads, units));
+    decoded = code_components(cut, input, local, build_raht_tree(local), coding, threads, units);
   }
   if (coding.digest) {
     const auto digest = slice_digest(

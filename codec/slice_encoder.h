@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
-#include "attributes/forward_transform.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
 #include "slf/encoder.h"
@@ -29,16 +28,15 @@ std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid
 struct SliceInput {
   std::span<const std::uint64_t> morton;  ///< on the grid
   std::span<const Voxel> positions;
-  std::span<std::int32_t> components;  ///< [P][3 K]; used up: holds quantised coefficients after
+  std::span<std::int32_t> components;  ///< [P][3 R]; used up: holds quantised coefficients after
   std::span<const std::array<std::uint16_t, 2>> normals;
 };
 
 /// What all slices share.
 struct SliceCoding {
   const SequenceParameterSet& set;
-  PlaneGroups groups;  ///< functions that components stand in
-  std::vector<ForwardTransform> transforms;
-  std::vector<std::uint32_t> steps;  ///< [3 K]
+  PlaneGroups groups;                ///< places of components
+  std::vector<std::uint32_t> steps;  ///< [3 R]
   bool digest = true;
   TextureSettings texture;
   double rdo = 0;  ///< CodingParameters

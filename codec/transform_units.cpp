@@ -60,16 +60,35 @@ Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
   return transforms;
 }
 
-PlaneGroups coded_groups(PlaneGroups groups, const std::vector<PlaneTransform>& transforms) {
+CodedFunctions code_functions(PlaneGroups groups, std::vector<PlaneTransform>& transforms) {
+  CodedFunctions coded;
+  std::vector<std::vector<std::uint16_t>> standing;  // by transform: functions
   for (const PlaneTransform& t : transforms) {
     std::size_t left = t.rank;
+    auto& here = standing.emplace_back();
     for (std::size_t g = t.first_group; g < t.first_group + t.num_groups && g < groups.size();
          ++g) {
       groups[g].resize(std::min(groups[g].size(), left));
       left -= groups[g].size();
+      here.insert(here.end(), groups[g].begin(), groups[g].end());
     }
   }
-  return groups;
+  for (const auto& functions : groups)
+    coded.functions.insert(coded.functions.end(), functions.begin(), functions.end());
+  std::sort(coded.functions.begin(), coded.functions.end());
+  const auto to_places = [&](std::vector<std::uint16_t>& functions) {
+    for (std::uint16_t& k : functions)
+      k = static_cast<std::uint16_t>(
+          std::lower_bound(coded.functions.begin(), coded.functions.end(), k) -
+          coded.functions.begin());
+  };
+  for (auto& functions : groups) to_places(functions);
+  for (std::size_t i = 0; i < transforms.size(); ++i) {
+    to_places(standing[i]);
+    transforms[i].components = std::move(standing[i]);
+  }
+  coded.groups = std::move(groups);
+  return coded;
 }
 
 }  // namespace slf

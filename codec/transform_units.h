@@ -21,7 +21,14 @@ Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
                                                        const SequenceParameterSet& set,
                                                        const PlaneGroups& groups);
 
-/// What is coded of every group: without the functions that no component stands in.
-PlaneGroups coded_groups(PlaneGroups groups, const std::vector<PlaneTransform>& transforms);
+/// The functions that components stand in, and the groups as places among them. Spec 8.7.1.
+struct CodedFunctions {
+  std::vector<std::uint16_t> functions;  ///< [R] ascending
+  PlaneGroups groups;                    ///< places 0 .. R - 1, ascending in a group
+};
+
+/// @param groups      those to code, of all K functions
+/// @param transforms  told where their components stand; of those whose groups are left out, none
+CodedFunctions code_functions(PlaneGroups groups, std::vector<PlaneTransform>& transforms);
 
 }  // namespace slf

@@ -11,6 +11,7 @@
 #include "bitstream/units.h"
 #include "conformance/cases.h"
 #include "slf/decoder.h"
+#include "slf/given_planes.h"
 
 namespace slf::conformance {
 namespace {
@@ -47,7 +48,7 @@ std::string list(const std::vector<std::string>& items) {
 std::string description(const std::string& id, const std::vector<std::string>& clauses,
                         const std::string& purpose, std::span<const std::uint8_t> stream) {
   return "{\n  \"id\": " + quoted(id) +
-         ",\n  \"format_version\": \"0.3\",\n  \"clauses\": " + list(clauses) +
+         ",\n  \"format_version\": \"0.4\",\n  \"clauses\": " + list(clauses) +
          ",\n  \"purpose\": " + quoted(purpose) +
          ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
          ", \"sha256\": " + quoted(sha256(stream)) + "},\n";
@@ -59,8 +60,11 @@ std::string expectation(const LightField& field, int levels, int groups) {
                      ", \"partial\": " + (field.partial ? "true" : "false") +
                      ", \"points\": " + std::to_string(field.num_points()) +
                      ", \"functions\": " + std::to_string(field.header.num_functions) +
+                     ", \"components\": " + std::to_string(field.header.num_components()) +
                      ",\n     \"positions_sha256\": " + quoted(sha256_of(field.positions)) +
                      ",\n     \"components_sha256\": " + quoted(sha256_of(field.components));
+  if (!field.header.transforms.empty())
+    text += ",\n     \"planes_sha256\": " + quoted(sha256_of(given_planes(field)));
   if (field.normals.bits > 0)
     text += ",\n     \"normals_sha256\": " + quoted(sha256_of(field.normals.octahedral));
   return text + "}";
@@ -125,8 +129,9 @@ bool write_case(const fs::path& root, const Case& c) {
   }
   text +=
       "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 "
-      "[points][functions][3]; "
-      "normals: uint16 pairs; decoded order\",\n  \"source\": {\"made_by\": "
+      "[points][components][3]; "
+      "planes: int32 [points][functions][3]; normals: uint16 pairs; decoded order\",\n  "
+      "\"source\": {\"made_by\": "
       "\"conformance/generate.cpp\", \"licence\": \"CC0-1.0\"}\n}\n";
   write(root / "streams" / c.id, stream, text);
   return true;

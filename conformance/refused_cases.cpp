@@ -148,6 +148,7 @@ void add_headers(std::vector<RefusedCase>& cases) {
   add("colour-idc", "an unknown colour transform", [](auto& s) { s.sps_colour_idc = 6; });
   add("gamma-range", "a gamma range that descends",
       [](auto& s) { s.sps_gamma_min = 10, s.sps_gamma_max = -10; });
+  add("group-empty", "a group without a function", [](auto& s) { ++s.sps_num_groups_minus1; });
   add("stages", "a transform in stages", [](auto& s) { s.sps_num_stages_minus1 = 1; });
   add("range-ends", "level ranges that do not ascend", [](auto& s) {
     s.sps_num_coefficient_ranges_minus1 = 2;

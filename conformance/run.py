@@ -3,9 +3,9 @@
 
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]
 
-The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N" or nothing)
-and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, K, 3]) and, where the stream has
-normals, octahedral.npy (uint16 [P, 2]) in {out}. It must exit with 0 on streams/, and with another code,
+The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--planes" or
+nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
+(int32 [P, K, 3]) and, where the stream has normals, octahedral.npy (uint16 [P, 2]) in {out}. It must exit with 0 on streams/, and with another code,
 not by a signal and not after the time limit, on refused/. With --messages the name of the refused syntax
 element must be in what it prints. Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
 """
@@ -55,15 +55,16 @@ def check_stream(folder, decoder, timeout):
     for expect in case["expect"]:
         out = pathlib.Path(tempfile.mkdtemp())
         options = [w for name in ("levels", "groups") if expect[name] for w in ("--" + name, str(expect[name]))]
+        options += ["--planes"] if "planes_sha256" in expect else []
         where = " ".join(options) or "whole"
         try:
             done = run(decoder, {"in": str(stream), "out": str(out), "options": options}, timeout)
             if done.returncode != 0:
                 problems.append(f"{where}: exit code {done.returncode}: {done.stderr.decode(errors='replace').strip()}")
                 continue
-            points, functions = expect["points"], expect["functions"]
-            wanted = [("positions", "<i4", (points, 3)), ("components", "<i4", (points, functions, 3)),
-                      ("normals", "<u2", (points, 2))]
+            points = expect["points"]
+            wanted = [("positions", "<i4", (points, 3)), ("components", "<i4", (points, expect["components"], 3)),
+                      ("planes", "<i4", (points, expect["functions"], 3)), ("normals", "<u2", (points, 2))]
             for name, descr, shape in wanted:
                 digest = expect.get(name + "_sha256")
                 if digest is None or 0 in shape:

@@ -94,6 +94,22 @@ def surface_normal(positions, voxel):
     return mean / np.linalg.norm(mean)
 
 
+def weights_and_functions(directory, field, components, values):
+    """Weights [R, 3] of the coded functions at a point, and these functions along a direction [R].
+
+    values are those of the basis functions there, [K]. Clauses 6.7 and 8.7.5."""
+    scaled = values / 2.0 ** np.array(field["shift"])
+    weights, functions = components.astype(float), scaled[field["component_function"]]
+    for transform in field["transforms"]:
+        matrix = np.load(os.path.join(directory, transform["matrix"])) / 2.0 ** 14    # [R of it, S]
+        if transform["joint"]:
+            sys.exit("a joint transform: ask slf for planes.npy (--planes)")
+        there = transform["components"]
+        weights[there] = components[there] @ np.array(transform["colour"]).T / 512
+        functions[there] = matrix @ scaled[transform["functions"]]
+    return weights, functions
+
+
 def radiance(directory, point, direction):
     """World position [3] and R, G, B [3] on 0 .. 255 of one point towards `direction`."""
     with open(os.path.join(directory, "light_field.json")) as file:
@@ -111,13 +127,13 @@ def radiance(directory, point, direction):
     theta = math.atan2(y, x)
     low, high = field["gamma_range"]  # directions beyond what the cameras saw repeat the last seen
     gamma = min(max(z, low), high)
-    coefficients = components / 2.0 ** np.array(field["shift"])[:, None]
     if field["basis"]["id"] == "harmonics":
         r = math.sqrt(1 - gamma * gamma)
         values = harmonics(field["basis"]["degree"], r * math.cos(theta), r * math.sin(theta), gamma)
     else:
         values = basis_values(field["basis"], theta, gamma)
-    channels = values @ coefficients
+    weights, functions = weights_and_functions(directory, field, components, values)
+    channels = functions @ weights
     rgb = np.array(field["colour"]["to_rgb"]) @ channels
     world = np.array(field["grid"]["origin"]) + field["grid"]["step"] * voxel
     return world, np.clip(rgb, 0, 255)

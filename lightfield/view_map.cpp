@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "lightfield/frame.h"
+#include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "lightfield/nodes.h"
+#include "slf/given_planes.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -14,19 +16,32 @@ namespace {
 
 constexpr std::size_t kPointsPerRange = 512;
 
-/// Component planes to R, G, B coefficients: one 3 x 3 matrix per function, 2^-shift folded in.
+/// Components to R, G, B: one 3 x 3 matrix each, with the channels of a transform folded in.
 class Dequantiser {
  public:
-  explicit Dequantiser(const LightFieldHeader& header) {
+  /// @param shifted  2^-shift too, of the function that a component stands for
+  Dequantiser(const LightFieldHeader& header, bool shifted) {
     const auto matrix = colour_matrix(header.colour);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(header.num_functions); ++k) {
-      const int shift = k < header.shift.size() ? header.shift[k] : 0;
-      for (const auto& row : matrix)
+    const auto count = static_cast<std::size_t>(header.num_components());
+    std::vector<std::array<std::array<double, 3>, 3>> mixed(count, matrix);
+    for (const PlaneTransform& t : header.transforms)
+      for (const std::uint16_t r : t.components)
+        for (std::size_t to = 0; to < 3; ++to)
+          for (std::size_t c = 0; c < 3; ++c) {
+            mixed[r][to][c] = 0;
+            for (std::size_t by = 0; by < 3; ++by)
+              mixed[r][to][c] +=
+                  std::ldexp(matrix[to][by] * t.colour[by][c], -PlaneTransform::kColourBits);
+          }
+    for (std::size_t r = 0; r < count; ++r) {
+      const std::size_t k = header.coded.empty() ? r : header.coded[r];
+      const int shift = shifted && k < header.shift.size() ? header.shift[k] : 0;
+      for (const auto& row : mixed[r])
         for (const double m : row) factors_.push_back(static_cast<float>(std::ldexp(m, -shift)));
     }
   }
 
-  /// [K][3] integers to [K][3] R, G, B.
+  /// [R][3] integers to [R][3] R, G, B.
   void apply(const std::int32_t* components, float* rgb) const {
     for (const float *m = factors_.data(), *end = m + factors_.size(); m != end; m += 9) {
       if ((components[0] | components[1] | components[2]) != 0) {
@@ -43,8 +58,20 @@ class Dequantiser {
   }
 
  private:
-  std::vector<float> factors_;  // [K][3][3]
+  std::vector<float> factors_;  // [R][3][3]
 };
+
+bool is_joint(const PlaneTransform& transform) { return transform.lanes == 1; }
+
+/// The components are the coefficients of all harmonics up to a degree, or -1.
+int degree_of_components(const LightFieldHeader& header) {
+  if (header.basis.id != BasisId::kHarmonics || !header.transforms.empty()) return -1;
+  const int count = header.num_components();
+  int degree = 0;
+  while ((degree + 1) * (degree + 1) < count) ++degree;
+  const bool all = (degree + 1) * (degree + 1) == count;
+  return all && (header.coded.empty() || header.coded.back() + 1 == count) ? degree : -1;
+}
 
 std::array<float, 3> clamp_to_display(std::array<float, 3> rgb) {
   for (float& c : rgb) c = std::clamp(c, 0.0f, 255.0f);
@@ -58,27 +85,49 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
       positions_(light_field.positions),
       normals_(light_field.normals),
       frame_normals_(frame_normals(header_.frame, positions_, threads)) {
-  if (header_.basis.id == BasisId::kHarmonics)
-    harmonics_ = std::make_shared<const Harmonics>(header_.basis.degree);
   assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
-  const bool spline = header_.basis.id == BasisId::kBspline;
+  std::span<const std::int32_t> components = light_field.components;
+  std::vector<std::int32_t> planes;
+  if (std::any_of(header_.transforms.begin(), header_.transforms.end(), is_joint)) {  // 6.7
+    components = planes = given_planes(light_field, threads);
+    header_.transforms.clear();
+    header_.coded.clear();
+  }
+  const auto coded = static_cast<std::size_t>(header_.num_components());
+  const bool spline = header_.basis.id == BasisId::kBspline && header_.transforms.empty();
+  width_ = spline ? static_cast<std::size_t>(header_.num_functions) : coded;
+  if (const int degree = degree_of_components(header_); degree >= 0) {
+    harmonics_ = std::make_shared<const Harmonics>(degree);
+  } else if (!spline) {
+    table_ = std::make_shared<const FunctionTable>(header_, threads);
+  }
   const NodeMap<float> map(spline ? header_.basis : Basis{BasisId::kBspline, 2, 0, 0});
-  const Dequantiser dequantiser(header_);
-  const std::size_t size = 3 * static_cast<std::size_t>(header_.num_functions);
-  assert(light_field.components.size() == num_points() * size);
-  nodes_.resize(num_points() * size);
+  const Dequantiser dequantiser(header_, table_ == nullptr);
+  assert(components.size() == num_points() * 3 * coded);
+  nodes_.resize(num_points() * 3 * width_);
   mean_.resize(num_points());
   parallel_ranges(num_points(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> coefficients(size), scratch(size);
+    std::vector<float> rgb(3 * coded), coefficients(3 * width_), scratch(3 * width_);
     for (std::size_t p = begin; p < end; ++p) {
-      dequantiser.apply(light_field.components.data() + p * size, coefficients.data());
+      float* nodes = nodes_.data() + p * 3 * width_;
+      dequantiser.apply(components.data() + p * 3 * coded, rgb.data());
       if (spline) {
-        map.to_nodes(coefficients.data(), nodes_.data() + p * size, scratch.data());
+        for (std::size_t r = 0; r < coded; ++r)
+          std::copy_n(&rgb[3 * r], 3,
+                      &coefficients[3 * (header_.coded.empty() ? r : header_.coded[r])]);
+        map.to_nodes(coefficients.data(), nodes, scratch.data());
       } else {
-        std::copy(coefficients.begin(), coefficients.end(), nodes_.data() + p * size);
+        std::copy(rgb.begin(), rgb.end(), nodes);
       }
-      // Every other function has zero mean over the sphere.
-      mean_[p] = clamp_to_display({coefficients[0], coefficients[1], coefficients[2]});
+      // Every other basis function has zero mean over the sphere.
+      std::array<float, 3> mean{};
+      if (table_ == nullptr && (header_.coded.empty() || header_.coded[0] == 0)) {
+        mean = {rgb[0], rgb[1], rgb[2]};
+      } else if (table_ != nullptr) {
+        for (std::size_t r = 0; r < coded; ++r)
+          for (std::size_t c = 0; c < 3; ++c) mean[c] += table_->means()[r] * rgb[3 * r + c];
+      }
+      mean_[p] = clamp_to_display(mean);
     }
   });
 }
@@ -98,12 +147,19 @@ std::array<float, 3> ViewMaps::radiance_unclamped(std::size_t p, float theta, fl
 std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
                                                 const std::array<float, 2>& direction) const {
   std::array<float, 3> rgb{0, 0, 0};
-  const float* nodes = nodes_.data() + p * 3 * static_cast<std::size_t>(header_.num_functions);
-  if (harmonics_) {
-    std::array<float, (kMaxDegree + 1) * (kMaxDegree + 1)> row;
-    harmonics_->evaluate(vector_of(direction), row.data());
-    for (std::size_t k = 0; k < static_cast<std::size_t>(harmonics_->size()); ++k)
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] += row[k] * nodes[3 * k + c];
+  const float* nodes = nodes_.data() + p * 3 * width_;
+  if (harmonics_ || table_) {
+    std::array<float, 4096 + 4> row;  // K at most, and what FunctionTable adds
+    if (table_ && header_.basis.id == BasisId::kHarmonics) {
+      const Vec3 v = vector_of(direction);
+      table_->look_up({float(v[0]), float(v[1]), float(v[2])}, row.data());
+    } else if (table_) {
+      table_->evaluate(direction, row.data());
+    } else {
+      harmonics_->evaluate(vector_of(direction), row.data());
+    }
+    for (std::size_t r = 0; r < width_; ++r)
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] += row[r] * nodes[3 * r + c];
     return rgb;
   }
   const NodeTaps taps = node_taps(header_.basis, static_cast<double>(direction[0]),

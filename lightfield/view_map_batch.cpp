@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "slf/view_map.h"
 
@@ -28,6 +29,27 @@ std::array<float, 3> with_gamma(std::array<float, 3> v, float low, float high) {
   return {v[0] * length / across, v[1] * length / across, gamma};
 }
 
+/// Asks for values that are needed soon: points come in no order of memory.
+inline void prefetch([[maybe_unused]] const float* values, [[maybe_unused]] std::size_t count) {
+#if defined(__GNUC__)
+  for (std::size_t i = 0; i < count; i += 64 / sizeof(float)) __builtin_prefetch(values + i);
+#endif
+}
+
+/// Sum of the functions, channel by channel: four sums each, so that none waits for the one before.
+inline std::array<float, 3> weighted_sum(const float* row, const float* node, std::size_t count) {
+  std::array<float, 12> sums{};
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4, node += 12)
+    for (std::size_t j = 0; j < 12; ++j) sums[j] += row[k + j / 3] * node[j];
+  for (; k < count; ++k, node += 3)
+    for (std::size_t c = 0; c < 3; ++c) sums[c] += row[k] * node[c];
+  std::array<float, 3> rgb;
+  for (std::size_t c = 0; c < 3; ++c)
+    rgb[c] = std::clamp(sums[c] + sums[c + 3] + sums[c + 6] + sums[c + 9], 0.0f, 255.0f);
+  return rgb;
+}
+
 }  // namespace
 
 std::array<float, 3> ViewMaps::seen_from(std::size_t p, const Vec3& eye) const {
@@ -38,20 +60,20 @@ std::array<float, 3> ViewMaps::seen_from(std::size_t p, const Vec3& eye) const {
 
 void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
                          std::span<std::array<float, 3>> colours) const {
-  if (!harmonics_) {
+  if (header_.basis.id != BasisId::kHarmonics) {
     for (std::size_t i = 0; i < points.size(); ++i) colours[i] = seen_from(points[i], eye);
     return;
   }
   const float low = static_cast<float>(header_.gamma_min_q7) / 127.0f;
   const float high = static_cast<float>(header_.gamma_max_q7) / 127.0f;
-  const auto functions = static_cast<std::size_t>(harmonics_->size());
   std::array<std::array<float, kLanes>, 3> directions{};
   std::array<std::array<float, kLanes>, Harmonics::kMost> rows;
-  std::array<float, Harmonics::kMost> row;
+  std::array<float, Harmonics::kMost + kLanes> row;
   for (std::size_t first = 0; first < points.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, points.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t p = points[first + i];
+      prefetch(nodes_.data() + p * 3 * width_, 3 * width_);
       auto w = unit(header_.grid.world(positions_[p]), eye);
       if (!frame_normals_.empty()) {  // mirrored at the normal, spec 6.4
         const auto& n = frame_normals_[p];
@@ -61,20 +83,15 @@ void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
       w = with_gamma(w, low, high);
       for (std::size_t k = 0; k < 3; ++k) directions[k][i] = w[k];
     }
-    harmonics_->evaluate(directions, rows.data());
+    if (harmonics_) harmonics_->evaluate(directions, rows.data());
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < functions; ++k) row[k] = rows[k][i];
-      const float* node = nodes_.data() + points[first + i] * 3 * functions;
-      // Four sums per channel, so that none waits for the one before.
-      std::array<float, 12> sums{};
-      std::size_t k = 0;
-      for (; k + 4 <= functions; k += 4, node += 12)
-        for (std::size_t j = 0; j < 12; ++j) sums[j] += row[k + j / 3] * node[j];
-      for (; k < functions; ++k, node += 3)
-        for (std::size_t c = 0; c < 3; ++c) sums[c] += row[k] * node[c];
-      for (std::size_t c = 0; c < 3; ++c)
-        colours[first + i][c] =
-            std::clamp(sums[c] + sums[c + 3] + sums[c + 6] + sums[c + 9], 0.0f, 255.0f);
+      if (harmonics_) {
+        for (std::size_t k = 0; k < width_; ++k) row[k] = rows[k][i];
+      } else {
+        table_->look_up({directions[0][i], directions[1][i], directions[2][i]}, row.data());
+      }
+      colours[first + i] =
+          weighted_sum(row.data(), nodes_.data() + points[first + i] * 3 * width_, width_);
     }
   }
 }

@@ -2,10 +2,11 @@
 """An independent decoder, written from the text of slf-bitstream.md alone; slow; for reading beside the
 specification and as a second opinion in the conformance tests.
 
-    decoder.py decode STREAM.slf [--dump DIRECTORY] [--levels N] [--groups N]
+    decoder.py decode STREAM.slf [--dump DIRECTORY] [--planes] [--levels N] [--groups N]
 
 Decodes to the integer conformance point and leaves positions.npy (int32 [P, 3]), components.npy (int32
-[P, K, 3]) and, where the stream has normals, octahedral.npy (uint16 [P, 2]) in DIRECTORY. --levels keeps the
+[P, R, 3]), with --planes planes.npy (int32 [P, K, 3]) and, where the stream has normals, octahedral.npy
+(uint16 [P, 2]) in DIRECTORY. --levels keeps the
 first N levels of the grid, --groups the first N groups of functions (clause 8.9). Exit code: 0 decoded,
 1 refused, with the syntax element in question on standard error.
 
@@ -155,7 +156,7 @@ class Sequence:
             return value
 
         checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 3, "sps_version_minor")
+        checked(8, lambda v: v == 4, "sps_version_minor")
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
@@ -213,8 +214,13 @@ class Sequence:
             while len(self.steps) < self.functions:
                 self.plane_run(reader)
         reader.trailing_bits("sps_trailing_bits")
+        require(all(self.groups), "sps_num_groups_minus1")
         require(profile != 1, "sps_profile (Draco geometry is not supported)")
-        self.coded = list(self.groups)      # those whose planes hold coefficients or components
+        self.coded = list(self.groups)      # those in whose place components stand
+
+    def coded_functions(self, groups):
+        """8.7.1: the functions that the components of the first groups stand for, ascending; 0: of all groups."""
+        return sorted(k for functions in self.coded[:groups or None] for k in functions)
 
     def level_ranges(self, reader, kind):
         """7.2: the first level of every range, and grid_bits after the last."""
@@ -246,7 +252,7 @@ class Transform:
     """7.11: a transform across planes."""
 
     def __init__(self, sequence, payload):
-        """7.11: parses the unit, and takes the functions without components from those coded."""
+        """7.11: parses the unit, and takes the functions behind the rank from those coded."""
         reader = BitReader(payload)
         self.first = reader.ue("tr_first_group")
         before = sequence.transforms[-1].end if sequence.transforms else 0
@@ -263,8 +269,7 @@ class Transform:
         lanes = 1 if self.joint else 3
         rows, columns = len(functions) * 3 // lanes, rank * 3 // lanes
         require(rank <= len(functions) and rows * columns <= 1 << 20, "tr_rank_minus1")
-        self.planes = np.array([3 * k + c for k in functions for c in range(3)])
-        self.components = self.planes[:3 * rank]
+        self.functions, self.rank = functions, rank
         self.matrix = self.read_matrix(ArithmeticDecoder(reader.rest("tr_matrix")), rows, columns)
         for g in range(self.first, self.end):
             sequence.coded[g], rank = sequence.groups[g][:rank], max(rank - len(sequence.groups[g]), 0)
@@ -289,17 +294,30 @@ class Transform:
         decoder.finish("tr_matrix")
         return matrix
 
-    def expand(self, values):
-        """8.7.5: components to coefficients, in place."""
+    def expand(self, components, place):
+        """8.7.5: the values of its functions, [P, S, 3]; place has the functions whose components there are."""
+        there = [place[k] for k in self.functions[:self.rank] if k in place]
         lanes = 1 if self.joint else 3
-        components = values[:, self.components].reshape(len(values), -1, lanes)
-        values[:, self.components] = 0
+        some = components[:, there]
         if not self.joint:
-            components = components @ self.colour.T + 256 >> 9
-            require((abs(components) < 1 << 27).all(), "cu_coefficients")
-        expanded = np.einsum("kr,prc->pkc", self.matrix, components) + (1 << 13) >> 14
-        require((abs(expanded) < 1 << 27).all(), "cu_coefficients")
-        values[:, self.planes] = expanded.reshape(len(values), -1)
+            some = clamp31(some @ self.colour.T + 256 >> 9)
+        some = some.reshape(len(some), -1, lanes)
+        values = np.einsum("kr,prc->pkc", self.matrix[:, :some.shape[1]], some) + (1 << 13) >> 14
+        return clamp31(values).reshape(len(values), -1, 3)
+
+
+def clamp31(values):
+    """8.7.5: what 32 bits hold."""
+    return np.clip(values, 1 - 2**31, 2**31 - 1)
+
+
+def given_planes(sequence, coded, components):
+    """8.7.5: the planes of all functions, [P, K, 3], of the components that stand for the functions coded."""
+    planes = np.zeros((len(components), sequence.functions, 3), np.int64)
+    planes[:, coded] = components
+    for transform in sequence.transforms:
+        planes[:, transform.functions] = transform.expand(components, {k: r for r, k in enumerate(coded)})
+    return planes
 
 
 def check_index(payload, following):
@@ -947,18 +965,15 @@ class IndependentCoder:
             self.quantised[r] = values
 
 
-def reconstruct(sequence, coders, points):
+def reconstruct(sequence, coders, points, coded):
     """8.7.4: coefficients by row and plane; those of groups without a coder are 0 (8.9)."""
-    coefficients = np.zeros((points, 3 * sequence.functions), np.int64)
+    coefficients = np.zeros((points, 3 * len(coded)), np.int64)
     for functions, coder in zip(sequence.coded, coders):
-        planes = [(3 * k + c, sequence.steps[k][c]) for k in functions for c in range(3)]
+        planes = [(3 * coded.index(k) + c, sequence.steps[k][c]) for k in functions for c in range(3)]
         for r, values in coder.quantised.items():
             for (plane, step), value in zip(planes, values):
                 require(abs(value * step) < 1 << 27, "cu_coefficients")
                 coefficients[r, plane] = value * step
-    for transform in sequence.transforms:
-        if transform.first < len(coders):
-            transform.expand(coefficients)
     return coefficients
 
 
@@ -1148,14 +1163,14 @@ class Slice:
         if self.sequence.coded[group]:
             self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
 
-    def inverse_transform(self, values, coders, shift):
+    def inverse_transform(self, values, coders, shift, coded):
         """8.8: level by level, the modes of 8.7.6 by plane; levels below those kept stay as they are (8.9)."""
-        groups = self.sequence.groups[:len(coders)]
+        groups = self.sequence.coded[:len(coders)]
         for level in range(self.depth - shift):
-            modes = [0] * (3 * self.sequence.functions)
+            modes = [0] * (3 * len(coded))
             for group, functions in enumerate(groups):
-                for k in functions:
-                    modes[3 * k:3 * k + 3] = [self.modes.get((group, level + self.top), 0)] * 3
+                for r in map(coded.index, functions):
+                    modes[3 * r:3 * r + 3] = [self.modes.get((group, level + self.top), 0)] * 3
             inverse_level(values, self.tree, self.depth, level, modes)
 
     def decode_textures(self, reader, group):
@@ -1186,6 +1201,7 @@ class Slice:
     def output(self, levels, groups):
         """8.9: positions, components and normals of the first levels and groups, 0: of all."""
         sequence = self.sequence
+        coded = sequence.coded_functions(groups)
         shift = max(sequence.grid_bits - levels, 0) if levels else 0
         corner = np.array(self.cell, np.int64) << self.depth
         nodes = np.array(self.octree.nodes, np.int64)
@@ -1194,15 +1210,15 @@ class Slice:
             nodes = nodes if known else nodes[:0]
             side = 1 << (self.depth - self.octree.level)
             positions = (corner + nodes * side + side // 2) >> shift
-            components = np.zeros((len(nodes), sequence.functions, 3), np.int64)
+            components = np.zeros((len(nodes), len(coded), 3), np.int64)
             return positions, components, np.zeros((len(nodes), 2), np.int64)
         positions = corner + nodes
         coders = self.coders[:groups] if groups else self.coders
         if sequence.texture:
-            values = texture_components(sequence, coders, self.points)
+            values = texture_components(sequence, coders, self.points, coded)
         else:
-            values = reconstruct(sequence, coders, self.points)
-            self.inverse_transform(values, coders, shift)
+            values = reconstruct(sequence, coders, self.points, coded)
+            self.inverse_transform(values, coders, shift, coded)
         normals = np.zeros((self.points, 2), np.int64) if self.normals is None else self.normals
         if shift:
             first = [r for r in range(self.points) if r == 0 or self.tree.split[r] >= 3 * shift]
@@ -1213,7 +1229,7 @@ class Slice:
             else:
                 scale = np.array([math.isqrt(2**60 // int(w)) for w in weights], np.int64)
                 values = round30(values[first] * scale[:, None])
-        components = values.reshape(len(positions), sequence.functions, 3)
+        components = values.reshape(len(positions), len(coded), 3)
         if self.digest and not self.expected and not shift and len(coders) == len(sequence.groups):
             check_digest(self.digest, positions, components, normals if sequence.normal_bits else None)
         return positions, components, normals
@@ -1414,11 +1430,11 @@ def decode_pictures(stream, count, bits, atlas):
         raise Refused(str(problem)) from None
 
 
-def texture_components(sequence, groups, points):
-    """8.11.6: the components by point and plane; those of missing or unwanted groups are 0 (8.9)."""
-    values = np.zeros((points, 3 * sequence.functions), np.int64)
+def texture_components(sequence, groups, points, coded):
+    """8.11.6: the components by point and plane; those of missing groups are 0 (8.9)."""
+    values = np.zeros((points, 3 * len(coded)), np.int64)
     for functions, components in zip(sequence.groups, groups):
-        values[:, [3 * k + c for k in functions for c in range(3)]] = components
+        values[:, [3 * coded.index(k) + c for k in functions for c in range(3)]] = components
     return values
 
 
@@ -1431,10 +1447,10 @@ def mean(values, first, weights):
 # ---- 8.1 The whole stream
 
 def decode(data, levels, groups):
-    """8.1: units in; sequence, positions, components, normals out; 7.1: the order of units."""
+    """8.1: units in; sequence, coded functions, positions, components, normals out; 7.1: the order of units."""
     units = read_units(data)
     sequence = Sequence(units[0][1])
-    parts = [(np.zeros((0, 3)), np.zeros((0, sequence.functions, 3)), np.zeros((0, 2)))]
+    parts = []
     current, slices, cube_end, values, metadata = None, 0, 0, 0, 0
     for number, (unit_type, payload, _) in enumerate(units[1:], 1):
         require(unit_type != SEQUENCE, "unit_type")
@@ -1464,11 +1480,13 @@ def decode(data, levels, groups):
             check_end(payload, number)
     if current:
         parts.append(current.output(levels, groups))
+    coded = sequence.coded_functions(groups)
+    parts.append((np.zeros((0, 3)), np.zeros((0, len(coded), 3)), np.zeros((0, 2))))
     positions, components, normals = [np.concatenate(arrays) for arrays in zip(*parts)]
     if levels and levels < sequence.grid_bits and len(positions):
         keep = np.append(True, (positions[1:] != positions[:-1]).any(axis=1))       # 8.9: the first one's
         positions, components, normals = positions[keep], components[keep], normals[keep]
-    return sequence, positions, components, normals
+    return sequence, coded, positions, components, normals
 
 
 def main():
@@ -1480,10 +1498,11 @@ def main():
     parser.add_argument("--dump", metavar="DIRECTORY")
     parser.add_argument("--levels", type=int, default=0)
     parser.add_argument("--groups", type=int, default=0)
+    parser.add_argument("--planes", action="store_true")
     arguments = parser.parse_args()
     try:
         with open(arguments.stream, "rb") as file:
-            sequence, positions, components, normals = decode(file.read(), arguments.levels, arguments.groups)
+            sequence, coded, positions, components, normals = decode(file.read(), arguments.levels, arguments.groups)
     except (Refused, OSError) as problem:
         print("refused:", problem, file=sys.stderr)
         return 1
@@ -1491,6 +1510,9 @@ def main():
         os.makedirs(arguments.dump, exist_ok=True)
         np.save(os.path.join(arguments.dump, "positions.npy"), positions.astype("<i4"))
         np.save(os.path.join(arguments.dump, "components.npy"), components.astype("<i4"))
+        if arguments.planes:
+            planes = given_planes(sequence, coded, components.astype(np.int64))
+            np.save(os.path.join(arguments.dump, "planes.npy"), planes.astype("<i4"))
         if sequence.normal_bits:
             np.save(os.path.join(arguments.dump, "octahedral.npy"), normals.astype("<u2"))
     print("points", len(positions), "functions", sequence.functions)

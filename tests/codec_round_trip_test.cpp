@@ -2,8 +2,10 @@
 
 #include <cstdlib>
 
+#include "bitstream/units.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
+#include "slf/given_planes.h"
 #include "tests/field_support.h"
 
 namespace slf {
@@ -140,7 +142,7 @@ TEST(Spec_8_2_Levels, FewerLevelsGiveTheMeansOfTheNodes) {
   }
 }
 
-TEST(Spec_8_2_Groups, AbsentGroupsCountAsZero) {
+TEST(Spec_8_9_Groups, OnlyThoseAskedForAreGivenOut) {
   const LightField field = test::make_field(test::sphere_cloud(5), 5, 4);
   CodingParameters parameters = with_step(4, 2);
   parameters.group = {0, 1, 1, 2};
@@ -151,8 +153,73 @@ TEST(Spec_8_2_Groups, AbsentGroupsCountAsZero) {
   const auto fewer = decode(stream, options);
   ASSERT_TRUE(whole && fewer);
   EXPECT_TRUE(fewer->partial);
+  EXPECT_EQ(fewer->header.coded, (std::vector<std::uint16_t>{0, 1, 2}));
+  ASSERT_EQ(fewer->components.size(), whole->components.size() / 4 * 3);
+  const std::vector<std::int32_t> planes = given_planes(*fewer);
   for (std::size_t i = 0; i < whole->components.size(); ++i)
-    EXPECT_EQ(fewer->components[i], i / 3 % 4 == 3 ? 0 : whole->components[i]);
+    EXPECT_EQ(planes[i], i / 3 % 4 == 3 ? 0 : whole->components[i]);
+}
+
+/// The stream with what units of a type hold made senseless, those for which wrong(unit) is true.
+template <class Wrong>
+std::vector<std::uint8_t> with_wrong_units(const std::vector<std::uint8_t>& stream, Wrong wrong) {
+  const Units units = *split_units(stream);
+  const StreamInfo info = *read_info(stream);
+  std::vector<std::uint8_t> changed(kSignature.begin(), kSignature.end());
+  for (std::size_t i = 0; i < units.units.size(); ++i) {
+    std::vector<std::uint8_t> payload(units.units[i].payload.begin(), units.units[i].payload.end());
+    if (wrong(info.units[i]))
+      for (std::size_t at = payload.size() / 2; at < payload.size(); ++at) payload[at] ^= 0xA5;
+    append_unit(changed, units.units[i].type, payload);
+  }
+  return changed;
+}
+
+TEST(Spec_8_9_Parts, UnitsOfLevelsAndGroupsThatAreNotAskedForAreNotOpened) {
+  const LightField field = test::make_field(test::sphere_cloud(6), 6, 4);
+  CodingParameters parameters = with_step(4, 8);
+  parameters.group = {0, 1, 1, 2};
+  parameters.coefficient_level_ends = {4, 5, 6};
+  parameters.index = false;
+  const auto stream = packed(field, parameters);
+  const auto wrong = with_wrong_units(stream, [](const UnitInfo& unit) {
+    return unit.type == "coefficients" && (unit.level_first >= 4 || unit.group == 2);
+  });
+  EXPECT_FALSE(decode(wrong));
+  for (const int levels : {2, 4}) {
+    DecodeOptions options;
+    options.levels = levels;
+    options.groups = 2;
+    const auto part = decode(wrong, options), same = decode(stream, options);
+    ASSERT_TRUE(part && same) << to_string(part.error());
+    EXPECT_EQ(part->components, same->components);
+    EXPECT_EQ(part->num_planes(), 9);
+  }
+}
+
+TEST(Spec_8_9_Parts, PositionsAloneNeedNoFinerGeometry) {
+  LightField field = test::make_field(test::sphere_cloud(6), 6, 0);
+  CodingParameters parameters;
+  parameters.geometry_level_ends = {3, 4, 6};
+  parameters.max_slice_points = 1500;
+  parameters.index = false;
+  const auto stream = packed(field, parameters);
+  const auto wrong = with_wrong_units(stream, [](const UnitInfo& unit) {
+    return unit.type == "geometry" && unit.level_first >= 4;
+  });
+  EXPECT_FALSE(decode(wrong));
+  for (int levels = 1; levels <= 4; ++levels) {
+    DecodeOptions options;
+    options.levels = levels;
+    const auto part = decode(wrong, options);
+    ASSERT_TRUE(part) << to_string(part.error());
+    std::vector<Voxel> expected;
+    for (Voxel v : field.positions) {
+      for (auto& x : v) x >>= 6 - levels;
+      if (expected.empty() || expected.back() != v) expected.push_back(v);
+    }
+    EXPECT_EQ(part->positions, expected);
+  }
 }
 
 TEST(Spec_7_1_Prefix, EveryCutAtAUnitBoundaryDecodesAndIsPartial) {

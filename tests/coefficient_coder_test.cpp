@@ -59,7 +59,7 @@ TEST_P(CoefficientNeighboursTest, OfTheKeptLevelsAreThoseOfTheWholeTree) {
   const auto morton_codes = test::codes(GetParam().voxels);
   const RahtTree tree = build_raht_tree(morton_codes);
   const auto whole = find_coefficient_neighbours(tree, morton_codes, one_row_a_point(tree.size()));
-  const RahtTop top = cut_raht_tree(tree, 6);
+  const RahtTop top = build_raht_top(morton_codes, 6);
   const auto kept = find_coefficient_neighbours(top.tree, morton_codes, top.first);
   for (std::size_t row = 0; row < top.tree.size(); ++row) {
     EXPECT_EQ(kept.scale[row], whole.scale[top.first[row]]);

@@ -103,11 +103,10 @@ TEST_P(LevelPrediction, GroupsDoNotNeedEachOther) {
   const LightField field = smooth_field(GetParam().voxels, GetParam().bits, 6);
   const auto stream = packed(field, parameters_of(6, true));
   const Values all = decoded(stream), first = decoded(stream, options_of(0, 2, 1));
-  ASSERT_EQ(all.size(), first.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t k = i / 3 % 6;
-    EXPECT_EQ(first[i], k == 0 || k % 2 == 0 ? all[i] : 0);
-  }
+  Values expected;  // of functions 0, 2, 4
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i / 3 % 2 == 0) expected.push_back(all[i]);
+  EXPECT_EQ(first, expected);
 }
 
 // Spec 8.8.2; UBSan watches. Every plane has modes of its own on every level.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <span>
 
@@ -12,6 +13,7 @@
 #include "entropy/range_encoder.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
+#include "slf/given_planes.h"
 #include "tests/field_support.h"
 
 namespace slf {
@@ -56,29 +58,58 @@ TEST(Spec_7_11_Matrix, IsLosslessAndNoTruncationGivesIt) {
   }
 }
 
+/// One point of the functions 0 .. functions - 1 with these components.
+LightField point_of(int functions, std::vector<std::uint16_t> coded, PlaneTransform t,
+                    std::vector<std::int32_t> components) {
+  LightField field;
+  field.positions = {{0, 0, 0}};
+  field.header.num_functions = functions;
+  field.header.coded = std::move(coded);
+  field.header.transforms = {std::move(t)};
+  field.components = std::move(components);
+  return field;
+}
+
 TEST(Spec_8_7_5_Expansion, IsTheRoundedProductOfChannelsAndMatrix) {
   PlaneTransform t;
   t.functions = {2, 0};
   t.rank = 1;
   t.colour = {{{512, 0, 0}, {0, 0, 512}, {0, -256, 0}}};
   t.matrix = {1 << 14, -(1 << 13)};
-  std::vector<std::int32_t> values = {9, 9, 9, 5, 5, 5, 3, 7, -4};
-  ASSERT_TRUE(expand_components(t, std::vector<std::uint32_t>(9, 1), values, 1));
+  t.components = {1};
   // Channels 3, -4, -3.5 to -3; halves up.
-  EXPECT_EQ(values, (std::vector<std::int32_t>{-1, 2, 2, 5, 5, 5, 3, -4, -3}));
+  EXPECT_EQ(given_planes(point_of(3, {1, 2}, t, {5, 5, 5, 3, 7, -4})),
+            (std::vector<std::int32_t>{-1, 2, 2, 5, 5, 5, 3, -4, -3}));
 }
 
-TEST(Spec_8_7_5_Expansion, RefusesValuesOfTwoToThe27) {
+TEST(Spec_8_7_5_Expansion, MixesChannelsWithFunctionsWhereJoint) {
   PlaneTransform t;
   t.functions = {0, 1};
-  t.rank = 2;
-  t.matrix = {PlaneTransform::kEntryLimit, 0, 0, 1 << 14};
-  for (const std::int32_t component : {1 << 21, -(1 << 21), (1 << 27) - 1}) {
-    std::vector<std::int32_t> values = {component, 0, 0, 0, 0, 0};
-    EXPECT_FALSE(expand_components(t, std::vector<std::uint32_t>(6, 1), values, 1));
-  }
-  std::vector<std::int32_t> values = {(1 << 21) - 1, 0, 0, (1 << 27) - 1, 0, 0};
-  EXPECT_TRUE(expand_components(t, std::vector<std::uint32_t>(6, 1), values, 1));
+  t.rank = 1;
+  t.lanes = 1;
+  t.matrix.assign(18, 0);
+  t.matrix[0] = t.matrix[6 + 4] = t.matrix[12 + 5] = 1 << 14;
+  t.matrix[6 + 5] = 3 << 13;
+  t.components = {0};
+  EXPECT_EQ(given_planes(point_of(2, {0}, t, {7, 3, -2})),
+            (std::vector<std::int32_t>{7, 0, 0, 0, 3, 3}));
+}
+
+TEST(Spec_8_7_5_Expansion, ClampsWhat32BitsDoNotHold) {
+  constexpr std::int32_t kMost = 0x7FFFFFFF;
+  PlaneTransform t;
+  t.functions = {0, 1};
+  t.rank = 1;
+  t.matrix = {PlaneTransform::kEntryLimit, -PlaneTransform::kEntryLimit};
+  t.components = {0};
+  EXPECT_EQ(given_planes(point_of(2, {0}, t, {kMost, -(1 << 25), (1 << 25) - 1})),
+            (std::vector<std::int32_t>{kMost, -kMost, kMost - 63, -kMost, kMost, -kMost + 63}));
+}
+
+TEST(Spec_8_7_5_Expansion, WithoutATransformPlanesAreComponents) {
+  LightField field = point_of(3, {1}, {}, {1, 2, 3});
+  field.header.transforms.clear();
+  EXPECT_EQ(given_planes(field), (std::vector<std::int32_t>{0, 0, 0, 1, 2, 3, 0, 0, 0}));
 }
 
 /// Planes that are mixtures of a few, and noise.
@@ -104,13 +135,12 @@ CodingParameters with_transform(TransformMode mode, int functions, std::uint32_t
   return parameters;
 }
 
-double mean_square(const LightField& a, const LightField& b) {
+double mean_square(const LightField& decoded, const LightField& given) {
+  const std::vector<std::int32_t> planes = given_planes(decoded);
   double sum = 0;
-  for (std::size_t i = 0; i < a.components.size(); ++i) {
-    const double d = a.components[i] - b.components[i];
-    sum += d * d;
-  }
-  return sum / static_cast<double>(a.components.size());
+  for (std::size_t i = 0; i < given.components.size(); ++i)
+    sum += std::pow(planes.at(i) - given.components[i], 2.0);
+  return sum / static_cast<double>(given.components.size());
 }
 
 class TransformModes : public testing::TestWithParam<TransformMode> {};
@@ -126,6 +156,8 @@ TEST_P(TransformModes, CostFewerBytesAtNoLargerErrorWherePlanesAreAlike) {
   const auto a = decode(*plain), b = decode(*transformed);
   ASSERT_TRUE(a && b) << to_string(b.error());  // the digest holds: the encoder knows what we get
   EXPECT_LT(mean_square(*b, field), 2 * mean_square(*a, field));
+  EXPECT_LT(b->num_planes(), a->num_planes() / 2);  // components of what is coded, no more
+  EXPECT_EQ(b->components.size(), b->num_points() * std::size_t(b->num_planes()));
   const auto info = read_info(*transformed);
   ASSERT_TRUE(info);
   ASSERT_FALSE(info->transforms.empty());

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "lightfield/nodes.h"
+#include "slf/given_planes.h"
 #include "slf/view_map.h"
 
 namespace slf {
@@ -153,6 +154,93 @@ TEST(Spec_6_4_Frame, ReflectedIsTheGlobalOneAtTheMirroredDirection) {
       const auto b = global.radiance_unclamped(p, turned, gamma);
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.02);
     }
+}
+
+/// Components of function 0, mixed in their channels, and of `rank` sums of all others; of the
+/// first planes as given_planes makes them, finely enough for their rounding not to matter.
+struct SummedField {
+  LightField field, planes;
+};
+SummedField summed_field(const Basis& basis, std::size_t rank, bool joint, std::size_t points) {
+  constexpr int kShift = 12;
+  std::mt19937 random(7);
+  const auto symmetric = [&](std::int32_t most) {
+    return static_cast<std::int32_t>(random() % (2u * static_cast<std::uint32_t>(most) + 1)) - most;
+  };
+  SummedField made;
+  LightFieldHeader& header = made.field.header;
+  header.basis = basis;
+  header.colour = ColourTransform::kOpponent;
+  header.num_functions = basis.num_functions();
+  header.shift.assign(static_cast<std::size_t>(header.num_functions), kShift);
+  PlaneTransform mean, others;
+  mean.functions = {0};
+  mean.rank = 1;
+  mean.colour = {{{400, 300, -20}, {-300, 390, 100}, {50, -80, 500}}};
+  mean.matrix = {17000};
+  mean.components = {0};
+  header.coded = {0};
+  for (int k = 1; k < header.num_functions; ++k)
+    others.functions.push_back(static_cast<std::uint16_t>(k));
+  others.rank = rank;
+  others.lanes = joint ? 1 : 3;
+  for (std::uint16_t r = 1; r <= rank; ++r) {
+    others.components.push_back(r);
+    header.coded.push_back(r);
+  }
+  for (std::size_t i = 0; i < others.rows() * others.columns(); ++i)
+    others.matrix.push_back(symmetric(6000 / static_cast<std::int32_t>(std::sqrt(others.rows()))));
+  header.transforms = {mean, others};
+  for (std::size_t p = 0; p < points; ++p) {
+    made.field.positions.push_back({static_cast<std::int32_t>(p), 0, 0});
+    for (std::size_t i = 0; i < 3 * (rank + 1); ++i)
+      made.field.components.push_back((i < 3 ? 100 << kShift : 0) + symmetric(40 << kShift));
+  }
+  made.planes = made.field;
+  made.planes.components = given_planes(made.field);
+  made.planes.header.coded.clear();
+  made.planes.header.transforms.clear();
+  return made;
+}
+
+TEST(ViewMapsOfCodedFunctions, GiveTheSumOverTheGivenPlanes) {
+  for (const Basis& basis :
+       {Basis{BasisId::kHarmonics, 2, 0, 0, 10}, Basis{BasisId::kHarmonics, 2, 0, 0, 3},
+        Basis{BasisId::kBspline, 3, 3, 2}})
+    for (const bool joint : {false, true}) {
+      const SummedField made = summed_field(basis, 7, joint, 16);
+      const ViewMaps maps(made.field), plain(made.planes);
+      for (std::size_t p = 0; p < 16; ++p)
+        for (const auto& [theta, gamma] : {std::pair{0.3f, -0.2f}, {-3.0f, 0.99f}, {1.7f, -1.0f}}) {
+          const auto expected =
+              plain_sum(made.planes, p, static_cast<double>(theta), static_cast<double>(gamma));
+          const auto rgb = maps.radiance_unclamped(p, theta, gamma);
+          for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(static_cast<double>(rgb[c]), expected[c], 1.0 / 16);
+        }
+      for (std::size_t p = 0; p < 16; ++p)
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(maps.mean(p)[c], plain.mean(p)[c], 0.02);
+    }
+}
+
+TEST(ViewMapsOfCodedFunctions, ManyAtOnceAreWithinAFiftiethOfOneByOne) {
+  const SummedField made = summed_field({BasisId::kHarmonics, 2, 0, 0, 10}, 30, false, 64);
+  const ViewMaps maps(made.field);
+  std::vector<std::uint32_t> points(64);
+  for (std::uint32_t p = 0; p < points.size(); ++p) points[p] = p;
+  std::vector<std::array<float, 3>> colours(64);
+  std::mt19937 random(1);
+  for (int view = 0; view < 50; ++view) {
+    Vec3 eye;
+    for (double& x : eye) x = static_cast<double>(random() % 2001) / 10 - 100;
+    maps.radiances(eye, points, colours);
+    for (const std::uint32_t p : points) {
+      const auto [theta, gamma] =
+          direction_of({eye[0] - made.field.positions[p][0], eye[1], eye[2]});
+      const auto expected = maps.radiance(p, theta, gamma);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colours[p][c], expected[c], 0.02);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -66,6 +66,7 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
   json["metres_per_unit"] = h.metres_per_unit;
   json["num_functions"] = h.num_functions;
   json["shift"] = h.shift;
+  json["num_components"] = h.num_components();
   json["has_basis"] = h.has_basis && h.num_functions > 0;
   if (!h.has_basis || h.num_functions == 0) return json;
   if (h.basis.id == BasisId::kHarmonics) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slf/given_planes.h"
 #include "slf/normals.h"
 #include "slf/view_map.h"
 #include "tools/describe.h"
@@ -57,20 +58,43 @@ PointCloud mean_cloud(const LightField& field, int threads) {
   return cloud;
 }
 
-Outcome dump(const LightField& field, const std::string& directory) {
+Outcome dump(const LightField& field, bool planes, const std::string& directory) {
   SLF_CHECK(make_directory(directory));
   const std::size_t points = field.num_points();
-  const auto functions = static_cast<std::size_t>(field.header.num_functions);
+  const auto functions = static_cast<std::size_t>(field.header.num_functions),
+             components = static_cast<std::size_t>(field.header.num_components());
   const std::span<const std::int32_t> positions(points == 0 ? nullptr : field.positions[0].data(),
                                                 3 * points);
   SLF_CHECK(save_array(directory, "positions.npy", npy_file({points, 3}, positions)));
   SLF_CHECK(save_array(directory, "components.npy",
-                       npy_file({points, functions, 3}, std::span(field.components))));
+                       npy_file({points, components, 3}, std::span(field.components))));
+  if (planes) {
+    const std::vector<std::int32_t> given = given_planes(field);
+    SLF_CHECK(
+        save_array(directory, "planes.npy", npy_file({points, functions, 3}, std::span(given))));
+  }
   if (field.normals.bits > 0) {
     const std::span<const std::uint16_t> normals(field.normals.octahedral[0].data(), 2 * points);
     SLF_CHECK(save_array(directory, "octahedral.npy", npy_file({points, 2}, normals)));
   }
   nlohmann::ordered_json json = header_json(field.header);
+  std::vector<int> coded(components);
+  for (std::size_t r = 0; r < components; ++r)
+    coded[r] = field.header.coded.empty() ? static_cast<int>(r) : field.header.coded[r];
+  json["component_function"] = coded;
+  json["transforms"] = nlohmann::ordered_json::array();
+  for (const PlaneTransform& t : field.header.transforms) {
+    const std::string name = "matrix" + std::to_string(json["transforms"].size()) + ".npy";
+    const std::size_t columns = t.components.size() * 3 / t.lanes;
+    json["transforms"].push_back({{"functions", t.functions},
+                                  {"components", t.components},
+                                  {"joint", t.lanes == 1},
+                                  {"colour", t.colour},
+                                  {"matrix", name}});
+    SLF_CHECK(
+        save_array(directory, name.c_str(),
+                   npy_file({columns, t.rows()}, std::span(t.matrix.data(), columns * t.rows()))));
+  }
   json["points"] = points;
   json["normal_bits"] = field.normals.bits;
   json["partial"] = field.partial;

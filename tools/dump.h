@@ -15,6 +15,6 @@ PointCloud mean_cloud(const LightField& field, int threads);
 
 /// Writes positions.npy, components.npy, octahedral.npy where normals are coded, light_field.json.
 /// light_field.json comes last: a dump cut short has none.
-Outcome dump(const LightField& field, const std::string& directory);
+Outcome dump(const LightField& field, bool planes, const std::string& directory);
 
 }  // namespace slf::tools

@@ -13,6 +13,7 @@ namespace {
 
 struct DecodeVerbOptions {
   std::string input, output, dump;
+  bool planes = false;
   PartOptions part;
   CommonOptions common;
 };
@@ -21,6 +22,7 @@ nlohmann::ordered_json report_json(const DecodedFile& decoded) {
   return {{"bytes", decoded.bytes},
           {"points", decoded.field.num_points()},
           {"functions", decoded.field.header.num_functions},
+          {"components", decoded.field.header.num_components()},
           {"grid_bits", decoded.field.header.grid.bits},
           {"partial", decoded.field.partial},
           {"seconds", decoded.seconds}};
@@ -29,13 +31,15 @@ nlohmann::ordered_json report_json(const DecodedFile& decoded) {
 Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.output.empty() && given.dump.empty())
     return Failure{kUsage, "decode: --output or --dump is missing"};
+  if (given.planes && given.dump.empty())
+    return Failure{kUsage, "decode: --planes goes with --dump"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "decode: --json and --output - both want standard output"};
   if (!given.output.empty()) SLF_CHECK(check_output(given.output));
   SLF_TRY(const DecodedFile decoded, decode_file(given.input, given.part, given.common.threads));
   if (!given.output.empty())
     SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
-  if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.dump));
+  if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.planes, given.dump));
   if (given.common.json) return print(report_json(decoded));
   if (!given.common.quiet)
     std::fprintf(stderr, "%s points, %d functions%s, decoded in %.3f s\n",
@@ -59,9 +63,13 @@ void add_decode(CLI::App& program, Run& run) {
       ->type_name("FILE");
   verb->add_option(
           "--dump", o->dump,
-          "Directory for positions.npy [P,3], components.npy [P,K,3] (int32), octahedral.npy "
-          "[P,2] where normals are coded, and light_field.json (what the integers mean)")
+          "Directory for positions.npy [P,3], components.npy [P,R,3] (int32), octahedral.npy "
+          "[P,2] where normals are coded, matrix0.npy and on where functions are coded by others, "
+          "and light_field.json (what the integers mean)")
       ->type_name("DIR");
+  verb->add_flag(
+      "--planes", o->planes,
+      "With --dump, planes.npy [P,K,3] too: those given to pack, made of the components");
   add_part(*verb, o->part);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "slf/plane_transform.h"
+
 namespace slf {
 
 using Voxel = std::array<std::int32_t, 3>;  ///< x, y, z; 0 .. 2^bits - 1
@@ -82,7 +84,16 @@ struct LightFieldHeader {
   int gamma_max_q7 = 127;
   int num_functions = 0;   ///< K; basis.num_functions(), or any K for planes without a meaning
   bool has_basis = true;   ///< false: integer planes without a meaning (slf pack); K may be 0
-  std::vector<int> shift;  ///< [K] component = round(coefficient * 2^shift), 0 .. 15
+  std::vector<int> shift;  ///< [K] plane = round(coefficient * 2^shift), 0 .. 15
+  /// [R] the function in whose place component r stands, ascending; empty: all K, r = k. Without a
+  /// transform over it, it is that function.
+  std::vector<std::uint16_t> coded;
+  std::vector<PlaneTransform> transforms;  ///< what the other components are; spec 8.7.5
+
+  /// R
+  int num_components() const {
+    return coded.empty() ? num_functions : static_cast<int>(coded.size());
+  }
 };
 
 /// Normals as coded: octahedral map, two components of `bits` bits each.
@@ -95,12 +106,12 @@ struct CodedNormals {
 struct LightField {
   LightFieldHeader header;
   std::vector<Voxel> positions;          ///< [P], Morton order (x least significant), no duplicates
-  std::vector<std::int32_t> components;  ///< [P][K][3], row-major; K = header.num_functions
+  std::vector<std::int32_t> components;  ///< [P][R][3], row-major; R = header.num_components()
   CodedNormals normals;
   bool partial = false;  ///< units were missing or left out; absent coefficients count as zero
 
   std::size_t num_points() const { return positions.size(); }
-  int num_planes() const { return 3 * header.num_functions; }
+  int num_planes() const { return 3 * header.num_components(); }
 };
 
 /// Key-value pairs carried in the metadata unit: source, encoder settings, suggested cameras.

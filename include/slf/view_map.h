@@ -24,18 +24,22 @@ std::vector<double> basis_norms(const Basis& basis);
 /// The 3 x 3 matrix that takes coded channels to R, G, B. Spec 6.5. Its transpose goes back.
 std::array<std::array<double, 3>, 3> colour_matrix(ColourTransform transform);
 
+class FunctionTable;
 class Harmonics;
 
-/// View maps ready to be looked at: for order o the coefficients of periodic B-splines of order o
-/// on a 2^s0 x 2^s1 grid, in R, G, B, so that one radiance takes o * o fetches whatever K.
+/// View maps ready to be looked at, in R, G, B: the weights of the R coded functions, which are
+/// looked up in a table over direction; or, for B-splines of order o that no transform codes, the
+/// coefficients of periodic B-splines of order o on a 2^s0 x 2^s1 grid, so that one radiance takes
+/// o * o fetches whatever K.
 class ViewMaps {
  public:
-  /// Converts once; O(P K). The light field must have a basis (header.has_basis).
+  /// Converts once; O(P R), with a joint transform O(P K R). The light field must have a basis
+  /// (header.has_basis).
   explicit ViewMaps(const LightField& light_field, int threads = 0);
 
   /// R, G, B of point p seen along (θ, γ) (from the point to the eye), of the header's transfer.
   /// γ is first clamped to the header's range; the result to 0 .. 255. Agrees with the sum over the
-  /// basis functions within 1/256 grey level (header.shift aside).
+  /// functions within 1/256 grey level, where they are looked up within 1/50.
   std::array<float, 3> radiance(std::size_t p, float theta, float gamma) const;
   /// The same of many points seen from a place in the world; quicker, and within 1/50 grey level.
   /// @param colours  [points] receives R, G, B
@@ -58,9 +62,11 @@ class ViewMaps {
   std::array<float, 3> sum_of_functions(std::size_t p, const std::array<float, 2>& direction) const;
   std::array<float, 3> seen_from(std::size_t p, const Vec3& eye) const;
 
-  std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][K][3] harmonic coefficients
+  std::size_t width_ = 0;     // K or R
+  std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][R][3] weights of functions
   std::vector<std::array<float, 3>> frame_normals_;  // [P], or empty: global frame
-  std::shared_ptr<const Harmonics> harmonics_;       // where the basis is harmonics
+  std::shared_ptr<const Harmonics> harmonics_;       // where the functions are harmonics
+  std::shared_ptr<const FunctionTable> table_;       // where they are sums
   std::vector<std::array<float, 3>> mean_;
 };
 

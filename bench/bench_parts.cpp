@@ -1,0 +1,127 @@
+// What parts of a file cost beside the whole: bench_parts FILE.slf [RUNS]
+//
+// For every number of levels, and some of groups: points and bytes that come out, user seconds (the
+// least of RUNS, one thread) and their share of the whole's, and the peak memory of a process that
+// decodes once beside 1.5 times the output and 64 MiB.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "bench/stopwatch.h"
+#include "slf/decoder.h"
+#include "slf/encoder.h"
+
+namespace {
+
+using namespace slf;
+
+/// What a child process says of its decodes.
+struct Cost {
+  double points = 0, bytes = 0, seconds = 1e9, peak = 0;
+};
+
+double user_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_utime.tv_sec) + double(usage.ru_utime.tv_usec) * 1e-6;
+}
+
+double output_bytes(const LightField& field) {
+  return double(field.positions.size() * sizeof(Voxel) +
+                field.components.size() * sizeof(std::int32_t) +
+                field.normals.octahedral.size() * sizeof(field.normals.octahedral[0]));
+}
+
+/// A process of its own, so that its peak is that of this decode.
+Cost measure(const std::vector<std::uint8_t>& stream, const DecodeOptions& options, int runs) {
+  int ends[2];
+  Cost cost;
+  if (pipe(ends) != 0) return cost;
+  const pid_t child = fork();
+  if (child == 0) {
+    for (int i = 0; i < runs; ++i) {
+      const double start = user_seconds();
+      const auto field = decode(stream, options);
+      cost.seconds = std::min(cost.seconds, user_seconds() - start);
+      if (!field) continue;
+      cost.points = double(field->num_points());
+      cost.bytes = output_bytes(*field);
+    }
+    _exit(write(ends[1], &cost, sizeof cost) == sizeof cost ? 0 : 1);
+  }
+  close(ends[1]);
+  const bool told = child > 0 && read(ends[0], &cost, sizeof cost) == sizeof cost;
+  close(ends[0]);
+  rusage usage{};
+  if (child > 0) wait4(child, nullptr, 0, &usage);
+  cost.peak = told ? double(usage.ru_maxrss) * 1024 : 0;
+  return cost;
+}
+
+void print_row(const std::string& part, const Cost& cost, double whole) {
+  constexpr double kMiB = 1 << 20;
+  std::printf("%-18s %9.0f %9.1f %8.3f %6.1f %% %9.1f %9.1f\n", part.c_str(), cost.points,
+              cost.bytes / kMiB, cost.seconds, 100 * cost.seconds / whole, cost.peak / kMiB,
+              1.5 * cost.bytes / kMiB + 64);
+}
+
+/// The positions alone, as a file of their own.
+Cost geometry_alone(const std::vector<std::uint8_t>& stream, int runs) {
+  auto field = decode(stream);
+  if (!field) return {};
+  field->header.num_functions = 0;
+  field->header.has_basis = false;
+  field->header.coded.clear();
+  field->header.transforms.clear();
+  field->header.shift.clear();
+  field->components.clear();
+  field->normals = {};
+  const auto packed = pack(*field, {});
+  *field = {};
+  return packed ? measure(*packed, {}, runs) : Cost{};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto bytes =
+      argc > 1
+          ? read_file(argv[1])
+          : Result<std::vector<std::uint8_t>, InputError>(InputError{Errc::kInvalidArgument, ""});
+  const int runs = argc > 2 ? std::max(std::atoi(argv[2]), 1) : 5;
+  if (!bytes) {
+    std::fprintf(stderr, "usage: bench_parts FILE.slf [RUNS]\n");
+    return 2;
+  }
+  const auto info = read_info(*bytes);
+  if (!info) return 1;
+  std::printf("%-18s %9s %9s %8s %8s %9s %9s\n", "part", "points", "out MiB", "user s", "share",
+              "peak MiB", "limit MiB");
+  const Cost whole = measure(*bytes, {}, runs);
+  print_row("whole", whole, whole.seconds);
+  print_row("geometry alone", geometry_alone(*bytes, runs), whole.seconds);
+  DecodeOptions options;
+  for (options.groups = 1; options.groups < info->num_groups; ++options.groups)
+    print_row("groups " + std::to_string(options.groups), measure(*bytes, options, runs),
+              whole.seconds);
+  options.groups = 0;
+  const int bits = info->header.grid.bits;
+  for (options.levels = bits - 1; options.levels >= 1 && options.levels > bits - 6;
+       --options.levels)
+    print_row("levels " + std::to_string(options.levels), measure(*bytes, options, runs),
+              whole.seconds);
+  options.levels = bits - 1;
+  options.groups = info->num_groups > 0 ? 1 : 0;
+  print_row("levels -1, group 0", measure(*bytes, options, runs), whole.seconds);
+  options = {};
+  for (const int share : {50, 25, 10}) {
+    options.max_bytes = bytes->size() * static_cast<std::uint64_t>(share) / 100;
+    print_row("first " + std::to_string(share) + " %", measure(*bytes, options, runs),
+              whole.seconds);
+  }
+}
