@@ -11,7 +11,7 @@
 
 namespace slf {
 
-inline constexpr int kVersionMajor = 0, kVersionMinor = 3;
+inline constexpr int kVersionMajor = 0, kVersionMinor = 4;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
