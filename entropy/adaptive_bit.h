@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "entropy/logistic.h"
-
 namespace slf {
 
 inline constexpr int kProbabilityBits = 16;  ///< probabilities handed to the range coder
@@ -21,8 +19,6 @@ class AdaptiveBit {
     return p == 0 ? 1 : p;
   }
   std::uint32_t count() const { return state_ & 1023; }
-  /// What a mixer is given: 0 of a context never seen.
-  int logistic() const { return count() == 0 ? 0 : stretch(state_ >> 16); }
 
   /// limit: 1 .. 1023.
   void update(unsigned bit, std::uint32_t limit) {

@@ -1,12 +1,10 @@
-// Mixing of several predictions of one decision in the logistic domain, in integers. Spec 8.3.3.
+// Probabilities and their logistic values, in integers. Spec 8.3.3.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include "bitstream/multiversion.h"
 
 namespace slf {
 
@@ -52,54 +50,5 @@ inline constexpr std::array<std::int16_t, 4096> kStretch = [] {
 }();
 
 inline int stretch(std::uint32_t p1) { return kStretch[p1 >> 4]; }  // p1 < 65536
-
-/// Calls body(0 .. kInputs - 1). A loop over few inputs is fastest unrolled: a vector of values
-/// that were just stored one by one would have to wait for them.
-template <std::size_t kInputs, class Body>
-void for_inputs(Body body) {
-  if constexpr (kInputs < 8) {
-    for (std::size_t i = 0; i < kInputs; ++i) body(i);
-  } else {
-    SLF_VECTORISE
-    for (std::size_t i = 0; i < kInputs; ++i) body(i);
-  }
-}
-
-/// The logistic value that weights gave, and what learning from the decision needs.
-struct Mixed {
-  static constexpr std::int32_t kWeightLimit = 1 << 22;
-
-  std::int32_t* weights;
-  int logistic;
-
-  /// Moves the weights along the gradient of the code length. rate: 8, 16, .. 40, a multiple of 8
-  /// so that (input * error * rate + 2^19) >> 20 needs 32 bits; |input| <= 2815.
-  template <std::size_t kInputs>
-  void update(const std::array<int, kInputs>& inputs, unsigned bit, int rate) const {
-    const int error = ((bit ? 65536 : 0) - squash(logistic)) * (rate / 8);
-    for_inputs<kInputs>([w = weights, in = inputs.data(), error](std::size_t i) {
-      w[i] = std::clamp(w[i] + ((in[i] * error + (1 << 16)) >> 17), -kWeightLimit, kWeightLimit);
-    });
-  }
-};
-
-/// A set of weight vectors of which a context selects one; the weighted sum of logistic
-/// predictions.
-template <std::size_t kInputs, std::size_t kSets>
-class Mixer {
- public:
-  explicit Mixer(int first_weight_q16) { weights_.fill(first_weight_q16); }
-
-  Mixed mix(const std::array<int, kInputs>& inputs, std::size_t set) {
-    std::int32_t* weights = &weights_[set * kInputs];
-    std::int64_t sum = 0;
-    for_inputs<kInputs>([&](std::size_t i) { sum += std::int64_t{weights[i]} * inputs[i]; });
-    sum = std::clamp<std::int64_t>(sum >> 16, -kLogisticLimit, kLogisticLimit);
-    return {weights, static_cast<int>(sum)};
-  }
-
- private:
-  std::array<std::int32_t, kInputs * kSets> weights_;
-};
 
 }  // namespace slf

@@ -26,12 +26,10 @@ class RangeDecoder {
     // Invariant: code_ < range_ and 2^24 <= range_, so 0 < bound < range_.
     const std::uint32_t bound = (range_ >> kProbabilityBits) * p1;
     const unsigned value = code_ < bound;
-    if (value) {
-      range_ = bound;
-    } else {
-      code_ -= bound;
-      range_ -= bound;
-    }
+    const std::uint32_t one =
+        0u - value;  // a mask: most decisions are hard to foresee for a branch
+    code_ -= bound & ~one;
+    range_ = (bound & one) | ((range_ - bound) & ~one);
     while (range_ < kMinRange) {
       range_ <<= 8;
       code_ = code_ << 8 | next_byte();

@@ -19,32 +19,47 @@ unsigned occupied_columns(unsigned o, unsigned axis) {
 
 }  // namespace
 
-OccupancyModel::OccupancyModel(std::uint64_t points) {
+OccupancyModel::OccupancyModel(std::uint64_t points)
+    : faces_(std::size_t{1} << kFacesBits),
+      corner_(std::size_t{1} << kCornerBits),
+      counts_(std::size_t{1} << kCountsBits),
+      halves_(std::size_t{1} << kHalvesBits) {
   const int useful = std::max(static_cast<int>(std::bit_width(points)) + 4, 10);
   hashed_bits_ = std::min(kMostHashedBits, useful);
-  for (std::size_t i = 0; i < kContexts; ++i)
-    contexts_[i].resize(std::size_t{1} << (kContextBits[i] > 0 ? kContextBits[i] : hashed_bits_));
+  for (auto& contexts : hashed_) contexts.resize(std::size_t{1} << hashed_bits_);
 }
 
-OccupancyModel::Node OccupancyModel::node_context(const OctreeLevel& nodes, std::size_t n) {
+OccupancyModel::Node OccupancyModel::node_contexts(const OctreeLevel& nodes, std::size_t n) {
   Node node;
-  for (std::size_t d = 0; d < 27; ++d) {
-    const std::int32_t neighbour = nodes.neighbours[n][d];
-    if (neighbour < 0 || d == kSelf) continue;
-    node.neighbours |= 1u << d;
-    const WindowPart& part = kWindowParts[d];
-    if (static_cast<std::size_t>(neighbour) >= n) {
-      node.unknown |= part.all;
-      continue;
-    }
-    const unsigned occupancy = nodes.occupancy[static_cast<std::size_t>(neighbour)];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(part.size); ++i)
-      if (occupancy >> part.child[i] & 1u) node.occupied |= part.bit[i];
+  const std::uint32_t neighbours = nodes.around[n];
+  Window occupied = 0, unknown = 0;
+  for (std::uint32_t left = neighbours; left != 0; left &= left - 1) {
+    const auto d = static_cast<std::size_t>(std::countr_zero(left));
+    const unsigned occupancy = nodes.occupancy[static_cast<std::size_t>(nodes.neighbours[n][d])];
+    occupied |= std::rotl(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
+    unknown |= occupancy == 0 ? kWindowParts[d] : 0;
   }
   const auto latest = history_.at(nodes.morton[n]);
+  node.halves = 0;
+  std::uint64_t columns = 1;
   for (unsigned axis = 0; axis < 3; ++axis) {
     node.halves |= occupied_halves(latest[axis], axis) << (2 * axis);
-    node.columns[axis] = occupied_columns(latest[3 + axis], axis);
+    columns = columns << 4 | occupied_columns(latest[3 + axis], axis);
+  }
+  node.neighbours_class = std::min(static_cast<std::uint32_t>(std::popcount(neighbours)) / 3, 7u);
+  node.neighbours = neighbours * kFactorA;
+  node.columns = columns * kFactorA;
+  node.neighbours_group = group(kByNeighbours, node.neighbours, 0, 4);
+  node.columns_group = group(kByColumns, node.columns, 0, 4);
+  for (unsigned c = 0; c < 8; ++c) {
+    Child& child = node.child[c];
+    const Surroundings around = surroundings(occupied, unknown, c);
+    child.faces = outer_faces_of(around, c);
+    child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
+    child.unknown = static_cast<unsigned>(std::popcount(around.unknown));
+    child.corner = corner_of(neighbours, c);
+    child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
+    if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
   }
   return node;
 }

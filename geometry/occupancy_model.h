@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bitstream/prefetch.h"
-#include "entropy/adaptive_bit.h"
-#include "entropy/logistic.h"
+#include "entropy/context_bit.h"
+#include "entropy/mixer.h"
 #include "geometry/occupancy_history.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
@@ -27,136 +27,128 @@ class OccupancyModel {
     level_ = static_cast<std::uint32_t>(level);
   }
 
-  /// Codes the occupancy of node n. The nodes before it are known. The encoder passes the
-  /// occupancy, the decoder 0; both get it back: 1 .. 255.
+  /// Codes the occupancy of node n. The nodes before it are known, those from n on have 0. The
+  /// encoder passes the occupancy, the decoder 0; both get it back: 1 .. 255.
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
-    const Node node = node_context(nodes, n);
-    std::array<HashedContexts, 2> hashed{hashed_contexts(node, 0, 0)};
-    unsigned coded = 0, bit = 0;
-    for (unsigned child = 0; child < 8; ++child) {
-      if (child == 7 && coded == 0) {  // a node has a child: it must be the last
-        coded = 1u << 7;
-        break;
-      }
-      const HashedContexts own = hashed[bit];
-      if (child < 7)  // whatever the decision will be, the next contexts are on their way
-        for (unsigned either = 0; either < 2; ++either)
-          hashed[either] = hashed_contexts(node, child + 1, coded | either << child);
-      Prediction prediction = predict(node, child, coded, own);
-      bit = coder.bit(prediction.p1, occupancy >> child & 1u);
-      prediction.update(bit);
-      coded |= bit << child;
-    }
+    Node node = node_contexts(nodes, n);
+    unsigned coded = 0;
+    code_child<0>(coder, node, coded, occupancy);
+    code_child<1>(coder, node, coded, occupancy);
+    code_child<2>(coder, node, coded, occupancy);
+    code_child<3>(coder, node, coded, occupancy);
+    code_child<4>(coder, node, coded, occupancy);
+    code_child<5>(coder, node, coded, occupancy);
+    code_child<6>(coder, node, coded, occupancy);
+    if (coded == 0)
+      coded = 1u << 7;  // a node has a child: it must be the last
+    else
+      code_child<7>(coder, node, coded, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
+    rate_ = static_cast<std::int32_t>(kFirstRate -
+                                      std::min(++num_nodes_ >> 13, kFirstRate - kLastRate));
     return static_cast<std::uint8_t>(coded);
   }
 
  private:
-  static constexpr std::size_t kContexts = 11;
-  static constexpr std::size_t kInputs = kContexts + 1;  // and a constant
-  /// log2 of the number of contexts of each prediction; 0: hashed. Spec table 8-3.
-  static constexpr std::array<int, kContexts> kContextBits = {11, 15, 0,  0,  15, 14,
-                                                              0,  12, 12, 12, 0};
+  /// log2 of the number of contexts of each table that is not hashed. Spec table 8-3.
+  static constexpr int kFacesBits = 11, kCornerBits = 15, kCountsBits = 15, kHalvesBits = 14;
   static constexpr int kMostHashedBits = 18;
-  static constexpr std::size_t kHashed = 4;
-  using HashedContexts = std::array<std::uint32_t, kHashed>;
+  static constexpr std::uint32_t kHashed = 3;
 
-  // Found on the clouds of docs/rate.md, as the rate.
-  static constexpr int kFirstWeight = 8000;  // of 65536
-  static constexpr int kMixerRate = 32;
-  static constexpr std::uint32_t kCountLimit = 255;
+  // Found on the clouds of docs/rate.md.
+  static constexpr std::int16_t kFirstWeight = 900;  // of 8192
+  static constexpr std::uint32_t kFirstRate = 8, kLastRate = 5;
+
+  /// What is known of a child before its node is coded, and where its contexts are.
+  struct Child {
+    unsigned faces;     ///< those outside the node
+    unsigned occupied;  ///< number of cells around it, outside the node
+    unsigned unknown;
+    unsigned corner;
+    std::uint64_t cells;  ///< hash of the cells around it outside the node
+    std::uint32_t group;  ///< of 8 contexts by those cells and all but its last 3 siblings
+  };
 
   /// What the decisions of one node have in common.
   struct Node {
-    std::uint32_t neighbours = 0;  // bit d: the neighbour in direction d is occupied
-    Window occupied = 0;           // cells known to be occupied
-    Window unknown = 0;            // cells of neighbours that are not coded yet
-    std::uint32_t halves = 0;      // history along x, y, z: which halves were occupied, 2 bits each
-    std::array<std::uint32_t, 3> columns{};  // history of (y,z), (x,z), (x,y), 4 bits each
+    std::array<Child, 8> child;
+    std::uint32_t neighbours_class;
+    std::uint32_t halves;  // history along x, y, z: which halves were occupied, 2 bits each
+    std::uint64_t neighbours, columns;              // hashes of them
+    std::uint32_t neighbours_group, columns_group;  // of the contexts of four children
+    std::uint32_t next_neighbours_group, next_columns_group;
   };
 
-  struct Prediction {
-    std::array<AdaptiveBit*, kContexts> contexts;
-    std::array<int, kInputs> inputs;
-    std::array<Mixed, 3> mixed;
-    std::uint32_t p1;
+  /// Rows of table 8-3.
+  enum Hashed { kByNeighbours, kByColumns, kByCells };
 
-    void update(unsigned bit) {
-      for (const Mixed& mixer : mixed) mixer.update(inputs, bit, kMixerRate);
-      for (AdaptiveBit* context : contexts) context->update(bit, kCountLimit);
-    }
-  };
+  static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
-  Node node_context(const OctreeLevel& nodes, std::size_t n);
+  Node node_contexts(const OctreeLevel& nodes, std::size_t n);
 
-  /// Spec 8.4.4. Their tables do not fit a near cache.
-  std::uint32_t hashed_context(std::size_t which, std::uint64_t a, std::uint64_t b) const {
-    std::uint64_t h = a * 0x9E3779B97F4A7C15u + b * 0xC2B2AE3D27D4EB4Fu;
-    h = (h ^ h >> 32) * 0x9E3779B97F4A7C15u;
-    const auto context = static_cast<std::uint32_t>(h >> (64 - hashed_bits_));
-    prefetch(&contexts_[which][context]);
-    return context;
+  /// Spec 8.4.4: the first of a group of 2^size_log2 hashed contexts, on its way to the cache.
+  std::uint32_t group(Hashed which, std::uint64_t a, unsigned coded, int size_log2) const {
+    std::uint64_t h = a + coded * kFactorB;
+    h = (h ^ h >> 32) * kFactorA;
+    const std::uint32_t first =
+        static_cast<std::uint32_t>(h >> (64 - hashed_bits_)) >> size_log2 << size_log2;
+    prefetch(&hashed_[which][first]);
+    return first;
   }
 
-  /// Rows 2, 3, 6 and 10 of table 8-3.
-  HashedContexts hashed_contexts(const Node& node, unsigned child, unsigned coded) const {
-    const auto& column = node.columns;
-    const unsigned siblings = 1u << child | coded;
-    const auto [occupied, unknown] =
-        surroundings(node.occupied | kOwnCells[coded], node.unknown, child);
-    return {hashed_context(2, node.neighbours, siblings),
-            hashed_context(3, occupied & kFacesAndEdges, (unknown & kFacesAndEdges) << 3 | child),
-            hashed_context(6, column[0] << 8 | column[1] << 4 | column[2], siblings),
-            hashed_context(10, occupied, unknown << 3 | child)};
-  }
-
-  Prediction predict(const Node& node, unsigned child, unsigned coded,
-                     const HashedContexts& hashed) {
-    const unsigned siblings = 1u << child | coded;  // 1 .. 255: which child, the ones before it
-    const Surroundings around = surroundings(node.occupied | kOwnCells[coded], node.unknown, child);
-    const unsigned faces = faces_of(around, child);
-    const auto num_occupied = static_cast<unsigned>(std::popcount(around.occupied));
-    const auto num_unknown = static_cast<unsigned>(std::popcount(around.unknown));
-    const auto num_siblings = std::min(static_cast<unsigned>(std::popcount(coded)), 3u);
-    const auto num_neighbours = static_cast<unsigned>(std::popcount(node.neighbours));
-    const std::array<std::uint32_t, kContexts> index = {
+  template <unsigned c, class Coder>
+  void code_child(Coder& coder, Node& node, unsigned& coded, unsigned occupancy) {
+    const Child& child = node.child[c];
+    const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
+    const auto num_siblings = static_cast<unsigned>(std::popcount(coded));
+    const unsigned faces = child.faces | (coded >> (c ^ 1) & 1) | (coded >> (c ^ 2) & 1) << 1 |
+                           (coded >> (c ^ 4) & 1) << 2;
+    const unsigned occupied = child.occupied + num_siblings;
+    // Groups by node hold four children's contexts, those by cells the last three siblings'.
+    const unsigned in_node = c < 4 ? siblings : (coded & 8) << 1 | 1u << (c & 3) | coded >> 4;
+    const unsigned in_cells = c < 4 ? coded : coded >> (c - 3);
+    const std::array<ContextBit*, 7> contexts = {
         // spec table 8-3
-        faces * 8 + child,
-        siblings << 7 | corner_of(node.neighbours, child),
-        hashed[0],
-        hashed[1],
-        ((num_occupied * 27 + num_unknown) * 8 + child) * 4 + num_siblings,
-        node.halves << 8 | siblings,
-        hashed[2],
-        node.columns[0] << 8 | siblings,
-        node.columns[1] << 8 | siblings,
-        node.columns[2] << 8 | siblings,
-        hashed[3]};
-    Prediction prediction;
-    for (std::size_t i = 0; i < kContexts; ++i) {
-      AdaptiveBit& context = contexts_[i][index[i]];
-      prediction.contexts[i] = &context;
-      prediction.inputs[i] = context.logistic();
+        &faces_[faces * 8 + c],
+        &corner_[siblings << 7 | child.corner],
+        &hashed_[kByNeighbours][node.neighbours_group + in_node],
+        &counts_[((occupied * 27 + child.unknown) * 8 + c) * 4 + std::min(num_siblings, 3u)],
+        &halves_[node.halves << 8 | siblings],
+        &hashed_[kByColumns][node.columns_group + in_node],
+        &hashed_[kByCells][child.group + in_cells]};
+    const EightLanes inputs(std::array<std::int16_t, EightLanes::kCount>{
+        contexts[0]->logistic(), contexts[1]->logistic(), contexts[2]->logistic(),
+        contexts[3]->logistic(), contexts[4]->logistic(), contexts[5]->logistic(),
+        contexts[6]->logistic(), 256});
+    const Mixed<3> mixed(inputs, {&by_siblings_[siblings * 8 + node.neighbours_class],
+                                  &by_density_[occupied * 22 + level_], &by_faces_[faces]});
+    const unsigned bit = coder.bit(mixed.p1(), occupancy >> c & 1u);
+    mixed.update(bit, rate_);
+    for (ContextBit* const context : contexts) context->update(bit);
+    coded |= bit << c;
+    // Where the later contexts are is known long before their turn.
+    if constexpr (c < 4)
+      node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
+    if constexpr (c == 2) {
+      node.next_neighbours_group = group(kByNeighbours, node.neighbours, 8 | coded, 5);
+      node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
     }
-    prediction.inputs[kContexts] = 256;
-    prediction.mixed = {
-        by_siblings_.mix(prediction.inputs, siblings * 8 + std::min(num_neighbours / 3, 7u)),
-        by_density_.mix(prediction.inputs, num_occupied * 22 + level_),
-        by_faces_.mix(prediction.inputs, faces)};
-    int sum = 0;
-    for (const Mixed& mixed : prediction.mixed) sum += mixed.logistic;
-    prediction.p1 = static_cast<std::uint32_t>(std::clamp(squash(sum / 3), 1, 65535));
-    return prediction;
+    if constexpr (c == 3) {
+      node.neighbours_group = node.next_neighbours_group;
+      node.columns_group = node.next_columns_group;
+    }
   }
 
   OccupancyHistory history_;
-  std::uint32_t level_ = 0;
-  int hashed_bits_;  // log2 of the number of contexts of hashed predictions
-  std::array<std::vector<AdaptiveBit>, kContexts> contexts_;
-  Mixer<kInputs, 256 * 8> by_siblings_{kFirstWeight};
-  Mixer<kInputs, 27 * 22> by_density_{kFirstWeight};
-  Mixer<kInputs, 27 * 8> by_faces_{kFirstWeight};
+  std::uint32_t level_ = 0, num_nodes_ = 0;
+  std::int32_t rate_ = kFirstRate;
+  int hashed_bits_;  // log2 of the number of contexts of a hashed table
+  std::vector<ContextBit> faces_, corner_, counts_, halves_;
+  std::array<std::vector<ContextBit>, kHashed> hashed_;
+  WeightSets by_siblings_{256 * 8, kFirstWeight};
+  WeightSets by_density_{27 * 22, kFirstWeight};
+  WeightSets by_faces_{27 * 8, kFirstWeight};
 };
 
 }  // namespace slf

@@ -15,28 +15,23 @@ using Window = std::uint64_t;
 
 constexpr Window bit_at(int x, int y, int z) { return Window{1} << (x + 4 * y + 16 * z); }
 
-/// The children of a direction's neighbour that lie in the window.
-struct WindowPart {
-  int size = 0;
-  std::array<std::uint8_t, 8> child{};
-  std::array<Window, 8> bit{};
-  Window all = 0;
-};
-/// [direction]
-inline constexpr std::array<WindowPart, 27> kWindowParts = [] {
-  std::array<WindowPart, 27> parts{};
+/// The cells of the window that lie in a direction's neighbour. [direction]
+inline constexpr std::array<Window, 27> kWindowParts = [] {
+  std::array<Window, 27> parts{};
   for (int z = 0; z < 4; ++z)
     for (int y = 0; y < 4; ++y)
-      for (int x = 0; x < 4; ++x) {
-        const int d = direction_index((x + 1) / 2 - 1, (y + 1) / 2 - 1, (z + 1) / 2 - 1);
-        WindowPart& part = parts[static_cast<std::size_t>(d)];
-        const int child = ((x + 1) & 1) | ((y + 1) & 1) << 1 | ((z + 1) & 1) << 2;
-        part.child[static_cast<std::size_t>(part.size)] = static_cast<std::uint8_t>(child);
-        part.bit[static_cast<std::size_t>(part.size)] = bit_at(x, y, z);
-        part.all |= bit_at(x, y, z);
-        ++part.size;
-      }
+      for (int x = 0; x < 4; ++x)
+        parts[static_cast<std::size_t>(
+            direction_index((x + 1) / 2 - 1, (y + 1) / 2 - 1, (z + 1) / 2 - 1))] |= bit_at(x, y, z);
   return parts;
+}();
+
+/// By how many bits the cells of a direction's neighbour are further on than the node's own.
+inline constexpr std::array<int, 27> kWindowShift = [] {
+  std::array<int, 27> shift{};
+  for (int d = 0; d < 27; ++d)
+    shift[static_cast<std::size_t>(d)] = 2 * (d % 3 - 1) + 8 * (d / 3 % 3 - 1) + 32 * (d / 9 - 1);
+  return shift;
 }();
 
 /// The node's own children as cells. [occupancy]
@@ -48,43 +43,36 @@ inline constexpr std::array<Window, 256> kOwnCells = [] {
   return cells;
 }();
 
-/// Cells of the 3 x 3 x 3 around a child that differ from it in at most `most` coordinates.
-constexpr Window window_mask(int most) {
+/// The cells of the 3 x 3 x 3 around a child but itself.
+inline constexpr Window kAllAround = [] {
   Window mask = 0;
   for (int z = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x) {
-        const int differ = (x != 1) + (y != 1) + (z != 1);
-        if (differ >= 1 && differ <= most) mask |= bit_at(x, y, z);
-      }
-  return mask;
-}
-inline constexpr Window kFacesAndEdges = window_mask(2), kAllAround = window_mask(3);
+      for (int x = 0; x < 3; ++x) mask |= bit_at(x, y, z);
+  return mask & ~bit_at(1, 1, 1);
+}();
 
 /// The 26 cells around a child: known to be occupied, not known yet.
 struct Surroundings {
   Window occupied, unknown;
 };
 
-/// occupied, unknown: the node's window, its own children included.
+/// occupied, unknown: the window of a node.
 inline Surroundings surroundings(Window occupied, Window unknown, unsigned child) {
   const unsigned base = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
   return {occupied >> base & kAllAround, unknown >> base & kAllAround};
 }
 
-/// Faces towards the outside of the node (0 empty, 1 occupied, 2 unknown each) and the inside:
-/// 0 .. 215.
-inline unsigned faces_of(const Surroundings& around, unsigned child) {
+/// The states of the faces towards the outside of the node (0 empty, 1 occupied, 2 unknown each),
+/// of which three bits below are left for those inside: 0, 8, .. 208.
+inline unsigned outer_faces_of(const Surroundings& around, unsigned child) {
   const unsigned x = 2 * (child & 1), y = 8 * (child >> 1 & 1), z = 32 * (child >> 2);
-  const auto occupied = [&](unsigned cell) {
-    return static_cast<unsigned>(around.occupied >> cell & 1);
-  };
   const auto state = [&](unsigned cell) {
+    const auto occupied = static_cast<unsigned>(around.occupied >> cell & 1);
     const auto unknown = static_cast<unsigned>(around.unknown >> cell & 1);
-    return occupied(cell) | (unknown & ~occupied(cell)) << 1;
+    return occupied | (unknown & ~occupied) << 1;
   };
-  const unsigned outer = state(20 + x) + 3 * state(17 + y) + 9 * state(5 + z);
-  return outer * 8 + (occupied(22 - x) | occupied(25 - y) << 1 | occupied(37 - z) << 2);
+  return 8 * (state(20 + x) + 3 * state(17 + y) + 9 * state(5 + z));
 }
 
 /// By child and by which of the eight nodes around its outer corner are occupied, x + 2y + 4z

@@ -15,6 +15,7 @@ OctreeLevel octree_root() {
   root.neighbours.resize(1);
   root.neighbours[0].fill(-1);
   root.neighbours[0][kSelf] = 0;
+  root.around = {0};
   return root;
 }
 
@@ -73,10 +74,12 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
   if (!with_neighbours) return children;
 
   children.neighbours.resize(count);
+  children.around.reserve(count);
   for (std::size_t n = 0, child = 0; n < parents.size(); ++n)
     for (unsigned own = parents.occupancy[n]; own != 0; own &= own - 1) {
       OctreeLevel::Neighbours& neighbours = children.neighbours[child++];
       neighbours.fill(-1);
+      std::uint32_t found = 0;
       for (const NodesAround::Node& around : kNodesAround[lowest_bit(own)].node) {
         const std::int32_t there = parents.neighbours[n][around.direction];
         if (there < 0) continue;
@@ -85,9 +88,12 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
             static_cast<std::int32_t>(parents.first_child[static_cast<std::size_t>(there)]);
         for (unsigned left = occupancy & around.children; left != 0; left &= left - 1) {
           const unsigned before = occupancy & ((left & -left) - 1);
-          neighbours[around.child_direction[lowest_bit(left)]] = first + std::popcount(before);
+          const unsigned direction = around.child_direction[lowest_bit(left)];
+          neighbours[direction] = first + std::popcount(before);
+          found |= 1u << direction;
         }
       }
+      children.around.push_back(found & ~(1u << kSelf));
     }
   return children;
 }

@@ -43,6 +43,7 @@ struct OctreeLevel {
   std::vector<std::uint8_t> occupancy;     ///< bit c: child c is occupied; 0: not coded yet
   std::vector<std::uint32_t> first_child;  ///< index of the first child in the next level
   std::vector<Neighbours> neighbours;
+  std::vector<std::uint32_t> around;  ///< bit d: the neighbour in direction d is occupied, not 13
 
   std::size_t size() const { return morton.size(); }
 };

@@ -487,33 +487,66 @@ SQUASH = [squash(x) for x in range(-2815, 2816)]
 STRETCH = stretch_table()
 
 
+INPUT = [0 if p == 2048 else x for p, x in enumerate(STRETCH)]                 # of 8.3.5
+
+
+def saturate(x):
+    """8.3.3: 16 bits."""
+    return max(-32768, min(x, 32767))
+
+
+class Mixer:
+    """8.3.3: sets of weights, of which each decision takes one or more."""
+
+    def __init__(self, first):
+        """8.3.3: all weights of all sets are `first`."""
+        self.first, self.sets = first, {}
+
+    def select(self, chosen):
+        """8.3.3: the weights of a set."""
+        return self.sets.setdefault(chosen, [self.first] * 8)
+
+
+def decide_mixed(decoder, contexts, weights, rate):
+    """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt."""
+    inputs = [INPUT[table.probability[i]] for table, i in contexts] + [256]
+    summed = weights[0]
+    for row in weights[1:]:
+        summed = [saturate(a + b) for a, b in zip(summed, row)]
+    p = SQUASH[min(max(sum(w * x for w, x in zip(summed, inputs)) >> 13, -2815), 2815) + 2815]
+    bit = decoder.decide(p)
+    error = ((bit << 16) - p) * rate >> 5
+    steps = [x * error + (1 << 15) >> 16 for x in inputs]
+    for row in weights:
+        row[:len(steps)] = [saturate(w + step) for w, step in zip(row, steps)]
+    target = 4095 if bit else 0
+    for table, i in contexts:
+        before, count = table.probability[i], table.count[i]
+        table.probability[i] = before + ((target - before) * RATES[count] + (1 << 15) >> 16)
+        table.count[i] = min(count + 1, 15)
+    return bit
+
+
+class MixedContexts:
+    """8.3.5: a table of contexts: probabilities with 12 fractional bits, and counts."""
+
+    def __init__(self, size):
+        """8.3.5: the initial state."""
+        self.probability = [2048] * size
+        self.count = [0] * size
+
+
 class MixedDecision:
     """8.3.5: a decision in several contexts at a time."""
 
-    def __init__(self, sizes, sets):
+    def __init__(self, sizes):
         """8.3.5: the initial state."""
-        self.contexts = [Contexts(size) for size in sizes]
-        self.weights = [[85200 // len(sizes)] * (len(sizes) + 1) for _ in range(sets)]
+        self.tables = [MixedContexts(size) for size in sizes]
+        self.mixer = Mixer(10650 // len(sizes))
 
     def decode(self, decoder, indices, chosen):
         """8.3.5: a decision with the weights of set `chosen`; everything adapts."""
-        inputs = []
-        for contexts, i in zip(self.contexts, indices):
-            inputs.append(STRETCH[contexts.probability[i] >> 10] if contexts.count[i] else 0)
-        inputs.append(256)
-        weights = self.weights[chosen]
-        mixed = sum(w * x for w, x in zip(weights, inputs)) >> 16
-        p = SQUASH[min(max(mixed, -2815), 2815) + 2815]
-        bit = decoder.decide(min(max(p, 1), 65535))
-        error = ((bit << 16) - p) * 40
-        for i, x in enumerate(inputs):
-            weights[i] = min(max(weights[i] + (x * error + (1 << 19) >> 20), -(1 << 22)), 1 << 22)
-        target = (1 << 22) - 1 if bit else 0
-        for contexts, i in zip(self.contexts, indices):
-            before, count = contexts.probability[i], contexts.count[i]
-            contexts.probability[i] = before + ((target - before) * RATES[count] >> 16)
-            contexts.count[i] = min(count + 1, 255)
-        return bit
+        return decide_mixed(decoder, list(zip(self.tables, indices)), [self.mixer.select(chosen)], 8)
 
 
 def size_class(n, most):
@@ -545,17 +578,17 @@ def window_table():
 
 
 def around(distances):
-    """8.4.2: the cells around (1, 1, 1) at these distances: ALL is 1, 2, 3 and FE is 1, 2."""
+    """8.4.2: the cells around (1, 1, 1) at these distances."""
     return sum(window_bit(dx + 1, dy + 1, dz + 1) for dx, dy, dz in DIRECTIONS
                if abs(dx) + abs(dy) + abs(dz) in distances)
 
 
-def face_cells(child, outside):
-    """8.4.2: window bits, around (1, 1, 1), of a child's face neighbours outside or inside the node."""
+def face_cells(child):
+    """8.4.2: window bits, around (1, 1, 1), of a child's face neighbours outside the node."""
     cells = []
     for axis in range(3):
         cell = [1, 1, 1]
-        cell[axis] = 2 if child[axis] == outside else 0
+        cell[axis] = 2 if child[axis] else 0
         cells.append(window_bit(*cell))
     return cells
 
@@ -580,21 +613,23 @@ def columns_table(first, second):
 
 
 WINDOW = window_table()
-ALL, FE = around((1, 2, 3)), around((1, 2))
-OUTSIDE = [face_cells(child, 1) for child in CHILDREN]
-INSIDE = [face_cells(child, 0) for child in CHILDREN]
+ALL = around((1, 2, 3))
+OUTSIDE = [face_cells(child) for child in CHILDREN]
 CORNER = [corner_directions(child) for child in CHILDREN]
 WINDOW_SHIFT = [x + 4 * y + 16 * z for x, y, z in CHILDREN]
 HALVES = [halves_table(axis) for axis in range(3)]
 COLUMNS_X, COLUMNS_Y, COLUMNS_Z = columns_table(1, 2), columns_table(0, 2), columns_table(0, 1)
 
 
-def hash_pair(a, b, bits):
-    """8.4.4: the hash of (a, b)."""
+HASH_A, HASH_B = 0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F
+
+
+def hash_group(key, coded, bits, group_bits):
+    """8.4.4: the first of a group of 2^group_bits contexts of 2^bits."""
     mask = (1 << 64) - 1
-    h = (a * 0x9E3779B97F4A7C15 + b * 0xC2B2AE3D27D4EB4F) & mask
-    h = ((h ^ h >> 32) * 0x9E3779B97F4A7C15) & mask
-    return h >> (64 - bits)
+    h = (key + coded * HASH_B) & mask
+    h = ((h ^ h >> 32) * HASH_A) & mask
+    return h >> 64 - bits >> group_bits << group_bits
 
 
 class Octree:
@@ -604,9 +639,10 @@ class Octree:
         """8.4.2: contexts of table 8-3, three mixers; 8.4.1: the root."""
         self.points = points
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
-        widths = (11, 15, self.hash_bits, self.hash_bits, 15, 14, self.hash_bits, 12, 12, 12, self.hash_bits)
-        self.contexts = [Contexts(1 << bits) for bits in widths]
-        self.mixers = [{}, {}, {}]          # set of weights by its number
+        widths = (11, 15, self.hash_bits, 15, 14, self.hash_bits, self.hash_bits)
+        self.tables = [MixedContexts(1 << bits) for bits in widths]
+        self.mixers = [Mixer(900) for _ in range(3)]
+        self.nodes_coded = 0
         self.nodes = [(0, 0, 0)]
         self.level = 0
 
@@ -641,69 +677,47 @@ class Octree:
     def decode_node(self, decoder, around_node, history):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded = 0
+        rate = 8 - min(self.nodes_coded >> 13, 3)
         for c in range(8):
             if c == 7 and coded == 0:
-                return 128
+                coded = 128
+                break
             indices, sets = self.predict(c, coded, around_node, history)
-            if self.decode_child(decoder, indices, sets):
-                coded |= 1 << c
+            weights = [mixer.select(k) for mixer, k in zip(self.mixers, sets)]
+            coded |= decide_mixed(decoder, list(zip(self.tables, indices)), weights, rate) << c
+        self.nodes_coded += 1
         return coded
 
     def predict(self, c, coded, around_node, history):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
-        halves, col_x, col_y, col_z = history
+        halves, columns = history
         bits = self.hash_bits
         siblings = 1 << c | coded
-        # direction 13 is the node itself: its children stand at window bits 21 + x + 4y + 16z
-        O = (occupied | WINDOW[13][coded]) >> WINDOW_SHIFT[c] & ALL
+        O = occupied >> WINDOW_SHIFT[c] & ALL
         U = unknown >> WINDOW_SHIFT[c] & ALL
         ax, ay, az = [1 if O & cell else 2 if U & cell else 0 for cell in OUTSIDE[c]]
-        bx, by, bz = [1 if O & cell else 0 for cell in INSIDE[c]]
+        bx, by, bz = [coded >> (c ^ side) & 1 for side in (1, 2, 4)]
         faces = 8 * (ax + 3 * ay + 9 * az) + bx + 2 * by + 4 * bz
         corner = 0
         for k, d in enumerate(CORNER[c]):
             corner |= (neighbours >> d & 1) << k
-        nO, nU, nN, nS = O.bit_count(), U.bit_count(), neighbours.bit_count(), min(coded.bit_count(), 3)
+        nS = coded.bit_count()
+        nO, nU, nN = O.bit_count() + nS, U.bit_count(), neighbours.bit_count()
+        first_half = c < 4
+        node_key = 0 if first_half else 8 | coded & 7
+        node_bits = 4 if first_half else 5
+        in_node = siblings if first_half else (coded >> 3 & 1) * 16 + (1 << c - 4 | coded >> 4)
+        older = max(c - 3, 0)
         indices = (
             faces * 8 + c,
             siblings * 128 + corner,
-            hash_pair(neighbours, siblings, bits),
-            hash_pair(O & FE, (U & FE) * 8 + c, bits),
-            ((nO * 27 + nU) * 8 + c) * 4 + nS,
+            hash_group(neighbours * HASH_A, node_key, bits, node_bits) + in_node,
+            ((nO * 27 + nU) * 8 + c) * 4 + min(nS, 3),
             halves * 256 + siblings,
-            hash_pair(col_x * 256 + col_y * 16 + col_z, siblings, bits),
-            col_x * 256 + siblings,
-            col_y * 256 + siblings,
-            col_z * 256 + siblings,
-            hash_pair(O, U * 8 + c, bits))
+            hash_group(columns * HASH_A, node_key, bits, node_bits) + in_node,
+            hash_group(O * HASH_A + (U * 8 + c) * HASH_B, coded & (1 << older) - 1, bits, 3) + (coded >> older))
         return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, faces)
-
-    def decode_child(self, decoder, indices, sets):
-        """8.4.2: a decision from three mixers; 8.3.3: mixing and its update; 8.3.2: contexts."""
-        inputs = []
-        for contexts, k in zip(self.contexts, indices):
-            inputs.append(STRETCH[max(contexts.probability[k] >> 6, 1) >> 4] if contexts.count[k] else 0)
-        inputs.append(256)
-        weights = [mixer.setdefault(k, [8000] * 12) for mixer, k in zip(self.mixers, sets)]
-        values = []
-        for row in weights:
-            value = sum([w * x for w, x in zip(row, inputs)]) >> 16
-            values.append(max(-2815, min(value, 2815)))
-        total = sum(values)
-        mean = total // 3 if total >= 0 else -(-total // 3)
-        bit = decoder.decide(max(1, min(SQUASH[mean + 2815], 65535)))
-        for row, value in zip(weights, values):
-            error = ((bit << 16) - SQUASH[value + 2815]) * 32
-            row[:] = [max(-1 << 22, min(w + (x * error + (1 << 19) >> 20), 1 << 22))
-                      for w, x in zip(row, inputs)]
-        target = (1 << 22) - 1 if bit else 0
-        for contexts, k in zip(self.contexts, indices):
-            before, count = contexts.probability[k], contexts.count[k]
-            contexts.probability[k] = before + ((target - before) * RATES[count] >> 16)
-            if count < 255:
-                contexts.count[k] = count + 1
-        return bit
 
     def history_entries(self, x, y, z):
         """8.4.3: a node's entries in the six tables: x, y, z, (y, z), (x, z), (x, y)."""
@@ -717,10 +731,11 @@ class Octree:
 
     @staticmethod
     def read_history(history, entries):
-        """8.4.3: halves, col_x, col_y and col_z of a node."""
+        """8.4.3: halves and columns of a node."""
         by_x, by_y, by_z, by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
         halves = HALVES[0][by_x] | HALVES[1][by_y] | HALVES[2][by_z]
-        return halves, COLUMNS_X[by_yz], COLUMNS_Y[by_xz], COLUMNS_Z[by_xy]
+        columns = 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
+        return halves, columns
 
 
 # ---- 8.6 The transform tree
@@ -797,9 +812,9 @@ class VectorCoder:
     def __init__(self, functions, tree, group_before):
         """8.7.1: its contexts and other state."""
         self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
-        self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4], 45)
-        self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)], 96)
-        self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27], 9)
+        self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4])
+        self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)])
+        self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
         self.activity = [16 if functions > 1 else 0] * self.planes
         self.sums = [0] * len(tree.split)

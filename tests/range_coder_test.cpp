@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "entropy/binarisation.h"
+#include "entropy/context_bit.h"
+#include "entropy/eight_lanes.h"
 #include "entropy/log_class.h"
 #include "entropy/logistic.h"
 #include "entropy/mixed_bit.h"
+#include "entropy/mixer.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
 
@@ -113,18 +117,52 @@ TEST(Spec_8_3_3_Logistic, StretchInvertsSquash) {
 
 TEST(Spec_8_3_3_Mixer, LearnsWhichPredictionToTrust) {
   std::mt19937 random(5);
-  Mixer<2, 1> mixer(20000);
+  WeightSets weights(2, 2000);
   double cost = 0;
   for (int i = 0; i < 4000; ++i) {
     const unsigned bit = random() % 2;
-    const std::array<int, 2> inputs = {bit ? 1000 : -1000,
-                                       random() % 2 ? 1000 : -1000};  // truth, noise
-    const Mixed mixed = mixer.mix(inputs, 0);
-    const double p1 = squash(mixed.logistic) / 65536.0;
+    const auto logistic = [](bool one) { return static_cast<std::int16_t>(one ? 1000 : -1000); };
+    const EightLanes inputs({logistic(bit), logistic(random() % 2)});  // truth, noise
+    const Mixed<2> mixed(inputs, {&weights[0], &weights[1]});
+    const double p1 = mixed.p1() / 65536.0;
     if (i >= 2000) cost -= std::log2(bit ? p1 : 1 - p1);
-    mixed.update(inputs, bit, 16);
+    mixed.update(bit, 4);
   }
   EXPECT_LT(cost / 2000, 0.02);
+}
+
+TEST(Spec_8_3_3_Lanes, AreTheIntegersOfTheText) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 20000; ++i) {
+    std::array<std::int16_t, 8> x, w;
+    for (std::size_t k = 0; k < 8; ++k) {
+      x[k] = static_cast<std::int16_t>(static_cast<int>(random() % 5631) - 2815);
+      w[k] =
+          static_cast<std::int16_t>(random() % 5 == 0 ? (random() % 2 ? 32767 : -32768)
+                                                      : static_cast<int>(random() % 65536) - 32768);
+    }
+    const int factor = static_cast<int>(random() % 32768) - (1 << 14);
+    int dot = 0;
+    const auto sum = EightLanes(x).saturating_plus(EightLanes(w)).values();
+    const auto step = EightLanes(x).times(factor).values();
+    for (std::size_t k = 0; k < 8; ++k) {
+      dot += x[k] * w[k];
+      EXPECT_EQ(sum[k], std::clamp(x[k] + w[k], -32768, 32767));
+      EXPECT_EQ(step[k], (x[k] * factor + (1 << 15)) >> 16);
+    }
+    EXPECT_EQ(EightLanes(x).dot(EightLanes(w)), dot);
+  }
+}
+
+TEST(Spec_8_3_5_Context, FollowsTheShareOfOnesAndStaysWithinItsRange) {
+  ContextBit unseen, zeros, ones;
+  EXPECT_EQ(unseen.logistic(), 0);
+  for (int i = 0; i < 1000; ++i) {
+    zeros.update(0);
+    ones.update(1);
+  }
+  EXPECT_LT(zeros.logistic(), -1000);
+  EXPECT_GT(ones.logistic(), 1000);
 }
 
 /// code(coder, contexts, value) gives the value back on both sides.
