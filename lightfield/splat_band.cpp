@@ -293,7 +293,7 @@ inline void SplatBand::cover_by_disc(const Splat& s, BandSums& sums, const OpenP
           share = r2 > full ? share : Lanes{} + 1;
           share = square < 1e-4f ? Lanes{} + at_centre : share;
           share = share < 1.0f ? share : Lanes{} + 1;
-          own.coverage = wanting & (share > own.coverage) ? share : own.coverage;
+          own.coverage = (wanting & (share > own.coverage)) ? share : own.coverage;
           return false;
         });
 }
