@@ -293,7 +293,7 @@ inline void SplatBand::cover_by_disc(const Splat& s, BandSums& sums, const OpenP
           share = r2 > full ? share : Lanes{} + 1;
           share = square < 1e-4f ? Lanes{} + at_centre : share;
           share = share < 1.0f ? share : Lanes{} + 1;
-          own.coverage = wanting & (share > own.coverage) ? share : own.coverage;
+          own.coverage = (wanting & (share > own.coverage)) ? share : own.coverage;
           return false;
         });
 }
@@ -307,7 +307,14 @@ SLF_MULTIVERSION_ALL void SplatBand::cover(const std::vector<Splat>& splats,
   find_open(sums, open);
   for (const std::uint32_t i : shown) cover_by_disc(splats[i], sums, open);
   find_open(sums, open);
-  for (const std::uint32_t i : all) cover_by_disc(splats[i], sums, open);
+  auto done = shown.begin();  // in the order of `all`
+  for (const std::uint32_t i : all) {
+    if (done != shown.end() && *done == i) {
+      ++done;
+      continue;
+    }
+    cover_by_disc(splats[i], sums, open);
+  }
 }
 
 }  // namespace slf

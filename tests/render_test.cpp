@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "geometry/morton.h"
 #include "lightfield/octahedral.h"
@@ -257,6 +260,51 @@ TEST(SplatWeightsTest, WeightedColoursAreTheRenderedPicture) {
       ASSERT_NEAR(rendering.image.data[3 * i + k], cover * blend[k] + (1 - cover) * 128, 0.51);
   }
   EXPECT_GT(shown, 1000u);
+}
+
+// Spec E.4 and E.5 written out pixel by pixel, from the splats.
+TEST(SplatWeightsTest, TheyAreThoseOfAnnexEAtEveryPixel) {
+  const LightField field = constant_light_field(test::sphere(64, 40), {{90, 90, 90}}, 7);
+  const ViewMaps maps(field);
+  const Camera camera = Renderer(maps).orbit(0.3, 20, 61, 53);  // no multiple of any block
+  const SurfelCloud cloud = surfel_cloud(field.header.grid, field.positions, field.normals, 0, 1);
+  const auto splats = project_surfels(cloud, camera, 1);
+  const SplatWeights weights = splat_weights(splats, camera.width, camera.height, 1);
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      struct Here {
+        double r2, inverse, gradient, square;
+      };
+      std::vector<std::pair<const Splat*, Here>> discs;
+      double nearest = 0;
+      for (const Splat& s : splats) {
+        const double du = x + 0.5 - s.u, dv = y + 0.5 - s.v;
+        const double gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv;
+        const Here here{du * gu + dv * gv,
+                        s.inverse_depth + s.inverse_depth_du * du + s.inverse_depth_dv * dv,
+                        std::hypot(gu, gv), du * du + dv * dv};
+        if (here.r2 >= 1) continue;
+        discs.push_back({&s, here});
+        if (here.r2 < 0.4) nearest = std::max(nearest, here.inverse);
+      }
+      double sum = 0, cover = 0;
+      for (const auto& [s, here] : discs) {
+        const double near = 1 - std::max(0.0, (nearest - here.inverse) * s->fade);
+        if (near > 0) sum += s->weight * std::pow(1 - here.r2, 4) * near * near;
+        const double distance = std::sqrt(here.square);
+        if (!(distance > 0.01)) {
+          cover = 1;
+          continue;
+        }
+        const double reach = std::sqrt(std::max(0.0, here.square / here.r2 - 1));
+        cover =
+            std::max(cover, 0.5 + (0.85 * reach - distance) * here.r2 / (distance * here.gradient));
+      }
+      const std::size_t i = std::size_t(y) * std::size_t(camera.width) + std::size_t(x);
+      cover = std::clamp(std::max(cover, 2 * 5 / std::numbers::pi * sum - 0.5), 0.0, 1.0);
+      ASSERT_NEAR(weights.coverage[i], sum > 1e-6 ? cover : 0, 2e-3) << x << ' ' << y;
+      ASSERT_EQ(weights.first[i + 1] > weights.first[i], sum > 1e-12) << x << ' ' << y;
+    }
 }
 
 TEST(SplatWeightsTest, TheResultDoesNotDependOnThreads) {
