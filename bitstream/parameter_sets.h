@@ -44,6 +44,7 @@ struct SequenceParameterSet {
   std::uint32_t sps_degree = 0;
   std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
   std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
+  std::uint32_t sps_normal_cell_log2 = 0;
   std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
   std::uint32_t sps_prediction_flag = 0;
   std::uint32_t sps_texture_bits = 0, sps_texture_cell_log2 = 0;
@@ -162,6 +163,8 @@ void sequence_parameter_set(V& v, Set& s) {
     v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
     v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
     v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
+    if (s.sps_frame_idc == 1)
+      v.u(5, "sps_normal_cell_log2", s.sps_normal_cell_log2, Range{0, s.sps_grid_bits_minus1});
   }
   v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, kTextureCoder});
   v.require(s.has_texture() == (s.sps_profile == kTextureProfile), Errc::kOutOfRange,

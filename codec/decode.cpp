@@ -170,7 +170,7 @@ Result<Done> decode_slices(std::vector<SliceDecoder>& slices, const SequencePlan
 LightField empty_field(const SequencePlan& plan) {
   LightField field;
   field.header = header_of(plan.set);
-  field.header.grid = coarser_grid(field.header.grid, plan.levels);
+  make_coarser(field.header, plan.levels);
   if (plan.coded.size() != plan.set.sps_num_functions) field.header.coded = plan.coded;
   for (const PlaneTransform& transform : plan.transforms)
     if (!transform.components.empty()) field.header.transforms.push_back(transform);

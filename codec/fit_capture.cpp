@@ -6,6 +6,7 @@
 #include "capture/spacing.h"
 #include "codec/component_planes.h"
 #include "codec/stopwatch.h"
+#include "geometry/surface_normals.h"
 #include "lightfield/fit_pictures.h"
 #include "lightfield/fit_settings.h"
 #include "lightfield/octahedral.h"
@@ -33,6 +34,14 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
     for (const auto& n : cloud.normals)
       normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
   return normals;
+}
+
+/// Settings whose lengths are in spacings of points, in voxels.
+FitSettings in_spacings(FitSettings fit, const VoxelCloud& cloud) {
+  const int spacing_log2 = std::min(cell_of_spacing(cloud.positions), cloud.grid.bits - 1);
+  fit.normal_cell_log2 = spacing_log2;
+  fit.hierarchy.block_log2 = std::min(fit.hierarchy.block_log2 + spacing_log2, 21);
+  return fit;
 }
 
 }  // namespace
@@ -106,11 +115,12 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
     world = trusted_observations(std::move(world), fit.cameras);
   }
   fit.seconds_observe = watch.lap();
-  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, settings.fit, settings.search, progress));
+  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, in_spacings(settings.fit, cloud),
+                                 settings.search, progress));
   const FitSettings& chosen = fit.chosen.settings;
   fit.seconds_choose = watch.lap();
-  const Observations seen =
-      in_frame(std::move(world), chosen.frame, cloud.positions, settings.threads);
+  const Observations seen = in_frame(std::move(world), chosen.frame, cloud.positions,
+                                     chosen.normal_cell_log2, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     fit.unobserved_points += seen.first[p] == seen.first[p + 1];
@@ -151,6 +161,7 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
   header.up = up;
   header.gamma_min_q7 = fit.gamma_min_q7;
   header.gamma_max_q7 = fit.gamma_max_q7;
+  if (header.frame == FrameId::kReflected) header.normal_cell_log2 = settings.fit.normal_cell_log2;
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
   header.shift =
       component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),

@@ -64,6 +64,8 @@ Result<Done, InputError> check_field(const LightField& field) {
     return invalid("basis: its number of functions differs from the components'");
   if (h.gamma_min_q7 < -127 || h.gamma_max_q7 > 127 || h.gamma_min_q7 > h.gamma_max_q7)
     return invalid("gamma range: -127 to 127, ascending");
+  if (h.normal_cell_log2 < 0 || h.normal_cell_log2 >= h.grid.bits)
+    return invalid("normal cells: 2^0 to 2^(grid bits - 1) voxels");
   if (!h.shift.empty() && h.shift.size() != functions) return invalid("shift: one per function");
   for (const int s : h.shift)
     if (s < 0 || s > 15) return invalid("shift: 0 to 15");
@@ -183,6 +185,8 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_transfer_idc = static_cast<std::uint32_t>(h.transfer);
   set.sps_gamma_min = h.gamma_min_q7;
   set.sps_gamma_max = h.gamma_max_q7;
+  if (h.frame == FrameId::kReflected)
+    set.sps_normal_cell_log2 = static_cast<std::uint32_t>(h.normal_cell_log2);
   if (h.num_functions > 0) set.sps_coefficient_coder = static_cast<std::uint32_t>(p.coefficients);
   set.sps_prediction_flag = p.predict && !texture && h.num_functions > 0;
   if (texture) set.sps_texture_bits = static_cast<std::uint32_t>(p.texture.bits - 8) / 2;

@@ -1,5 +1,7 @@
 #include "codec/sequence.h"
 
+#include <algorithm>
+
 namespace slf {
 namespace {
 
@@ -30,6 +32,7 @@ LightFieldHeader header_of(const SequenceParameterSet& set) {
   header.transfer = static_cast<Transfer>(set.sps_transfer_idc);
   header.gamma_min_q7 = set.sps_gamma_min;
   header.gamma_max_q7 = set.sps_gamma_max;
+  header.normal_cell_log2 = static_cast<int>(set.sps_normal_cell_log2);
   header.shift.resize(set.sps_num_functions);
   for_each_function(set, [&](std::size_t k, const PlaneRun& run) {
     header.shift[k] = static_cast<int>(run.sps_plane_shift);
@@ -62,13 +65,14 @@ PlaneGroups plane_groups(const SequenceParameterSet& set) {
   return groups;
 }
 
-Grid coarser_grid(const Grid& grid, int levels) {
-  const std::int32_t cells = 1 << (grid.bits - levels);
-  Grid coarse = grid;
-  for (auto& coordinate : coarse.origin) coordinate += grid.step * (cells - 1) / 2;
-  coarse.step = grid.step * cells;
-  coarse.bits = levels;
-  return coarse;
+void make_coarser(LightFieldHeader& header, int levels) {
+  Grid& grid = header.grid;
+  const int left_out = grid.bits - levels;
+  const std::int32_t cells = 1 << left_out;
+  for (auto& coordinate : grid.origin) coordinate += grid.step * (cells - 1) / 2;
+  grid.step *= cells;
+  grid.bits = levels;
+  header.normal_cell_log2 = std::max(header.normal_cell_log2 - left_out, 0);
 }
 
 }  // namespace slf

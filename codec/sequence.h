@@ -14,7 +14,7 @@ std::vector<int> function_groups(const SequenceParameterSet& set);
 PlaneGroups plane_groups(const SequenceParameterSet& set);
 std::vector<std::array<std::uint32_t, 3>> function_steps(const SequenceParameterSet& set);
 
-/// The grid of the coarser voxels that `levels` of a grid's levels give: their centres.
-Grid coarser_grid(const Grid& grid, int levels);
+/// To the coarser voxels that `levels` of the grid's levels give: their centres. Spec 8.9.
+void make_coarser(LightFieldHeader& header, int levels);
 
 }  // namespace slf

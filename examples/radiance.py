@@ -69,15 +69,22 @@ def harmonics(degree, x, y, z):
     return values
 
 
-def offsets_around(positions, voxel):
-    """[N, 3] where the points within 4 voxels are, seen from this one."""
-    near = positions[np.abs(positions - voxel).max(axis=1) <= 4].astype(np.int64) - voxel
-    return near[(near ** 2).sum(axis=1) <= 16]
+def cells_of(positions, side):
+    """Occupied cells of side^3 voxels [C, 3], and where their points are in the mean, in sixteenths of a cell (clause 6.6)."""
+    cells, which, count = np.unique(positions // side, axis=0, return_inverse=True, return_counts=True)
+    sums = np.stack([np.bincount(which.ravel(), axis % side) for axis in positions.T], axis=1).astype(np.int64)
+    return cells, 16 * cells.astype(np.int64) + 16 * sums // count[:, None] // side
 
 
-def plane_normal(positions, voxel):
-    """Normal, of either sign, of the plane through the points around a voxel, in integers of length 2^17."""
-    near = offsets_around(positions, voxel)
+def around(cells, cell):
+    """Indices of the cells within 4 of one, itself included."""
+    near = np.flatnonzero(np.abs(cells - cells[cell]).max(axis=1) <= 4)
+    return near[((cells[near] - cells[cell]).astype(np.int64) ** 2).sum(axis=1) <= 16]
+
+
+def plane_normal(cells, places, cell):
+    """Normal, of either sign, of the plane through the cells around one, in integers of length 2^17."""
+    near = places[around(cells, cell)] - places[cell]
     s = len(near) * near.T @ near - np.outer(near.sum(axis=0), near.sum(axis=0))
     adjugate = np.array([np.cross(s[1], s[2]), np.cross(s[2], s[0]), np.cross(s[0], s[1])])
     best = adjugate[np.argmax(np.diag(adjugate))] if np.diag(adjugate).any() else np.array([0, 0, 1])
@@ -87,10 +94,12 @@ def plane_normal(positions, voxel):
     return np.sign(best) * [(x << 17) // length for x in w]
 
 
-def surface_normal(positions, voxel):
-    """Mean of the planes' normals around a voxel (clause 6.6), whatever their signs, unit length."""
-    normals = np.array([plane_normal(positions, voxel + d) for d in offsets_around(positions, voxel)])
-    mean = (normals @ plane_normal(positions, voxel)) @ normals
+def surface_normal(positions, voxel, side):
+    """Mean of the planes' normals around a voxel's cell (clause 6.6), whatever their signs, unit length."""
+    cells, places = cells_of(positions, side)
+    cell = np.flatnonzero((cells == voxel // side).all(axis=1))[0]
+    normals = np.array([plane_normal(cells, places, near) for near in around(cells, cell)])
+    mean = (normals @ plane_normal(cells, places, cell)) @ normals
     return mean / np.linalg.norm(mean)
 
 
@@ -121,7 +130,7 @@ def radiance(directory, point, direction):
         sys.exit("these components have no meaning: the file was packed, not encoded")
     direction = np.array(direction) / np.linalg.norm(direction)
     if field["frame"] == "reflected":
-        normal = surface_normal(positions, voxel)
+        normal = surface_normal(positions, voxel, field["normal_cell"])
         direction = 2 * (normal @ direction) * normal - direction
     x, y, z = direction
     theta = math.atan2(y, x)

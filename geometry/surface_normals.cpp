@@ -39,9 +39,9 @@ const Reach& reach() {
   return *table;
 }
 
-/// Sums over points of 1, d and d d^T (xx, yy, zz, yz, xz, xy). A ball of radius 4 has 257 cells,
-/// so n <= 257, |sum d| < 2^11, sum d d < 2^13; the covariance n s - m m stays below 2^21 and the
-/// adjugate below 2^43.
+/// Sums over cells of 1, d and d d^T (xx, yy, zz, yz, xz, xy), d in sixteenths of a cell, below 80.
+/// A ball of radius 4 has 257 cells, so n <= 257, |sum d| < 2^15, sum d d < 2^21; the covariance
+/// n s - m m stays below 2^29 and the adjugate below 2^60.
 struct Moments {
   std::int64_t n = 0;
   std::array<std::int64_t, 3> m{};
@@ -92,7 +92,7 @@ Unit unit_of(const std::array<std::int64_t, 3>& n) {
   return unit;
 }
 
-/// Finds the points around a point.
+/// Finds the cells around a cell.
 class Surroundings {
  public:
   explicit Surroundings(std::span<const std::uint64_t> codes)
@@ -100,7 +100,7 @@ class Surroundings {
         grid_(codes, codes.empty() ? 0 : (static_cast<int>(std::bit_width(codes.back())) + 2) / 3) {
   }
 
-  /// Calls each(q, x, y, z) for the points within the radius: index, position less that of p.
+  /// Calls each(q, x, y, z) for the cells within the radius: index, position less that of p.
   template <class Each>
   void visit(std::size_t p, const Each& each) const {
     const std::uint64_t cell = codes_[p] & 63;
@@ -128,35 +128,83 @@ class Surroundings {
   const Reach& reach_ = reach();
 };
 
+/// The occupied cells, in Morton order.
+struct Cells {
+  std::vector<std::uint64_t> codes;
+  std::vector<std::array<std::uint8_t, 3>> mean;  ///< of the points, in the cell, sixteenths
+  std::vector<std::size_t> first;                 ///< [cells + 1] point
+
+  std::size_t size() const { return codes.size(); }
+};
+
+Cells cells_of(std::span<const Voxel> positions, int cell_log2) {
+  Cells cells;
+  const std::int32_t inside = (std::int32_t{1} << cell_log2) - 1;
+  for (std::size_t p = 0; p < positions.size();) {
+    const std::uint64_t code = morton(positions[p]) >> (3 * cell_log2);
+    std::array<std::uint64_t, 3> sum{};
+    const std::size_t first = p;
+    for (; p < positions.size() && morton(positions[p]) >> (3 * cell_log2) == code; ++p)
+      for (std::size_t a = 0; a < 3; ++a)
+        sum[a] += static_cast<std::uint64_t>(positions[p][a] & inside);
+    std::array<std::uint8_t, 3> mean{};
+    for (std::size_t a = 0; a < 3; ++a)
+      mean[a] = static_cast<std::uint8_t>((16 * sum[a] / (p - first)) >> cell_log2);
+    cells.codes.push_back(code);
+    cells.mean.push_back(mean);
+    cells.first.push_back(first);
+  }
+  cells.first.push_back(positions.size());
+  return cells;
+}
+
 }  // namespace
 
 std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> positions,
-                                                         int threads) {
+                                                         int cell_log2, int threads) {
   constexpr std::size_t kGrain = 4096;
-  std::vector<std::uint64_t> codes;
-  codes.reserve(positions.size());
-  for (const Voxel& v : positions) codes.push_back(morton(v));
-  const Surroundings near(codes);
-  std::vector<Unit> plane(positions.size());
-  parallel_ranges(positions.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+  const Cells cells = cells_of(positions, cell_log2);
+  const Surroundings near(cells.codes);
+  std::vector<Unit> plane(cells.size());
+  parallel_ranges(cells.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       Moments sum;
-      near.visit(p, [&](std::size_t, int x, int y, int z) { sum.add(x, y, z); });
+      const auto& from = cells.mean[p];
+      near.visit(p, [&](std::size_t q, int x, int y, int z) {
+        const auto& to = cells.mean[q];
+        sum.add(16 * x + to[0] - from[0], 16 * y + to[1] - from[1], 16 * z + to[2] - from[2]);
+      });
       plane[p] = unit_of(plane_normal(sum));
     }
   });
   std::vector<std::array<std::int64_t, 3>> normals(positions.size());
-  parallel_ranges(positions.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
+  parallel_ranges(cells.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      std::array<std::int64_t, 3> normal{};
       near.visit(p, [&](std::size_t q, int, int, int) {
         const Unit &u = plane[p], &v = plane[q];
         // The cosine makes it a sum along u whatever the signs, and keeps edges.
         const std::int64_t cosine =
             std::int64_t{u[0]} * v[0] + std::int64_t{u[1]} * v[1] + std::int64_t{u[2]} * v[2];
-        for (std::size_t a = 0; a < 3; ++a) normals[p][a] += cosine * v[a];
+        for (std::size_t a = 0; a < 3; ++a) normal[a] += cosine * v[a];
       });
+      std::fill(normals.begin() + static_cast<std::ptrdiff_t>(cells.first[p]),
+                normals.begin() + static_cast<std::ptrdiff_t>(cells.first[p + 1]), normal);
+    }
   });
   return normals;
+}
+
+int cell_of_spacing(std::span<const Voxel> positions) {
+  int cell_log2 = 0;
+  for (std::size_t before = positions.size(); before > 1 && cell_log2 < 20; ++cell_log2) {
+    const std::size_t cells = cells_of(positions, cell_log2 + 1).size();
+    // On a surface a cell twice as wide holds four of a full grid; hardly more than one where
+    // points are farther apart than that.
+    if (4 * before >= 7 * cells) break;
+    before = cells;
+  }
+  return cell_log2;
 }
 
 }  // namespace slf

@@ -120,11 +120,11 @@ std::array<double, 2> held_out_error(const ReflectedViews& views, const CameraFo
 
 }  // namespace
 
-MirrorPoints mirror_points(std::span<const Voxel> positions, int threads) {
+MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads) {
   MirrorPoints points;
   const ObjectBox box(positions);
   for (const Voxel& v : positions) points.position.push_back(box(v));
-  points.normal = frame_normals(FrameId::kReflected, positions, threads);
+  points.normal = frame_normals(FrameId::kReflected, positions, cell_log2, threads);
   return points;
 }
 

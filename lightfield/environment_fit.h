@@ -16,7 +16,7 @@ struct MirrorPoints {
   std::vector<Vec3> position;
   std::vector<std::array<float, 3>> normal;
 };
-MirrorPoints mirror_points(std::span<const Voxel> positions, int threads);
+MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads);
 
 /// What was seen of some of the points, and where a mirror there would look.
 struct ReflectedViews {

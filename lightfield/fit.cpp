@@ -42,8 +42,9 @@ Observations in_frame(Observations observations, std::span<const std::array<floa
 }
 
 Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
-                      int threads) {
-  return in_frame(std::move(observations), frame_normals(frame, positions, threads), threads);
+                      int cell_log2, int threads) {
+  return in_frame(std::move(observations), frame_normals(frame, positions, cell_log2, threads),
+                  threads);
 }
 
 // Paper, Algorithm 1.

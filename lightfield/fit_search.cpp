@@ -296,7 +296,7 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
     return InputError{Errc::kInvalidArgument, "cross-validation is of the hierarchical fit"};
   }
   if (settings.environment.degree == 0 && !search.any()) return chosen;
-  const MirrorPoints points = mirror_points(positions, settings.threads);
+  const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
   FitSettings world = settings;
   world.frame = FrameId::kGlobal;
   chosen.settings.environment = with_radius(observations, points, world);

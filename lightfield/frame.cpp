@@ -5,11 +5,11 @@
 namespace slf {
 
 std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
-                                                int threads) {
+                                                int cell_log2, int threads) {
   std::vector<std::array<float, 3>> normals;
   if (frame == FrameId::kGlobal) return normals;
   normals.reserve(positions.size());
-  for (const auto& n : surface_normals(positions, threads)) {
+  for (const auto& n : surface_normals(positions, cell_log2, threads)) {
     const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]),
                  z = static_cast<double>(n[2]);
     const double length = std::sqrt(x * x + y * y + z * z);

@@ -24,8 +24,9 @@ inline Vec3 vector_of(const std::array<float, 2>& direction) {
 
 /// [P] unit normals, of either sign, that the frame mirrors at; empty for the global frame.
 /// @param positions  of all points of the light field, Morton order
+/// @param cell_log2  LightFieldHeader::normal_cell_log2
 std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
-                                                int threads);
+                                                int cell_log2, int threads);
 
 /// 2 (n . w) n - w.
 inline Vec3 mirrored(const std::array<float, 3>& n, const Vec3& w) {

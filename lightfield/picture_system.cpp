@@ -111,7 +111,8 @@ PictureSystem::PictureSystem(const Grid& grid, std::span<const Voxel> positions,
       rows_(settings.basis),
       penalty_(penalties(rows_, settings.pictures)),
       kernel_(settings.basis, rows_, penalty_),
-      normals_(frame_normals(settings.frame, positions, settings.threads)) {}
+      normals_(
+          frame_normals(settings.frame, positions, settings.normal_cell_log2, settings.threads)) {}
 
 PictureSystem::Vector PictureSystem::colours(std::span<const float> coefficients) const {
   Vector colours(pictures_.rays.size());

@@ -84,7 +84,7 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
       normals_(light_field.normals),
-      frame_normals_(frame_normals(header_.frame, positions_, threads)) {
+      frame_normals_(frame_normals(header_.frame, positions_, header_.normal_cell_log2, threads)) {
   assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;
   std::vector<std::int32_t> planes;

@@ -190,12 +190,14 @@ class Sequence:
                 else:
                     degree = checked(4, lambda v: v <= 10, "sps_degree")
                     require(self.functions == (degree + 1) ** 2, "sps_num_functions")
-                checked(3, lambda v: v <= 1, "sps_frame_idc")
+                frame = checked(3, lambda v: v <= 1, "sps_frame_idc")
                 checked(3, lambda v: v <= 1, "sps_colour_idc")
                 checked(2, lambda v: v <= 1, "sps_transfer_idc")
                 gamma_min, gamma_max = reader.s8("sps_gamma_min"), reader.s8("sps_gamma_max")
                 require(gamma_min >= -127, "sps_gamma_min")
                 require(gamma_max >= gamma_min, "sps_gamma_max")
+                if frame == 1:
+                    checked(5, lambda v: v < self.grid_bits, "sps_normal_cell_log2")
             coder = checked(2, lambda v: v == 2 if profile == 2 else v <= 1, "sps_coefficient_coder")
             self.coder = (VectorCoder, IndependentCoder, None)[coder]
             if coder == 2:

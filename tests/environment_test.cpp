@@ -35,7 +35,7 @@ float lamp(const Vec3& position, const Vec3& reflected) {
 
 struct Scene {
   std::vector<Voxel> positions = test::sphere_cloud(5);
-  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 1);
+  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 0, 1);
   std::vector<Vec3> cameras;
 
   Scene() {  // rings about the vertical axis, with gaps between them
@@ -76,7 +76,7 @@ struct Scene {
   }
 };
 
-MirrorPoints mirrors(const Scene& scene) { return mirror_points(scene.positions, 2); }
+MirrorPoints mirrors(const Scene& scene) { return mirror_points(scene.positions, 0, 2); }
 
 FitSettings settings_with(int environment_degree) {
   FitSettings s;

@@ -171,7 +171,7 @@ TEST(HierarchicalFitProperties, WhatASurfaceReflectsIsSharedAlongIt) {
   const auto positions = test::sphere_cloud(5);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const auto normals = frame_normals(FrameId::kReflected, positions, 1);
+  const auto normals = frame_normals(FrameId::kReflected, positions, 0, 1);
   const auto shade = [](const std::array<float, 2>& reflected) {
     const Vec3 r = vector_of(reflected);
     return static_cast<float>(100 + 80 * std::max(0.0, 0.6 * r[0] + 0.8 * r[2]));
@@ -195,7 +195,7 @@ TEST(HierarchicalFitProperties, WhatASurfaceReflectsIsSharedAlongIt) {
   }
   const auto error = [&](FrameId frame) {
     const FitSettings s = harmonics_settings(frame);
-    const auto fitted = *fit_view_maps(in_frame(seen, frame, positions, 1), positions, s);
+    const auto fitted = *fit_view_maps(in_frame(seen, frame, positions, 0, 1), positions, s);
     double sum = 0;
     for (std::size_t p = 0; p < positions.size(); ++p) {
       const auto at =

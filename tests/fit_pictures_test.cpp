@@ -66,7 +66,7 @@ struct Scene {
   std::array<float, 2> direction(const FitSettings& settings, std::size_t p, int camera) const {
     const Vec3 at = grid.world(positions[p]);
     const Vec3 eye = capture.cameras[static_cast<std::size_t>(camera)].centre();
-    return to_frame(frame_normals(settings.frame, positions, 1), p,
+    return to_frame(frame_normals(settings.frame, positions, 0, 1), p,
                     direction_of({eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]}));
   }
 };

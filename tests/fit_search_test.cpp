@@ -20,7 +20,7 @@ namespace {
 /// A sphere, and far cameras all around: those in front of a point see it.
 struct Scene {
   std::vector<Voxel> positions = test::sphere_cloud(5);
-  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 1);
+  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 0, 1);
 
   /// @param shade  (direction of the view, reflected direction) -> grey
   template <class Shade>
@@ -155,7 +155,7 @@ TEST(FitSearch, TheEnvironmentsRadiusIsSettledOrItIsLeftOut) {
   EXPECT_EQ(shiny->settings.environment.degree, 6);
   EXPECT_GE(shiny->settings.environment.radius, 2);
   // And the fit is the one that finds the radius itself.
-  const auto turned = in_frame(seen, s.frame, scene.positions, 1);
+  const auto turned = in_frame(seen, s.frame, scene.positions, 0, 1);
   EXPECT_EQ(*fit_view_maps(turned, scene.positions, s),
             *fit_view_maps(turned, scene.positions, shiny->settings));
 }

@@ -35,7 +35,7 @@ TEST(Spec_6_6_SurfaceNormals, OfAxisPlanesAreExact) {
         v[(axis + 2) % 3] = b;
         voxels.push_back(v);
       }
-    for (const auto& n : surface_normals(test::sorted_distinct(voxels), 1)) {
+    for (const auto& n : surface_normals(test::sorted_distinct(voxels), 0, 1)) {
       EXPECT_NE(n[axis], 0);
       EXPECT_EQ(n[(axis + 1) % 3], 0);
       EXPECT_EQ(n[(axis + 2) % 3], 0);
@@ -45,7 +45,7 @@ TEST(Spec_6_6_SurfaceNormals, OfAxisPlanesAreExact) {
 
 TEST(Spec_6_6_SurfaceNormals, OfASphereAreRadialWithinAFewDegrees) {
   const auto voxels = test::sphere_cloud(7);
-  const auto normals = surface_normals(voxels, 1);
+  const auto normals = surface_normals(voxels, 0, 1);
   double sum = 0;
   for (std::size_t p = 0; p < voxels.size(); ++p)
     sum +=
@@ -106,7 +106,7 @@ Integers unit(Integers n) {
 
 TEST(Spec_6_6_SurfaceNormals, AreThoseOfTheDefinitionWordForWord) {
   const auto voxels = test::random_cloud(300, 4, 5);
-  const auto normals = surface_normals(voxels, 1);
+  const auto normals = surface_normals(voxels, 0, 1);
   std::vector<std::size_t> points;
   std::vector<Integers> u;
   for (std::size_t p = 0; p < voxels.size(); ++p)
@@ -131,7 +131,7 @@ TEST(Spec_6_6_SurfaceNormals, OfATiltedPlaneHaveLittleOfTheGrid) {
       voxels.push_back(
           {x, y, static_cast<std::int32_t>(std::lround(20 - tilted[0] * x - tilted[1] * y))});
   const auto sorted = test::sorted_distinct(voxels);
-  const auto normals = surface_normals(sorted, 1);
+  const auto normals = surface_normals(sorted, 0, 1);
   double worst = 0, worst_plane = 0;
   std::vector<std::size_t> points;
   for (std::size_t p = 0; p < sorted.size(); ++p) {
@@ -146,16 +146,50 @@ TEST(Spec_6_6_SurfaceNormals, OfATiltedPlaneHaveLittleOfTheGrid) {
 
 TEST(Spec_6_6_SurfaceNormals, DegenerateCloudsHaveTheConventionalOne) {
   const auto upright = [](const Integers& n) { return n[0] == 0 && n[1] == 0 && n[2] > 0; };
-  EXPECT_TRUE(upright(surface_normals(std::vector<Voxel>{{5, 6, 7}}, 1)[0]));
+  EXPECT_TRUE(upright(surface_normals(std::vector<Voxel>{{5, 6, 7}}, 0, 1)[0]));
   std::vector<Voxel> line;
   for (std::int32_t x = 0; x < 30; ++x) line.push_back({x, 0, 0});
-  for (const auto& n : surface_normals(test::sorted_distinct(line), 1)) EXPECT_TRUE(upright(n));
-  EXPECT_TRUE(surface_normals({}, 1).empty());
+  for (const auto& n : surface_normals(test::sorted_distinct(line), 0, 1)) EXPECT_TRUE(upright(n));
+  EXPECT_TRUE(surface_normals({}, 0, 1).empty());
+}
+
+/// Each voxel of a sphere as one of the eight of a finer grid.
+std::vector<Voxel> on_finer_grid(const std::vector<Voxel>& voxels) {
+  std::vector<Voxel> finer;
+  for (const Voxel& v : voxels) finer.push_back({2 * v[0] + (v[1] & 1), 2 * v[1], 2 * v[2] + 1});
+  return test::sorted_distinct(finer);
+}
+
+TEST(Spec_6_6_SurfaceNormals, OfCellsAreThoseOfTheGridThatTheCellsAre) {
+  const auto voxels = test::sphere_cloud(6);
+  std::vector<Voxel> twice;
+  for (const Voxel& v : voxels) twice.push_back({2 * v[0], 2 * v[1], 2 * v[2]});
+  EXPECT_EQ(surface_normals(twice, 1, 1), surface_normals(voxels, 0, 1));
+}
+
+TEST(Spec_6_6_SurfaceNormals, KnowPointsWithinCells) {
+  const auto voxels = on_finer_grid(test::sphere_cloud(7));
+  const double centre = 2 * 63 + 0.5;
+  double sum = 0;
+  const auto normals = surface_normals(voxels, 1, 1);
+  for (std::size_t p = 0; p < voxels.size(); ++p)
+    sum += angle_degrees(normals[p],
+                         {voxels[p][0] - centre, voxels[p][1] - centre, voxels[p][2] - centre});
+  EXPECT_LT(sum / static_cast<double>(voxels.size()), 1.5);
+}
+
+TEST(CellOfSpacing, IsOneVoxelOfASurfaceWithoutHolesAndGrowsWithTheGrid) {
+  const auto voxels = test::sphere_cloud(7);
+  EXPECT_EQ(cell_of_spacing(voxels), 0);
+  EXPECT_EQ(cell_of_spacing(on_finer_grid(voxels)), 1);
+  EXPECT_EQ(cell_of_spacing(on_finer_grid(on_finer_grid(voxels))), 2);
+  EXPECT_EQ(cell_of_spacing({}), 0);
+  EXPECT_EQ(cell_of_spacing(std::vector<Voxel>{{5, 6, 7}}), 0);
 }
 
 TEST(Spec_6_6_SurfaceNormals, DoNotDependOnThreads) {
   const auto voxels = test::sphere_cloud(7);
-  EXPECT_EQ(surface_normals(voxels, 1), surface_normals(voxels, 5));
+  EXPECT_EQ(surface_normals(voxels, 0, 1), surface_normals(voxels, 0, 5));
 }
 
 }  // namespace

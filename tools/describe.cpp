@@ -78,6 +78,7 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
                      {"scales_gamma", h.basis.scales_gamma}};
   }
   json["frame"] = name_of(h.frame);
+  if (h.frame == FrameId::kReflected) json["normal_cell"] = 1 << h.normal_cell_log2;
   json["colour"] = {{"transform", name_of(h.colour)}, {"to_rgb", colour_matrix(h.colour)}};
   json["transfer"] = name_of(h.transfer);
   json["gamma_range"] = {h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0};

@@ -76,7 +76,7 @@ void add_hierarchy_options(CLI::App& verb, EncodeOptions& o, const FitSettings& 
   group(add(verb, "--degree", o.degree, fit.basis.degree, "Degree of the harmonics",
             whole_range(0, 10)));
   group(add(verb, "--block-log2", o.block_log2, s.block_log2,
-            "Side of the finest blocks, 2^n voxels", whole_range(0, 21)));
+            "Side of the finest blocks, 2^n spacings of points", whole_range(0, 21)));
   group(add(verb, "--block-strength", o.block_strength, s.strength,
             "Pull of a block towards the one above, per observation", range(1e-6, 1e6)));
   group(add(verb, "--block-growth", o.block_growth, s.growth,

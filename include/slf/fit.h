@@ -61,7 +61,8 @@ enum class FitMethod : std::uint8_t {
 /// have in common, and what is left. Functions count with mean square 1; the penalty of one grows
 /// with its fineness (the degree of a harmonic, the sum of the scales of a wavelet).
 struct HierarchySettings {
-  int block_log2 = 3;         ///< side of the finest blocks in voxels, 0 .. 21
+  int block_log2 =
+      3;  ///< side of the finest blocks in voxels (encode: in spacings of points), 0 .. 21
   double strength = 0.3;      ///< > 0: pull of a block towards the one above, per observation
   double growth = 1.3;        ///< >= 1: of its penalties, 0.8 growth^fineness
   double point_penalty = 12;  ///< > 0: pull of a point towards its block
@@ -101,6 +102,7 @@ struct FitSettings {
   FitMethod method = FitMethod::kPaper;
   Basis basis;  ///< kPaper: B-splines alone
   FrameId frame = FrameId::kGlobal;
+  int normal_cell_log2 = 0;     ///< LightFieldHeader; the encoder measures it
   double lambda = 0.8;          ///< kPaper: λ >= 0 (0 is solved as a least-norm problem)
   double beta = 1.3;            ///< kPaper: β >= 0
   int iterations = 3;           ///< kPaper: T, 0 .. 100 Jacobi sweeps
@@ -186,7 +188,8 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
                                          const Progress& progress = {});
 
 /// The observations with their directions in the frame of each point (spec 6.4), gamma range too.
+/// @param cell_log2  LightFieldHeader::normal_cell_log2
 Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
-                      int threads);
+                      int cell_log2, int threads);
 
 }  // namespace slf

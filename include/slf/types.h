@@ -73,6 +73,7 @@ struct LightFieldHeader {
   Grid grid;
   Basis basis;
   FrameId frame = FrameId::kGlobal;
+  int normal_cell_log2 = 0;  ///< kReflected: normals are of cells of 2^n voxels, 0 .. bits - 1
   ColourTransform colour = ColourTransform::kNone;
   Transfer transfer = Transfer::kDisplay;
   UpAxis up = UpAxis::kPlusZ;
