@@ -117,7 +117,8 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
                       &coefficients[3 * (header_.coded.empty() ? r : header_.coded[r])]);
         map.to_nodes(coefficients.data(), nodes, scratch.data());
       } else {
-        std::copy(rgb.begin(), rgb.end(), nodes);
+        for (std::size_t r = 0; r < coded; ++r)
+          for (std::size_t c = 0; c < 3; ++c) nodes[c * coded + r] = rgb[3 * r + c];
       }
       // Every other basis function has zero mean over the sphere.
       std::array<float, 3> mean{};
@@ -149,7 +150,7 @@ std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
   std::array<float, 3> rgb{0, 0, 0};
   const float* nodes = nodes_.data() + p * 3 * width_;
   if (harmonics_ || table_) {
-    std::array<float, 4096 + 4> row;  // K at most, and what FunctionTable adds
+    std::array<float, 4096 + 8> row;  // K at most, and what FunctionTable adds
     if (table_ && header_.basis.id == BasisId::kHarmonics) {
       const Vec3 v = vector_of(direction);
       table_->look_up({float(v[0]), float(v[1]), float(v[2])}, row.data());
@@ -158,8 +159,8 @@ std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
     } else {
       harmonics_->evaluate(vector_of(direction), row.data());
     }
-    for (std::size_t r = 0; r < width_; ++r)
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] += row[r] * nodes[3 * r + c];
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t r = 0; r < width_; ++r) rgb[c] += row[r] * nodes[c * width_ + r];
     return rgb;
   }
   const NodeTaps taps = node_taps(header_.basis, static_cast<double>(direction[0]),
