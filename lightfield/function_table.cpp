@@ -107,8 +107,7 @@ FunctionTable::FunctionTable(const LightFieldHeader& header, int threads)
       threads_(threads),
       size_(static_cast<std::size_t>(header.num_components())),
       stride_((size_ + kWidth - 1) / kWidth * kWidth),
-      matrix_(function_matrix(header, stride_)),
-      means_(matrix_.begin(), matrix_.begin() + static_cast<std::ptrdiff_t>(size_)) {
+      matrix_(function_matrix(header, stride_)) {
   if (basis_.id == BasisId::kHarmonics) {
     harmonics_ = std::make_unique<const Harmonics>(basis_.degree);
   } else {

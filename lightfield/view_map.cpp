@@ -84,7 +84,8 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
       normals_(light_field.normals),
-      frame_normals_(frame_normals(header_.frame, positions_, threads)) {
+      frame_normals_(frame_normals(header_.frame, positions_, threads)),
+      mean_(mean_colours(light_field, threads)) {
   assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;
   std::vector<std::int32_t> planes;
@@ -105,7 +106,6 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
   const Dequantiser dequantiser(header_, table_ == nullptr);
   assert(components.size() == num_points() * 3 * coded);
   nodes_.resize(num_points() * 3 * width_);
-  mean_.resize(num_points());
   parallel_ranges(num_points(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> rgb(3 * coded), coefficients(3 * width_), scratch(3 * width_);
     for (std::size_t p = begin; p < end; ++p) {
@@ -120,15 +120,6 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
         for (std::size_t r = 0; r < coded; ++r)
           for (std::size_t c = 0; c < 3; ++c) nodes[c * coded + r] = rgb[3 * r + c];
       }
-      // Every other basis function has zero mean over the sphere.
-      std::array<float, 3> mean{};
-      if (table_ == nullptr && (header_.coded.empty() || header_.coded[0] == 0)) {
-        mean = {rgb[0], rgb[1], rgb[2]};
-      } else if (table_ != nullptr) {
-        for (std::size_t r = 0; r < coded; ++r)
-          for (std::size_t c = 0; c < 3; ++c) mean[c] += table_->means()[r] * rgb[3 * r + c];
-      }
-      mean_[p] = clamp_to_display(mean);
     }
   });
 }
