@@ -215,9 +215,10 @@ std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t 
 
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
                           std::span<std::int32_t> values, int threads,
-                          std::span<const std::uint8_t> nonzero) {
+                          std::span<const std::uint8_t> nonzero, std::size_t used) {
   const Steps table(steps);
-  const bool good = over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
+  used = std::min(used, steps.size());
+  const bool good = over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
     const Range range(values, table, begin, end, nonzero);
     return dequantise_mean(range) | inverse_lanes(tree.merges, range, 0, range.lanes);
   });
@@ -229,9 +230,10 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<const PredictedPlanes> planes,
                                     std::span<const std::uint32_t> steps,
                                     std::span<std::int32_t> values, int threads,
-                                    std::span<const std::uint8_t> nonzero) {
+                                    std::span<const std::uint8_t> nonzero, std::size_t used) {
   const Steps table(steps);
-  bool good = dequantise_mean(Range(values, table, 0, steps.size(), nonzero)) == 0;
+  used = std::min(used, steps.size());
+  bool good = dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
   std::size_t capacity = 0;
   for (int l = 0; l < levels.count(); ++l) {
@@ -249,7 +251,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
       means = std::make_unique_for_overwrite<std::int32_t[]>(capacity);
       advise_huge_pages(means.get(), capacity * sizeof(std::int32_t));
     }
-    good &= over_planes(steps.size(), threads, [&](std::size_t begin, std::size_t end) {
+    good &= over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
       return inverse_level(level, merges, clip(runs, begin, end),
                            Range(values, table, begin, end, nonzero),
                            {means ? means.get() + std::min(begin, width) : nullptr, width});

@@ -18,14 +18,18 @@ struct PredictedPlanes {
   std::vector<std::uint8_t> modes;  ///< [levels] cu_prediction, 0 where none; empty: all 0
 };
 
+inline constexpr std::size_t kAllPlanes = ~std::size_t{0};
+
 /// Values are [rows][planes], row-major; quantised coefficients in, values out, in place.
 /// @param steps  [planes]
 /// @param nonzero  [rows] 0: the coefficients of the row are zero; empty: any may be other
+/// @param used  planes that are worked on: all coefficients of those from there on are zero
 /// @errors kOutOfRange: a coefficient of 2^27 or more; the values are then of no meaning. The limit
 ///         bounds every intermediate below 2^31 (spec 8.8.2).
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
                           std::span<std::int32_t> values, int threads,
-                          std::span<const std::uint8_t> nonzero = {});
+                          std::span<const std::uint8_t> nonzero = {},
+                          std::size_t used = kAllPlanes);
 
 /// The same, a level at a time, children predicted.
 /// @param levels  of the same points, at level 0
@@ -34,7 +38,8 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<const PredictedPlanes> planes,
                                     std::span<const std::uint32_t> steps,
                                     std::span<std::int32_t> values, int threads,
-                                    std::span<const std::uint8_t> nonzero = {});
+                                    std::span<const std::uint8_t> nonzero = {},
+                                    std::size_t used = kAllPlanes);
 
 /// The means of a node of `weight` points, of the values raht_inverse leaves in its row; in place.
 void to_node_means(std::span<std::int32_t> row, std::uint32_t weight);

@@ -134,13 +134,14 @@ void SliceDecoder::set_modes(const SliceUnitHeader& unit, std::uint32_t end_leve
 
 /// Spec 8.7.4, 8.7.6, 8.8.
 Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupModes& modes,
-                                       const CoefficientRows& rows, int threads) const {
+                                       std::size_t used, const CoefficientRows& rows,
+                                       int threads) const {
   const std::span<std::int32_t> components = rows.values;
   const auto is_predicted = [](const auto& levels) {
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
   if (std::none_of(modes.begin(), modes.end(), is_predicted))
-    return raht_inverse(tree_, plan.steps, components, threads, rows.nonzero);
+    return raht_inverse(tree_, plan.steps, components, threads, rows.nonzero, used);
   std::vector<std::size_t> group(plan.coded.size());
   for (std::size_t g = 0; g < plan.groups.size(); ++g)
     for (const std::uint16_t place : plan.groups[g]) group[place] = g;
@@ -152,7 +153,7 @@ Result<Done> SliceDecoder::reconstruct(const SequencePlan& plan, const GroupMode
   TransformLevels levels(codes_, static_cast<int>(header.slice_depth),
                          static_cast<int>(plan.set.grid_bits()) - plan.levels);
   return raht_inverse_predicted(tree_, levels, planes, plan.steps, components, threads,
-                                rows.nonzero);
+                                rows.nonzero, used);
 }
 
 Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
@@ -166,8 +167,8 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
   std::uint32_t expected = 0;  // units come by range, then group
   if (tree_.size() > 0) {
     CoefficientModels models(plan.groups, tree_, codes_, first_, set.sps_coefficient_coder == 0);
-    std::vector<std::uint8_t> nonzero(tree_.size(), 0);
-    const CoefficientRows rows{tree_, components, planes, nonzero};
+    std::vector<std::uint8_t> nonzero(tree_.size(), 0), of_unit(tree_.size());
+    std::vector<bool> any(plan.groups.size(), false);  // coefficient of a group is not zero
     GroupModes modes(plan.groups.size(), std::vector<std::uint8_t>(header.slice_depth, 0));
     for (const SliceUnit& unit : units) {
       if (unit.type != UnitType::kCoefficients) continue;
@@ -189,13 +190,25 @@ Result<Done> SliceDecoder::decode_components(const SequencePlan& plan,
           range_end(set.sps_coefficient_range_end, unit.header.range, set.grid_bits());
       const bool cut = static_cast<int>(end_level) > plan.levels;
       set_modes(unit.header, end_level, set.grid_bits(), modes[unit.header.group]);
-      SLF_CHECK(decode_coefficients(unit.payload, models, rows, unit.header.group, begin,
-                                    order_at(end_level), cut));
+      std::fill(of_unit.begin(), of_unit.end(), std::uint8_t{0});
+      SLF_CHECK(decode_coefficients(unit.payload, models, {tree_, components, planes, of_unit},
+                                    unit.header.group, begin, order_at(end_level), cut));
+      for (std::size_t row = 0; row < nonzero.size(); ++row) nonzero[row] |= of_unit[row];
+      if (std::find(of_unit.begin(), of_unit.end(), 1) != of_unit.end())
+        any[unit.header.group] = true;
     }
-    SLF_CHECK(reconstruct(plan, modes, rows, threads));
+    std::size_t used = 0;  // planes up to the last that is not all zero
+    for (std::size_t g = 0; g < any.size(); ++g)
+      if (any[g]) {
+        used = std::max(used, std::size_t{3} * plan.groups[g].back() + 3);
+      } else {
+        modes[g].clear();  // nothing to predict
+      }
+    if (used > 0)
+      SLF_CHECK(reconstruct(plan, modes, used, {tree_, components, planes, nonzero}, threads));
     if (plan.kept_levels_only())
       for (std::size_t row = 0; row + 1 < first_.size(); ++row)
-        to_node_means(components.subspan(row * planes, planes), first_[row + 1] - first_[row]);
+        to_node_means(components.subspan(row * planes, used), first_[row + 1] - first_[row]);
   }
   partial = partial || expected < ranges * groups;
   return Done{};

@@ -76,7 +76,7 @@ struct SliceDecoder {
   using GroupModes = std::vector<std::vector<std::uint8_t>>;  // [groups][levels] cu_prediction
   void set_modes(const SliceUnitHeader& unit, std::uint32_t end_level, std::uint32_t grid_bits,
                  std::vector<std::uint8_t>& modes) const;
-  Result<Done> reconstruct(const SequencePlan& plan, const GroupModes& modes,
+  Result<Done> reconstruct(const SequencePlan& plan, const GroupModes& modes, std::size_t used,
                            const CoefficientRows& rows, int threads) const;
   void keep(std::vector<std::uint64_t> morton, int depth, const SequencePlan& plan);
 

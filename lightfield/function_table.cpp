@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "bitstream/multiversion.h"
 #include "lightfield/frame.h"
 #include "lightfield/nodes.h"
 #include "slf/parallel.h"
@@ -11,7 +12,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kWidth = 4;  // of vectors: rows are whole ones
+constexpr std::size_t kWidth = 8;  // of vectors: rows are whole ones
 constexpr std::size_t kDirections = 64;
 
 /// [K][stride]: 2^-shift M, or 2^-shift alone for functions without a transform.
@@ -84,6 +85,21 @@ std::array<float, 4> cubic_weights(float u) {
           u * u * u / 6};
 }
 
+/// Rows of 4 x 4 places to their weighted sum.
+/// @param below  elements from a place to that of the next line
+SLF_MULTIVERSION
+void interpolate(const float* first, std::size_t stride, std::size_t below,
+                 const std::array<std::array<float, 4>, 2>& weight, float* __restrict row) {
+  std::fill_n(row, stride, 0.0f);
+  for (std::size_t y = 0; y < 4; ++y, first += below) {
+    const float w0 = weight[1][y] * weight[0][0], w1 = weight[1][y] * weight[0][1],
+                w2 = weight[1][y] * weight[0][2], w3 = weight[1][y] * weight[0][3];
+    const float *a = first, *b = a + stride, *c = b + stride, *d = c + stride;
+    for (std::size_t r = 0; r < stride; ++r)
+      row[r] += (w0 * a[r] + w1 * b[r]) + (w2 * c[r] + w3 * d[r]);
+  }
+}
+
 }  // namespace
 
 FunctionTable::FunctionTable(const LightFieldHeader& header, int threads)
@@ -91,8 +107,7 @@ FunctionTable::FunctionTable(const LightFieldHeader& header, int threads)
       threads_(threads),
       size_(static_cast<std::size_t>(header.num_components())),
       stride_((size_ + kWidth - 1) / kWidth * kWidth),
-      matrix_(function_matrix(header, stride_)),
-      means_(matrix_.begin(), matrix_.begin() + static_cast<std::ptrdiff_t>(size_)) {
+      matrix_(function_matrix(header, stride_)) {
   if (basis_.id == BasisId::kHarmonics) {
     harmonics_ = std::make_unique<const Harmonics>(basis_.degree);
   } else {
@@ -166,15 +181,7 @@ void FunctionTable::look_up(const std::array<float, 3>& direction, float* row) c
     weight[i] = cubic_weights(x - static_cast<float>(cell[i]));
   }
   const float* first = &faces_[((face * kSide + cell[1]) * kSide + cell[0]) * stride_];
-  std::fill_n(row, stride_, 0.0f);
-  for (std::size_t y = 0; y < 4; ++y, first += kSide * stride_) {
-    const float w0 = weight[1][y] * weight[0][0], w1 = weight[1][y] * weight[0][1],
-                w2 = weight[1][y] * weight[0][2], w3 = weight[1][y] * weight[0][3];
-    const float *a = first, *b = a + stride_, *c = b + stride_, *d = c + stride_;
-    float* __restrict sum = row;
-    for (std::size_t r = 0; r < stride_; ++r)
-      sum[r] += (w0 * a[r] + w1 * b[r]) + (w2 * c[r] + w3 * d[r]);
-  }
+  interpolate(first, stride_, kSide * stride_, weight, row);
 }
 
 }  // namespace slf

@@ -30,9 +30,6 @@ class FunctionTable {
   /// harmonics alone.
   void look_up(const std::array<float, 3>& direction, float* row) const;
 
-  /// [R] what each has of function 0: its mean over the sphere.
-  const std::vector<float>& means() const { return means_; }
-
  private:
   static constexpr int kCells = 32;  ///< a side of a face; kh = 10 / 16 for degree 10: error 2e-4
   static constexpr int kSide = kCells + 3;
@@ -45,7 +42,6 @@ class FunctionTable {
   std::unique_ptr<const Harmonics> harmonics_;
   /// [K][stride] weights of the basis functions; of splines [nodes][stride], those of the nodes.
   std::vector<float> matrix_;
-  std::vector<float> means_;
   mutable std::once_flag once_;
   mutable std::vector<float> faces_;  // [6][kSide][kSide][stride] of splines
 };

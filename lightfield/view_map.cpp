@@ -84,7 +84,8 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
       normals_(light_field.normals),
-      frame_normals_(frame_normals(header_.frame, positions_, header_.normal_cell_log2, threads)) {
+      frame_normals_(frame_normals(header_.frame, positions_, header_.normal_cell_log2, threads)),
+      mean_(mean_colours(light_field, threads)) {
   assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;
   std::vector<std::int32_t> planes;
@@ -105,7 +106,6 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
   const Dequantiser dequantiser(header_, table_ == nullptr);
   assert(components.size() == num_points() * 3 * coded);
   nodes_.resize(num_points() * 3 * width_);
-  mean_.resize(num_points());
   parallel_ranges(num_points(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> rgb(3 * coded), coefficients(3 * width_), scratch(3 * width_);
     for (std::size_t p = begin; p < end; ++p) {
@@ -117,17 +117,9 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
                       &coefficients[3 * (header_.coded.empty() ? r : header_.coded[r])]);
         map.to_nodes(coefficients.data(), nodes, scratch.data());
       } else {
-        std::copy(rgb.begin(), rgb.end(), nodes);
-      }
-      // Every other basis function has zero mean over the sphere.
-      std::array<float, 3> mean{};
-      if (table_ == nullptr && (header_.coded.empty() || header_.coded[0] == 0)) {
-        mean = {rgb[0], rgb[1], rgb[2]};
-      } else if (table_ != nullptr) {
         for (std::size_t r = 0; r < coded; ++r)
-          for (std::size_t c = 0; c < 3; ++c) mean[c] += table_->means()[r] * rgb[3 * r + c];
+          for (std::size_t c = 0; c < 3; ++c) nodes[c * coded + r] = rgb[3 * r + c];
       }
-      mean_[p] = clamp_to_display(mean);
     }
   });
 }
@@ -149,7 +141,7 @@ std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
   std::array<float, 3> rgb{0, 0, 0};
   const float* nodes = nodes_.data() + p * 3 * width_;
   if (harmonics_ || table_) {
-    std::array<float, 4096 + 4> row;  // K at most, and what FunctionTable adds
+    std::array<float, 4096 + 8> row;  // K at most, and what FunctionTable adds
     if (table_ && header_.basis.id == BasisId::kHarmonics) {
       const Vec3 v = vector_of(direction);
       table_->look_up({float(v[0]), float(v[1]), float(v[2])}, row.data());
@@ -158,8 +150,8 @@ std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,
     } else {
       harmonics_->evaluate(vector_of(direction), row.data());
     }
-    for (std::size_t r = 0; r < width_; ++r)
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] += row[r] * nodes[3 * r + c];
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t r = 0; r < width_; ++r) rgb[c] += row[r] * nodes[c * width_ + r];
     return rgb;
   }
   const NodeTaps taps = node_taps(header_.basis, static_cast<double>(direction[0]),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/multiversion.h"
 #include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "slf/view_map.h"
@@ -36,17 +37,21 @@ inline void prefetch([[maybe_unused]] const float* values, [[maybe_unused]] std:
 #endif
 }
 
-/// Sum of the functions, channel by channel: four sums each, so that none waits for the one before.
-inline std::array<float, 3> weighted_sum(const float* row, const float* node, std::size_t count) {
-  std::array<float, 12> sums{};
-  std::size_t k = 0;
-  for (; k + 4 <= count; k += 4, node += 12)
-    for (std::size_t j = 0; j < 12; ++j) sums[j] += row[k + j / 3] * node[j];
-  for (; k < count; ++k, node += 3)
-    for (std::size_t c = 0; c < 3; ++c) sums[c] += row[k] * node[c];
+/// Sums of the functions, channel by channel, kLanes at a time.
+/// @param weights  [3][count]
+inline std::array<float, 3> weighted_sum(const float* row, const float* weights,
+                                         std::size_t count) {
   std::array<float, 3> rgb;
-  for (std::size_t c = 0; c < 3; ++c)
-    rgb[c] = std::clamp(sums[c] + sums[c + 3] + sums[c + 6] + sums[c + 9], 0.0f, 255.0f);
+  for (std::size_t c = 0; c < 3; ++c, weights += count) {
+    std::array<float, kLanes> sums{};
+    std::size_t k = 0;
+    for (; k + kLanes <= count; k += kLanes)
+      for (std::size_t j = 0; j < kLanes; ++j) sums[j] += row[k + j] * weights[k + j];
+    for (std::size_t j = 0; k + j < count; ++j) sums[j] += row[k + j] * weights[k + j];
+    const float sum =
+        ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+    rgb[c] = std::clamp(sum, 0.0f, 255.0f);
+  }
   return rgb;
 }
 
@@ -58,6 +63,7 @@ std::array<float, 3> ViewMaps::seen_from(std::size_t p, const Vec3& eye) const {
   return radiance(p, theta, gamma);
 }
 
+SLF_MULTIVERSION_ALL
 void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
                          std::span<std::array<float, 3>> colours) const {
   if (header_.basis.id != BasisId::kHarmonics) {
@@ -68,7 +74,7 @@ void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
   const float high = static_cast<float>(header_.gamma_max_q7) / 127.0f;
   std::array<std::array<float, kLanes>, 3> directions{};
   std::array<std::array<float, kLanes>, Harmonics::kMost> rows;
-  std::array<float, Harmonics::kMost + kLanes> row;
+  std::array<float, Harmonics::kMost + 2 * kLanes> row;  // what FunctionTable adds
   for (std::size_t first = 0; first < points.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, points.size() - first);
     for (std::size_t i = 0; i < count; ++i) {

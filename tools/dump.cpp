@@ -21,12 +21,11 @@ float display_of(float linear) {
 }
 
 void add_colours(const LightField& field, int threads, PointCloud& cloud) {
-  const ViewMaps maps(field, threads);
+  const auto means = mean_colours(field, threads);
   const bool linear = field.header.transfer == Transfer::kLinear;
   cloud.colours.reserve(field.num_points());
-  for (std::size_t p = 0; p < field.num_points(); ++p) {
+  for (const auto& mean : means) {
     std::array<std::uint8_t, 3> rgb{};
-    const auto mean = maps.mean(p);
     for (std::size_t c = 0; c < 3; ++c)
       rgb[c] = static_cast<std::uint8_t>((linear ? display_of(mean[c]) : mean[c]) + 0.5f);
     cloud.colours.push_back(rgb);

@@ -24,6 +24,10 @@ std::vector<double> basis_norms(const Basis& basis);
 /// The 3 x 3 matrix that takes coded channels to R, G, B. Spec 6.5. Its transpose goes back.
 std::array<std::array<double, 3>, 3> colour_matrix(ColourTransform transform);
 
+/// [P] The mean of every point over all directions (the DC), R, G, B, 0 .. 255. Needs no more than
+/// the components that have a part in it. The light field must have a basis.
+std::vector<std::array<float, 3>> mean_colours(const LightField& light_field, int threads = 0);
+
 class FunctionTable;
 class Harmonics;
 
@@ -47,7 +51,7 @@ class ViewMaps {
                  std::span<std::array<float, 3>> colours) const;
   /// The same without any clamp.
   std::array<float, 3> radiance_unclamped(std::size_t p, float theta, float gamma) const;
-  /// The mean over all directions (the DC), 0 .. 255.
+  /// Of mean_colours().
   std::array<float, 3> mean(std::size_t p) const;
 
   const LightFieldHeader& header() const { return header_; }
@@ -63,7 +67,7 @@ class ViewMaps {
   std::array<float, 3> seen_from(std::size_t p, const Vec3& eye) const;
 
   std::size_t width_ = 0;     // K or R
-  std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][R][3] weights of functions
+  std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][3][R] weights of functions
   std::vector<std::array<float, 3>> frame_normals_;  // [P], or empty: global frame
   std::shared_ptr<const Harmonics> harmonics_;       // where the functions are harmonics
   std::shared_ptr<const FunctionTable> table_;       // where they are sums
