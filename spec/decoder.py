@@ -495,7 +495,7 @@ def decide_mixed(decoder, contexts, weights, rate):
     summed = weights[0]
     for row in weights[1:]:
         summed = [saturate(a + b) for a, b in zip(summed, row)]
-    p = SQUASH[min(max(sum(w * x for w, x in zip(summed, inputs)) >> 13, -2815), 2815) + 2815]
+    p = SQUASH[min(max(sum(w * x for w, x in zip(summed, inputs)) >> 13, -2047), 2047) + 2815]
     bit = decoder.decide(p)
     error = ((bit << 16) - p) * rate >> 5
     steps = [x * error + (1 << 15) >> 16 for x in inputs]
@@ -796,10 +796,13 @@ class VectorCoder:
         self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
         self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4])
         self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)])
+        self.rest = MixedDecision([32 * 48, 4**5, 24 * 5 * 12, 32 * 5 * 16])
+        self.any = MixedDecision([25 * 48, 48 * 17, 20 * 20, 56 * 24, 48 * 24])
         self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
         self.activity = [16 if functions > 1 else 0] * self.planes
         self.sums = [0] * len(tree.split)
+        self.runs = [0] * len(tree.split)
         self.quantised = {}                 # of rows that are not all zero
         self.kept = {0: [0] * self.planes}  # the same without row 0, within -4095 .. 4095
 
@@ -858,42 +861,89 @@ class VectorCoder:
             (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
 
     def decode_row(self, decoder, r, split, same_axis):
-        """8.7.2, 2 - 4: the values of a row."""
+        """8.7.2, 2: the values of a row."""
         values, kept = [0] * self.planes, [0] * self.planes
         around = [self.kept.get(row, self.kept[0]) for row in self.rows + [same_axis]]
-        total = activity_total = 0
-        for j in range(self.planes):
-            if j % 3 == 0:
-                expected = []
-            activity = self.activity[j]
-            up, side = self.expected([abs(row[j]) for row in around[:7]])
-            expected.append((up + side) // 2 + (activity >> 5))
-            ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
-            contexts = self.magnitude_contexts(kept, j, min(split, 24), (up, side), expected, ratio)
-            magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total)
-            if magnitude:
-                negative = self.decode_sign(decoder, kept, j, around)
-                values[j] = -magnitude if negative else magnitude
-                kept[j] = min(max(values[j], -4095), 4095)
-            total += abs(kept[j])
-            activity_total += activity
-            if self.planes > 3:
-                self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
+        means = [self.expected([abs(row[j]) for row in around[:7]]) for j in range(self.planes)]
+        ahead = [min((up + side) // 2 + (a >> 5), 1 << 18) for (up, side), a in zip(means, self.activity)]
+        functions, total, activity_total, recent, last = self.planes // 3, 0, 0, 0, 0
+        split = min(split, 24)
+        for f in range(functions):
+            planes = range(3 * f, 3 * f + 3)
+            if f and f % 4 == 0 and total:
+                if not self.decode_rest(decoder, f, sum(ahead[3 * f:]), total, recent):
+                    for j in range(3 * f, self.planes):
+                        self.activity[j] += -self.activity[j] >> 6
+                    break
+                recent = 0
+            before = self.functions_before(kept, f)
+            if functions > 1 and (total or f < functions - 1):
+                evidence = [sum(part) for part in zip(*[means[j] for j in planes])]
+                activity = sum(self.activity[j] for j in planes)
+                if not self.decode_any(decoder, split, before, evidence, activity, total, activity_total):
+                    activity_total += activity
+                    for j in planes:
+                        self.activity[j] += -self.activity[j] >> 6
+                    continue
+            recent, last, expected = recent + 1, f, []
+            for j in planes:
+                activity = self.activity[j]
+                up, side = means[j]
+                expected.append((up + side) // 2 + (activity >> 5))
+                ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
+                contexts = self.magnitude_contexts(kept, j, split, means[j], expected, ratio)
+                magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total, kept)
+                if magnitude:
+                    negative = self.decode_sign(decoder, kept, j, around)
+                    values[j] = -magnitude if negative else magnitude
+                    kept[j] = min(max(values[j], -4095), 4095)
+                total += abs(kept[j])
+                activity_total += activity
+                if self.planes > 3:
+                    self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
         self.quantised[r] = values
         if r:
-            self.kept[r], self.sums[r] = kept, min(total, 65535)
+            self.kept[r], self.sums[r], self.runs[r] = kept, min(total, 65535), min(last // 4 + 1, 255)
+
+    @staticmethod
+    def functions_before(kept, f):
+        """8.7.2, 2: `before`."""
+        if f == 0:
+            return 16
+        return min(abs(kept[3 * f - 3]), 3) + 4 * (min(abs(kept[3 * f - 6]), 2) if f > 1 else 3)
+
+    def decode_rest(self, decoder, f, expected, total, recent):
+        """8.7.2, 3: has the vector a value from function f on?"""
+        run, size = min(f // 4, 31), size_class(expected >> 4, 47)
+        h = [min(max(self.runs[row] - run, 0), 3) for row in self.rows]
+        return self.rest.decode(decoder, [
+            run * 48 + size,
+            (((h[0] * 4 + h[3]) * 4 + h[4]) * 4 + h[5]) * 4 + h[6],
+            (size_class(total, 23) * 5 + recent) * 12 + size // 4,
+            (run * 5 + recent) * 16 + h[0] * 4 + h[6]], run)
+
+    def decode_any(self, decoder, split, before, evidence, activity, total, activity_total):
+        """8.7.2, 4: has the function a value?"""
+        up, side = evidence
+        size = size_class((up + side) // 2 + (activity >> 5) >> 4, 47)
+        ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 55)
+        act = size_class(activity >> 2, 47)
+        return self.any.decode(decoder, [
+            split * 48 + act,
+            size * 17 + before,
+            size_class(up >> 4, 39) // 2 * 20 + size_class(side >> 4, 39) // 2,
+            ratio * 24 + size // 2,
+            act * 24 + self.scale_class], before + (0 if total else 17))
 
     def magnitude_contexts(self, kept, j, split, means, expected, ratio):
-        """8.7.2, 2: the contexts of a magnitude."""
+        """8.7.2, 5: the contexts of a magnitude."""
         channel = j % 3
         earlier = [abs(v) for v in kept[j - channel:j]]
         by_channel = [size_class((2 * m + 1) * 8 * (expected[channel] + 16) // (e + 16), 47)
                       for m, e in zip(earlier, expected)]
         channels = 0
         if channel == 0:
-            other = 16
-            if j:
-                other = min(abs(kept[j - 3]), 3) + 4 * (min(abs(kept[j - 6]), 2) if j > 3 else 3)
+            other = self.functions_before(kept, j // 3)
         elif channel == 1:
             other, channels = size_class(earlier[0], 15), by_channel[0]
         else:
@@ -905,10 +955,10 @@ class VectorCoder:
                     channels, ratio // 3 * 16 + level // 3]
         return [(context * 3 + channel) * 16 for context in contexts]
 
-    def decode_magnitude(self, decoder, contexts, j, expected, total):
-        """8.7.2, 3: a magnitude."""
+    def decode_magnitude(self, decoder, contexts, j, expected, total, kept):
+        """8.7.2, 5: a magnitude."""
         chosen = (j % 3 if total else 3 + j % 3) * 16
-        implied = total == 0 and j == self.planes - 1
+        implied = j % 3 == 2 and not kept[j - 1] and not kept[j - 2]
         for magnitude in range(1 if implied else 0, 15):
             if not self.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
                 return magnitude
@@ -916,7 +966,7 @@ class VectorCoder:
         return 14 + decoder.exp_golomb(prefix, 255)
 
     def decode_sign(self, decoder, kept, j, around):
-        """8.7.2, 4: is the value negative?"""
+        """8.7.2, 6: is the value negative?"""
         channel, first = j % 3, j - j % 3
         parent, grandparent, _, *faces, previous, same_axis = around
 
@@ -1160,7 +1210,7 @@ class Slice:
             before = self.coders[-1] if self.coders else None
             self.coders.append(self.sequence.coder(len(self.sequence.coded[group]), self.tree, before))
         begin, end = [g - self.top for g in self.sequence.coefficient_bounds[level_range:level_range + 2]]
-        if self.sequence.coded[group]:
+        if self.sequence.coded[group] and decoder.codeword:
             self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
 
     def inverse_transform(self, values, coders, shift):
