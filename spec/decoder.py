@@ -583,11 +583,6 @@ def corner_directions(child):
     return [(dx + 1) + 3 * (dy + 1) + 9 * (dz + 1) for dx, dy, dz in offsets]
 
 
-def halves_table(axis):
-    """8.4.3: bits 2i and 2i + 1 of halves, by occupancy."""
-    return [sum({1 << 2 * axis + CHILDREN[c][axis] for c in range(8) if o >> c & 1}) for o in range(256)]
-
-
 def columns_table(first, second):
     """8.4.3: which columns hold a child, by occupancy; first and second are the other axes."""
     return [sum({1 << CHILDREN[c][first] + 2 * CHILDREN[c][second] for c in range(8) if o >> c & 1})
@@ -599,7 +594,6 @@ ALL = around((1, 2, 3))
 OUTSIDE = [face_cells(child) for child in CHILDREN]
 CORNER = [corner_directions(child) for child in CHILDREN]
 WINDOW_SHIFT = [x + 4 * y + 16 * z for x, y, z in CHILDREN]
-HALVES = [halves_table(axis) for axis in range(3)]
 COLUMNS_X, COLUMNS_Y, COLUMNS_Z = columns_table(1, 2), columns_table(0, 2), columns_table(0, 1)
 
 
@@ -621,7 +615,7 @@ class Octree:
         """8.4.2: contexts of table 8-3, three mixers; 8.4.1: the root."""
         self.points = points
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
-        widths = (11, 15, self.hash_bits, 15, 14, self.hash_bits, self.hash_bits)
+        widths = (11, 15, self.hash_bits, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
         self.mixers = [Mixer(900) for _ in range(3)]
         self.nodes_coded = 0
@@ -632,7 +626,7 @@ class Octree:
         """8.4.1: the children of all nodes of a level."""
         index = {node: i for i, node in enumerate(self.nodes)}
         occupancies = []
-        history = [{} for _ in range(6)]
+        history = [{} for _ in range(3)]
         following = []
         for i, (x, y, z) in enumerate(self.nodes):
             neighbours = occupied = unknown = 0
@@ -659,7 +653,7 @@ class Octree:
     def decode_node(self, decoder, around_node, history):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded = 0
-        rate = 8 - min(self.nodes_coded >> 13, 3)
+        rate = 8 - min(self.nodes_coded >> 13, 4)
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
@@ -673,7 +667,7 @@ class Octree:
     def predict(self, c, coded, around_node, history):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
-        halves, columns = history
+        columns = history
         bits = self.hash_bits
         siblings = 1 << c | coded
         O = occupied >> WINDOW_SHIFT[c] & ALL
@@ -684,8 +678,7 @@ class Octree:
         corner = 0
         for k, d in enumerate(CORNER[c]):
             corner |= (neighbours >> d & 1) << k
-        nS = coded.bit_count()
-        nO, nU, nN = O.bit_count() + nS, U.bit_count(), neighbours.bit_count()
+        nO, nN = O.bit_count() + coded.bit_count(), neighbours.bit_count()
         first_half = c < 4
         node_key = 0 if first_half else 8 | coded & 7
         node_bits = 4 if first_half else 5
@@ -695,15 +688,13 @@ class Octree:
             faces * 8 + c,
             siblings * 128 + corner,
             hash_group(neighbours * HASH_A, node_key, bits, node_bits) + in_node,
-            ((nO * 27 + nU) * 8 + c) * 4 + min(nS, 3),
-            halves * 256 + siblings,
             hash_group(columns * HASH_A, node_key, bits, node_bits) + in_node,
             hash_group(O * HASH_A + (U * 8 + c) * HASH_B, coded & (1 << older) - 1, bits, 3) + (coded >> older))
         return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, faces)
 
     def history_entries(self, x, y, z):
-        """8.4.3: a node's entries in the six tables: x, y, z, (y, z), (x, z), (x, y)."""
-        entries = [x & (1 << 18) - 1, y & (1 << 18) - 1, z & (1 << 18) - 1]
+        """8.4.3: a node's entries in the three tables: (y, z), (x, z), (x, y)."""
+        entries = []
         for a, b in ((y, z), (x, z), (x, y)):
             if 2 * self.level <= 18:
                 entries.append(a + (b << self.level))
@@ -713,11 +704,9 @@ class Octree:
 
     @staticmethod
     def read_history(history, entries):
-        """8.4.3: halves and columns of a node."""
-        by_x, by_y, by_z, by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
-        halves = HALVES[0][by_x] | HALVES[1][by_y] | HALVES[2][by_z]
-        columns = 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
-        return halves, columns
+        """8.4.3: columns of a node."""
+        by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
+        return 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
 
 
 # ---- 8.6 The transform tree
