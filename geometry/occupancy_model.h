@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bitstream/multiversion.h"
 #include "bitstream/prefetch.h"
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
@@ -40,6 +41,8 @@ class OccupancyModel {
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
     Node node = node_contexts(nodes, n);
+    if (n + 1 < nodes.size())  // for the cache alone
+      group(kByNeighbours, nodes.around[n + 1] * kFactorA, 0, 4);
     unsigned coded = 0;
     code_child<0>(coder, node, coded, occupancy);
     code_child<1>(coder, node, coded, occupancy);
@@ -110,6 +113,7 @@ class OccupancyModel {
     node.columns = columns * kFactorA;
     node.neighbours_group = group(kByNeighbours, node.neighbours, 0, 4);
     node.columns_group = group(kByColumns, node.columns, 0, 4);
+    SLF_UNROLL_8
     for (unsigned c = 0; c < 8; ++c) {
       Child& child = node.child[c];
       const Surroundings around = surroundings(occupied, unknown, c);
