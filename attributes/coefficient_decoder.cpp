@@ -23,9 +23,11 @@ SLF_MULTIVERSION_ALL
 Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, CoefficientModels& models,
                                  const CoefficientRows& rows, std::size_t group, std::size_t begin,
                                  std::size_t end, bool cut) {
+  if (payload.empty()) return Done{};  // all are zero
   RangeDecoder decoder(payload);
   if (!models.code(decoder, rows, group, begin, end))
-    return Error{Errc::kOutOfRange, "cu_magnitude", 0};
+    return decoder.exhausted() ? decoder.finish("cu_coefficients")
+                               : Error{Errc::kOutOfRange, "cu_magnitude", 0};
   if (cut) return Done{};
   return decoder.finish("cu_coefficients");
 }

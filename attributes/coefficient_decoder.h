@@ -38,6 +38,8 @@ class CoefficientModels {
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,
             std::size_t end) {
     if (empty_[group]) return true;
+    if constexpr (!Coder::kDecodes)
+      if (all_zero(rows, group, begin, end)) return true;  // an empty codeword
     if (!vector_.empty())
       return vector_[group].code(coder, rows, neighbours_,
                                  group > 0 ? &vector_[group - 1] : nullptr, begin, end);
@@ -45,6 +47,15 @@ class CoefficientModels {
   }
 
  private:
+  bool all_zero(const CoefficientRows& rows, std::size_t group, std::size_t begin,
+                std::size_t end) const {
+    const auto& functions =
+        vector_.empty() ? independent_[group].functions() : vector_[group].functions();
+    for (std::size_t i = begin; i < end; ++i)
+      if (has_any(rows.row(rows.tree.order[i]), functions)) return false;
+    return true;
+  }
+
   CoefficientNeighbours neighbours_;
   std::vector<bool> empty_;                 // groups without functions to code
   std::vector<VectorCoefficients> vector_;  // one of the two is empty

@@ -22,6 +22,13 @@ struct CoefficientRows {
   }
 };
 
+/// Is one of the functions' values other than 0?
+inline bool has_any(const std::int32_t* row, const std::vector<std::uint16_t>& functions) {
+  std::int32_t any = 0;
+  for (const std::size_t f : functions) any |= row[3 * f] | row[3 * f + 1] | row[3 * f + 2];
+  return any != 0;
+}
+
 /// The levels a row's difference belongs to, finest 0; the mean of all has a class of its own.
 inline constexpr std::uint32_t kLevelClasses = 13;
 inline std::uint32_t level_class(const RahtTree& tree, std::uint32_t row) {

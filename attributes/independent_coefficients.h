@@ -20,6 +20,8 @@ class IndependentCoefficients {
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if constexpr (Coder::kDecodes)
+        if (coder.exhausted()) return false;
       std::int32_t* row = rows.row(rows.tree.order[i]);
       std::int32_t any = 0;
       for (std::size_t f = 0; f < functions_.size(); ++f)
@@ -32,6 +34,8 @@ class IndependentCoefficients {
     }
     return true;
   }
+
+  const std::vector<std::uint16_t>& functions() const { return functions_; }
 
  private:
   static constexpr std::uint32_t kLimit = 30;  // coarse to fine: forget quickly

@@ -31,18 +31,23 @@ class VectorCoefficients {
         vectors_(width_),
         activity_(width_, functions_.size() > 1 ? kFirstActivity : 0),
         parents_(width_),
-        beside_(width_) {}
+        beside_(width_),
+        rest_((functions_.size() + kRun - 1) / kRun),
+        runs_(num_points) {}
 
   /// Codes rows order[begin .. end). `lower`: the group before this one, or nullptr.
   /// Returns false where the decoder met a value no encoder writes.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, const CoefficientNeighbours& neighbours,
             const VectorCoefficients* lower, std::size_t begin, std::size_t end) {
+    if constexpr (!Coder::kDecodes) find_rows(rows);
     for (std::size_t i = begin; i < end; ++i) {
+      if constexpr (Coder::kDecodes)
+        if (coder.exhausted()) return false;
       const std::uint32_t row = rows.tree.order[i];
       const Around around = around_of(rows.tree, neighbours, i);
       const std::uint32_t below = lower != nullptr ? log_class(lower->sum_[row], 15) : 0;
-      const bool any = !Coder::kDecodes && has_any(rows.row(row));
+      const bool any = !Coder::kDecodes && any_in_row_[row] != 0;
       if (!code_node(coder, around, below, any)) continue;
       rows.set_nonzero(row);
       if (!code_vector(coder, around, row, rows.row(row))) return false;
@@ -50,10 +55,13 @@ class VectorCoefficients {
     return true;
   }
 
+  const std::vector<std::uint16_t>& functions() const { return functions_; }
+
  private:
   static constexpr std::size_t kParents = 3;  // parent, its parent, and that one's
   static constexpr std::size_t kAround = 7;   // and the faces towards lower x, y, z; the previous
   static constexpr std::uint32_t kTopSplit = 44;
+  static constexpr std::size_t kRun = 4;          // functions
   static constexpr std::int32_t kLargest = 4095;  // magnitudes are kept for contexts up to this
   static constexpr std::int32_t kFirstActivity = 16;
 
@@ -77,6 +85,7 @@ class VectorCoefficients {
   struct Progress {
     std::uint32_t sum = 0;       // of magnitudes
     std::uint64_t activity = 0;  // of their planes
+    std::uint32_t recent = 0;    // functions of the run that are not zero
   };
 
   Around around_of(const RahtTree& tree, const CoefficientNeighbours& neighbours,
@@ -121,11 +130,12 @@ class VectorCoefficients {
     }
   }
 
-  bool has_any(const std::int32_t* values) const {
-    for (const std::size_t function : functions_)
-      if ((values[3 * function] | values[3 * function + 1] | values[3 * function + 2]) != 0)
-        return true;
-    return false;
+  /// Which rows have a vector, for the encoder: asked for in the order of memory.
+  void find_rows(const CoefficientRows& rows) {
+    if (!any_in_row_.empty()) return;
+    any_in_row_.resize(sum_.size());
+    for (std::size_t row = 0; row < any_in_row_.size(); ++row)
+      any_in_row_[row] = has_any(rows.row(row), functions_);
   }
 
   template <class Coder>
@@ -153,13 +163,69 @@ class VectorCoefficients {
     const std::size_t place = vectors_.size();
     vectors_.resize(place + width_);
     Progress progress;
-    for (std::size_t f = 0; f < functions_.size(); ++f)
+    std::size_t last = 0;  // function that is not zero
+    std::size_t end =
+        functions_.size();  // behind the last function that is not zero: the encoder's
+    if constexpr (!Coder::kDecodes)
+      while (end > 1 && is_zero(values + 3u * functions_[end - 1])) --end;
+    expect_rest();
+    for (std::size_t f = 0; f < functions_.size(); ++f) {
+      if (f > 0 && f % kRun == 0 && progress.sum > 0 &&
+          !code_rest(coder, around, f, progress, end > f)) {
+        leave(3 * f);
+        break;
+      }
       if (!code_function(coder, around, f, values + 3u * functions_[f], &vectors_[place], progress))
         return false;
+      if (!is_zero_kept(&vectors_[place] + 3 * f)) last = f;
+    }
     if (row == 0) return true;  // the mean of all says nothing of differences
     vector_of_[row] = static_cast<std::uint32_t>(place / width_);
     sum_[row] = static_cast<std::uint16_t>(std::min(progress.sum, 65535u));
+    runs_[row] = static_cast<std::uint8_t>(std::min<std::size_t>((last + kRun) / kRun, 255));
     return true;
+  }
+
+  static bool is_zero(const std::int32_t* values) {
+    return (values[0] | values[1] | values[2]) == 0;
+  }
+
+  static bool is_zero_kept(const std::int16_t* values) {
+    return (values[0] | values[1] | values[2]) == 0;
+  }
+
+  /// The planes from j on are zero in this vector.
+  void leave(std::size_t j) {
+    for (; j < width_; ++j) activity_[j] -= (activity_[j] + 63) >> 6;
+  }
+
+  /// What is expected of the functions of every run and those behind it.
+  void expect_rest() {
+    std::uint32_t sum = 0;
+    for (std::size_t run = rest_.size(); run-- > 0;) {
+      for (std::size_t j = 3 * kRun * run; j < std::min(3 * kRun * (run + 1), width_); ++j)
+        sum += std::min(
+            (parents_[j] + beside_[j]) / 2 + (static_cast<std::uint32_t>(activity_[j]) >> 5),
+            1u << 18);
+      rest_[run] = sum;
+    }
+  }
+
+  /// Has the vector a value other than 0 from function f on?
+  template <class Coder>
+  bool code_rest(Coder& coder, const Around& around, std::size_t f, Progress& progress, bool any) {
+    const auto run = static_cast<std::uint32_t>(std::min<std::size_t>(f / kRun, 31));
+    const auto ahead = [&](std::size_t k) {  // how far on a vector around goes
+      const std::uint32_t there = runs_[around.row[k]];
+      return there <= run ? 0u : std::min(there - run, 3u);
+    };
+    const std::uint32_t size = log_class(rest_[f / kRun] >> 4, 47);
+    const std::array<std::uint32_t, 4> contexts = {
+        run * 48 + size, (((ahead(0) * 4 + ahead(3)) * 4 + ahead(4)) * 4 + ahead(5)) * 4 + ahead(6),
+        (log_class(progress.sum, 23) * 5 + progress.recent) * 12 + size / 4,
+        (run * 5 + progress.recent) * 16 + ahead(0) * 4 + ahead(6)};
+    progress.recent = 0;
+    return rest_more_.code(coder, contexts, run, any) != 0;
   }
 
   /// Expected magnitudes of all planes at once: most vectors around are zero.
@@ -183,6 +249,18 @@ class VectorCoefficients {
     evidence.split = std::min(around.split, 24u);
     evidence.scale_class = around.scale_class;
     evidence.functions_before = functions_before(f, own);
+    const bool known = progress.sum == 0 && f + 1 == functions_.size();  // the vector is not zero
+    if (functions_.size() > 1 && !known &&
+        !code_any(coder, around, f, evidence.functions_before, progress,
+                  !Coder::kDecodes && (values[0] | values[1] | values[2]) != 0)) {
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        std::int32_t& activity = activity_[3 * f + c];
+        progress.activity += static_cast<std::uint32_t>(activity);
+        activity -= (activity + 63) >> 6;
+      }
+      return true;
+    }
+    ++progress.recent;
     SignEvidence signs = signs_around(around, f, own);
     for (std::uint32_t c = 0; c < 3; ++c) {
       const std::size_t j = 3 * f + c;
@@ -194,9 +272,11 @@ class VectorCoefficients {
       evidence.vector_ratio = log_class(
           (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 47);
       evidence.first = progress.sum == 0;
-      const bool nonzero = evidence.first && j + 1 == width_;  // the vector is not all zero
+      const bool nonzero =  // the function's vector is not all zero
+          c == 2 && (evidence.magnitude[0] | evidence.magnitude[1]) == 0;
       const std::uint32_t magnitude = models_->magnitude.code(
-          coder, evidence, nonzero, static_cast<std::uint32_t>(std::abs(values[c])));
+          coder, evidence, nonzero,
+          Coder::kDecodes ? 0 : static_cast<std::uint32_t>(std::abs(values[c])));
       if (magnitude == CoefficientMagnitudeModel::kDamaged) return false;
       const auto kept =
           static_cast<std::int32_t>(std::min(magnitude, static_cast<std::uint32_t>(kLargest)));
@@ -205,12 +285,32 @@ class VectorCoefficients {
       progress.activity += activity;
       if (functions_.size() > 1) activity_[j] += (std::min(kept, 7) * 4096 - activity_[j]) >> 6;
       if (magnitude == 0) continue;
-      const bool negative = models_->sign.code(coder, signs, values[c] < 0);
+      const bool negative = models_->sign.code(coder, signs, !Coder::kDecodes && values[c] < 0);
       const auto size = static_cast<std::int32_t>(magnitude);
       if (Coder::kDecodes) values[c] = negative ? -size : size;
       own[j] = static_cast<std::int16_t>(negative ? -kept : kept);
     }
     return true;
+  }
+
+  /// Has a function of the vector a value other than 0?
+  template <class Coder>
+  bool code_any(Coder& coder, const Around& around, std::size_t f, std::uint32_t before,
+                const Progress& progress, bool any) {
+    const std::size_t j = 3 * f;
+    const std::uint32_t up = parents_[j] + parents_[j + 1] + parents_[j + 2];
+    const std::uint32_t side = beside_[j] + beside_[j + 1] + beside_[j + 2];
+    const auto activity =
+        static_cast<std::uint32_t>(activity_[j] + activity_[j + 1] + activity_[j + 2]);
+    const std::uint32_t size = log_class(((up + side) / 2 + (activity >> 5)) >> 4, 47);
+    const std::uint32_t ratio = log_class(
+        (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 55);
+    const std::uint32_t act = log_class(activity >> 2, 47);
+    const std::array<std::uint32_t, 5> contexts = {
+        std::min(around.split, 24u) * 48 + act, size * 17 + before,
+        log_class(up >> 4, 39) / 2 * 20 + log_class(side >> 4, 39) / 2, ratio * 24 + size / 2,
+        act * 24 + around.scale_class};
+    return any_.code(coder, contexts, before + (progress.sum == 0 ? 17 : 0), any) != 0;
   }
 
   /// Sizes of channel 0 of the two functions before.
@@ -246,7 +346,12 @@ class VectorCoefficients {
   std::vector<std::int32_t> activity_;    // [width] running mean of min(magnitude, 7), in 1/4096
   // [width] expected magnitudes, 8 fractional bits: what is above the row, and beside it, implies.
   std::vector<std::uint32_t> parents_, beside_;
+  std::vector<std::uint32_t> rest_;  // [runs] the same, of a run and those behind it
+  std::vector<std::uint8_t> runs_;   // [P] runs of a row's vector up to its last value, at most 255
+  std::vector<std::uint8_t> any_in_row_;  // [P] the encoder's
   MixedBit<4, kTopSplit + 1> node_{{48 * 16, 45 * 24, 625 * 3, 125 * 3 * 4}};
+  MixedBit<4, 32> rest_more_{{32 * 48, 1024, 24 * 5 * 12, 32 * 5 * 16}};
+  MixedBit<5, 34> any_{{25 * 48, 48 * 17, 400, 56 * 24, 48 * 24}};
   std::unique_ptr<ValueModels> models_;  // made for the first vector that is not zero
 };
 

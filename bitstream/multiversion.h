@@ -12,9 +12,9 @@
 #define SLF_MULTIVERSION_ALL
 #endif
 
-// Before a loop of known length: to be made of vector operations, not unrolled into single ones.
+// Before a loop of eight rounds whose counter should be a constant in each.
 #if defined(__GNUC__) && !defined(__clang__)
-#define SLF_VECTORISE _Pragma("GCC unroll 1")
+#define SLF_UNROLL_8 _Pragma("GCC unroll 8")
 #else
-#define SLF_VECTORISE
+#define SLF_UNROLL_8
 #endif

@@ -226,6 +226,7 @@ Result<Done> SliceDecoder::decode_normals(const SequencePlan& plan,
   NormalModel model(static_cast<int>(plan.set.sps_normal_bits));
   for (std::size_t i = 0, kept = 0; i < first_.back(); ++i) {
     std::array<std::uint16_t, 2> normal{};
+    if (decoder.exhausted()) break;
     if (!model.code(decoder, normal))
       return Error{Errc::kOutOfRange, "nu_magnitude", unit->offset * 8};
     if (i == first_[kept])

@@ -227,6 +227,7 @@ void add_structure(std::vector<Case>& cases) {
   harmonics.field.header.has_basis = true;
   harmonics.field.header.basis = {BasisId::kHarmonics, 2, 0, 0, 2};
   harmonics.field.header.frame = FrameId::kReflected;
+  harmonics.field.header.normal_cell_log2 = 1;
   harmonics.field.header.colour = ColourTransform::kOpponent;
   harmonics.parameters.group = {0, 1, 1, 1, 2, 2, 2, 2, 2};
   cases.push_back(harmonics);

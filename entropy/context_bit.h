@@ -17,11 +17,11 @@ class ContextBit {
   std::int16_t logistic() const { return kInput[state_ >> 4]; }
 
   void update(unsigned bit) {
-    const std::int32_t p = state_ >> 4;
-    const std::int32_t target = static_cast<std::int32_t>(0u - bit) & 4095;
     const std::uint32_t n = state_ & 15;
-    const std::int32_t moved = p + (((target - p) * kRate[n] + (1 << 15)) >> 16);
-    state_ = static_cast<std::uint16_t>(static_cast<std::uint32_t>(moved) << 4 | (n + (n < 15)));
+    const std::int32_t target = static_cast<std::int32_t>(0u - bit) & 0xFFF0;
+    const std::int32_t error = target - static_cast<std::int32_t>(state_ & 0xFFF0u);
+    const std::int32_t step = ((error * kRate[n] + (1 << 19)) >> 20) * 16;
+    state_ = static_cast<std::uint16_t>(static_cast<std::int32_t>(state_) + step + kSeen[n]);
   }
 
  private:
@@ -32,6 +32,7 @@ class ContextBit {
       table[static_cast<std::size_t>(n)] = (131072 + (2 * n + 3) / 2) / (2 * n + 3);
     return table;
   }();
+  static constexpr std::array<std::int32_t, 16> kSeen = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
   /// stretch of the probability; 0 of one half, which is what a context never seen has.
   static constexpr std::array<std::int16_t, 4096> kInput = [] {
     std::array<std::int16_t, 4096> table = kStretch;

@@ -33,10 +33,11 @@ class Mixed {
       : inputs_(inputs), weights_(weights) {
     EightLanes sum = *weights_[0];
     for (std::size_t i = 1; i < kSets; ++i) sum = sum.saturating_plus(*weights_[i]);
-    p1_ = static_cast<std::uint32_t>(squash(sum.dot(inputs_) >> 13));
+    const std::int32_t logistic = std::clamp(sum.dot(inputs_) >> 13, -kLimit, kLimit);
+    p1_ = static_cast<std::uint32_t>(squash(logistic));
   }
 
-  std::uint32_t p1() const { return p1_; }  ///< 1 .. 65535, of 65536
+  std::uint32_t p1() const { return p1_; }  ///< of 65536
 
   /// Moves the weights along the gradient of the code length. rate: 1 .. 8.
   void update(unsigned bit, std::int32_t rate) const {
@@ -47,6 +48,9 @@ class Mixed {
   }
 
  private:
+  /// No decision is cheaper than 1/2070 of a bit, so that a byte bounds the work it asks for.
+  static constexpr std::int32_t kLimit = 2047;
+
   EightLanes inputs_;
   std::array<EightLanes*, kSets> weights_;
   std::uint32_t p1_;

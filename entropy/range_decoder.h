@@ -10,8 +10,8 @@
 namespace slf {
 
 /// Decodes what RangeEncoder wrote. Bytes past the end read as zero, but at most four of them can
-/// be needed by a sound codeword: finish() tells. Loops over decoded symbols must be bounded by
-/// counts.
+/// be needed by a sound codeword: exhausted() and finish() tell. Loops over decoded symbols must be
+/// bounded by counts, and long ones stop when the codeword is exhausted.
 class RangeDecoder {
  public:
   static constexpr bool kDecodes = true;
@@ -50,11 +50,14 @@ class RangeDecoder {
     return value;
   }
 
+  /// More was read than a sound codeword needs: what is decoded from here on is of no meaning.
+  bool exhausted() const { return pos_ > bytes_.size() + 4; }
+
   /// Ends the codeword: all bytes were used and none beyond the four of the register.
   Result<Done> finish(const char* element) const {
     const Error here{pos_ < bytes_.size() ? Errc::kOutOfRange : Errc::kTruncated, element,
                      static_cast<std::uint64_t>(pos_) * 8};
-    if (pos_ < bytes_.size() || pos_ > bytes_.size() + 4) return here;
+    if (pos_ < bytes_.size() || exhausted()) return here;
     return Done{};
   }
 

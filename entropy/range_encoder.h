@@ -38,8 +38,10 @@ class RangeEncoder {
     return value;
   }
 
-  /// The codeword, as short as a decoder that reads zeros past the end allows.
+  /// The codeword, as short as a decoder that reads zeros past the end allows. Empty only where
+  /// there was no decision.
   std::vector<std::uint8_t> finish() {
+    const std::size_t least = range_ == kFullRange ? 0 : 1;
     // Any value in [low, low + range) will do: take the one with most trailing zero bytes.
     for (int zeros = 3; zeros > 0; --zeros) {
       const std::uint64_t mask = (std::uint64_t{1} << (8 * zeros)) - 1;
@@ -52,12 +54,13 @@ class RangeEncoder {
     for (int i = 0; i < 5; ++i) shift_low();
     bytes_.erase(bytes_.begin());  // the first byte holds only a carry that cannot happen
     // The decoder's register holds four bytes: no more of them may be left to its zeros.
-    for (int i = 0; i < 4 && !bytes_.empty() && bytes_.back() == 0; ++i) bytes_.pop_back();
+    for (int i = 0; i < 4 && bytes_.size() > least && bytes_.back() == 0; ++i) bytes_.pop_back();
     return std::move(bytes_);
   }
 
  private:
   static constexpr std::uint32_t kMinRange = 1u << 24;
+  static constexpr std::uint32_t kFullRange = 0xFFFFFFFFu;  // that no decision leaves
 
   // A byte leaves only when no carry can reach it any more: 0xFF bytes wait.
   void shift_low() {
@@ -73,7 +76,7 @@ class RangeEncoder {
   }
 
   std::uint64_t low_ = 0;
-  std::uint32_t range_ = 0xFFFFFFFFu;
+  std::uint32_t range_ = kFullRange;
   std::uint8_t held_ = 0;
   std::uint64_t waiting_ = 0;
   std::vector<std::uint8_t> bytes_;

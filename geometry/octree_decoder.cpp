@@ -17,6 +17,7 @@ Result<Done> OctreeDecoder::decode(std::span<const std::uint8_t> payload, int en
       nodes_.occupancy[n] = model_.code(decoder, nodes_, n, 0);
       children += static_cast<std::uint64_t>(std::popcount(nodes_.occupancy[n]));
       if (children > max_nodes_) return Error{Errc::kOutOfRange, "gu_occupancy", 0};
+      if (decoder.exhausted()) return decoder.finish("gu_occupancy");
     }
     nodes_ = octree_children(nodes_, level_ + 1 < depth_);
   }

@@ -515,7 +515,7 @@ def decide_mixed(decoder, contexts, weights, rate):
     summed = weights[0]
     for row in weights[1:]:
         summed = [saturate(a + b) for a, b in zip(summed, row)]
-    p = SQUASH[min(max(sum(w * x for w, x in zip(summed, inputs)) >> 13, -2815), 2815) + 2815]
+    p = SQUASH[min(max(sum(w * x for w, x in zip(summed, inputs)) >> 13, -2047), 2047) + 2815]
     bit = decoder.decide(p)
     error = ((bit << 16) - p) * rate >> 5
     steps = [x * error + (1 << 15) >> 16 for x in inputs]
@@ -603,11 +603,6 @@ def corner_directions(child):
     return [(dx + 1) + 3 * (dy + 1) + 9 * (dz + 1) for dx, dy, dz in offsets]
 
 
-def halves_table(axis):
-    """8.4.3: bits 2i and 2i + 1 of halves, by occupancy."""
-    return [sum({1 << 2 * axis + CHILDREN[c][axis] for c in range(8) if o >> c & 1}) for o in range(256)]
-
-
 def columns_table(first, second):
     """8.4.3: which columns hold a child, by occupancy; first and second are the other axes."""
     return [sum({1 << CHILDREN[c][first] + 2 * CHILDREN[c][second] for c in range(8) if o >> c & 1})
@@ -619,7 +614,6 @@ ALL = around((1, 2, 3))
 OUTSIDE = [face_cells(child) for child in CHILDREN]
 CORNER = [corner_directions(child) for child in CHILDREN]
 WINDOW_SHIFT = [x + 4 * y + 16 * z for x, y, z in CHILDREN]
-HALVES = [halves_table(axis) for axis in range(3)]
 COLUMNS_X, COLUMNS_Y, COLUMNS_Z = columns_table(1, 2), columns_table(0, 2), columns_table(0, 1)
 
 
@@ -641,7 +635,7 @@ class Octree:
         """8.4.2: contexts of table 8-3, three mixers; 8.4.1: the root."""
         self.points = points
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
-        widths = (11, 15, self.hash_bits, 15, 14, self.hash_bits, self.hash_bits)
+        widths = (11, 15, self.hash_bits, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
         self.mixers = [Mixer(900) for _ in range(3)]
         self.nodes_coded = 0
@@ -652,7 +646,7 @@ class Octree:
         """8.4.1: the children of all nodes of a level."""
         index = {node: i for i, node in enumerate(self.nodes)}
         occupancies = []
-        history = [{} for _ in range(6)]
+        history = [{} for _ in range(3)]
         following = []
         for i, (x, y, z) in enumerate(self.nodes):
             neighbours = occupied = unknown = 0
@@ -679,7 +673,7 @@ class Octree:
     def decode_node(self, decoder, around_node, history):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded = 0
-        rate = 8 - min(self.nodes_coded >> 13, 3)
+        rate = 8 - min(self.nodes_coded >> 13, 4)
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
@@ -693,7 +687,7 @@ class Octree:
     def predict(self, c, coded, around_node, history):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
-        halves, columns = history
+        columns = history
         bits = self.hash_bits
         siblings = 1 << c | coded
         O = occupied >> WINDOW_SHIFT[c] & ALL
@@ -704,8 +698,7 @@ class Octree:
         corner = 0
         for k, d in enumerate(CORNER[c]):
             corner |= (neighbours >> d & 1) << k
-        nS = coded.bit_count()
-        nO, nU, nN = O.bit_count() + nS, U.bit_count(), neighbours.bit_count()
+        nO, nN = O.bit_count() + coded.bit_count(), neighbours.bit_count()
         first_half = c < 4
         node_key = 0 if first_half else 8 | coded & 7
         node_bits = 4 if first_half else 5
@@ -715,15 +708,13 @@ class Octree:
             faces * 8 + c,
             siblings * 128 + corner,
             hash_group(neighbours * HASH_A, node_key, bits, node_bits) + in_node,
-            ((nO * 27 + nU) * 8 + c) * 4 + min(nS, 3),
-            halves * 256 + siblings,
             hash_group(columns * HASH_A, node_key, bits, node_bits) + in_node,
             hash_group(O * HASH_A + (U * 8 + c) * HASH_B, coded & (1 << older) - 1, bits, 3) + (coded >> older))
         return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, faces)
 
     def history_entries(self, x, y, z):
-        """8.4.3: a node's entries in the six tables: x, y, z, (y, z), (x, z), (x, y)."""
-        entries = [x & (1 << 18) - 1, y & (1 << 18) - 1, z & (1 << 18) - 1]
+        """8.4.3: a node's entries in the three tables: (y, z), (x, z), (x, y)."""
+        entries = []
         for a, b in ((y, z), (x, z), (x, y)):
             if 2 * self.level <= 18:
                 entries.append(a + (b << self.level))
@@ -733,11 +724,9 @@ class Octree:
 
     @staticmethod
     def read_history(history, entries):
-        """8.4.3: halves and columns of a node."""
-        by_x, by_y, by_z, by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
-        halves = HALVES[0][by_x] | HALVES[1][by_y] | HALVES[2][by_z]
-        columns = 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
-        return halves, columns
+        """8.4.3: columns of a node."""
+        by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
+        return 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
 
 
 # ---- 8.6 The transform tree
@@ -816,10 +805,13 @@ class VectorCoder:
         self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
         self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4])
         self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)])
+        self.rest = MixedDecision([32 * 48, 4**5, 24 * 5 * 12, 32 * 5 * 16])
+        self.any = MixedDecision([25 * 48, 48 * 17, 20 * 20, 56 * 24, 48 * 24])
         self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
         self.activity = [16 if functions > 1 else 0] * self.planes
         self.sums = [0] * len(tree.split)
+        self.runs = [0] * len(tree.split)
         self.quantised = {}                 # of rows that are not all zero
         self.kept = {0: [0] * self.planes}  # the same without row 0, within -4095 .. 4095
 
@@ -878,42 +870,89 @@ class VectorCoder:
             (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
 
     def decode_row(self, decoder, r, split, same_axis):
-        """8.7.2, 2 - 4: the values of a row."""
+        """8.7.2, 2: the values of a row."""
         values, kept = [0] * self.planes, [0] * self.planes
         around = [self.kept.get(row, self.kept[0]) for row in self.rows + [same_axis]]
-        total = activity_total = 0
-        for j in range(self.planes):
-            if j % 3 == 0:
-                expected = []
-            activity = self.activity[j]
-            up, side = self.expected([abs(row[j]) for row in around[:7]])
-            expected.append((up + side) // 2 + (activity >> 5))
-            ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
-            contexts = self.magnitude_contexts(kept, j, min(split, 24), (up, side), expected, ratio)
-            magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total)
-            if magnitude:
-                negative = self.decode_sign(decoder, kept, j, around)
-                values[j] = -magnitude if negative else magnitude
-                kept[j] = min(max(values[j], -4095), 4095)
-            total += abs(kept[j])
-            activity_total += activity
-            if self.planes > 3:
-                self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
+        means = [self.expected([abs(row[j]) for row in around[:7]]) for j in range(self.planes)]
+        ahead = [min((up + side) // 2 + (a >> 5), 1 << 18) for (up, side), a in zip(means, self.activity)]
+        functions, total, activity_total, recent, last = self.planes // 3, 0, 0, 0, 0
+        split = min(split, 24)
+        for f in range(functions):
+            planes = range(3 * f, 3 * f + 3)
+            if f and f % 4 == 0 and total:
+                if not self.decode_rest(decoder, f, sum(ahead[3 * f:]), total, recent):
+                    for j in range(3 * f, self.planes):
+                        self.activity[j] += -self.activity[j] >> 6
+                    break
+                recent = 0
+            before = self.functions_before(kept, f)
+            if functions > 1 and (total or f < functions - 1):
+                evidence = [sum(part) for part in zip(*[means[j] for j in planes])]
+                activity = sum(self.activity[j] for j in planes)
+                if not self.decode_any(decoder, split, before, evidence, activity, total, activity_total):
+                    activity_total += activity
+                    for j in planes:
+                        self.activity[j] += -self.activity[j] >> 6
+                    continue
+            recent, last, expected = recent + 1, f, []
+            for j in planes:
+                activity = self.activity[j]
+                up, side = means[j]
+                expected.append((up + side) // 2 + (activity >> 5))
+                ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
+                contexts = self.magnitude_contexts(kept, j, split, means[j], expected, ratio)
+                magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total, kept)
+                if magnitude:
+                    negative = self.decode_sign(decoder, kept, j, around)
+                    values[j] = -magnitude if negative else magnitude
+                    kept[j] = min(max(values[j], -4095), 4095)
+                total += abs(kept[j])
+                activity_total += activity
+                if self.planes > 3:
+                    self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
         self.quantised[r] = values
         if r:
-            self.kept[r], self.sums[r] = kept, min(total, 65535)
+            self.kept[r], self.sums[r], self.runs[r] = kept, min(total, 65535), min(last // 4 + 1, 255)
+
+    @staticmethod
+    def functions_before(kept, f):
+        """8.7.2, 2: `before`."""
+        if f == 0:
+            return 16
+        return min(abs(kept[3 * f - 3]), 3) + 4 * (min(abs(kept[3 * f - 6]), 2) if f > 1 else 3)
+
+    def decode_rest(self, decoder, f, expected, total, recent):
+        """8.7.2, 3: has the vector a value from function f on?"""
+        run, size = min(f // 4, 31), size_class(expected >> 4, 47)
+        h = [min(max(self.runs[row] - run, 0), 3) for row in self.rows]
+        return self.rest.decode(decoder, [
+            run * 48 + size,
+            (((h[0] * 4 + h[3]) * 4 + h[4]) * 4 + h[5]) * 4 + h[6],
+            (size_class(total, 23) * 5 + recent) * 12 + size // 4,
+            (run * 5 + recent) * 16 + h[0] * 4 + h[6]], run)
+
+    def decode_any(self, decoder, split, before, evidence, activity, total, activity_total):
+        """8.7.2, 4: has the function a value?"""
+        up, side = evidence
+        size = size_class((up + side) // 2 + (activity >> 5) >> 4, 47)
+        ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 55)
+        act = size_class(activity >> 2, 47)
+        return self.any.decode(decoder, [
+            split * 48 + act,
+            size * 17 + before,
+            size_class(up >> 4, 39) // 2 * 20 + size_class(side >> 4, 39) // 2,
+            ratio * 24 + size // 2,
+            act * 24 + self.scale_class], before + (0 if total else 17))
 
     def magnitude_contexts(self, kept, j, split, means, expected, ratio):
-        """8.7.2, 2: the contexts of a magnitude."""
+        """8.7.2, 5: the contexts of a magnitude."""
         channel = j % 3
         earlier = [abs(v) for v in kept[j - channel:j]]
         by_channel = [size_class((2 * m + 1) * 8 * (expected[channel] + 16) // (e + 16), 47)
                       for m, e in zip(earlier, expected)]
         channels = 0
         if channel == 0:
-            other = 16
-            if j:
-                other = min(abs(kept[j - 3]), 3) + 4 * (min(abs(kept[j - 6]), 2) if j > 3 else 3)
+            other = self.functions_before(kept, j // 3)
         elif channel == 1:
             other, channels = size_class(earlier[0], 15), by_channel[0]
         else:
@@ -925,10 +964,10 @@ class VectorCoder:
                     channels, ratio // 3 * 16 + level // 3]
         return [(context * 3 + channel) * 16 for context in contexts]
 
-    def decode_magnitude(self, decoder, contexts, j, expected, total):
-        """8.7.2, 3: a magnitude."""
+    def decode_magnitude(self, decoder, contexts, j, expected, total, kept):
+        """8.7.2, 5: a magnitude."""
         chosen = (j % 3 if total else 3 + j % 3) * 16
-        implied = total == 0 and j == self.planes - 1
+        implied = j % 3 == 2 and not kept[j - 1] and not kept[j - 2]
         for magnitude in range(1 if implied else 0, 15):
             if not self.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
                 return magnitude
@@ -936,7 +975,7 @@ class VectorCoder:
         return 14 + decoder.exp_golomb(prefix, 255)
 
     def decode_sign(self, decoder, kept, j, around):
-        """8.7.2, 4: is the value negative?"""
+        """8.7.2, 6: is the value negative?"""
         channel, first = j % 3, j - j % 3
         parent, grandparent, _, *faces, previous, same_axis = around
 
@@ -1177,7 +1216,7 @@ class Slice:
             before = self.coders[-1] if self.coders else None
             self.coders.append(self.sequence.coder(len(self.sequence.coded[group]), self.tree, before))
         begin, end = [g - self.top for g in self.sequence.coefficient_bounds[level_range:level_range + 2]]
-        if self.sequence.coded[group]:
+        if self.sequence.coded[group] and decoder.codeword:
             self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
 
     def inverse_transform(self, values, coders, shift, coded):

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <random>
 
+#include "attributes/coefficient_decoder.h"
 #include "attributes/vector_coefficients.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
@@ -172,6 +173,33 @@ TEST(Spec_8_7_2_VectorCoefficients, ZeroSubtreesCostNextToNothing) {
   std::size_t bytes = 0;
   for (const auto& unit : slice.encode()) bytes += unit.size();
   EXPECT_LT(bytes, slice.tree.size() / 200);  // of thousands of nodes
+}
+
+TEST(Spec_8_7_1_CoefficientModels, UnitsOfZerosAreEmptyAndLeaveTheStateAlone) {
+  const auto voxels = test::sphere_cloud(4);
+  const auto morton_codes = test::codes(voxels);
+  const RahtTree tree = build_raht_tree(morton_codes);
+  const auto first = one_row_a_point(tree.size());
+  const PlaneGroups groups = {{0}, {1, 2, 3, 4, 5}};
+  const std::array<std::size_t, 4> ends = {0, order_end(tree, 6), order_end(tree, 3), tree.size()};
+  std::vector<std::int32_t> values(18 * tree.size());
+  for (std::size_t i = ends[2]; i < tree.size(); i += 3)  // the finest rows alone, group 1 alone
+    values[18 * tree.order[i] + 3 + i % 15] = static_cast<std::int32_t>(i % 5) - 2;
+  for (const bool vector : {true, false}) {
+    CoefficientModels written(groups, tree, morton_codes, first, vector);
+    CoefficientModels read(groups, tree, morton_codes, first, vector);
+    std::vector<std::int32_t> decoded(values.size());
+    for (std::size_t range = 0; range < 3; ++range)
+      for (std::size_t g = 0; g < 2; ++g) {
+        RangeEncoder encoder;
+        written.code(encoder, {tree, values, 18}, g, ends[range], ends[range + 1]);
+        const auto unit = encoder.finish();
+        EXPECT_EQ(unit.empty(), range < 2 || g == 0);
+        EXPECT_TRUE(decode_coefficients(unit, read, {tree, decoded, 18}, g, ends[range],
+                                        ends[range + 1], false));
+      }
+    EXPECT_EQ(decoded, values);
+  }
 }
 
 TEST(Spec_8_7_2_VectorCoefficients, AnEndlessPrefixIsRefused) {

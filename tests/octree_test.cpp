@@ -77,6 +77,18 @@ TEST_P(OctreeTest, MoreNodesThanAllowedAreRefused) {
   EXPECT_FALSE(decoder.decode(payloads[0], bits));
 }
 
+TEST(Spec_8_4_Bounds, AnExhaustedCodewordEndsTheWorkNotTheUnit) {
+  // What a codeword of a few bytes asks for is bounded, whatever number of points is announced.
+  for (const int byte : {0x00, 0x55, 0xFF}) {
+    const std::vector<std::uint8_t> payload(16, static_cast<std::uint8_t>(byte));
+    OctreeDecoder decoder(21, std::uint64_t{1} << 22);
+    const auto decoded = decoder.decode(payload, 21);
+    ASSERT_FALSE(decoded);
+    // 8.3.3: at most 16600 decisions a byte, of which a node takes seven or eight.
+    EXPECT_LT(decoder.morton().size(), std::size_t{8} * 16600 * 20 / 7);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Spec_8_4, OctreeTest, testing::ValuesIn(test::clouds_of_every_shape()),
                          [](const auto& cloud) { return cloud.param.name; });
 

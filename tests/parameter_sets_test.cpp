@@ -34,6 +34,8 @@ SequenceParameterSet full_set() {
   s.sps_colour_idc = s.sps_transfer_idc = s.sps_coefficient_coder = 1;
   s.sps_gamma_min = -90;
   s.sps_gamma_max = 127;
+  s.sps_frame_idc = 1;
+  s.sps_normal_cell_log2 = s.sps_grid_bits_minus1;
   s.sps_num_groups_minus1 = 2;
   s.sps_num_coefficient_ranges_minus1 = 1;
   s.sps_coefficient_range_end = {19};
@@ -63,6 +65,7 @@ TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
   EXPECT_EQ(parsed->sps_origin, GetParam().set.sps_origin);
   EXPECT_EQ(parsed->runs.size(), GetParam().set.runs.size());
   EXPECT_EQ(parsed->sps_gamma_min, GetParam().set.sps_gamma_min);
+  EXPECT_EQ(parsed->sps_normal_cell_log2, GetParam().set.sps_normal_cell_log2);
 }
 
 TEST_P(SequenceParameterSetTest, EveryTruncationIsReportedAndNothingIsReadPastTheEnd) {

@@ -74,6 +74,13 @@ TEST(Spec_8_3_1_RangeCoder, ALostOrAddedByteIsNoticedAtTheEnd) {
   EXPECT_FALSE(ends_well(std::vector<std::uint8_t>(bytes.begin(), bytes.end() - 7)));
 }
 
+TEST(Spec_8_3_1_RangeCoder, OnlyNoDecisionsGiveNoBytes) {
+  EXPECT_TRUE(RangeEncoder().finish().empty());
+  RangeEncoder ones;  // the lower part of every interval: zeros would do
+  for (int i = 0; i < 3; ++i) ones.bit(60000, 1);
+  EXPECT_FALSE(ones.finish().empty());
+}
+
 TEST(Spec_8_3_1_RangeCoder, DecodesGarbageWithoutReadingOutside) {
   std::mt19937 random(3);
   for (std::size_t size = 0; size < 40; ++size) {
