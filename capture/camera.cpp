@@ -31,6 +31,13 @@ Vec3 Camera::centre() const {
   return c;
 }
 
+Camera moved(Camera camera, const Vec3& by) {
+  for (std::size_t i = 0; i < 3; ++i)
+    camera.translation[i] -= camera.rotation[i][0] * by[0] + camera.rotation[i][1] * by[1] +
+                             camera.rotation[i][2] * by[2];
+  return camera;
+}
+
 std::optional<std::array<double, 2>> Camera::project(const Vec3& world, double* z) const {
   Vec3 p{};
   for (std::size_t i = 0; i < 3; ++i)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/exact_positions.h"
 #include "capture/glb_accessor.h"
 #include "capture/json_numbers.h"
 #include "capture/mesh_formats.h"
@@ -127,6 +128,7 @@ class SceneReader {
     SLF_TRY(const auto roots, list_of(scenes[static_cast<std::size_t>(first)], "nodes"));
     for (const JsonView& root : roots)
       SLF_CHECK(add_node(root, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, 0));
+    set_positions(positions_, mesh_.vertices);
     if (!has_normals_) mesh_.vertices.normals.clear();
     if (other_primitives_ > 0 && warnings != nullptr)
       warnings->push_back(json_
@@ -177,7 +179,7 @@ class SceneReader {
     SLF_TRY(const JsonView attributes, primitive.at("attributes"));
     SLF_TRY(const auto positions, attribute(attributes, "POSITION", "VEC3", 3));
     SLF_TRY(const auto normals, attribute(attributes, "NORMAL", "VEC3", 3));
-    const std::size_t count = positions.size() / 3, base = mesh_.vertices.positions.size();
+    const std::size_t count = positions.size() / 3, base = positions_.size();
     SLF_TRY(const auto indices, indices_of(primitive, count));
     const auto triangles = triangles_of(mode, indices.size());
     if (mesh_.triangles.size() + triangles.size() > kMostTriangles || base + count > kMostVertices)
@@ -234,8 +236,7 @@ class SceneReader {
     for (auto& row : turn)
       for (double& x : row) x *= sign;
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-      vertices.positions.push_back(
-          to_float(moved(matrix, {positions[i], positions[i + 1], positions[i + 2]})));
+      positions_.push_back(moved(matrix, {positions[i], positions[i + 1], positions[i + 2]}));
       if (!has_normals_) continue;
       Vec3 normal = moved(turn, {normals[i], normals[i + 1], normals[i + 2]});
       const double length = std::hypot(normal[0], normal[1], normal[2]);
@@ -251,6 +252,7 @@ class SceneReader {
   bool has_normals_ = true;
   std::size_t numbers_read_ = 0;
   std::size_t other_primitives_ = 0;
+  std::vector<Vec3> positions_;  // of the vertices
   Mesh mesh_;
 };
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "capture/colmap_model.h"
+#include "capture/exact_positions.h"
 
 namespace slf {
 
@@ -126,21 +127,24 @@ Result<std::vector<ColmapImage>, InputError> read_images(Cursor in) {
 Result<PointCloud, InputError> read_points(Cursor in) {
   SLF_TRY(const auto count, in.count(kMinPoint));
   PointCloud cloud;
+  std::vector<Vec3> positions;
   for (std::uint64_t i = 0; i < count; ++i) {
     in.u64();  // id
-    std::array<float, 3> position{};
-    for (float& x : position) x = static_cast<float>(in.f64());
+    Vec3 position{};
+    for (double& x : position) x = in.f64();
     std::array<std::uint8_t, 3> colour{};
     for (auto& c : colour) c = in.u8();
     in.f64();                  // reprojection error
     in.skip(in.u64(), 4 + 4);  // which images see it
     if (!in.ok()) return in.cut_off();
-    for (const float x : position)
-      if (!std::isfinite(x)) return in.invalid("point " + std::to_string(i) + " is not finite");
-    cloud.positions.push_back(position);
+    for (const double x : position)
+      if (!std::isfinite(static_cast<float>(x)))
+        return in.invalid("point " + std::to_string(i) + " is not finite");
+    positions.push_back(position);
     cloud.colours.push_back(colour);
   }
   SLF_CHECK(in.expect_end());
+  set_positions(positions, cloud);
   return cloud;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "capture/colmap_model.h"
+#include "capture/exact_positions.h"
 
 namespace slf {
 
@@ -126,21 +127,23 @@ Result<std::vector<ColmapImage>, InputError> read_images(Lines in) {
 // POINT3D_ID X Y Z R G B ERROR TRACK[]
 Result<PointCloud, InputError> read_points(Lines in) {
   PointCloud cloud;
+  std::vector<Vec3> positions;
   while (in.next_entry()) {
-    std::array<float, 3> position{};
+    Vec3 position{};
     std::array<std::uint8_t, 3> colour{};
     SLF_CHECK(in.number<std::uint64_t>("point id"));
-    for (float& x : position) {
-      SLF_TRY(const double value, in.finite("position"));
-      x = static_cast<float>(value);
-      if (!std::isfinite(x)) return in.invalid("position is not finite as a float");
+    for (double& x : position) {
+      SLF_TRY(x, in.finite("position"));
+      if (!std::isfinite(static_cast<float>(x)))
+        return in.invalid("position is not finite as a float");
     }
     for (auto& c : colour) {
       SLF_TRY(c, in.number<std::uint8_t>("colour"));
     }
-    cloud.positions.push_back(position);
+    positions.push_back(position);
     cloud.colours.push_back(colour);
   }
+  set_positions(positions, cloud);
   return cloud;
 }
 

@@ -101,19 +101,31 @@ Result<Done, InputError> sample_surface(const std::string& name, Mesh mesh, Capt
   return Done{};
 }
 
+// What was read is given from the origin that its reader chose: so is everything else.
+void take_origin(PointCloud& cloud, Capture& capture) {
+  capture.origin = cloud.origin;
+  cloud.origin = {0, 0, 0};
+  const Vec3 back{-capture.origin[0], -capture.origin[1], -capture.origin[2]};
+  for (Camera& camera : capture.cameras) camera = moved(std::move(camera), back);
+}
+
 // Reads the cloud from where it is; returns its name for messages.
 Result<std::string, InputError> load_cloud(const fs::path& given, Import& import) {
   auto& capture = import.capture;
   const fs::path file = !given.empty() ? given : geometry_file(import);
   if (!file.empty()) {
     SLF_TRY(Mesh mesh, read_mesh(file, &capture.warnings));
+    take_origin(mesh.vertices, capture);
     if (mesh.triangles.empty())
       capture.cloud = std::move(mesh.vertices);
     else
       SLF_CHECK(sample_surface(file.string(), std::move(mesh), capture));
     return file.string();
   }
-  if (!import.cloud_name.empty()) return std::string(import.cloud_name);
+  if (!import.cloud_name.empty()) {
+    take_origin(capture.cloud, capture);
+    return std::string(import.cloud_name);
+  }
   return InputError{Errc::kUnreadable,
                     (capture.root / "points.ply").string() + ": the capture has no point cloud"};
 }

@@ -1,9 +1,11 @@
 // Wavefront OBJ.
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 
+#include "capture/exact_positions.h"
 #include "capture/mesh_formats.h"
 
 namespace slf {
@@ -62,11 +64,13 @@ class ObjParser {
   }
 
   // What follows the three numbers, a weight or a colour, is not read.
-  Result<Done, InputError> triple(std::string_view rest, std::vector<Floats>& values) {
-    Floats triple{};
-    for (float& x : triple) {
-      const auto value = number_in<float>(next_word(rest));
-      if (!value) return invalid("three numbers are expected");
+  template <class T>
+  Result<Done, InputError> triple(std::string_view rest, std::vector<std::array<T, 3>>& values) {
+    std::array<T, 3> triple{};
+    for (T& x : triple) {
+      const auto value = number_in<T>(next_word(rest));
+      if (!value || (std::isfinite(*value) && !std::isfinite(static_cast<float>(*value))))
+        return invalid("three numbers are expected");
       x = *value;
     }
     values.push_back(triple);
@@ -112,10 +116,10 @@ class ObjParser {
   // Positions and normals have indices of their own in the file: a vertex is a pair of them.
   Result<Mesh, InputError> with_normals() {
     Mesh mesh;
+    std::vector<Vec3> positions;  // of pairs
     bool normals = !normals_.empty();
     for (const Corner& c : corners_) normals = normals && c.normal >= 0;
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;
-    if (!normals) mesh.vertices.positions = positions_;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const auto [position, normal] = corners_[i];
       const auto p = static_cast<std::size_t>(position), n = static_cast<std::size_t>(normal);
@@ -124,18 +128,18 @@ class ObjParser {
                                                    " has an index that is out of range"};
       auto vertex = static_cast<std::uint32_t>(p);
       if (normals) {
-        const auto next = static_cast<std::uint32_t>(mesh.vertices.positions.size());
+        const auto next = static_cast<std::uint32_t>(positions.size());
         const auto [found, is_new] = vertex_of.emplace(std::uint64_t{p} << 32 | n, next);
         vertex = found->second;
         if (is_new) {
-          mesh.vertices.positions.push_back(positions_[p]);
+          positions.push_back(positions_[p]);
           mesh.vertices.normals.push_back(normals_[n]);
         }
       }
       if (i % 3 == 0) mesh.triangles.emplace_back();
       mesh.triangles.back()[i % 3] = vertex;
     }
-    if (mesh.vertices.positions.empty()) mesh.vertices.positions = positions_;
+    set_positions(positions.empty() ? positions_ : positions, mesh.vertices);
     return mesh;
   }
 
@@ -145,7 +149,8 @@ class ObjParser {
 
   const std::string& name_;
   std::size_t line_ = 1;
-  std::vector<Floats> positions_, normals_;
+  std::vector<Vec3> positions_;
+  std::vector<Floats> normals_;
   std::vector<Corner> corners_;  // three a triangle
 };
 

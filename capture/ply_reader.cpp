@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "capture/exact_positions.h"
 #include "capture/ply_body.h"
 #include "capture/ply_faces.h"
 #include "capture/ply_reader.h"
@@ -24,6 +25,7 @@ struct Columns {
   std::array<PlyType, kWanted.size()> type{};
   std::array<bool, kWanted.size()> present{};
   bool normals = false, colours = false;
+  bool exact = false;   // of x, y, z one may have more digits than a float
   std::string skipped;  // names, for the warning
 };
 
@@ -44,6 +46,11 @@ Columns columns_of(const PlyElement& vertex) {
   const auto all = [&](std::size_t first) {
     return columns.present[first] && columns.present[first + 1] && columns.present[first + 2];
   };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PlyType type = columns.type[k];
+    columns.exact = columns.exact || type == PlyType::kDouble || type == PlyType::kInt32 ||
+                    type == PlyType::kUint32;
+  }
   columns.normals = all(kNormal);
   columns.colours = all(kColour);
   return columns;
@@ -68,7 +75,10 @@ class VertexReader {
     if (!columns_.present[0] || !columns_.present[1] || !columns_.present[2])
       return invalid("PLY vertex without x, y and z");
     const auto count = static_cast<std::size_t>(vertex_.count);  // bounded by the file's size
-    cloud.positions.reserve(count);
+    if (columns_.exact)
+      exact_.reserve(count);
+    else
+      cloud.positions.reserve(count);
     if (columns_.normals) cloud.normals.reserve(count);
     if (columns_.colours) cloud.colours.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -84,6 +94,7 @@ class VertexReader {
       }
       SLF_CHECK(add(i, row));
     }
+    if (columns_.exact) set_positions(exact_, cloud);
     return Done{};
   }
 
@@ -120,7 +131,10 @@ class VertexReader {
       if (!std::isfinite(position[k]))
         return invalid(at(i, kWanted[k]) + " is not finite as a float");
     }
-    cloud.positions.push_back(position);
+    if (columns_.exact)
+      exact_.push_back({row[0], row[1], row[2]});
+    else
+      cloud.positions.push_back(position);
     if (columns_.normals) add_normal(row);
     if (!columns_.colours) return Done{};
     std::array<std::uint8_t, 3> colour{};
@@ -156,6 +170,7 @@ class VertexReader {
   const std::string& name_;
   const PlyElement& vertex_;
   Columns columns_;
+  std::vector<Vec3> exact_;  // [P] positions until all are known, where columns_.exact
   std::size_t zero_normals_ = 0, other_normals_ = 0;
 };
 

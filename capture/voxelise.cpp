@@ -114,7 +114,9 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
 
   SLF_TRY(const Box box, bounding_box(cloud));
   SLF_TRY(const Grid grid, choose_grid(box, count, bits, voxel_size));
-  return voxelise_on(cloud, grid);
+  VoxelCloud voxels = voxelise_on(cloud, grid);
+  voxels.grid = moved(grid, cloud.origin);
+  return voxels;
 }
 
 VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid) {

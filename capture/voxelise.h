@@ -23,6 +23,7 @@ Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bit
                                      double voxel_size);
 
 /// Points outside the grid are moved to its border.
+/// @param grid  from the cloud's origin
 VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid);
 
 }  // namespace slf

@@ -78,8 +78,8 @@ struct Job {
 /// Integers and bytes with the step q.
 Result<Done, InputError> code(Job& job, double q) {
   job.encoded.q = job.settings.q = q;
-  const LightField field =
-      quantise_grid(job.cloud, job.fit, job.capture.up, job.settings);  // 6.3, 6.5
+  const LightField field = quantise_grid(job.cloud, job.fit, job.capture.origin, job.capture.up,
+                                         job.settings);  // 6.3, 6.5
   CodingParameters parameters = coding_parameters(field, job.settings);
   parameters.metadata = encoder_metadata(job.settings, job.encoded, job.cameras.size());
   SLF_TRY(job.encoded.stream, pack(field, parameters));  // spec 7, 8
@@ -105,7 +105,7 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_TRY(job.cloud, voxelise_mended(capture, cameras, settings, encoded.refined, progress));
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
-  encoded.grid = job.cloud.grid;
+  encoded.grid = moved(job.cloud.grid, capture.origin);
   encoded.density = job.cloud.density;
   const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
   if (std::string warning = density_warning(encoded.density); automatic && !warning.empty())

@@ -148,11 +148,11 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   return fit;
 }
 
-LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
                          const EncoderSettings& settings) {
   LightField field;
   LightFieldHeader& header = field.header;
-  header.grid = cloud.grid;
+  header.grid = moved(cloud.grid, origin);
   header.basis = settings.fit.basis;
   header.num_functions = header.basis.num_functions();
   header.frame = settings.fit.frame;

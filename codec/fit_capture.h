@@ -13,8 +13,8 @@ namespace slf {
 /// @errors kInvalidArgument: names the setting and its range.
 Result<Done, InputError> check_settings(const EncoderSettings& settings);
 
-/// The cloud on the grid. With normals, those of the capture or estimated ones, where cameras or
-/// settings.normal_bits need them. Errors as voxelise.
+/// The cloud on the grid, which is from capture.origin. With normals, those of the capture or
+/// estimated ones, where cameras or settings.normal_bits need them. Errors as voxelise.
 Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings);
@@ -43,8 +43,9 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
                                            const Progress& progress);
 
 /// The integer light field, its shifts as fine as the coder takes them. Spec 6.3, 6.5.
+/// @param origin    of the capture that the cloud was made of: the field is in the world
 /// @param settings  their fit is fit.chosen.settings
-LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, UpAxis up,
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
                          const EncoderSettings& settings);
 
 }  // namespace slf

@@ -152,7 +152,7 @@ def main():
     if len(sys.argv) != 6:
         sys.exit(__doc__)
     world, rgb = radiance(sys.argv[1], int(sys.argv[2]), [float(a) for a in sys.argv[3:]])
-    print("%.6g %.6g %.6g  %.3f %.3f %.3f" % (*world, *rgb))
+    print("%.10g %.10g %.10g  %.3f %.3f %.3f" % (*world, *rgb))
 
 
 if __name__ == "__main__":

@@ -47,6 +47,7 @@ Result<Capture, InputError> file_cameras(const IgcParameters& parameters, const 
     index.erase(found);
   }
   Capture capture;
+  capture.origin = given.origin;
   capture.cameras = given.cameras;
   return capture;
 }
@@ -86,11 +87,12 @@ std::vector<std::array<float, 3>> captured_normals(const PointCloud& captured,
   return normals;
 }
 
-/// The decoded points as a voxel cloud, with normals.
+/// The decoded points as a voxel cloud from the capture's origin, with normals.
 VoxelCloud with_normals(LightField geometry, const Capture& capture, const PointCloud& captured,
                         const IgcDecodeOptions& options) {
   VoxelCloud cloud;
-  cloud.grid = geometry.header.grid;
+  const Vec3& origin = capture.origin;
+  cloud.grid = moved(geometry.header.grid, {-origin[0], -origin[1], -origin[2]});
   cloud.positions = std::move(geometry.positions);
   PointCloud points;
   for (const Voxel& v : cloud.positions) {
@@ -167,7 +169,7 @@ Result<IgcDecoded, InputError> decode_igc(Bytes stream, const Capture& given,
   settings.fit = fit.chosen.settings;
   for (const auto& [key, value] : fit_metadata(fit.chosen))
     decoded.metadata.emplace_back("chosen_" + key, value);
-  decoded.light_field = quantise_grid(cloud, std::move(fit), up, settings);
+  decoded.light_field = quantise_grid(cloud, std::move(fit), capture.origin, up, settings);
   return decoded;
 }
 

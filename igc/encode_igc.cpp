@@ -47,7 +47,7 @@ Result<Done, InputError> check_cameras(const Capture& capture, std::span<const i
 Video encode_geometry(const VoxelCloud& cloud, const Capture& capture,
                       const EncoderSettings& settings) {
   LightField field;
-  field.header.grid = cloud.grid;
+  field.header.grid = moved(cloud.grid, capture.origin);
   field.header.up = capture.up;
   field.header.transfer = settings.observe.transfer;
   field.header.has_basis = false;
@@ -107,7 +107,7 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
           voxelise_mended(capture, cameras, settings.slf, encoded.refined, progress));
   encoded.points = cloud.positions.size();
   encoded.merged = cloud.merged;
-  encoded.grid = cloud.grid;
+  encoded.grid = moved(cloud.grid, capture.origin);
   encoded.density = cloud.density;
   encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(const auto geometry, encode_geometry(cloud, capture, settings.slf));

@@ -16,15 +16,17 @@
 namespace slf {
 namespace {
 
-/// Decoded points with the normals of the nearest captured ones.
-ObservedPoints decoded_points(const ViewMaps& maps, const CapturedSurface& surface,
-                              const NearestPoints& tree, int threads) {
+/// Decoded points, from the capture's origin, with the normals of the nearest captured ones.
+ObservedPoints decoded_points(const ViewMaps& maps, const Vec3& origin,
+                              const CapturedSurface& surface, const NearestPoints& tree,
+                              int threads) {
   ObservedPoints points;
+  const Grid grid = moved(maps.header().grid, {-origin[0], -origin[1], -origin[2]});
   points.positions.resize(maps.num_points());
   points.normals.resize(maps.num_points());
   parallel_ranges(maps.num_points(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const Vec3 world = maps.header().grid.world(maps.positions()[p]);
+      const Vec3 world = grid.world(maps.positions()[p]);
       points.positions[p] = {float(world[0]), float(world[1]), float(world[2])};
       std::uint32_t nearest = 0;
       tree.nearest(points.positions[p], 1, &nearest, nullptr);
@@ -94,7 +96,8 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
   const NearestPoints tree(capture.cloud.positions);
   CapturedSurface surface = captured_surface(capture, settings.threads);
   if (!(surface.spacing > 0)) surface.spacing = maps.header().grid.step;  // a single point
-  const ObservedPoints points = decoded_points(maps, surface, tree, settings.threads);
+  const ObservedPoints points =
+      decoded_points(maps, capture.origin, surface, tree, settings.threads);
   ObserveSettings observing;
   observing.delta_degrees =
       *std::min_element(settings.deltas_degrees.begin(), settings.deltas_degrees.end());

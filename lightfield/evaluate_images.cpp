@@ -122,7 +122,7 @@ Result<PictureErrors, InputError> compare_camera(const Renderer& renderer, const
   const auto index = static_cast<std::size_t>(camera_index);
   const Camera& camera = capture.cameras[index];
   const auto start = std::chrono::steady_clock::now();
-  const Rendering over_black = renderer.render(camera);
+  const Rendering over_black = renderer.render(moved(camera, capture.origin));
   const auto end = std::chrono::steady_clock::now();
   const CapturedView view =
       captured_view(capture, surface, camera, loaded, settings.depth_tolerance);

@@ -336,6 +336,29 @@ INSTANTIATE_TEST_SUITE_P(Files, ColmapFile,
 
 // -- Other entries -----------------------------------------------------------------------------
 
+TEST(Colmap, PointsFarFromZeroAndTheirCamerasAreGivenFromAnOriginNearby) {
+  const TemporaryDirectory directory;
+  // The set-up about (400000, 5700000, 100): t - R (400000, 5700000, 100).
+  write_colmap_text(directory.path(), kCamerasTxt,
+                    "12 1 0 0 0 -400000 -5700000 -96 7 b.png\n\n"
+                    "5 0.5 0.1 -0.7 0.5 3840060.1 -2879920.2 3100003 7 a.png\n\n");
+  write_text(directory / "sparse/0/points3D.txt",
+             "9 400000.001 5700000 100 10 20 30 0.5\n8 400000.125 5700000.25 100 1 2 3 0.1\n");
+  const auto capture = load_capture(directory.path());
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_EQ(capture->origin, (Vec3{400000, 5700000, 100}));
+  EXPECT_EQ(capture->cloud.origin, (Vec3{0, 0, 0}));
+  EXPECT_EQ(capture->cloud.positions[1], (std::array<float, 3>{0.125f, 0.25f, 0}));
+  EXPECT_NEAR(capture->cloud.positions[0][0], 0.001, 1e-9);
+  const Camera& a = capture->cameras[0];
+  const auto at = a.project({0, 0, 0});
+  ASSERT_TRUE(at);
+  EXPECT_NEAR((*at)[0], 9.5, 1e-6);
+  EXPECT_NEAR((*at)[1], 2.5, 1e-6);
+  EXPECT_NEAR(moved(a, capture->origin).centre()[1], 5700001.96, 1e-6);
+  EXPECT_THAT(capture->warnings, ElementsAre(HasSubstr("no normals")));
+}
+
 TEST(LoadCapture, ALonePlyIsACloudWithoutCameras) {
   const TemporaryDirectory directory;
   write_points(directory / "cloud.ply");

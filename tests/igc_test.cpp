@@ -87,6 +87,29 @@ class Igc : public testing::Test {
   static inline std::vector<int> cameras_;
 };
 
+TEST_F(Igc, ACaptureFarFromZeroHasTheSameFieldFarFromZero) {
+  SLF_NEEDS_HEVC();
+  Capture far = capture_;
+  far.origin = {400000, 5700000, 100};
+  const auto near_file = encode_igc(capture_, cameras_, settings(22));
+  const auto far_file = encode_igc(far, cameras_, settings(22));
+  ASSERT_TRUE(near_file && far_file);
+  const auto near_field = decode_igc(near_file->stream, capture_);
+  const auto far_field = decode_igc(far_file->stream, far);
+  ASSERT_TRUE(near_field && far_field);
+  const LightField &a = near_field->light_field, &b = far_field->light_field;
+  EXPECT_EQ(a.positions, b.positions);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(b.header.grid.origin[k] - far.origin[k], a.header.grid.origin[k], 1e-8);
+    EXPECT_EQ(b.header.grid.origin[k], far_file->grid.origin[k]);
+  }
+  EvaluateSettings evaluation;
+  evaluation.images = false;
+  const auto quality = evaluate(ViewMaps(b), far, cameras_, evaluation);
+  ASSERT_TRUE(quality);
+  EXPECT_NEAR(quality->points[0].psnr, psnr(a), 0.01);
+}
+
 TEST_F(Igc, FinelyCodedImagesGiveTheFitOfTheOriginals) {
   SLF_NEEDS_HEVC();
   // Both estimate normals from the same points: the centres of the voxels.

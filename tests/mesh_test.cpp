@@ -101,6 +101,19 @@ TEST(MeshFile, FacesOfFewerThanThreeCornersAreNoTriangles) {
   EXPECT_EQ(mesh->triangles.size(), 10u);
 }
 
+TEST(MeshFile, ObjCoordinatesThatFloatsCannotHoldAreGivenFromAnOriginNearby) {
+  const auto mesh = mesh_in("a.obj",
+                            "v 400000.001 5700000.002 0\nv 400001.004 5700000 0\n"
+                            "v 400000 5700001.25 0.5\nf 1 2 3\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  const PointCloud& vertices = mesh->vertices;
+  EXPECT_EQ(vertices.origin, (Vec3{400000, 5700000, 0}));
+  EXPECT_EQ(vertices.positions[1][1], 0);
+  EXPECT_NEAR(vertices.positions[0][0], 0.001, 1e-8);
+  EXPECT_NEAR(vertices.positions[0][1], 0.002, 1e-8);
+  EXPECT_EQ(vertices.positions[2][1], 1.25f);
+}
+
 TEST(MeshFile, ObjErrorsNameTheLine) {
   expect_refused("a.obj", "v 0 0 0\nv 1 0\n", "line 2");
   expect_refused("a.obj", "v 0 0 nan\n", "vertex 0");

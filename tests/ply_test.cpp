@@ -160,6 +160,60 @@ TEST(PlyReader, NanInABinaryFileIsRefusedByVertexAndProperty) {
   EXPECT_THAT(read.error().message, HasSubstr("vertex 2, property y is not finite"));
 }
 
+// Metres on a map, structure of a millimetre.
+const std::string kFarPoints =
+    "400000.001 5700000.002 100.5 400000.004 5700001.25 100.003 399999.999 5700000.5 99.75\n";
+
+std::string far_header(const char* type) {
+  std::string header = test::replaced(kHeader, "vertex 2", "vertex 3");
+  for (const char* axis : {"x", "y", "z"})
+    header = test::replaced(header, std::string("float ") + axis, std::string(type) + " " + axis);
+  return header;
+}
+
+TEST(PlyReader, DoublesThatFloatsCannotHoldAreGivenFromAnOriginNearby) {
+  const auto cloud = read(far_header("double") + kFarPoints);
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_EQ(cloud->origin, (Vec3{399999, 5700000, 99}));
+  const std::array<Vec3, 3> expected{{{400000.001, 5700000.002, 100.5},
+                                      {400000.004, 5700001.25, 100.003},
+                                      {399999.999, 5700000.5, 99.75}}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(cloud->origin[k] + double{cloud->positions[i][k]}, expected[i][k], 2e-7);
+}
+
+TEST(PlyReader, FloatsAreReadAsTheyAre) {
+  const auto cloud = read(far_header("float") + kFarPoints);
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_EQ(cloud->origin, (Vec3{0, 0, 0}));
+  EXPECT_THAT(cloud->positions, ElementsAre(Position{400000.001f, 5700000.002f, 100.5f},
+                                            Position{400000.004f, 5700001.25f, 100.003f},
+                                            Position{399999.999f, 5700000.5f, 99.75f}));
+}
+
+TEST(PlyReader, DoublesThatFloatsHoldAreFromZero) {
+  for (const char* points : {"0.1 0.2 0.3 1 -1 0.7 0 0 0\n",           // near zero for their extent
+                             "5700001 7 3 5700002 8 4 5700003 1 1\n",  // whole numbers
+                             "0.1 0.2 0.3 0.1 0.2 0.3 0.1 0.2 0.3\n"}) {
+    const auto cloud = read(far_header("double") + points);
+    ASSERT_TRUE(cloud) << cloud.error().message;
+    EXPECT_EQ(cloud->origin, (Vec3{0, 0, 0})) << points;
+  }
+}
+
+TEST(PlyReader, ExtentsThatAreNoneOrTinyHaveAnOriginThatIsFinite) {
+  for (const char* points :
+       {"0 1e30 0.1 1e-320 1e30 0.1 0 1e30 0.1\n", "1e-320 0 0 1e-310 0 0 0 0 0\n",
+        "5700000.001 1 2 5700000.001 1 2 5700000.001 1 2\n", "3e38 -3e38 0 -3e38 3e38 1 1 1 1\n"}) {
+    const auto cloud = read(far_header("double") + points);
+    ASSERT_TRUE(cloud) << cloud.error().message;
+    for (const double x : cloud->origin) EXPECT_TRUE(std::isfinite(x)) << points;
+    for (const auto& p : cloud->positions)
+      for (const float x : p) EXPECT_TRUE(std::isfinite(x)) << points;
+  }
+}
+
 TEST(PlyReader, ZeroLengthNormalsMakeAllNormalsUnusable) {
   std::vector<std::string> warnings;
   const auto cloud =
@@ -194,6 +248,20 @@ TEST(PlyWriter, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(back->colours, cloud.colours);
   EXPECT_THAT(test::read_text(directory / "cloud.ply"),
               HasSubstr("format binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"));
+}
+
+TEST(PlyWriter, PositionsFromAnOriginAreWrittenAsDoubles) {
+  PointCloud cloud;
+  cloud.origin = {400000, 5700000, 100};
+  cloud.positions = {{0.001f, 0.002f, 0}, {1, 0.5f, 0.25f}};
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_ply(directory / "cloud.ply", cloud));
+  const auto back = read_ply(directory / "cloud.ply");
+  ASSERT_TRUE(back) << back.error().message;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(back->origin[k] - cloud.origin[k] + double{back->positions[i][k]},
+                  double{cloud.positions[i][k]}, 1e-8);
 }
 
 TEST(PlyWriter, ArraysOfDifferentLengthAreRefused) {

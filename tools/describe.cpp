@@ -86,10 +86,11 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
 }
 
 std::string header_text(const LightFieldHeader& h) {
-  std::string out =
-      text("  grid          %d bits per axis, step %g, origin %g %g %g, up %s, %s-handed\n",
-           h.grid.bits, h.grid.step, h.grid.origin[0], h.grid.origin[1], h.grid.origin[2],
-           name_of(h.up), h.right_handed ? "right" : "left");
+  std::string out = text(
+      "  grid          %d bits per axis, step %g, origin %.10g %.10g %.10g, up %s, "
+      "%s-handed\n",
+      h.grid.bits, h.grid.step, h.grid.origin[0], h.grid.origin[1], h.grid.origin[2], name_of(h.up),
+      h.right_handed ? "right" : "left");
   if (h.metres_per_unit > 0) out += text("  unit          %g metres\n", h.metres_per_unit);
   if (h.num_functions == 0) return out + "  planes        none: geometry alone\n";
   if (!h.has_basis)

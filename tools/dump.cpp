@@ -1,6 +1,8 @@
 #include "tools/dump.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "slf/given_planes.h"
 #include "slf/normals.h"
@@ -32,6 +34,14 @@ void add_colours(const LightField& field, int threads, PointCloud& cloud) {
   }
 }
 
+/// Whether floats of world coordinates are less than a quarter of a voxel off.
+bool floats_hold(const Grid& grid) {
+  double farthest = 0;  // voxels
+  for (const double x : grid.origin)
+    farthest = std::max(farthest, std::abs(x) / grid.step + double(1 << grid.bits));
+  return farthest < double(1 << 23);
+}
+
 Outcome save_array(const std::string& directory, const char* name,
                    const std::vector<std::uint8_t>& file) {
   return save(inside(directory, name), file.data(), file.size());
@@ -42,8 +52,10 @@ Outcome save_array(const std::string& directory, const char* name,
 PointCloud mean_cloud(const LightField& field, int threads) {
   PointCloud cloud;
   cloud.positions.reserve(field.num_points());
+  Grid grid = field.header.grid;
+  if (!floats_hold(grid)) cloud.origin = std::exchange(grid.origin, Vec3{0, 0, 0});
   for (const Voxel& v : field.positions) {
-    const Vec3 w = field.header.grid.world(v);
+    const Vec3 w = grid.world(v);
     cloud.positions.push_back(
         {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
   }

@@ -58,10 +58,11 @@ Result<std::vector<Voxel>, Failure> ply_positions(const std::string& file, bool 
   for (const auto& p : cloud.positions) {
     Voxel v{};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(p[k] >= 0 && p[k] < 1 << 21) || p[k] != std::floor(p[k]))
+      const double x = cloud.origin[k] + double{p[k]};
+      if (!(x >= 0 && x < 1 << 21) || x != std::floor(x))
         return invalid(file,
                        "coordinates are not whole numbers of 0 to 2^21 - 1 (slf encode voxelises)");
-      v[k] = static_cast<std::int32_t>(p[k]);
+      v[k] = static_cast<std::int32_t>(x);
     }
     positions.push_back(v);
   }

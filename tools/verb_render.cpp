@@ -190,7 +190,8 @@ Outcome run_render(const RenderOptions& given) {
     SLF_TRY(capture, from(given.capture,
                           load_capture(given.capture, {.points = {}, .check_images = false})));
     SLF_TRY(photo, find_camera(capture, given.image, given.capture));
-    views.push_back(camera_view(given, capture.cameras[static_cast<std::size_t>(photo)]));
+    views.push_back(camera_view(
+        given, moved(capture.cameras[static_cast<std::size_t>(photo)], capture.origin)));
   } else if (!given.camera.empty()) {
     SLF_TRY(Camera camera, read_camera(given.camera));
     views.push_back(camera_view(given, std::move(camera)));

@@ -39,11 +39,20 @@ struct Camera {
   std::optional<std::array<double, 2>> project(const Vec3& world, double* z = nullptr) const;
 };
 
+/// The camera, moved with all that it sees by a vector of the world.
+Camera moved(Camera camera, const Vec3& by);
+inline Grid moved(Grid grid, const Vec3& by) {
+  for (std::size_t k = 0; k < 3; ++k) grid.origin[k] += by[k];
+  return grid;
+}
+
 /// Float point cloud.
 struct PointCloud {
-  std::vector<std::array<float, 3>> positions;       ///< [P]
+  std::vector<std::array<float, 3>> positions;       ///< [P] from `origin`
   std::vector<std::array<float, 3>> normals;         ///< [P] unit, outward; or empty
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< [P]; or empty
+  Vec3 origin{0, 0, 0};  ///< world; readers move it where floats would lose digits of the file, as
+                         ///< of georeferenced scans
 };
 
 /// A surface of triangles; may be open, and may have triangles without area.
@@ -56,6 +65,8 @@ struct Mesh {
 /// too where `images` has them.
 struct Capture {
   std::filesystem::path root;
+  Vec3 origin{0, 0, 0};  ///< world; cloud, mesh and cameras are given from it, and so are grids
+                         ///< and points that are made of a capture. Origins of cloud and mesh are 0
   PointCloud cloud;
   Mesh mesh;  ///< what `cloud` is a sample of, one point for every voxel that the photographs
               ///< resolve; without triangles: the cloud is the capture's own
@@ -111,7 +122,8 @@ Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
 ///         Bounded: OBJ and GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
 Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings = nullptr);
-/// Binary little endian. Atomic like write_png; "-" is standard output.
+/// Binary little endian; positions are doubles where the cloud's origin is not 0, else floats.
+/// Atomic like write_png; "-" is standard output.
 Result<Done, InputError> write_ply(const std::filesystem::path& file, const PointCloud& cloud);
 
 /// All bytes to a temporary file beside `file`, flushed, renamed over it. "-" is standard output.
@@ -124,7 +136,7 @@ Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::p
 
 /// Normals by PCA over the k nearest points (nanoflann), turned towards `viewpoints` (those that
 /// see a point decide, found with a coarse depth map; where they do not say, its neighbours do; no
-/// viewpoints: away from the centroid). Unit length.
+/// viewpoints: away from the centroid). Unit length. Viewpoints are from the cloud's origin.
 /// The same for any thread count. O(P log P).
 std::vector<std::array<float, 3>> estimate_normals(const PointCloud& cloud,
                                                    const std::vector<Vec3>& viewpoints, int k = 16,
@@ -179,7 +191,8 @@ struct VoxelCloud {
 Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size = 0);
 
 /// A capture's geometry on the grid that it is coded on: `bits` or `voxel_size` as voxelise has
-/// them, or with both 0 what choose_density finds. VoxelCloud::density is filled in.
+/// them, or with both 0 what choose_density finds. VoxelCloud::density is filled in. The grid is
+/// from capture.origin.
 /// @param cloud  capture.cloud, or that with normals, which densifying needs
 /// @errors those of voxelise. kInvalidInput: densified, it has more than 2^24 points.
 Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,

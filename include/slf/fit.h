@@ -34,7 +34,7 @@ struct Observations {
   double gamma_min = -1, gamma_max = 1;      ///< over all observations
 };
 
-/// The points to observe, in world space.
+/// The points to observe, from the capture's origin.
 struct ObservedPoints {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
