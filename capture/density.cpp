@@ -26,8 +26,9 @@ constexpr double kVoxelPerSpacing = 0.46;
 // Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
 // each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
 constexpr double kDense = 0.8;
-constexpr double kMostDensified =
-    4;  // voxels between points of the cloud: what is between is a guess
+// Voxels between points of the cloud: what is between is a guess. On a given grid more may be asked
+// for, as long as the cells looked at are bounded.
+constexpr double kMostDensified = 4, kMostCellsLookedAt = 1 << 30;
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -86,9 +87,9 @@ Result<VoxelCloud, InputError> voxelise_mesh(const Mesh& mesh, int bits, double 
 Result<VoxelCloud, InputError> voxelise_densely(const PointCloud& cloud, double spacing, int bits,
                                                 double voxel_size, int threads) {
   SLF_TRY(const VoxelCloud coarse, voxelise(cloud, bits, voxel_size));  // for its grid and checks
-  const double steps = spacing / coarse.grid.step;
-  if (steps * steps * double(cloud.positions.size()) > double(1 << 24))
-    return InputError{Errc::kInvalidInput, "densify: more than 2^24 points: the grid is too fine"};
+  const double around = 2 * spacing / coarse.grid.step + 3;             // cells, per axis
+  if (around * around * around * double(cloud.positions.size()) > kMostCellsLookedAt)
+    return InputError{Errc::kInvalidInput, "densify: the grid is too fine for the cloud"};
   PointCloud dense = densify(cloud, spacing, coarse.grid, threads);
   return dense.positions.size() < coarse.positions.size() ? coarse
                                                           : voxelise_on(dense, coarse.grid);

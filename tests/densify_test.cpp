@@ -122,6 +122,8 @@ TEST(Densify, AGridMuchTooFineIsRefused) {
   const auto voxels = voxelise_geometry(capture, capture.cloud, kAll, 16, 0, {Densify::kOn});
   ASSERT_FALSE(voxels);
   EXPECT_NE(voxels.error().message.find("too fine"), std::string::npos);
+  const Capture few = square(2);  // few points are far apart
+  EXPECT_FALSE(voxelise_geometry(few, few.cloud, kAll, 12, 0, {Densify::kOn}));
 }
 
 }  // namespace

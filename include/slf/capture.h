@@ -194,7 +194,7 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
 /// them, or with both 0 what choose_density finds. VoxelCloud::density is filled in. The grid is
 /// from capture.origin.
 /// @param cloud  capture.cloud, or that with normals, which densifying needs
-/// @errors those of voxelise. kInvalidInput: densified, it has more than 2^24 points.
+/// @errors those of voxelise. kInvalidInput: densified, the grid is too fine for the cloud.
 Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,
                                                  std::span<const int> cameras, int bits,
                                                  double voxel_size, DensifySettings densify = {},
