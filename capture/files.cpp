@@ -59,12 +59,16 @@ int write_all(int fd, const unsigned char* data, std::size_t size) {
   return 0;
 }
 
-// Symbolic links are written through, not replaced.
-fs::path target_of(const fs::path& file) {
+// Symbolic links are written through, not replaced, also where they lead to nothing yet.
+fs::path target_of(fs::path file) {
+  constexpr int kMostLinks = 40;  // as the system's own limit
   std::error_code error;
-  if (!fs::is_symlink(file, error)) return file;
-  fs::path target = fs::canonical(file, error);
-  return error ? file : target;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(file, error); ++i) {
+    const fs::path target = fs::read_symlink(file, error);
+    if (error) break;
+    file = file.parent_path() / target;  // an absolute target replaces all
+  }
+  return file;
 }
 
 // /dev/stdout and the like lead to whatever is open there, be it a regular file.

@@ -1,12 +1,37 @@
 #include "capture/importer.h"
 
 namespace slf {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShownName = 120;  // of a name in a message
+
+/// The name as a message shows it.
+std::string shortened(const std::string& name) {
+  return name.size() <= kShownName ? name : name.substr(0, kShownName) + "...";
+}
+
+bool is_inside(const fs::path& path, const fs::path& base) {
+  const fs::path inside = path.lexically_relative(base);
+  return !inside.empty() && *inside.begin() != ".." && inside != ".";
+}
+
+/// Where the path leads when links are followed, as far as there is anything.
+bool leads_outside(const fs::path& path, const fs::path& base) {
+  std::error_code error;
+  const fs::path real_base = fs::weakly_canonical(base, error);
+  const fs::path real_path = error ? fs::path() : fs::weakly_canonical(path, error);
+  return error || !is_inside(real_path, real_base);
+}
+
+}  // namespace
 
 Result<std::filesystem::path, InputError> path_inside(const std::filesystem::path& root,
                                                       const std::string& relative,
                                                       const std::string& label) {
   const auto invalid = [&](const char* cause) {
-    return InputError{Errc::kInvalidInput, label + ": path '" + relative + "' " + cause};
+    return InputError{Errc::kInvalidInput, label + ": path '" + shortened(relative) + "' " + cause};
   };
   if (relative.empty()) return invalid("is empty");
   if (relative.find('\0') != std::string::npos) return invalid("holds a zero byte");
@@ -14,9 +39,8 @@ Result<std::filesystem::path, InputError> path_inside(const std::filesystem::pat
   const auto base = std::filesystem::absolute(root, error).lexically_normal();
   if (error) return invalid("cannot be made absolute");
   const auto whole = (base / relative).lexically_normal();  // an absolute `relative` replaces base
-  const auto inside = whole.lexically_relative(base);
-  if (inside.empty() || *inside.begin() == ".." || inside == ".")
-    return invalid("leads out of the capture");
+  if (!is_inside(whole, base)) return invalid("leads out of the capture");
+  if (leads_outside(whole, base)) return invalid("leads out of the capture through a link");
   return whole;
 }
 

@@ -19,6 +19,10 @@ namespace {
 // One block of 64 pixels takes a bit at the least in Huffman coding; the rest is reserve.
 constexpr std::uint64_t kMaxPixelsPerByte = 4096;
 
+// A progressive photograph has some 10 scans. Each takes a pass over all blocks, however few bytes
+// it has.
+constexpr int kMaxScans = 200;
+
 struct Errors {
   jpeg_error_mgr base;  // first: libjpeg hands back a pointer to it
   std::jmp_buf jump;
@@ -42,6 +46,14 @@ void on_message(j_common_ptr info, int level) {
   errors->damaged = true;
 }
 
+// Called now and then while scans are read.
+void on_progress(j_common_ptr info) {
+  if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMaxScans) return;
+  auto* errors = reinterpret_cast<Errors*>(info->err);
+  std::snprintf(errors->text, sizeof errors->text, "more than %d scans", kMaxScans);
+  std::longjmp(errors->jump, 1);
+}
+
 struct Reader {
   Reader() {
     std::memset(&info, 0, sizeof info);
@@ -55,12 +67,15 @@ struct Reader {
 
   jpeg_decompress_struct info;
   Errors errors;
+  jpeg_progress_mgr progress{};
 };
 
 bool read_header(Reader& reader, Bytes file) {
   if (setjmp(reader.errors.jump) != 0) return false;
   jpeg_create_decompress(&reader.info);
   jpeg_mem_src(&reader.info, file.data(), file.size());
+  reader.progress.progress_monitor = on_progress;
+  reader.info.progress = &reader.progress;
   jpeg_read_header(&reader.info, TRUE);
   return true;
 }

@@ -160,6 +160,15 @@ INSTANTIATE_TEST_SUITE_P(
             "kInvalidInput: cameras[1]: path 'images/../../b.png' leads out of the capture"},
         Bad{"absolute_path", image_b("/etc/passwd"),
             "kInvalidInput: cameras[1]: path '/etc/passwd' leads out"},
+        Bad{"link_out_of_the_capture",
+            [](const fs::path& p) {
+              image_b("elsewhere/passwd")(p);
+              fs::create_directory_symlink("/etc", p / "elsewhere");
+            },
+            "kInvalidInput: cameras[1]: path 'elsewhere/passwd' leads out of the capture through a "
+            "link"},
+        Bad{"long_name", image_b("../" + std::string(100000, 'n')),
+            "kInvalidInput: nnn...' leads out of the capture"},
         Bad{"deep_json", [](const fs::path& p) { write_shared(p, std::string(100000, '[')); },
             "kInvalidInput: nested too deeply"}),
     [](const auto& bad) { return bad.param.name; });

@@ -5,7 +5,10 @@
 #include <zlib.h>
 
 #include <csignal>
+#include <cstdio>
 #include <thread>
+// jpeglib.h needs stdio.
+#include <jpeglib.h>
 
 #include "capture/image_formats.h"
 #include "capture_support.h"
@@ -202,6 +205,43 @@ TEST(Jpeg, CmykIsRefused) {
   EXPECT_THAT(image.error().message, HasSubstr("CMYK"));
 }
 
+/// Grey 8 x 8, every coefficient above the mean in scans of its own, a bit of each at a time.
+std::string jpeg_of_many_scans() {
+  jpeg_error_mgr errors;
+  jpeg_compress_struct info;
+  info.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&info);
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&info, &data, &size);
+  info.image_width = info.image_height = 8;
+  info.input_components = 1;
+  info.in_color_space = JCS_GRAYSCALE;
+  jpeg_set_defaults(&info);
+  std::vector<jpeg_scan_info> scans = {{1, {0, 0, 0, 0}, 0, 0, 0, 0}};
+  for (int k = 1; k < 64; ++k)
+    for (int bit = 4; bit >= 0; --bit)
+      scans.push_back({1, {0, 0, 0, 0}, k, k, bit == 4 ? 0 : bit + 1, bit});
+  info.scan_info = scans.data();
+  info.num_scans = static_cast<int>(scans.size());
+  jpeg_start_compress(&info, TRUE);
+  std::array<JSAMPLE, 8> samples{0, 255, 3, 77, 200, 9, 128, 31};
+  JSAMPROW row = samples.data();
+  for (int y = 0; y < 8; ++y) jpeg_write_scanlines(&info, &row, 1);
+  jpeg_finish_compress(&info);
+  std::string file(reinterpret_cast<const char*>(data), size);
+  jpeg_destroy_compress(&info);
+  std::free(data);
+  return file;
+}
+
+TEST(Jpeg, MoreScansThanAPhotographHasAreRefused) {
+  const auto image = read(jpeg_of_many_scans());
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, Errc::kInvalidInput);
+  EXPECT_THAT(image.error().message, HasSubstr("more than 200 scans"));
+}
+
 TEST(ImageSize, IsReadFromTheHeaderAlone) {
   const TemporaryDirectory directory;
   test::write_text(directory / "a.png", png(300, 2, 8, 2, "no rows").substr(0, 33));
@@ -302,6 +342,14 @@ TEST(WriteFile, GoesThroughSymbolicLinks) {
   ASSERT_TRUE(write_file(directory / "link", "new", 3));
   EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
   EXPECT_EQ(test::read_text(directory / "real/a"), "new");
+}
+
+TEST(WriteFile, GoesThroughSymbolicLinksThatLeadToNothingYet) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_symlink("real", directory / "link");
+  ASSERT_TRUE(write_file(directory / "link", "new", 3));
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+  EXPECT_EQ(test::read_text(directory / "real"), "new");
 }
 
 TEST(WriteFile, WritesIntoDevicesAndPipesThemselves) {
