@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Includes run downwards: a folder includes what stands before it in LAYERS, and itself.
+
+    layers_test.py ROOT
+"""
+import pathlib
+import re
+import sys
+
+# From what knows nothing to what knows all. `slf` is include/slf, the public headers.
+LAYERS = {
+    'slf': [],
+    'bitstream': ['slf'],
+    'entropy': ['slf', 'bitstream'],
+    'geometry': ['slf', 'bitstream', 'entropy'],
+    'attributes': ['slf', 'bitstream', 'entropy', 'geometry'],
+    'video': ['slf', 'bitstream'],
+    'texture': ['slf', 'bitstream', 'geometry', 'attributes', 'video'],
+    'capture': ['slf', 'geometry'],
+    'lightfield': ['slf', 'bitstream', 'geometry', 'capture'],
+    'refine': ['slf', 'capture', 'lightfield'],
+    'codec': ['slf', 'bitstream', 'entropy', 'geometry', 'attributes', 'texture', 'capture',
+              'lightfield', 'refine'],
+    'igc': ['slf', 'bitstream', 'video', 'capture', 'lightfield', 'codec'],
+    'tools': ['slf'],
+    'examples': ['slf'],
+}
+
+
+def wrong_includes(root):
+    for folder, below in LAYERS.items():
+        place = root / 'include/slf' if folder == 'slf' else root / folder
+        for file in sorted([*place.glob('**/*.h'), *place.glob('**/*.cpp')]):
+            for number, line in enumerate(file.read_text(encoding='utf-8').splitlines(), 1):
+                included = re.match(r'#include "(\w+)/', line)
+                if included and included[1] in LAYERS and included[1] not in [*below, folder]:
+                    yield f'{file.relative_to(root)}:{number}: {folder} must not include {included[1]}'
+
+
+def main():
+    wrong = list(wrong_includes(pathlib.Path(sys.argv[1])))
+    print('\n'.join(wrong))
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == '__main__':
+    main()
