@@ -1,5 +1,8 @@
 #include "geometry/draco_decoder.h"
 
+#include <algorithm>
+#include <array>
+
 #if SLF_WITH_DRACO
 #include <draco/compression/decode.h>
 #include <draco/point_cloud/point_cloud.h>
@@ -8,16 +11,33 @@
 namespace slf {
 
 #if SLF_WITH_DRACO
+namespace {
+
+/// Spec 8.5. Draco allocates by its header, by the number, types and lengths of attributes too,
+/// before it looks for the points.
+bool is_cloud_of_positions(std::span<const std::uint8_t> payload, std::uint64_t max_points) {
+  constexpr std::size_t kHeaderBytes = 22;
+  constexpr std::array<std::uint8_t, 6> kBegin = {'D', 'R', 'A', 'C', 'O', 2};  // version 2.x
+  // One decoder of one attribute: position, uint32, three components, not normalised.
+  constexpr std::array<std::uint8_t, 6> kAttribute = {1, 1, 0, 6, 3, 0};
+  if (payload.size() < kHeaderBytes) return false;
+  if (!std::equal(kBegin.begin(), kBegin.end(), payload.begin())) return false;
+  const bool point_cloud = payload[7] == 0 && payload[8] <= 1;
+  const bool metadata = payload[9] != 0 || payload[10] != 0;
+  const std::uint32_t count = payload[11] | std::uint32_t{payload[12]} << 8 |
+                              std::uint32_t{payload[13]} << 16 | std::uint32_t{payload[14]} << 24;
+  return point_cloud && !metadata && count <= max_points &&
+         std::equal(kAttribute.begin(), kAttribute.end(), payload.begin() + 15);
+}
+
+}  // namespace
+
 Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, int bits,
                                         std::uint64_t max_points) {
   const Error damaged{Errc::kOutOfRange, "gu_draco", 0};
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(payload.data()), payload.size());
-  // Draco allocates by the count at byte 11 of its header before it looks for the points.
-  if (payload.size() < 15) return damaged;
-  const std::uint32_t count = payload[11] | std::uint32_t{payload[12]} << 8 |
-                              std::uint32_t{payload[13]} << 16 | std::uint32_t{payload[14]} << 24;
-  if (count > max_points) return damaged;
+  if (!is_cloud_of_positions(payload, max_points)) return damaged;
   const auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
   if (!type.ok() || type.value() != draco::POINT_CLOUD) return damaged;
   draco::Decoder decoder;
