@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/nearest.h"
+#include "capture/quantile.h"
 #include "capture/resample.h"
 
 namespace slf {
@@ -21,12 +22,6 @@ constexpr double kReach = 0.57, kSupport = 0.9, kGap = 0.8, kOffCentre = 0.48, k
 // median. A sphere of 100 points has 0.15, a cloud in a volume 0.6.
 constexpr double kFlat = 0.2, kEven = 2;
 constexpr std::size_t kSamples = 1000, kNear = 13;
-
-double quantile(std::vector<double> values, double q) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Of these points about their mean.
 double thickness_over_width(const PointCloud& cloud, std::span<const std::uint32_t> of) {

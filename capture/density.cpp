@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "capture/densify.h"
 #include "capture/mesh_sampling.h"
 #include "capture/nearest.h"
+#include "capture/quantile.h"
 #include "capture/thin_layer.h"
 
 namespace slf {
@@ -30,13 +32,6 @@ constexpr double kDense = 0.8;
 // for, as long as the cells looked at are bounded.
 constexpr double kMostDensified = 4, kMostCellsLookedAt = 1 << 30;
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::size_t stride_of(std::size_t points) {
   return std::max<std::size_t>((points + kSampledPoints - 1) / kSampledPoints, 1);
 }
@@ -53,7 +48,7 @@ double median_spacing(std::span<const Floats> points) {
     tree.nearest(points[p], k, index.data(), squared.data());
     distances.push_back(std::sqrt(static_cast<double>(squared[static_cast<std::size_t>(k - 1)])));
   }
-  return median(distances);
+  return median(std::move(distances));
 }
 
 double largest_extent(std::span<const Floats> points) {
@@ -139,7 +134,7 @@ double pixel_on_surface(const Capture& capture, std::span<const int> cameras,
     }
     if (least > 0) sharpest.push_back(least);
   }
-  return median(sharpest);
+  return median(std::move(sharpest));
 }
 
 Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const PointCloud& cloud,

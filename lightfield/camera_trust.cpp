@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
+#include "capture/quantile.h"
 #include "lightfield/camera_agreement.h"
 #include "lightfield/frame.h"
 
@@ -52,9 +54,7 @@ bool is_burnt_out(const CameraTrust& camera, const std::vector<CameraTrust>& all
   if (camera.clipped_share <= kMostClipped) return false;
   std::vector<double> shares;
   for (const CameraTrust& t : all) shares.push_back(t.clipped_share);
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle < kMostClippedOfOthers;
+  return median(std::move(shares)) < kMostClippedOfOthers;
 }
 
 bool can_be_judged(const CameraAgreement& a) {
@@ -140,9 +140,7 @@ std::optional<double> support(const std::vector<CameraAgreement>& agreement) {
   for (const CameraAgreement& a : agreement)
     if (a.patches >= kLeastPatches) values.push_back(a.agreement);
   if (values.size() < kLeastCameras) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 /// Drops and corrects until what is left agrees. One at a time, the worst first: it spoils the

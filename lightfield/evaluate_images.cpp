@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "capture/quantile.h"
 #include "lightfield/error_sum.h"
 #include "lightfield/picture_background.h"
 #include "lightfield/ssim.h"
@@ -135,12 +136,6 @@ Result<PictureErrors, InputError> compare_camera(const Renderer& renderer, const
   if (settings.error_map)
     SLF_CHECK(settings.error_map(camera_index, error_map(photograph, rendering)));
   return errors;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// 0 of nothing.

@@ -115,7 +115,8 @@ Result<Observations, InputError> observe(const Capture& capture, std::span<const
   std::vector<int> order(cameras.begin(), cameras.end());
   std::sort(order.begin(), order.end());
   order.erase(std::unique(order.begin(), order.end()), order.end());
-  const CameraObserver observer(points, occluders, spacing, settings);
+  const Mesh* mesh = capture.mesh.triangles.empty() ? nullptr : &capture.mesh;
+  const CameraObserver observer(points, occluders, spacing, settings, mesh);
   auto results = observe_each(capture, order, observer, settings.threads, progress);
   for (const CameraResult& result : results)
     if (result.error) return *result.error;

@@ -1,7 +1,8 @@
-// Occlusion by a depth buffer of splatted points. Paper III-A.
+// Occlusion by a depth buffer of splatted points (paper III-A) or of triangles.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ class DepthBuffer {
  public:
   DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
               const DepthSettings& settings);
+  /// Of exact triangles, both sides of which hide: nothing is wider than it is.
+  DepthBuffer(const Camera& camera, const Mesh& mesh, const DepthSettings& settings);
 
   /// @param image  where the point is in the image, inside it
   /// @param depth  along the optical axis
@@ -29,7 +32,14 @@ class DepthBuffer {
   bool hides(const std::array<double, 2>& image, double depth, double cosine) const;
 
  private:
+  struct Corner {
+    double u, v;           ///< buffer pixels
+    double inverse_depth;  ///< linear in the picture of a plane
+  };
+
   void splat(const std::array<double, 2>& image, double depth);
+  std::optional<Corner> corner(const Camera& camera, const Vec3& at) const;
+  void fill(const Corner& a, const Corner& b, const Corner& c);
 
   DepthSettings settings_;
   double focal_;  // buffer pixels

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "capture/quantile.h"
+
 namespace slf {
 namespace {
 
@@ -11,12 +13,6 @@ constexpr std::array<std::uint8_t, 3> kNothing{128, 128, 128};
 /// (a alpha + b (255 - alpha)) / 255, rounded.
 std::uint8_t blend(unsigned a, unsigned b, unsigned alpha) {
   return static_cast<std::uint8_t>((a * alpha + b * (255 - alpha) + 127) / 255);
-}
-
-std::uint8_t median(std::vector<std::uint8_t>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

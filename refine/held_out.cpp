@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "lightfield/frame.h"
 #include "lightfield/observe_camera.h"
@@ -57,11 +58,16 @@ struct Equations {
 
 }  // namespace
 
-double HeldOutErrors::mean() const {
-  double sum = 0, weight = 0;
-  for (const float s : squares) sum += double(s);
-  for (const float v : views) weight += double(v);
-  return weight > 0 ? sum / weight : 0;
+double HeldOutErrors::squares_sum() const {
+  return std::accumulate(squares.begin(), squares.end(), 0.0);
+}
+
+double HeldOutErrors::mean() const { return mean_of(*this, {}); }
+
+double mean_of(const HeldOutErrors& a, const HeldOutErrors& b) {
+  const double weight = std::accumulate(a.views.begin(), a.views.end(), 0.0) +
+                        std::accumulate(b.views.begin(), b.views.end(), 0.0);
+  return weight > 0 ? (a.squares_sum() + b.squares_sum()) / weight : 0;
 }
 
 CameraParts split_for_mending(std::span<const int> cameras) {

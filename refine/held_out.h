@@ -19,7 +19,11 @@ struct HeldOutErrors {
   std::vector<std::uint8_t> seen;  ///< [P] 1: by any of the cameras, held out or not
 
   double mean() const;
+  double squares_sum() const;
 };
+
+/// Of both together.
+double mean_of(const HeldOutErrors& a, const HeldOutErrors& b);
 
 /// The cameras that mending does not see: every fourth.
 struct CameraParts {

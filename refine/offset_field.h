@@ -2,9 +2,17 @@
 // do not say, as its neighbours.
 #pragma once
 
+#include <limits>
+
 #include "refine/photo_consistency.h"
 
 namespace slf {
+
+/// Of one point, world units; least <= most.
+struct OffsetLimits {
+  float least = std::numeric_limits<float>::lowest();
+  float most = std::numeric_limits<float>::max();
+};
 
 struct OffsetSettings {
   double smooth = 1.5;  ///< weight of smoothness
@@ -14,8 +22,10 @@ struct OffsetSettings {
   int threads = 0;
 };
 
-/// [P] world units
+/// @param limits  [P], none is beyond; or empty
+/// @return [P] world units
 std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetRange& range,
-                                  const Neighbours& neighbours, const OffsetSettings& settings);
+                                  const Neighbours& neighbours, const OffsetSettings& settings,
+                                  std::span<const OffsetLimits> limits = {});
 
 }  // namespace slf

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
+#include "capture/quantile.h"
+#include "capture/resample.h"
 #include "capture/spacing.h"
 #include "refine/held_out.h"
 #include "refine/offset_field.h"
 #include "refine/photo_consistency.h"
 #include "refine/regions.h"
-#include "capture/resample.h"
 #include "refine/shine_through.h"
+#include "refine/silhouettes.h"
 
 namespace slf {
 namespace {
@@ -27,6 +30,8 @@ constexpr std::array<int, 4> kLevels{2, 2, 1, 1};  // of the photographs, a roun
 constexpr double kRegion = 8;        // spacings: side of the cubes that are kept or not
 constexpr double kUnseenMove = 2;    // lattice steps: moved farther, a point must be seen
 constexpr double kLeastGain = 0.05;  // of the squared error, for kAuto
+constexpr double kTorn = 0.006;      // of the squared error, at most: what is uncovered
+constexpr double kSlanted = 1.4;     // lattice steps: between points of a slanted surface
 constexpr double kExact = 0.25;      // pixels of half-size photographs: a cloud that kAuto leaves
 
 struct Job {
@@ -38,6 +43,8 @@ struct Job {
   double spacing = 0;  ///< of the capture's points
   double pixel = 0;    ///< of the finest level used, world units at the object
   std::vector<std::vector<PhotoView>> levels;
+  std::vector<Silhouette> outlines;  ///< of the photographs that are matched
+  std::vector<Silhouette> judged;    ///< of those held out
 };
 
 SurfacePoints surface_of(const Capture& capture, int threads) {
@@ -53,7 +60,7 @@ SurfacePoints surface_of(const Capture& capture, int threads) {
 }
 
 /// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
-double pixel_on_surface(const SurfacePoints& points, std::span<const PhotoView> views) {
+double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> views) {
   constexpr std::size_t kSamples = 1000;
   const std::size_t stride = std::max<std::size_t>(points.size() / kSamples, 1);
   std::vector<double> sizes;
@@ -66,21 +73,23 @@ double pixel_on_surface(const SurfacePoints& points, std::span<const PhotoView> 
           (*image)[1] < view.camera->height)
         sizes.push_back(z / (std::max(view.camera->fx, view.camera->fy) * view.scale));
     }
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return median(std::move(sizes));
 }
 
 /// Photographs down to the size at which a pixel is about half a point spacing, and coarser.
 Result<Done, InputError> load_levels(Job& job) {
   SLF_TRY(std::vector<PhotoView> views,
           load_views(job.capture, job.parts.matched, job.settings.threads));
-  job.pixel = pixel_on_surface(job.start, views);
+  job.pixel = middle_pixel(job.start, views);
   const auto halve = [&views] {
     for (PhotoView& view : views) view = half(view);
   };
   for (; job.pixel > 0 && job.pixel < 0.4 * job.spacing; job.pixel *= 2) halve();
+  const auto silhouettes = [&job](std::span<const int> cameras) {
+    return load_silhouettes(job.capture, cameras, job.start, job.spacing, job.settings.threads);
+  };
+  SLF_TRY(job.outlines, silhouettes(job.parts.matched));
+  SLF_TRY(job.judged, silhouettes(job.parts.held_out));
   const int coarsest = *std::max_element(kLevels.begin(), kLevels.end());
   for (int level = 0; level <= coarsest; ++level) {
     job.levels.push_back(views);
@@ -122,7 +131,8 @@ Lattice lattice_of(const SurfacePoints& surface, const Job& job, bool& of_grid) 
 }
 
 /// One round: costs of offsets, the offsets, the surface anew.
-void mend_round(Job& job, std::size_t round, SurfacePoints& surface) {
+/// @param bound  whether outlines stay where the photographs have them
+void mend_round(const Job& job, std::size_t round, bool bound, SurfacePoints& surface) {
   const int threads = job.settings.threads;
   const int level = kLevels[round];
   const double pixel = job.pixel * std::pow(2.0, level);
@@ -137,7 +147,9 @@ void mend_round(Job& job, std::size_t round, SurfacePoints& surface) {
   const Neighbours near = find_neighbours(surface, kNearOffsets, kReach * job.spacing, threads);
   OffsetSettings choosing;
   choosing.threads = threads;
-  move_along_normals(surface, choose_offsets(costs, range, near, choosing));
+  std::vector<OffsetLimits> limits;
+  if (bound) limits = outline_limits(job.outlines, surface, job.spacing, threads);
+  move_along_normals(surface, choose_offsets(costs, range, near, choosing, limits));
   smooth(surface, job.spacing, threads);
   bool of_grid = false;
   ResampleSettings sampling;
@@ -169,43 +181,56 @@ void count_moves(const SurfacePoints& before, const SurfacePoints& after, double
   report.removed = before.size() - std::size_t(std::count(used.begin(), used.end(), 1));
   report.moved = moves.size();
   if (moves.empty()) return;
-  const auto middle = moves.begin() + std::ptrdiff_t(moves.size() / 2);
-  std::nth_element(moves.begin(), middle, moves.end());
-  report.median_move = *middle;
   report.max_move = *std::max_element(moves.begin(), moves.end());
+  report.median_move = median(std::move(moves));
 }
 
-/// Mended where that helps, on the lattice of the grid; empty where all in all it does not.
-Result<SurfacePoints, InputError> accept(Job& job, const SurfacePoints& mended, RefinedCloud& out) {
+/// A surface that may take the place of the capture's.
+struct Candidate {
+  SurfacePoints points;
+  double error = std::numeric_limits<double>::infinity();  ///< mean square of held-out photographs,
+                                                           ///< what is uncovered counted
+  double uncovered = 0;                                    ///< its share in that
+  std::size_t kept_back = 0;
+  Lattice lattice;
+  bool of_grid = false;
+};
+
+/// Mended where that helps, on the lattice of the grid; without points where nothing is left.
+Result<Candidate, InputError> judge(const Job& job, const HeldOutErrors& before,
+                                    const SurfacePoints& mended) {
   const int threads = job.settings.threads;
   const auto errors = [&](const SurfacePoints& points) {
     return held_out_errors(job.capture, job.cameras, points, job.spacing, threads);
   };
-  SLF_TRY(const HeldOutErrors before, errors(job.start));
+  Candidate candidate;
+  candidate.lattice = lattice_of(mended, job, candidate.of_grid);
+  const double step = candidate.lattice.step;
+  const double apart = step > job.spacing ? kSlanted * step : job.spacing;
+  const auto uncovered = [&](const SurfacePoints& points) {
+    return uncovered_errors(job.judged, job.start, points, apart, threads);
+  };
   SLF_TRY(const HeldOutErrors after, errors(mended));
-  RefineReport& report = out.report;
-  report.held_out_before = report.held_out_after = decibels(before.mean());
-  auto keep = worse_after(job.start, before, mended, after, kRegion * job.spacing);
+  auto keep =
+      worse_after(job.start, before, mended, after, uncovered(mended), kRegion * job.spacing);
   const auto torn = shines_through(job.capture, job.cameras, job.start,
                                    with_kept(job.start, mended, keep), job.spacing, threads);
   for (std::size_t p = 0; p < keep.size(); ++p) keep[p] |= torn[p];
-  report.kept_back = std::size_t(std::count(keep.begin(), keep.end(), 1));
+  candidate.kept_back = std::size_t(std::count(keep.begin(), keep.end(), 1));
   const SurfacePoints both = with_kept(job.start, mended, keep);
-  bool of_grid = false;
-  const Lattice lattice = lattice_of(both, job, of_grid);
+  candidate.lattice = lattice_of(both, job, candidate.of_grid);
   ResampleSettings sampling;
-  sampling.on_lattice = of_grid;
+  sampling.on_lattice = candidate.of_grid;
   sampling.threads = threads;
-  SurfacePoints final = resample(both, lattice, sampling);
-  if (final.size() < kLeastPoints) return SurfacePoints{};
+  const SurfacePoints final = resample(both, candidate.lattice, sampling);
+  if (final.size() < kLeastPoints) return candidate;
   SLF_TRY(const HeldOutErrors last, errors(final));
-  const double least = job.settings.mode == RefineGeometry::kAuto ? kLeastGain : 0;
-  if (!(last.mean() < (1 - least) * before.mean())) return SurfacePoints{};
-  report.held_out_after = decibels(last.mean());
-  final = without_unsupported(job.start, final, last.seen, kUnseenMove * lattice.step);
-  out.voxel_size = of_grid ? lattice.step : 0;
-  count_moves(job.start, final, lattice.step, report);
-  return final;
+  const HeldOutErrors lost = uncovered(final);
+  candidate.error = mean_of(last, lost);
+  candidate.uncovered = 1 - last.squares_sum() / (last.squares_sum() + lost.squares_sum());
+  candidate.points =
+      without_unsupported(job.start, final, last.seen, kUnseenMove * candidate.lattice.step);
+  return candidate;
 }
 
 /// Median distance, in pixels of half-size photographs, between some points and where photographs
@@ -230,29 +255,56 @@ double typical_miss(const Job& job) {
       misses.push_back(std::abs(double(range.at(std::size_t(least - row)))) / pixel);
   }
   if (misses.size() < kLeastPoints / 10) return 0;  // nothing to go by
-  const auto middle = misses.begin() + std::ptrdiff_t(misses.size() / 2);
-  std::nth_element(misses.begin(), middle, misses.end());
-  return *middle;
+  return median(std::move(misses));
+}
+
+/// All rounds.
+SurfacePoints mended(const Job& job, bool bound, const std::function<void()>& next) {
+  SurfacePoints surface = job.start;
+  for (int i = 0; i < kFirstSmoothings; ++i) smooth(surface, job.spacing, job.settings.threads);
+  for (std::size_t round = 0; round < kLevels.size() && surface.size() >= kLeastPoints; ++round) {
+    next();
+    mend_round(job, round, bound, surface);
+  }
+  return surface;
+}
+
+/// Free, or where that tears the surface bound to the outlines of the photographs: a glossy or
+/// translucent object looks alike from all sides where its mirror images are, far inside. Without
+/// points where both tear it.
+Result<Candidate, InputError> mended_whole(const Job& job, const HeldOutErrors& before,
+                                           const Progress& progress) {
+  double done = 0;
+  const auto next = [&] {
+    if (progress) progress("refine", done++ / double(2 * kLevels.size() + 1));
+  };
+  for (const bool bound : {false, true}) {
+    const SurfacePoints surface = mended(job, bound, next);
+    if (surface.size() < kLeastPoints) continue;  // nothing like a surface
+    SLF_TRY(Candidate candidate, judge(job, before, surface));
+    if (candidate.uncovered <= kTorn) return candidate;
+  }
+  return Candidate{};
 }
 
 Result<Done, InputError> mend(Job& job, RefinedCloud& out, const Progress& progress) {
   SLF_CHECK(load_levels(job));
   if (!(job.pixel > 0)) return Done{};
-  if (job.settings.mode == RefineGeometry::kAuto && typical_miss(job) <= kExact) return Done{};
-  SurfacePoints mended = job.start;
-  for (int i = 0; i < kFirstSmoothings; ++i) smooth(mended, job.spacing, job.settings.threads);
-  for (std::size_t round = 0; round < kLevels.size(); ++round) {
-    if (progress) progress("refine", double(round) / double(kLevels.size() + 1));
-    mend_round(job, round, mended);
-    if (mended.size() < kLeastPoints) return Done{};  // nothing like a surface
-  }
-  job.levels.clear();
-  if (progress) progress("refine", double(kLevels.size()) / double(kLevels.size() + 1));
-  SLF_TRY(SurfacePoints accepted, accept(job, mended, out));
-  if (accepted.size() == 0) return Done{};
-  out.report.outcome = RefineReport::kMended;
-  out.cloud.positions = std::move(accepted.positions);
-  out.cloud.normals = std::move(accepted.normals);
+  const bool automatic = job.settings.mode == RefineGeometry::kAuto;
+  if (automatic && typical_miss(job) <= kExact) return Done{};
+  SLF_TRY(const HeldOutErrors before,
+          held_out_errors(job.capture, job.cameras, job.start, job.spacing, job.settings.threads));
+  SLF_TRY(Candidate best, mended_whole(job, before, progress));
+  RefineReport& report = out.report;
+  report.kept_back = best.kept_back;
+  report.held_out_before = report.held_out_after = decibels(before.mean());
+  if (!(best.error < (1 - (automatic ? kLeastGain : 0)) * before.mean())) return Done{};
+  report.outcome = RefineReport::kMended;
+  report.held_out_after = decibels(best.error);
+  count_moves(job.start, best.points, best.lattice.step, report);
+  out.voxel_size = best.of_grid ? best.lattice.step : 0;
+  out.cloud.positions = std::move(best.points.positions);
+  out.cloud.normals = std::move(best.points.normals);
   return Done{};
 }
 
@@ -276,7 +328,7 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
   out.report.points_before = out.report.points_after = capture.cloud.positions.size();
   out.report.outcome = obstacle(capture, cameras, settings.mode);
   if (out.report.outcome != RefineReport::kNoGain) return out;
-  Job job{capture, cameras, settings, split_for_mending(cameras), {}, 0, 0, {}};
+  Job job{capture, cameras, settings, split_for_mending(cameras), {}, 0, 0, {}, {}, {}};
   job.spacing = typical_spacing(capture.cloud.positions);
   if (!(job.spacing > 0)) return out;
   job.start = surface_of(capture, settings.threads);

@@ -27,7 +27,9 @@ struct RefinedCloud {
 /// Moves points along their normals to where patches of the photographs agree (normalised
 /// correlation, the best of the cameras that face the point and see it), smoothly over the surface,
 /// coarse to fine; samples the surface anew after each round; goes back to the capture's points
-/// wherever photographs left out of all this are predicted no better.
+/// wherever photographs left out of all this are predicted no better, or would show what is behind
+/// the object. Where that still tears it, once more with outlines held where the photographs have
+/// them; and if that tears it too, nothing is changed.
 /// @param cameras  the input cameras: no other photograph is looked at
 /// @errors those of load_image and observe.
 /// The same for any thread count. O(points * offsets * cameras per point * samples of a patch);

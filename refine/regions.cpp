@@ -48,12 +48,14 @@ Sums sum_around(const std::map<Cube, Sums>& cubes, const Cube& centre) {
 std::vector<std::uint8_t> worse_after(const SurfacePoints& before,
                                       const HeldOutErrors& errors_before,
                                       const SurfacePoints& after, const HeldOutErrors& errors_after,
-                                      double side) {
+                                      const HeldOutErrors& uncovered, double side) {
   std::map<Cube, Sums> cubes;
   for (std::size_t p = 0; p < before.size(); ++p) {
     Sums& sums = cubes[cube_of(before.positions[p], side)];
     sums.before += double(errors_before.squares[p]);
     sums.views_before += double(errors_before.views[p]);
+    sums.after += double(uncovered.squares[p]);
+    sums.views_after += double(uncovered.views[p]);
   }
   for (std::size_t p = 0; p < after.size(); ++p) {
     Sums& sums = cubes[cube_of(before.positions[after.source[p]], side)];

@@ -10,10 +10,11 @@ namespace slf {
 
 /// [P of before] 1: held-out photographs are predicted worse after than before around this point.
 /// Decided for cubes of `side` with their neighbours; points after count where they come from.
+/// @param uncovered  [P of before] what counts as predicted so after in place of missing points
 std::vector<std::uint8_t> worse_after(const SurfacePoints& before,
                                       const HeldOutErrors& errors_before,
                                       const SurfacePoints& after, const HeldOutErrors& errors_after,
-                                      double side);
+                                      const HeldOutErrors& uncovered, double side);
 
 /// `after`, but with the points of `before` that are marked in place of what came of them.
 SurfacePoints with_kept(const SurfacePoints& before, const SurfacePoints& after,

@@ -162,6 +162,44 @@ TEST(Observe, WithoutToleranceTheNearestPointOfAPixelWins) {
   EXPECT_EQ(see({apart, {kTowards, kTowards}}, apart, strict).size(), 2u);
 }
 
+/// What the camera sees of points behind a triangle.
+bool sees_behind(const Mesh& mesh, const std::array<float, 3>& point) {
+  const ObservedPoints points{{point}, {kTowards}};
+  return !CameraObserver(points, {}, 0.1, {}, &mesh)
+              .observe(small_camera(), ramp())
+              .sightings.empty();
+}
+
+TEST(Observe, ATriangleHidesWhatIsBehindItAndNothingBesideIt) {
+  Mesh mesh;
+  mesh.vertices.positions = {at(1, 1, 2), at(5, 1, 2), at(1, 5, 4)};  // slanted
+  for (const auto& triangle : {std::array<std::uint32_t, 3>{0, 1, 2}, {2, 1, 0}}) {
+    mesh.triangles = {triangle};
+    EXPECT_FALSE(sees_behind(mesh, at(1.5, 1.5, 5)));
+    EXPECT_FALSE(sees_behind(mesh, at(3.4, 1.5, 5)));
+    EXPECT_TRUE(sees_behind(mesh, at(5.5, 1.5, 5)));
+    EXPECT_TRUE(sees_behind(mesh, at(3.5, 3.5, 5)));
+    EXPECT_TRUE(sees_behind(mesh, at(1.5, 1.5, 2.3))) << "within the tolerance";
+    EXPECT_TRUE(sees_behind(mesh, at(1.5, 1.5, 1.5)));
+  }
+}
+
+TEST(Observe, ATriangleThatReachesBehindTheCameraHidesWithItsPartInFront) {
+  Mesh mesh;  // a floor below the camera
+  mesh.vertices.positions = {{-90, 1, -9}, {90, 1, -9}, {0, 1, 300}};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_FALSE(sees_behind(mesh, at(4.5, 5.5, 30)));
+  EXPECT_TRUE(sees_behind(mesh, at(4.5, 5.5, 3)));   // above the floor
+  EXPECT_TRUE(sees_behind(mesh, at(4.5, 0.5, 30)));  // above the horizon
+}
+
+TEST(Observe, TrianglesBehindTheCameraOrWithoutAreaHideNothing) {
+  Mesh mesh;
+  mesh.vertices.positions = {{-9, -9, -2}, {9, -9, -2}, {0, 9, -2}, at(1, 1, 2), at(3, 3, 2)};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 4}, {3, 3, 3}};
+  EXPECT_TRUE(sees_behind(mesh, at(2.5, 2.5, 5)));
+}
+
 TEST(Observe, AMaskedPixelInTheFootprintDropsTheSample) {
   Image image = ramp(4);
   image.data[4 * (3 * 8 + 2) + 3] = 0;  // pixel (2, 3)
