@@ -7,8 +7,9 @@ namespace slf {
 
 CoefficientModels::CoefficientModels(const PlaneGroups& groups, const RahtTree& tree,
                                      std::span<const std::uint64_t> morton,
-                                     std::span<const std::uint32_t> first, bool vector) {
-  if (vector) neighbours_ = find_coefficient_neighbours(tree, morton, first);
+                                     std::span<const std::uint32_t> first, bool vector,
+                                     std::uint32_t weight) {
+  if (vector) neighbours_ = find_coefficient_neighbours(tree, morton, first, weight);
   for (const auto& functions : groups) {
     empty_.push_back(functions.empty());
     if (vector) {
@@ -17,6 +18,27 @@ CoefficientModels::CoefficientModels(const PlaneGroups& groups, const RahtTree& 
       independent_.emplace_back(functions);
     }
   }
+}
+
+/// Spec 8.2.1. Row 0 of a slice stays without: it counts as none around other rows.
+void CoefficientModels::adopt(const CoefficientModels& base, const SliceCells& cells) {
+  if (vector_.empty()) return;
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const std::uint32_t there = base.neighbours_.place[cells.first + i];
+    const std::uint32_t here = neighbours_.place[cells.row[i]];
+    neighbours_.rows[here].scale = base.neighbours_.rows[there].scale;
+    for (std::size_t g = 0; g < vector_.size(); ++g) vector_[g].adopt(base.vector_[g], there, here);
+  }
+}
+
+CoefficientStates CoefficientModels::states(std::size_t group) {
+  if (!vector_.empty()) return {vector_[group].states().share(), nullptr};
+  return {nullptr, independent_[group].states().share()};
+}
+
+void CoefficientModels::start_from(std::size_t group, const CoefficientStates& states) {
+  if (!vector_.empty()) return vector_[group].states().start_from(states.vector);
+  independent_[group].states().start_from(states.independent);
 }
 
 SLF_MULTIVERSION_ALL

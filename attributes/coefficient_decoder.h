@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "attributes/coefficient_layout.h"
 #include "attributes/coefficient_neighbours.h"
 #include "attributes/independent_coefficients.h"
+#include "attributes/slice_cells.h"
 #include "attributes/vector_coefficients.h"
 #include "slf/error.h"
 
@@ -25,13 +25,30 @@ inline std::vector<std::size_t> planes_of(const std::vector<std::uint16_t>& func
   return planes;
 }
 
-/// The entropy coding state of every group of a slice; it lives on from level range to level range.
+/// States of a group as they were at some time, never changed; by default fresh ones. Cheap to
+/// copy.
+struct CoefficientStates {
+  StatesInUse<VectorStates>::Shared vector;  ///< of the coder in question
+  StatesInUse<IndependentStates>::Shared independent;
+};
+
+/// What coding the groups of the base or of a slice leaves behind: states that live on from level
+/// range to level range, and the vectors around which the next are coded.
 class CoefficientModels {
  public:
-  /// morton, first: as for find_coefficient_neighbours; for the vector coder alone.
+  /// morton, first, weight: as for find_coefficient_neighbours; for the vector coder alone.
   CoefficientModels(const PlaneGroups& groups, const RahtTree& tree,
                     std::span<const std::uint64_t> morton, std::span<const std::uint32_t> first,
-                    bool vector);
+                    bool vector, std::uint32_t weight = 1);
+
+  /// A slice's cells take vectors and scales of the base's rows. Once, before any coding; `base`
+  /// has coded all that it is going to. O(cells * planes).
+  void adopt(const CoefficientModels& base, const SliceCells& cells);
+
+  /// The states of a group after its last unit. The model goes on with a copy.
+  CoefficientStates states(std::size_t group);
+  /// The group's next unit starts from them. Several models on several threads may have the same.
+  void start_from(std::size_t group, const CoefficientStates& states);
 
   /// Codes rows order[begin .. end) of a group; see VectorCoefficients::code.
   template <class Coder>

@@ -36,13 +36,11 @@ class CoefficientMagnitudeModel {
   template <class Coder>
   std::uint32_t code(Coder& coder, const MagnitudeEvidence& evidence, bool nonzero,
                      std::uint32_t magnitude) {
-    const auto contexts = contexts_of(evidence);
+    const auto contexts = more_.select(contexts_of(evidence));
     const std::size_t set = (evidence.first ? 3 : 0) + evidence.channel;
-    for (std::uint32_t reached = nonzero ? 1 : 0; reached < kUnary; ++reached) {
-      auto at = contexts;
-      for (std::uint32_t& context : at) context += reached;
-      if (!more_.code(coder, at, set * 16 + reached, magnitude > reached)) return reached;
-    }
+    for (std::uint32_t reached = nonzero ? 1 : 0; reached < kUnary; ++reached)
+      if (!more_.code(coder, contexts, reached, set * 16 + reached, magnitude > reached))
+        return reached;
     const std::uint32_t rest = code_exp_golomb(
         coder, prefix_[std::min(log_class(evidence.expected[evidence.channel] >> 8, 47) / 4, 11u)],
         kLimit, Coder::kDecodes ? 0 : magnitude - kUnary + 1);

@@ -19,32 +19,64 @@ std::size_t find_before(std::span<const std::uint64_t> cells, std::size_t from,
   return found != end && *found == cell ? static_cast<std::size_t>(found - cells.begin()) : from;
 }
 
-std::vector<std::uint32_t> coefficient_scales(const RahtTree& tree,
-                                              std::span<const std::uint32_t> first) {
-  std::vector<std::uint32_t> scale(tree.size(), 256), points(tree.size());
-  for (std::size_t row = 0; row < tree.size(); ++row) points[row] = first[row + 1] - first[row];
+/// Scales of merges; most are of few points, and are worked out once.
+class Scales {
+ public:
+  std::uint32_t of(std::uint64_t left, std::uint64_t right) {
+    if (left >= kSmall || right >= kSmall) return compute(left, right);
+    std::uint32_t& known = small_[left * kSmall + right];
+    if (known == 0) known = compute(left, right);
+    return known;
+  }
+
+ private:
+  static constexpr std::size_t kSmall = 32;
+  static std::uint32_t compute(std::uint64_t left, std::uint64_t right) {
+    return static_cast<std::uint32_t>(isqrt((left * right << 16) / (left + right)));
+  }
+  std::array<std::uint32_t, kSmall * kSmall> small_{};
+};
+
+void set_scales(const RahtTree& tree, std::span<const std::uint32_t> first, std::uint32_t weight,
+                CoefficientNeighbours& around) {
+  std::vector<std::uint32_t> points(tree.size());
+  for (std::size_t row = 0; row < tree.size(); ++row)
+    points[row] = (first[row + 1] - first[row]) * weight;
+  Scales scales;
+  around.rows[0].scale = 256;
   for (std::size_t i = tree.merges.size(); i-- > 0;) {  // children before parents
     const Merge& m = tree.merges[i];
-    const std::uint64_t left = points[m.left], right = points[m.right];
-    scale[m.right] = static_cast<std::uint32_t>(isqrt((left * right << 16) / (left + right)));
+    around.rows[around.place[m.right]].scale = scales.of(points[m.left], points[m.right]);
     points[m.left] += points[m.right];
   }
-  return scale;
+}
+
+CoefficientNeighbours rows_in_order(const RahtTree& tree) {
+  CoefficientNeighbours around{std::vector<CoefficientNeighbours::Row>(tree.size()),
+                               std::vector<std::uint32_t>(tree.size())};
+  for (std::uint32_t i = 0; i < tree.size(); ++i) around.place[tree.order[i]] = i;
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    const std::uint32_t row = tree.order[i];
+    around.rows[i].parent = around.place[tree.parent[row]];
+    around.rows[i].split = tree.split[row];
+  }
+  return around;
 }
 
 }  // namespace
 
 CoefficientNeighbours find_coefficient_neighbours(const RahtTree& tree,
                                                   std::span<const std::uint64_t> morton,
-                                                  std::span<const std::uint32_t> first) {
-  CoefficientNeighbours around{std::vector<std::array<std::uint32_t, 3>>(tree.size()),
-                               coefficient_scales(tree, first)};
+                                                  std::span<const std::uint32_t> first,
+                                                  std::uint32_t weight) {
+  CoefficientNeighbours around = rows_in_order(tree);
+  set_scales(tree, first, weight, around);
   std::vector<std::uint64_t> cells;  // of the merges of one split
   for (std::size_t begin = 1; begin < tree.size(); begin += cells.size()) {
-    const int split = tree.split[tree.order[begin]];
+    const std::uint32_t split = around.rows[begin].split;
     const std::uint64_t above = ~std::uint64_t{0} << split << 1;
     cells.clear();
-    for (std::size_t i = begin; i < tree.size() && tree.split[tree.order[i]] == split; ++i)
+    for (std::size_t i = begin; i < tree.size() && around.rows[i].split == split; ++i)
       cells.push_back(morton[first[tree.order[i]]] & above);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -52,7 +84,8 @@ CoefficientNeighbours find_coefficient_neighbours(const RahtTree& tree,
         if ((cells[i] & along) == 0) continue;  // at the border
         const std::uint64_t beside = (((cells[i] & along) - 1) & along) | (cells[i] & ~along);
         const std::size_t place = find_before(cells, i, beside);
-        if (place < i) around.faces[tree.order[begin + i]][axis] = tree.order[begin + place];
+        if (place < i)
+          around.rows[begin + i].faces[axis] = static_cast<std::uint32_t>(begin + place);
       }
     }
   }

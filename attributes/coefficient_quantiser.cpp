@@ -70,10 +70,22 @@ class LevelQuantiser {
         values_(values),
         planes_(input.steps.size()),
         threads_(threads),
-        levels_(input.morton, input.depth, 0) {
+        levels_(input.morton, input.depth, input.dropped,
+                input.base != nullptr ? input.base->level : 0, input.weight) {
     for (const auto& functions : input.groups)
       rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
-    code_whole_row(0);
+    if (input.base != nullptr) {
+      adopt(*input.base);
+    } else {
+      code_whole_row(0);
+    }
+  }
+
+  int num_levels() const { return levels_.count(); }
+  std::vector<RateModel> rates() const {
+    std::vector<RateModel> rates;
+    for (const RowQuantiser& group : rows_) rates.push_back(group.rates());
+    return rates;
   }
 
   /// Chosen modes of the groups on the next level, which is coded with them.
@@ -108,6 +120,19 @@ class LevelQuantiser {
   }
 
   bool needs_whole_rows() const { return input_.rdo > 0; }
+
+  /// The rows of a slice's cells as the base has them.
+  void adopt(const QuantisedBase& base) {
+    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].start_from(base.quantised.rates[g]);
+    start_from_base(base.cells, base.quantised.values, base.weight, planes_, values_);
+    for (std::size_t i = 0; i < base.cells.size(); ++i) {
+      const std::uint32_t row = base.cells.row[i];
+      const auto there = base.coefficients.subspan((base.cells.first + i) * planes_, planes_);
+      std::copy(there.begin(), there.end(),
+                coefficients_.begin() + static_cast<std::ptrdiff_t>(row * planes_));
+      for (RowQuantiser& group : rows_) group.adopt(there.data(), row);
+    }
+  }
 
   /// Coefficients of all planes of a row to quantised ones, and what a decoder makes of them.
   void code_whole_row(std::uint32_t row) {
@@ -275,10 +300,11 @@ Quantised quantise_coefficients(const QuantiserInput& input, std::span<std::int3
   out.values.resize(coefficients.size());
   out.modes.resize(input.groups.size());
   LevelQuantiser quantiser(input, coefficients, out.values, threads);
-  for (int level = 0; level < input.depth; ++level) {
+  for (int level = 0; level < quantiser.num_levels(); ++level) {
     const auto modes = quantiser.next_level();
     for (std::size_t g = 0; g < modes.size(); ++g) out.modes[g].push_back(modes[g]);
   }
+  out.rates = quantiser.rates();
   return out;
 }
 

@@ -8,27 +8,44 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "attributes/raht_tree.h"
+#include "attributes/rate_model.h"
+#include "attributes/slice_cells.h"
 #include "attributes/transform_levels.h"
 
 namespace slf {
 
+struct Quantised {
+  std::vector<std::vector<std::uint8_t>> modes;  ///< [groups][levels] cu_prediction, from the first
+                                                 ///< level that is coded here
+  std::vector<std::int32_t> values;              ///< [rows][planes] what a decoder gets
+  std::vector<RateModel> rates;                  ///< [groups] what was learnt of the bits
+};
+
+/// The base that a slice goes on from. Spec 8.2.1.
+struct QuantisedBase {
+  const SliceCells& cells;                     ///< of the slice
+  int level;                                   ///< of the cells
+  std::uint32_t weight;                        ///< of a cell in the base
+  std::span<const std::int32_t> coefficients;  ///< [cells of the scene][planes] quantised
+  const Quantised& quantised;
+};
+
 struct QuantiserInput {
   const RahtTree& tree;
-  std::span<const std::uint64_t> morton;  ///< of the slice's points
+  std::span<const std::uint64_t> morton;  ///< of the points of a slice, or of the cells of a base
   int depth = 0;                          ///< of the slice
   const PlaneGroups& groups;
   std::span<const std::uint32_t> steps;  ///< [planes]
   bool predict = false;
-  double rdo = 0;  ///< 0 .. 1
+  double rdo = 0;                       ///< 0 .. 1
+  int dropped = 0;                      ///< levels below the rows: of a base those of its slices
+  std::uint32_t weight = 1;             ///< of every code; of a base that of a cell
+  const QuantisedBase* base = nullptr;  ///< nullptr: the tree is coded from the root
 };
 
-struct Quantised {
-  std::vector<std::vector<std::uint8_t>> modes;  ///< [groups][levels] cu_prediction
-  std::vector<std::int32_t> values;              ///< [P][planes] what a decoder gets
-};
-
-/// @param coefficients  [P][planes] of raht_forward; replaced by quantised values.
-/// The same result for any number of threads. O(P * planes), several times that with prediction.
+/// @param coefficients  [rows][planes] of raht_forward; replaced by quantised values, in the rows
+///                      of a slice's cells by those of the base
+/// The same result for any number of threads. O(rows * planes), several times that with prediction.
 Quantised quantise_coefficients(const QuantiserInput& input, std::span<std::int32_t> coefficients,
                                 int threads);
 

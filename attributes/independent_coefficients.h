@@ -6,19 +6,35 @@
 #include <vector>
 
 #include "attributes/coefficient_layout.h"
+#include "attributes/states_in_use.h"
 #include "entropy/adaptive_bit.h"
 #include "entropy/binarisation.h"
 
 namespace slf {
 
+/// What the decisions of a group leave to those of its next unit.
+struct IndependentStates {
+  /// functions: of the group.
+  explicit IndependentStates(std::size_t functions) : planes(3 * functions) {}
+
+  struct Plane {
+    AdaptiveBit nonzero;
+    MagnitudeContexts magnitude;
+  };
+  std::vector<Plane> planes;
+};
+
 class IndependentCoefficients {
  public:
+  using States = IndependentStates;
+
   explicit IndependentCoefficients(std::vector<std::uint16_t> functions)
-      : functions_(std::move(functions)), planes_(3 * functions_.size()) {}
+      : functions_(std::move(functions)) {}
 
   /// Codes rows order[begin .. end). Returns false where the decoder met a value no encoder writes.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t begin, std::size_t end) {
+    states_.begin(functions_.size());
     for (std::size_t i = begin; i < end; ++i) {
       if constexpr (Coder::kDecodes)
         if (coder.exhausted()) return false;
@@ -27,7 +43,7 @@ class IndependentCoefficients {
       for (std::size_t f = 0; f < functions_.size(); ++f)
         for (std::size_t c = 0; c < 3; ++c) {
           std::int32_t& value = row[3u * functions_[f] + c];
-          if (!code_value(coder, planes_[3 * f + c], value)) return false;
+          if (!code_value(coder, states_->planes[3 * f + c], value)) return false;
           any |= value;
         }
       if (any != 0) rows.set_nonzero(rows.tree.order[i]);
@@ -36,14 +52,12 @@ class IndependentCoefficients {
   }
 
   const std::vector<std::uint16_t>& functions() const { return functions_; }
+  StatesInUse<IndependentStates>& states() { return states_; }
 
  private:
   static constexpr std::uint32_t kLimit = 30;  // coarse to fine: forget quickly
 
-  struct Plane {
-    AdaptiveBit nonzero;
-    MagnitudeContexts magnitude;
-  };
+  using Plane = IndependentStates::Plane;
 
   template <class Coder>
   static bool code_value(Coder& coder, Plane& plane, std::int32_t& value) {
@@ -59,7 +73,7 @@ class IndependentCoefficients {
   }
 
   std::vector<std::uint16_t> functions_;
-  std::vector<Plane> planes_;
+  StatesInUse<IndependentStates> states_;
 };
 
 }  // namespace slf

@@ -31,7 +31,8 @@ constexpr auto kOutward = [] {
 
 /// Most nodes have few points: their roots are worked out once.
 struct Roots {
-  std::int32_t reciprocal_q30, root_q19;
+  std::int32_t reciprocal_q30;
+  std::int32_t root_q19;  // of a child: it weighs less than 2^24
 };
 Roots compute_roots(std::uint32_t weight) {
   return {static_cast<std::int32_t>(isqrt((std::uint64_t{1} << 60) / weight)),
@@ -157,8 +158,8 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
     child.terms = 0;
     std::uint32_t sum = closeness(place, own, mode);
     for (const std::uint8_t d : kOutward[c]) {
-      if (nodes.neighbours[n][d] < 0) continue;
-      const auto m = static_cast<std::size_t>(nodes.neighbours[n][d]);
+      if (!(nodes.around[n].directions >> d & 1u)) continue;
+      const std::size_t m = nodes.neighbour(n, d);
       NodePrediction::Term& term = child.term[child.terms++];
       const std::uint32_t other = kChildNeighbours[c][d].child;
       const NodePlace* there = &level.places[m];
@@ -186,7 +187,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
   }
 }
 
-SLF_MULTIVERSION_ALL
+SLF_MULTIVERSION_LANES
 void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
                  Lanes means, std::size_t lanes) {
   constexpr std::size_t kAhead = 8;  // rows that nothing of has been read yet
@@ -219,14 +220,14 @@ inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means,
 
 }  // namespace
 
-SLF_MULTIVERSION_ALL
+SLF_MULTIVERSION_LANES
 void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
                       Corrections& out) {
   if (lanes == kPredictionLanes) return predict_lanes(plan, values, means, kPredictionLanes, out);
   predict_lanes(plan, values, means, lanes, out);
 }
 
-SLF_MULTIVERSION_ALL
+SLF_MULTIVERSION_LANES
 void add_corrections(const NodePrediction& plan, const Corrections& corrections, Lanes values,
                      std::size_t lanes) {
   for (std::size_t i = 0; i < plan.children; ++i)

@@ -20,9 +20,9 @@ enum PredictionMode : std::uint8_t {
 };
 inline constexpr std::uint32_t kPredictionModes = 4;
 
-/// Values after a prediction are at most this. With means clamped to 2^17 a correction is at most
-/// 2^29, and 63 merges of coefficients below 2^27 take 2^29 to at most 1.12 * 2^30: the sum has 32
-/// bits. Spec 8.8.2.
+/// Values after a prediction are at most this. With means clamped to 2^17 and weights up to 2^24 a
+/// correction is below 0.39 * 2^30, and 63 merges of coefficients below 2^27 take 2^29 to at most
+/// 1.12 * 2^30: the sum has 32 bits. Spec 8.8.2.
 inline constexpr std::int32_t kPredictedLimit = 1 << 29;
 
 /// Planes worked on together.

@@ -26,11 +26,12 @@ void forward_lanes(const Merge* merges, std::size_t count, std::int32_t* values,
 
 }  // namespace
 
-void raht_forward(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads) {
+void raht_forward(const RahtTree& tree, int planes, std::span<std::int32_t> values, int threads,
+                  std::size_t cells) {
+  const auto merges = merges_below(tree, cells);
   const auto stride = static_cast<std::size_t>(planes);
   parallel_ranges(stride, kLanes, threads, [&](std::size_t begin, std::size_t end) {
-    forward_lanes(tree.merges.data(), tree.merges.size(), values.data() + begin, stride,
-                  end - begin);
+    forward_lanes(merges.data(), merges.size(), values.data() + begin, stride, end - begin);
   });
 }
 

@@ -92,7 +92,7 @@ inline std::int32_t inverse_block(const Merge& m, bool zero, const Range& range,
   return 0;
 }
 
-SLF_MULTIVERSION
+SLF_MULTIVERSION_LANES
 std::int32_t inverse_lanes(std::span<const Merge> merges, const Range& range, std::size_t first,
                            std::size_t lanes) {
   std::int32_t bad = 0;
@@ -215,12 +215,15 @@ std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t 
 
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
                           std::span<std::int32_t> values, int threads,
-                          std::span<const std::uint8_t> nonzero, std::size_t used) {
+                          std::span<const std::uint8_t> nonzero, std::size_t used,
+                          std::size_t cells) {
   const Steps table(steps);
   used = std::min(used, steps.size());
+  const auto merges = merges_below(tree, cells);
   const bool good = over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
     const Range range(values, table, begin, end, nonzero);
-    return dequantise_mean(range) | inverse_lanes(tree.merges, range, 0, range.lanes);
+    const std::int32_t bad = cells == 0 ? dequantise_mean(range) : 0;
+    return bad | inverse_lanes(merges, range, 0, range.lanes);
   });
   if (!good) return too_large();
   return Done{};
@@ -230,10 +233,11 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<const PredictedPlanes> planes,
                                     std::span<const std::uint32_t> steps,
                                     std::span<std::int32_t> values, int threads,
-                                    std::span<const std::uint8_t> nonzero, std::size_t used) {
+                                    std::span<const std::uint8_t> nonzero, std::size_t used,
+                                    std::size_t cells) {
   const Steps table(steps);
   used = std::min(used, steps.size());
-  bool good = dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
+  bool good = cells > 0 || dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
   std::size_t capacity = 0;
   for (int l = 0; l < levels.count(); ++l) {

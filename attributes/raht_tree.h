@@ -39,6 +39,11 @@ struct RahtTop {
 /// O(P) time to count, O(rows) for the rest and in memory.
 RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split);
 
+/// All merges but those that join cells; merges come by level, so these are the last. 0: all.
+inline std::span<const Merge> merges_below(const RahtTree& tree, std::size_t cells) {
+  return std::span(tree.merges).subspan(cells > 0 ? cells - 1 : 0);
+}
+
 /// Position in tree.order of the first row whose split is below `bit`.
 std::size_t order_end(const RahtTree& tree, int bit);
 

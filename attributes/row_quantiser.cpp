@@ -1,5 +1,6 @@
 #include "attributes/row_quantiser.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -28,6 +29,12 @@ RowQuantiser::RowQuantiser(std::vector<std::size_t> planes, std::span<const std:
       counts_(rows, 0),
       chosen_(planes_.size()) {
   for (const std::size_t j : planes_) step_.push_back(steps[j]);
+}
+
+void RowQuantiser::adopt(const std::int32_t* coefficients, std::uint32_t row) {
+  const auto count = std::count_if(planes_.begin(), planes_.end(),
+                                   [&](std::size_t j) { return coefficients[j] != 0; });
+  counts_[row] = static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(count, 255));
 }
 
 /// Values of a block that is coded; returns its cost, and that of leaving it out.

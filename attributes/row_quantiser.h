@@ -23,6 +23,12 @@ class RowQuantiser {
   void quantise_row(std::int32_t* coefficients, std::uint32_t row, const std::int32_t* parent,
                     std::uint32_t parent_row);
 
+  /// What was learnt of the bits, for others to start from.
+  const RateModel& rates() const { return model_; }
+  void start_from(const RateModel& rates) { model_ = rates; }
+  /// A row that is quantised elsewhere. coefficients: [all planes]
+  void adopt(const std::int32_t* coefficients, std::uint32_t row);
+
  private:
   std::uint64_t choose_block(const std::int32_t* coefficients, const std::int32_t* parent,
                              std::size_t begin, std::size_t end, std::uint64_t& all_zero);

@@ -7,8 +7,13 @@
 
 namespace slf {
 
-TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped)
-    : depth_(depth), dropped_(std::min(dropped, depth)) {
+TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped,
+                                 int start, std::uint32_t weight)
+    : depth_(depth),
+      dropped_(std::min(dropped, depth)),
+      start_(start),
+      level_(start - 1),
+      weight_(weight) {
   std::array<std::int64_t, 3> sum{};
   for (std::size_t p = 0; p < morton.size(); ++p) {
     const std::uint64_t code = morton[p] >> (3 * dropped_);
@@ -26,7 +31,8 @@ TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int dept
   for (std::size_t row = 0; row < codes_.size(); ++row) {
     const int differs =
         row == 0 ? 0 : static_cast<int>(std::bit_width(codes_[row] ^ codes_[row - 1]));
-    const int level = row == 0 ? 0 : count() - (differs - 1) / 3;  // its first as a node of its own
+    // Its first level, from `start` on, as a node of its own.
+    const int level = row == 0 ? 0 : std::max(count() - (differs - 1) / 3, 0);
     for (auto l = static_cast<std::size_t>(level); l < rows_.size(); ++l)
       rows_[l].push_back(static_cast<std::uint32_t>(row));
   }
@@ -35,18 +41,18 @@ TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int dept
 
 const TransformLevel& TransformLevels::next() {
   ++level_;
-  if (level_ == 0) {
-    current_.nodes = octree_root();
+  if (level_ == start_) {
     current_.rows = std::move(rows_[0]);
+    current_.nodes = octree_level(cells_of(current_.rows), start_);
   } else {
     current_.nodes = octree_children(current_.nodes, true);
     current_.rows = std::move(current_.child_rows);
   }
-  current_.child_rows = std::move(rows_[static_cast<std::size_t>(level_) + 1]);
+  current_.child_rows = std::move(rows_[static_cast<std::size_t>(level_ - start_) + 1]);
   current_.places = places_of(current_.rows);
   current_.child_places = places_of(current_.child_rows);
   OctreeLevel& nodes = current_.nodes;
-  const int below = 3 * (count() - level_ - 1);
+  const int below = 3 * (depth_ - dropped_ - level_ - 1);
   std::uint32_t child = 0;
   nodes.first_child.resize(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -65,29 +71,37 @@ void TransformLevels::mark_means() {
   const OctreeLevel& nodes = current_.nodes;
   const auto for_each_needed = [&](std::uint32_t n, const auto& body) {
     if (!current_.branches(n)) return;
-    for (const std::int32_t neighbour : nodes.neighbours[n])
-      if (neighbour >= 0) body(static_cast<std::size_t>(neighbour));
+    for (const std::uint32_t neighbour : nodes.neighbours_of(n)) body(neighbour);
+    body(n);
   };
   const auto count = static_cast<std::uint32_t>(nodes.size());
   std::vector<std::uint32_t> last(count), free;  // node that needs a mean last; slots to use again
-  for (std::uint32_t n = 0; n < count; ++n) for_each_needed(n, [&](std::size_t m) { last[m] = n; });
+  for (std::uint32_t n = 0; n < count; ++n)
+    for_each_needed(n, [&](std::uint32_t m) { last[m] = n; });
   current_.means.clear();
   current_.means_end.resize(count);
   current_.slot.assign(count, kNone);
   current_.num_slots = 0;
   for (std::uint32_t n = 0; n < count; ++n) {
-    for_each_needed(n, [&](std::size_t m) {
+    for_each_needed(n, [&](std::uint32_t m) {
       if (current_.slot[m] != kNone) return;
-      current_.means.push_back(static_cast<std::uint32_t>(m));
+      current_.means.push_back(m);
       if (free.empty()) free.push_back(current_.num_slots++);
       current_.slot[m] = free.back();
       free.pop_back();
     });
     current_.means_end[n] = static_cast<std::uint32_t>(current_.means.size());
-    for_each_needed(n, [&](std::size_t m) {
+    for_each_needed(n, [&](std::uint32_t m) {
       if (last[m] == n) free.push_back(current_.slot[m]);
     });
   }
+}
+
+/// Codes of the nodes of level `start`.
+std::vector<std::uint64_t> TransformLevels::cells_of(const std::vector<std::uint32_t>& rows) const {
+  std::vector<std::uint64_t> cells(rows.size() - 1);
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = codes_[rows[n]] >> (3 * count());
+  return cells;
 }
 
 std::vector<NodePlace> TransformLevels::places_of(const std::vector<std::uint32_t>& rows) const {
@@ -96,11 +110,12 @@ std::vector<NodePlace> TransformLevels::places_of(const std::vector<std::uint32_
   for (std::size_t n = 0; n < places.size(); ++n) {
     const std::uint32_t row = rows[n], end = rows[n + 1];
     NodePlace& place = places[n];
-    place.weight = first_[end] - first_[row];
+    const std::uint32_t codes = first_[end] - first_[row];
+    place.weight = codes * weight_;
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int64_t sum = (sums_[end][a] - sums_[row][a]) << 4;
       place.centre[a] = static_cast<std::int32_t>(
-          place.weight == 1 ? sum >> side_log2 : sum / (std::int64_t{place.weight} << side_log2));
+          codes == 1 ? sum >> side_log2 : sum / (std::int64_t{codes} << side_log2));
     }
   }
   return places;

@@ -40,22 +40,30 @@ class TransformLevels {
  public:
   /// morton: of all points of the slice, ascending, of `depth` levels; the rows are the nodes of
   /// the first depth - dropped levels (RahtTop), at least the root.
-  TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped);
+  /// @param start   the first level: that of a slice's cells, 0 without a base, at most depth -
+  ///                dropped
+  /// @param weight  of every code: that of a cell where the codes are the base's (spec 8.2.1); at
+  ///                most 2^24 together
+  TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped, int start = 0,
+                  std::uint32_t weight = 1);
 
-  int count() const { return depth_ - dropped_; }
+  /// Levels from `start` on.
+  int count() const { return depth_ - dropped_ - start_; }
   std::size_t rows() const { return codes_.size(); }
-  /// Begins with level 0; called count() times.
+  /// Begins with level `start`; called count() times.
   const TransformLevel& next();
 
  private:
   void mark_means();
+  std::vector<std::uint64_t> cells_of(const std::vector<std::uint32_t>& rows) const;
   std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
 
-  int depth_, dropped_, level_ = -1;
+  int depth_, dropped_, start_, level_;
+  std::uint32_t weight_;
   std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels
   std::vector<std::uint32_t> first_;               // [rows + 1] first point
   std::vector<std::array<std::int64_t, 3>> sums_;  // [rows + 1] of the positions of points before
-  std::vector<std::vector<std::uint32_t>> rows_;   // [levels + 1] TransformLevel::rows
+  std::vector<std::vector<std::uint32_t>> rows_;   // [count + 1] TransformLevel::rows
   TransformLevel current_;
 };
 

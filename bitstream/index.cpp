@@ -1,53 +1,107 @@
 #include "bitstream/index.h"
 
+#include <algorithm>
+
 #include "bitstream/syntax.h"
 
 namespace slf {
 namespace {
 
 // Spec 7.7  index_entry( )
-template <class V, class Type, class Bytes>
-void index_entry(V& v, Type& type, Bytes& bytes) {
-  v.u(8, "index_unit_type", type, Range{0, 255});
-  v.ue("index_unit_bytes", bytes, Range{6, 0xFFFFFFFE});
+template <class V, class Entry>
+void index_entry(V& v, Entry& entry, const SequenceParameterSet& set) {
+  v.u(8, "index_unit_type", entry.type, Range{0, 255});
+  v.ue("index_unit_bytes", entry.bytes, Range{6, 0xFFFFFFFE});
+  if (has_ids(entry.type)) unit_ids(v, entry.ids, entry.type, set);
+}
+
+// Spec 7.7  index_boxes( )
+template <class V, class Boxes>
+void index_boxes(V& v, Boxes& boxes, std::uint32_t base_levels) {
+  std::uint32_t flag = !boxes.empty(), last = static_cast<std::uint32_t>(boxes.size()) - flag;
+  v.u(1, "index_boxes_flag", flag, Range{0, base_levels > 0});
+  if (!flag) return;
+  v.ue("index_num_slices_minus1", last, Range{0, kMaxSlices - 1});
+  v.resize("index_num_slices_minus1", boxes, std::uint64_t{last} + 1);
+  const int bits = static_cast<int>(base_levels);
+  for (auto& box : boxes)
+    for (std::size_t i = 0; i < 6; ++i)
+      v.u(bits, "index_box", box[i],
+          Range{i < 3 ? 0 : std::int64_t{box[i - 3]}, (std::int64_t{1} << bits) - 1});
+}
+
+bool same_ids(const SliceUnitHeader& a, const SliceUnitHeader& b) {
+  return a.slice_id == b.slice_id && a.range == b.range && a.group == b.group;
+}
+
+Result<Done> check_entry(const IndexEntry& entry, const Unit& unit, const SequenceParameterSet& set,
+                         const Unit& index) {
+  if (unit.type != entry.type || unit.bytes != entry.bytes)
+    return Error{Errc::kOutOfRange, "index_unit_bytes", index.offset * 8};
+  if (!has_ids(unit.type)) return Done{};
+  SLF_TRY(const SliceUnitHeader ids, read_ids(unit, set));
+  if (!same_ids(ids, entry.ids))
+    return Error{Errc::kOutOfRange, "index_unit_ids", index.offset * 8};
+  return Done{};
 }
 
 }  // namespace
 
-Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> payload) {
+Result<SliceUnitHeader> read_ids(const Unit& unit, const SequenceParameterSet& set) {
+  BitReader in(unit.payload);
+  ParseSyntax parse{in};
+  SliceUnitHeader ids;
+  unit_ids(parse, ids, unit.type, set);
+  if (!in.ok()) return in.error();
+  return ids;
+}
+
+Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set) {
   BitReader in(payload);
   ParseSyntax parse{in};
   std::uint32_t count = 0;
-  std::vector<IndexEntry> entries;
+  Index index;
   parse.ue("index_num_units", count, Range{0, 0xFFFFFFFE});
   constexpr std::uint64_t kLeastEntryBits = 8 + 5;  // the shortest unit is 6 bytes: ue(6)
   parse.require(count <= in.bits_left() / kLeastEntryBits, Errc::kTruncated, "index_num_units");
-  parse.resize("index_num_units", entries, count);
-  for (IndexEntry& entry : entries) index_entry(parse, entry.type, entry.bytes);
+  parse.resize("index_num_units", index.entries, count);
+  for (IndexEntry& entry : index.entries) index_entry(parse, entry, set);
+  index_boxes(parse, index.boxes, set.sps_base_levels);
   in.trailing_bits("index_trailing_bits");
   if (!in.ok()) return in.error();
-  return entries;
+  return index;
 }
 
-std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries) {
+std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set) {
   BitWriter out;
   WriteSyntax write{out};
-  write.ue("index_num_units", entries.size(), Range{});
-  for (const IndexEntry& entry : entries) index_entry(write, entry.type, entry.bytes);
+  write.ue("index_num_units", index.entries.size(), Range{});
+  for (const IndexEntry& entry : index.entries) index_entry(write, entry, set);
+  index_boxes(write, index.boxes, set.sps_base_levels);
   return out.take();
 }
 
-Result<Done> check_index(const Units& units) {
+Result<std::optional<Index>> find_index(const Units& units, const SequenceParameterSet& set) {
+  for (const Unit& unit : units.units) {
+    if (unit.type != UnitType::kIndex) continue;
+    SLF_TRY(Index index, parse_index(unit.payload, set));
+    return std::optional<Index>(std::move(index));
+  }
+  return std::optional<Index>();
+}
+
+Result<Done> check_index(const Units& units, const SequenceParameterSet& set, std::size_t slices) {
   for (std::size_t at = 0; at < units.units.size(); ++at) {
-    if (units.units[at].type != UnitType::kIndex) continue;
-    SLF_TRY(const auto entries, parse_index(units.units[at].payload));
+    const Unit& unit = units.units[at];
+    if (unit.type != UnitType::kIndex) continue;
+    SLF_TRY(const Index index, parse_index(unit.payload, set));
     const std::size_t present = units.units.size() - at - 1;
-    const Error wrong{Errc::kOutOfRange, "index_unit_bytes", units.units[at].offset * 8};
-    if (present > entries.size() || (units.complete && present < entries.size())) return wrong;
-    for (std::size_t i = 0; i < present; ++i) {
-      const Unit& unit = units.units[at + 1 + i];
-      if (unit.type != entries[i].type || unit.bytes != entries[i].bytes) return wrong;
-    }
+    if (present > index.entries.size() || (units.complete && present < index.entries.size()))
+      return Error{Errc::kOutOfRange, "index_unit_bytes", unit.offset * 8};
+    for (std::size_t i = 0; i < present; ++i)
+      SLF_CHECK(check_entry(index.entries[i], units.units[at + 1 + i], set, unit));
+    if (slices > 0 && !index.boxes.empty() && index.boxes.size() != slices)
+      return Error{Errc::kOutOfRange, "index_num_slices_minus1", unit.offset * 8};
   }
   return Done{};
 }

@@ -1,10 +1,13 @@
-// The index unit: types, ids and lengths of all units after it. Spec 7.7.
+// The index unit: types, lengths and ids of all units after it, and where slices lie. Spec 7.7.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "bitstream/slice_headers.h"
 #include "bitstream/units.h"
 #include "slf/error.h"
 
@@ -15,12 +18,29 @@ namespace slf {
 struct IndexEntry {
   UnitType type{};
   std::uint64_t bytes = 0;
+  SliceUnitHeader ids;  ///< of types that have ids; without cu_prediction
 };
 
-Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> payload);
-std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries);
+/// Least and greatest x, y, z of a slice's cells, on the grid of sps_base_levels bits.
+using CellBox = std::array<std::uint32_t, 6>;
 
-/// Every entry against the units that follow units[index_at]; a stream that was cut has fewer.
-Result<Done> check_index(const Units& units);
+struct Index {
+  std::vector<IndexEntry> entries;
+  std::vector<CellBox> boxes;  ///< [slices], or none
+};
+
+Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set);
+std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set);
+
+/// The first index unit there is, parsed.
+Result<std::optional<Index>> find_index(const Units& units, const SequenceParameterSet& set);
+
+/// Every entry of every index against the units that follow it; a stream that was cut has fewer.
+/// The boxes, where there are, against the number of slices.
+/// @param slices  0: not known
+Result<Done> check_index(const Units& units, const SequenceParameterSet& set, std::size_t slices);
+
+/// The ids that a unit begins with.
+Result<SliceUnitHeader> read_ids(const Unit& unit, const SequenceParameterSet& set);
 
 }  // namespace slf

@@ -7,9 +7,13 @@
 #define SLF_MULTIVERSION __attribute__((target_clones("arch=x86-64-v3", "default")))
 // With what the function calls.
 #define SLF_MULTIVERSION_ALL SLF_MULTIVERSION __attribute__((flatten))
+// With what the function calls, and for AVX-512: loops over planes, whose products have 64 bits.
+#define SLF_MULTIVERSION_LANES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
 #else
 #define SLF_MULTIVERSION
 #define SLF_MULTIVERSION_ALL
+#define SLF_MULTIVERSION_LANES
 #endif
 
 // Before a loop of eight rounds whose counter should be a constant in each.

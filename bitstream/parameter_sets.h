@@ -1,6 +1,7 @@
 // The headers of the format, each written once: visited to parse and to write. Spec 7.2 - 7.9.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,11 @@ inline constexpr int kVersionMajor = 0, kVersionMinor = 4;
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
 inline constexpr std::uint32_t kTextureCoder = 2;  ///< sps_coefficient_coder
+
+inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
+inline constexpr std::uint32_t kMaxSlices = 1u << 16;
+inline constexpr std::uint32_t kMaxCells = 1u << 22;
+inline constexpr std::uint64_t kMaxBasePoints = 1u << 24;  ///< cells times the weight of each
 
 /// Functions k .. k + length - 1 share group, shift and steps.
 struct PlaneRun {
@@ -38,6 +44,8 @@ struct SequenceParameterSet {
   double sps_metres_per_unit = 0;
   std::uint32_t sps_geometry_coder = 0;
   std::uint32_t sps_normal_bits = 0;
+  std::uint32_t sps_base_levels = 0, sps_base_weight_minus1 = 0;
+  std::uint32_t sps_cut_flag = 0, sps_cut_levels = 0, sps_cut_groups = 0, sps_cut_slices_flag = 0;
   std::uint32_t sps_num_functions = 0;
   std::uint32_t sps_basis_flag = 0;
   std::uint32_t sps_basis_idc = 0, sps_order_minus1 = 1, sps_scales_theta = 0, sps_scales_gamma = 0;
@@ -49,7 +57,7 @@ struct SequenceParameterSet {
   std::uint32_t sps_prediction_flag = 0;
   std::uint32_t sps_texture_bits = 0, sps_texture_cell_log2 = 0;
   std::vector<PlaneRun> runs;
-  std::uint32_t sps_transform_flag = 0, sps_num_stages_minus1 = 0;
+  std::uint32_t sps_transform_flag = 0;
   std::uint32_t sps_num_transforms_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
@@ -67,14 +75,39 @@ struct SequenceParameterSet {
   std::uint32_t num_groups() const {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
   }
-  /// Levels of a coefficient range that there is; 0 for others.
-  std::uint32_t coefficient_levels(std::uint32_t range) const {
-    if (range > sps_num_coefficient_ranges_minus1) return 0;
-    const auto end = [&](std::uint32_t r) {
-      return r < sps_num_coefficient_ranges_minus1 ? sps_coefficient_range_end[r] : grid_bits();
-    };
-    return end(range) - (range == 0 ? 0 : end(range - 1));
+  std::uint32_t base_levels() const { return sps_base_levels; }
+  std::uint32_t base_weight() const { return sps_base_weight_minus1 + 1; }
+  /// Level ranges. The last ends at grid_bits; a range begins where the one before ends.
+  std::uint32_t geometry_end(std::uint32_t range) const {
+    return range < sps_geometry_range_end.size() ? sps_geometry_range_end[range] : grid_bits();
   }
+  std::uint32_t geometry_begin(std::uint32_t range) const {
+    return range == 0 ? 0 : geometry_end(range - 1);
+  }
+  std::uint32_t coefficient_end(std::uint32_t range) const {
+    return range < sps_coefficient_range_end.size() ? sps_coefficient_range_end[range]
+                                                    : grid_bits();
+  }
+  std::uint32_t coefficient_begin(std::uint32_t range) const {
+    return range == 0 ? 0 : coefficient_end(range - 1);
+  }
+  std::uint32_t geometry_ranges() const { return sps_num_geometry_ranges_minus1 + 1; }
+  std::uint32_t coefficient_ranges() const {
+    return sps_num_functions == 0 ? 0 : sps_num_coefficient_ranges_minus1 + 1;
+  }
+  /// Base ranges are those above level B; their number is that of the first range of slices.
+  std::uint32_t base_geometry_ranges() const {
+    std::uint32_t r = 0;
+    while (r < geometry_ranges() && geometry_end(r) <= sps_base_levels) ++r;
+    return r;
+  }
+  std::uint32_t base_coefficient_ranges() const {
+    std::uint32_t r = 0;
+    while (r < coefficient_ranges() && coefficient_end(r) <= sps_base_levels) ++r;
+    return r;
+  }
+  /// Groups whose units are all there, where a cut leaves out the others.
+  std::uint32_t kept_groups() const { return sps_cut_groups > 0 ? sps_cut_groups : num_groups(); }
 };
 
 template <class V, class Run>
@@ -99,6 +132,28 @@ void level_ranges(V& v, const char* count_name, const char* end_name, Count& cou
     v.u(5, end_name, end, Range{least, std::int64_t{grid_bits} - 1});
     least = std::int64_t{end} + 1;
   }
+}
+
+// Spec 7.2  what of the stream is the scene's, and what of it was left out
+template <class V, class Set>
+void base_and_cut(V& v, Set& s) {
+  v.u(5, "sps_base_levels", s.sps_base_levels, Range{0, s.sps_grid_bits_minus1});
+  v.require(s.sps_base_levels == 0 || s.sps_profile == 0, Errc::kOutOfRange, "sps_base_levels");
+  if (s.sps_base_levels > 0)
+    v.ue("sps_base_weight_minus1", s.sps_base_weight_minus1, Range{0, kMaxSlicePoints - 1});
+  v.u(1, "sps_cut_flag", s.sps_cut_flag, Range{0, 1});
+  if (!s.sps_cut_flag) return;
+  v.u(5, "sps_cut_levels", s.sps_cut_levels, Range{1, std::int64_t{s.grid_bits()}});
+  v.ue("sps_cut_groups", s.sps_cut_groups, Range{0, 16});
+  v.u(1, "sps_cut_slices_flag", s.sps_cut_slices_flag, Range{0, 1});
+}
+
+/// Where there is a base, a range of either kind ends with it.
+template <class V, class Ends>
+void base_is_end(V& v, std::uint32_t base_levels, const Ends& ends) {
+  const bool is_end =
+      base_levels == 0 || std::find(ends.begin(), ends.end(), base_levels) != ends.end();
+  v.require(is_end, Errc::kOutOfRange, "sps_base_levels");
 }
 
 /// Runs until sps_num_functions functions are described.
@@ -140,8 +195,10 @@ void sequence_parameter_set(V& v, Set& s) {
             "sps_geometry_coder");
   v.u(4, "sps_normal_bits", s.sps_normal_bits, Range{0, 12});
   v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kReserved, "sps_normal_bits");
+  base_and_cut(v, s);
   level_ranges(v, "sps_num_geometry_ranges_minus1", "sps_geometry_range_end",
                s.sps_num_geometry_ranges_minus1, s.sps_geometry_range_end, s.grid_bits());
+  base_is_end(v, s.sps_base_levels, s.sps_geometry_range_end);
   v.require(s.sps_geometry_coder == 0 || s.sps_num_geometry_ranges_minus1 == 0, Errc::kOutOfRange,
             "sps_num_geometry_ranges_minus1");
   v.ue("sps_num_functions", s.sps_num_functions, Range{0, 4096});
@@ -176,57 +233,15 @@ void sequence_parameter_set(V& v, Set& s) {
   }
   v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
   v.u(1, "sps_transform_flag", s.sps_transform_flag, Range{0, s.has_texture() ? 0 : 1});
-  v.u(2, "sps_num_stages_minus1", s.sps_num_stages_minus1, Range{0, 0});
   if (s.sps_transform_flag)
     v.u(4, "sps_num_transforms_minus1", s.sps_num_transforms_minus1,
         Range{0, s.sps_num_groups_minus1});
   level_ranges(v, "sps_num_coefficient_ranges_minus1", "sps_coefficient_range_end",
                s.sps_num_coefficient_ranges_minus1, s.sps_coefficient_range_end, s.grid_bits());
+  base_is_end(v, s.sps_base_levels, s.sps_coefficient_range_end);
   v.require(!s.has_texture() || s.sps_num_coefficient_ranges_minus1 == 0, Errc::kOutOfRange,
             "sps_num_coefficient_ranges_minus1");
   plane_table(v, s);
-}
-
-/// Spec 7.3. The slice's cube is cell slice_cell of side 2^slice_depth.
-struct SliceHeader {
-  std::uint32_t slice_id = 0;
-  std::uint32_t slice_num_points_minus1 = 0;
-  std::uint32_t slice_depth = 0;
-  std::array<std::uint32_t, 3> slice_cell{0, 0, 0};
-};
-
-inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
-inline constexpr std::uint32_t kMaxSlices = 1u << 16;
-
-// Spec 7.3  slice_header( )
-template <class V, class Header>
-void slice_header(V& v, Header& h, std::uint32_t grid_bits) {
-  v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
-  v.ue("slice_num_points_minus1", h.slice_num_points_minus1, Range{0, kMaxSlicePoints - 1});
-  v.u(5, "slice_depth", h.slice_depth, Range{0, std::int64_t{grid_bits}});
-  const int cell_bits = static_cast<int>(grid_bits - (v.ok() ? h.slice_depth : grid_bits));
-  for (auto& cell : h.slice_cell)
-    v.u(cell_bits, "slice_cell", cell, Range{0, (1 << cell_bits) - 1});
-}
-
-/// Spec 7.4 - 7.6, 7.9: what stands before the payload of a unit that belongs to a slice.
-struct SliceUnitHeader {
-  std::uint32_t slice_id = 0;
-  std::uint32_t range = 0;                   ///< geometry and coefficient units
-  std::uint32_t group = 0;                   ///< coefficient units
-  std::vector<std::uint32_t> cu_prediction;  ///< coefficient units: [levels of the range], or none
-};
-
-// Spec 7.4  geometry_unit( ), 7.5 normals_unit( ), 7.6 coefficient_unit( ), 7.9 digest_unit( )
-template <class V, class Header>
-void slice_unit_header(V& v, Header& h, bool has_range, bool has_group,
-                       const SequenceParameterSet& set) {
-  v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
-  if (has_range) v.ue("level_range", h.range, Range{0, 20});
-  if (has_group) v.ue("plane_group", h.group, Range{0, 15});
-  if (!has_group || set.sps_prediction_flag == 0) return;
-  v.resize("cu_prediction", h.cu_prediction, set.coefficient_levels(h.range));
-  for (auto& mode : h.cu_prediction) v.u(2, "cu_prediction", mode, Range{0, 3});
 }
 
 /// Spec 7.11: what stands before the matrix of a transform across planes.
@@ -255,8 +270,4 @@ void transform_header(V& v, Header& h, std::uint32_t num_groups) {
 
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);
 std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set);
-Result<SliceHeader> parse_slice_header(std::span<const std::uint8_t> payload,
-                                       std::uint32_t grid_bits);
-std::vector<std::uint8_t> write_slice_header(const SliceHeader& header, std::uint32_t grid_bits);
-
 }  // namespace slf

@@ -55,8 +55,8 @@ const char* unit_name(UnitType type) {
   switch (type) {
     case UnitType::kSequence:
       return "sequence";
-    case UnitType::kSlice:
-      return "slice";
+    case UnitType::kSlices:
+      return "slices";
     case UnitType::kGeometry:
       return "geometry";
     case UnitType::kNormals:

@@ -16,7 +16,7 @@ inline constexpr std::array<std::uint8_t, 8> kSignature = {0x8B, 'S',  'L',  'F'
 
 enum class UnitType : std::uint8_t {
   kSequence = 1,
-  kSlice = 2,
+  kSlices = 2,
   kGeometry = 3,
   kNormals = 4,
   kCoefficients = 5,

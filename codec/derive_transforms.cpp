@@ -83,10 +83,8 @@ class Derivation {
         for (std::size_t j = 0; j < planes; ++j)
           values[p * planes + j] =
               input_.components[(cut.begin + p) * all + 3u * t.functions[j / 3] + j % 3];
-      const std::uint64_t inside = (std::uint64_t{1} << (3 * cut.header.slice_depth)) - 1;
-      std::vector<std::uint64_t> local(points);
-      for (std::size_t p = 0; p < points; ++p) local[p] = input_.morton[cut.begin + p] & inside;
-      raht_forward(build_raht_tree(local), static_cast<int>(planes), values, threads_);
+      const RahtTree tree = build_raht_tree(input_.morton.subspan(cut.begin, points));
+      raht_forward(tree, static_cast<int>(planes), values, threads_);
       double energy = 0;
       for (std::size_t i = 0; i < values.size(); ++i) {
         const double v = values[i] / step_;

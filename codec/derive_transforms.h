@@ -7,7 +7,7 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "attributes/forward_transform.h"
-#include "codec/slice_encoder.h"
+#include "codec/scene_layout.h"
 #include "slf/encoder.h"
 
 namespace slf {

@@ -42,10 +42,10 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
   parameters.coefficients = settings.coefficients;
   parameters.texture = settings.texture;
   parameters.step =
-      texture ? texture_steps(
-                    header.basis, header.shift,
-                    least_texture_steps(field, settings.max_slice_points, settings.texture.bits),
-                    settings.steps_by_norm)
+      texture ? texture_steps(header.basis, header.shift,
+                              least_texture_steps(field.components, std::size_t(field.num_planes()),
+                                                  settings.texture.bits),
+                              settings.steps_by_norm)
               : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
   if (!texture) parameters.transform = settings.transform;
   for (auto& step : parameters.step)
@@ -60,6 +60,7 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
   }
   parameters.predict = settings.predict;
   parameters.rdo = settings.rdo;
+  parameters.base_levels = settings.base_levels;
   parameters.max_slice_points = settings.max_slice_points;
   parameters.threads = settings.threads;
   return parameters;

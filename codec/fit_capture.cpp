@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/parameter_sets.h"
 #include "capture/spacing.h"
 #include "codec/component_planes.h"
 #include "codec/stopwatch.h"
@@ -165,7 +166,7 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
   header.shift =
       component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
-                       std::min<std::size_t>(cloud.positions.size(), settings.max_slice_points));
+                       std::min<std::size_t>(2 * cloud.positions.size(), kMaxBasePoints));
   field.components = to_components(fit.coefficients, header.shift, settings.threads);
   field.positions = cloud.positions;
   field.normals = coded_normals(cloud, settings.normal_bits);

@@ -8,12 +8,14 @@
 #include "attributes/forward_transform.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
+#include "codec/assemble.h"
 #include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
+#include "codec/scene_encoder.h"
 #include "codec/sequence.h"
-#include "codec/slice_encoder.h"
 #include "codec/texture_parameters.h"
 #include "codec/transform_units.h"
+#include "geometry/cell_box.h"
 #include "geometry/morton.h"
 #include "slf/encoder.h"
 #include "slf/parallel.h"
@@ -55,45 +57,36 @@ Result<SortedField, InputError> sort_points(const LightField& field) {
   return sorted;
 }
 
-/// All units of all slices, slices side by side on the threads there are.
-Result<std::vector<CodedUnit>, InputError> code_slices(SortedField& sorted,
-                                                       const std::vector<SliceCut>& cuts,
-                                                       const SliceCoding& coding, int threads) {
-  const std::size_t planes = coding.steps.size();
-  std::vector<std::optional<Result<std::vector<CodedUnit>, InputError>>> coded(cuts.size());
-  const int inner_threads = cuts.size() > 1 ? 1 : threads;
-  parallel_ranges(cuts.size(), 1, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t begin = cuts[i].begin, points = cuts[i].end - begin;
-      const SliceInput input{
-          std::span(sorted.morton).subspan(begin, points),
-          std::span(sorted.positions).subspan(begin, points),
-          std::span(sorted.components).subspan(begin * planes, points * planes),
-          std::span(sorted.normals)
-              .subspan(sorted.normals.empty() ? 0 : begin, sorted.normals.empty() ? 0 : points)};
-      coded[i] = encode_slice(cuts[i], input, coding, inner_threads);
-    }
-  });
-  std::vector<CodedUnit> units;
-  for (auto& slice : coded) {
-    if (!*slice) return slice->error();
-    for (CodedUnit& unit : **slice) units.push_back(std::move(unit));
+/// Base and slices.
+Result<std::vector<CodedUnit>, InputError> code_scene(SortedField& sorted,
+                                                      const SceneLayout& layout,
+                                                      const SliceCoding& coding, int threads) {
+  const std::size_t planes = coding.planes();
+  std::vector<SliceInput> slices;
+  for (const SliceCut& cut : layout.cuts) {
+    const std::size_t begin = cut.begin, points = cut.end - begin;
+    slices.push_back(
+        {std::span(sorted.morton).subspan(begin, points),
+         std::span(sorted.positions).subspan(begin, points),
+         std::span(sorted.components).subspan(begin * planes, points * planes),
+         std::span(sorted.normals)
+             .subspan(sorted.normals.empty() ? 0 : begin, sorted.normals.empty() ? 0 : points)});
   }
-  return units;
+  return encode_scene(coding, layout, slices, threads);
 }
 
 /// What a texture is coded with beside the steps, which have to fit its samples.
-Result<Done, InputError> choose_texture(const SortedField& sorted,
-                                        const std::vector<SliceCut>& cuts, int bits,
+Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
                                         SequenceParameterSet& set) {
   const auto steps = plane_steps(set);
-  const auto least = least_texture_steps(sorted.components, steps.size(), cuts, bits);
+  const auto least = least_texture_steps(sorted.components, steps.size(), bits);
   for (std::size_t j = 0; j < steps.size(); ++j)
     if (steps[j] < least[j])
       return InputError{Errc::kInvalidArgument,
                         "steps: plane " + std::to_string(j) + " of the texture needs at least " +
                             std::to_string(least[j]) + " with " + std::to_string(bits) + " bits"};
-  set.sps_texture_cell_log2 = static_cast<std::uint32_t>(texture_cell_log2(sorted.morton, cuts));
+  set.sps_texture_cell_log2 = static_cast<std::uint32_t>(
+      texture_cell_log2(sorted.morton, static_cast<int>(set.grid_bits())));
   return Done{};
 }
 
@@ -119,16 +112,16 @@ void find_components(const std::vector<ForwardTransform>& transforms,
 /// Transforms across planes where they pay, with their units. Components have the steps of the
 /// transform's first function, in whose units they are.
 Result<Done, InputError> choose_transforms(const LightField& field, SortedField& sorted,
-                                           const std::vector<SliceCut>& cuts,
-                                           CodingParameters parameters, SequenceParameterSet& set,
-                                           SliceCoding& coding, std::vector<CodedUnit>& units) {
+                                           const SceneLayout& layout, CodingParameters parameters,
+                                           SequenceParameterSet& set, SliceCoding& coding,
+                                           std::vector<CodedUnit>& units) {
   const LightFieldHeader& header = field.header;
   std::vector<double> weights(set.sps_num_functions, 1);
   if (header.has_basis) weights = basis_norms(header.basis);
   for (std::size_t k = 0; k < weights.size(); ++k)
     weights[k] = std::pow(std::ldexp(weights[k], header.shift.empty() ? 0 : -header.shift[k]), 2);
   auto transforms =
-      derive_transforms({sorted.morton, sorted.components, cuts}, coding.groups, weights,
+      derive_transforms({sorted.morton, sorted.components, layout.cuts}, coding.groups, weights,
                         coding.steps, parameters.transform, parameters.threads);
   if (transforms.empty()) return Done{};
   parameters.step = function_steps(set);
@@ -139,10 +132,11 @@ Result<Done, InputError> choose_transforms(const LightField& field, SortedField&
       parameters.step[k] = parameters.step[transform.inverse.functions[0]];
   }
   SLF_TRY(set, sequence_of(field, parameters));
+  set_base(layout, set);
   set.sps_transform_flag = 1;
   set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);
   for (const ForwardTransform& transform : transforms)
-    units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups())});
+    units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups()), {}});
   CodedFunctions coded = code_functions(std::move(coding.groups), inverse);
   for (std::size_t i = 0; i < transforms.size(); ++i)
     transforms[i].inverse.components = inverse[i].components;
@@ -155,24 +149,17 @@ Result<Done, InputError> choose_transforms(const LightField& field, SortedField&
   return Done{};
 }
 
-/// Signature, sequence, index, what is given, end.
-std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
-                                   const std::vector<CodedUnit>& units, bool index) {
-  BitWriter end;
-  end.ue(units.size() + (index ? 2 : 1));  // units before the end unit
-  const std::vector<std::uint8_t> end_payload = end.take();
-  std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
-  append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set));
-  if (index) {
-    std::vector<IndexEntry> entries;
-    for (const CodedUnit& unit : units)
-      entries.push_back({unit.type, unit_bytes(unit.payload.size())});
-    entries.push_back({UnitType::kEnd, unit_bytes(end_payload.size())});
-    append_unit(stream, UnitType::kIndex, write_index(entries));
+/// Boxes of the slices' cells.
+std::vector<CellBox> boxes_of(const SceneLayout& layout) {
+  std::vector<CellBox> boxes;
+  if (layout.base_levels == 0) return boxes;
+  std::size_t end = 0;
+  for (const SliceEntry& slice : layout.table.slices) {
+    const std::size_t begin = end;
+    end += slice.cells();
+    boxes.push_back(box_of_cells(std::span(layout.cells).subspan(begin, end - begin)));
   }
-  for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
-  append_unit(stream, UnitType::kEnd, end_payload);
-  return stream;
+  return boxes;
 }
 
 }  // namespace
@@ -181,22 +168,24 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
                                                    const CodingParameters& parameters) {
   SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
   SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
-  const auto cuts =
-      cut_slices(sorted.morton, field.header.grid.bits, parameters.max_slice_points);  // 7.3
-  if (cuts.size() > kMaxSlices)
-    return InputError{Errc::kInvalidArgument, "points per slice: more than 2^16 slices are needed"};
-  if (set.has_texture()) SLF_CHECK(choose_texture(sorted, cuts, parameters.texture.bits, set));
+  SLF_TRY(const SceneLayout layout,
+          lay_out(sorted.morton, field.header.grid.bits, parameters));  // 7.3
+  set_base(layout, set);
+  if (set.has_texture()) SLF_CHECK(choose_texture(sorted, parameters.texture.bits, set));
   SliceCoding coding{
       set,           plane_groups(set), plane_steps(set), parameters.digest, parameters.texture,
       parameters.rdo};
   std::vector<CodedUnit> units;
   if (parameters.transform != TransformMode::kNone && field.header.num_functions > 0)
-    SLF_CHECK(choose_transforms(field, sorted, cuts, parameters, set, coding, units));  // 7.11
-  SLF_TRY(auto slices, code_slices(sorted, cuts, coding, parameters.threads));  // 8.4 - 8.10
-  std::move(slices.begin(), slices.end(), std::back_inserter(units));
+    SLF_CHECK(choose_transforms(field, sorted, layout, parameters, set, coding, units));  // 7.11
+  units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});         // 7.3
+  SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
+  std::move(parts.begin(), parts.end(), std::back_inserter(units));
   if (!parameters.metadata.empty())
-    units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata)});  // 7.8
-  return assemble(set, units, parameters.index);                                  // 7.1, 7.7
+    units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8
+  std::optional<std::vector<CellBox>> boxes;
+  if (parameters.index) boxes = boxes_of(layout);
+  return assemble(set, units, boxes);  // 7.1, 7.7
 }
 
 }  // namespace slf

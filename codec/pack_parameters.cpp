@@ -118,6 +118,7 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
     return invalid("metadata: keys without a name, zero bytes, or over 1 MiB");
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
     return invalid("points per slice: 1 to 2^22");
+  if (p.base_levels < kAutomaticBase) return invalid("base levels: 0 to the grid's bits - 1");
   return Done{};
 }
 
@@ -150,7 +151,26 @@ std::vector<std::uint32_t> coded_ends(const std::vector<int>& ends) {
   return coded;
 }
 
+void add_end(std::uint32_t end, std::vector<std::uint32_t>& ends, std::uint32_t& num_minus1) {
+  const auto place = std::lower_bound(ends.begin(), ends.end(), end);
+  if (place == ends.end() || *place != end) ends.insert(place, end);
+  num_minus1 = static_cast<std::uint32_t>(ends.size());
+}
+
 }  // namespace
+
+void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
+  if (layout.base_levels == 0) return;
+  set.sps_base_levels = static_cast<std::uint32_t>(layout.base_levels);
+  set.sps_base_weight_minus1 = layout.weight - 1;
+  add_end(set.sps_base_levels, set.sps_geometry_range_end, set.sps_num_geometry_ranges_minus1);
+  if (set.sps_num_functions == 0) return;
+  // Where levels are to be had one after the other, the first bytes have colours of all groups.
+  const std::uint32_t coarser = set.sps_num_coefficient_ranges_minus1 > 0 ? 2 : 0;
+  for (std::uint32_t up = 0; up <= std::min(coarser, set.sps_base_levels - 1); ++up)
+    add_end(set.sps_base_levels - up, set.sps_coefficient_range_end,
+            set.sps_num_coefficient_ranges_minus1);
+}
 
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& p) {

@@ -3,6 +3,7 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "bitstream/parameter_sets.h"
+#include "codec/scene_layout.h"
 #include "slf/encoder.h"
 
 namespace slf {
@@ -10,6 +11,9 @@ namespace slf {
 /// @errors kInvalidArgument: names the parameter.
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& parameters);
+
+/// The base, which ends a level range of either kind.
+void set_base(const SceneLayout& layout, SequenceParameterSet& set);
 
 std::vector<std::uint32_t> plane_steps(const SequenceParameterSet& set);  ///< [3 K]
 

@@ -68,6 +68,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
     settings.coefficients = CoefficientCoder::kIndependent;
     settings.predict = false;
     settings.rdo = 0;
+    settings.base_levels = 0;
   }
   return settings;
 }

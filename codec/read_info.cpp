@@ -1,42 +1,64 @@
 // Headers alone: what `slf info` shows. Spec 7.
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
+#include "codec/scene_units.h"
 #include "codec/sequence.h"
-#include "codec/slice_units.h"
 #include "codec/transform_units.h"
 #include "slf/decoder.h"
 
 namespace slf {
 namespace {
 
-/// Levels of the grid that range `range` covers, first and last.
-void set_levels(UnitInfo& info, const std::vector<std::uint32_t>& ends, std::uint32_t range,
-                std::uint32_t bits) {
-  info.level_first = range == 0 ? 0 : static_cast<int>(range_end(ends, range - 1, bits));
-  info.level_last = static_cast<int>(range_end(ends, range, bits)) - 1;
-}
-
 Result<UnitInfo> describe(const Unit& unit, const SequenceParameterSet& set) {
   UnitInfo info;
   info.type = unit_name(unit.type);
   info.offset = unit.offset;
   info.bytes = unit.bytes;
-  const bool geometry = unit.type == UnitType::kGeometry,
-             coefficients = unit.type == UnitType::kCoefficients;
-  if (geometry || coefficients || unit.type == UnitType::kNormals ||
-      unit.type == UnitType::kDigest) {
-    SLF_TRY(const SliceUnit read, read_slice_unit(unit, set));
-    info.slice = static_cast<int>(read.header.slice_id);
-    if (geometry) set_levels(info, set.sps_geometry_range_end, read.header.range, set.grid_bits());
-    if (coefficients)
-      set_levels(info, set.sps_coefficient_range_end, read.header.range, set.grid_bits());
-    if (coefficients) info.group = static_cast<int>(read.header.group);
-    info.prediction.assign(read.header.cu_prediction.begin(), read.header.cu_prediction.end());
-  } else if (unit.type == UnitType::kSlice) {
-    SLF_TRY(const SliceHeader header, parse_slice_header(unit.payload, set.grid_bits()));
-    info.slice = static_cast<int>(header.slice_id);
+  if (!has_ids(unit.type)) return info;
+  SLF_TRY(const PartUnit read, read_part_unit(unit, set));
+  const SliceUnitHeader& h = read.header;
+  info.base = h.of_base();
+  if (!info.base) info.slice = static_cast<int>(h.slice_id);
+  if (unit.type == UnitType::kGeometry) {
+    info.level_first = static_cast<int>(set.geometry_begin(h.range));
+    info.level_last = static_cast<int>(set.geometry_end(h.range)) - 1;
+  } else if (unit.type == UnitType::kCoefficients) {
+    info.level_first = static_cast<int>(set.coefficient_begin(h.range));
+    info.level_last = static_cast<int>(set.coefficient_end(h.range)) - 1;
+    info.group = static_cast<int>(h.group);
   }
+  info.prediction.assign(h.cu_prediction.begin(), h.cu_prediction.end());
   return info;
+}
+
+/// Voxels of the cells of a box.
+VoxelBox box_of(const CellBox& cells, const SequenceParameterSet& set) {
+  const std::uint32_t below = set.grid_bits() - set.sps_base_levels;
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = static_cast<std::int32_t>(cells[axis] << below);
+    box.high[axis] = static_cast<std::int32_t>(((cells[axis + 3] + 1) << below) - 1);
+  }
+  return box;
+}
+
+/// The base, the slices and what was cut off. Bytes of slices are added where units are read.
+Result<Done> describe_scene(const Units& units, const SequenceParameterSet& set,
+                            const SliceTable& table, StreamInfo& info) {
+  info.base_levels = static_cast<int>(set.sps_base_levels);
+  if (info.base_levels > 0) info.base_weight = set.base_weight();
+  info.shared_states = table.slices_shared_flag != 0;
+  info.num_slices = table.slices.size();
+  info.num_points = table.num_points();
+  SLF_TRY(const auto index, find_index(units, set));
+  for (std::size_t s = 0; s < table.slices.size(); ++s) {
+    info.slices.push_back({table.slices[s].cells(), table.slices[s].points(), 0, {}});
+    if (index && s < index->boxes.size()) info.slices[s].box = box_of(index->boxes[s], set);
+  }
+  if (set.sps_cut_flag)
+    info.cut = CutInfo{static_cast<int>(set.sps_cut_levels), static_cast<int>(set.sps_cut_groups),
+                       set.sps_cut_slices_flag != 0};
+  return Done{};
 }
 
 }  // namespace
@@ -45,17 +67,15 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream", 0};
   SLF_TRY(const Units units, split_units(stream));
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));
-  SLF_CHECK(check_index(units));
-  SLF_TRY(const auto slices, collect_slices(units, set));
+  SLF_TRY(const SceneUnits scene, collect_units(units, set));
+  SLF_CHECK(check_index(units, set, scene.slices.size()));
   StreamInfo info;
   info.version_major = static_cast<int>(set.sps_version_major);
   info.version_minor = static_cast<int>(set.sps_version_minor);
   info.profile = static_cast<int>(set.sps_profile);
   info.level = static_cast<int>(set.sps_level);
   info.header = header_of(set);
-  info.num_slices = slices.size();
-  for (const SliceDecoder& slice : slices)
-    info.num_points += std::uint64_t{slice.header.slice_num_points_minus1} + 1;
+  SLF_CHECK(describe_scene(units, set, scene.table, info));
   info.num_groups = static_cast<int>(set.num_groups());
   info.group = function_groups(set);
   info.step = function_steps(set);
@@ -72,6 +92,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   bool has_metadata = false;
   for (const Unit& unit : units.units) {
     SLF_TRY(UnitInfo described, describe(unit, set));
+    if (described.slice >= 0) info.slices[std::size_t(described.slice)].bytes += described.bytes;
     info.units.push_back(std::move(described));
     if (unit.type != UnitType::kMetadata) continue;
     if (has_metadata) return Error{Errc::kOutOfRange, "unit_type", unit.offset * 8};

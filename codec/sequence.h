@@ -1,8 +1,8 @@
 // Between the coded sequence parameters and the header people see. Spec 7.2.
 #pragma once
 
+#include "attributes/coefficient_decoder.h"
 #include "bitstream/parameter_sets.h"
-#include "codec/slice_decoder.h"
 #include "slf/types.h"
 
 namespace slf {

@@ -34,7 +34,7 @@ std::vector<std::uint32_t> plane_multipliers(std::size_t planes) {
 }
 
 /// SHA-256 over every component would take as long as the inverse transform.
-SLF_MULTIVERSION
+SLF_MULTIVERSION_LANES
 void hash_rows(const std::int32_t* __restrict components,
                std::span<const std::uint32_t> multipliers, std::span<std::uint64_t> hashes) {
   const std::uint32_t* __restrict multiplier = multipliers.data();

@@ -6,23 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
-#include "bitstream/parameter_sets.h"
-#include "bitstream/units.h"
-#include "slf/encoder.h"
+#include "codec/base_encoder.h"
+#include "codec/coded_unit.h"
+#include "codec/scene_layout.h"
+#include "codec/slice_decoder.h"
 
 namespace slf {
-
-/// A cube of the octree with few enough points, and its points in the sorted light field.
-struct SliceCut {
-  SliceHeader header;
-  std::size_t begin = 0, end = 0;
-};
-
-/// Cuts sorted, distinct codes into cubes: the smallest that holds all, or, where it holds more
-/// than max_points, its children's.
-std::vector<SliceCut> cut_slices(std::span<const std::uint64_t> morton, int grid_bits,
-                                 std::uint32_t max_points);
 
 /// The integers of one slice.
 struct SliceInput {
@@ -32,26 +21,45 @@ struct SliceInput {
   std::span<const std::array<std::uint16_t, 2>> normals;
 };
 
-/// What all slices share.
-struct SliceCoding {
-  const SequenceParameterSet& set;
-  PlaneGroups groups;                ///< places of components
-  std::vector<std::uint32_t> steps;  ///< [3 R]
-  bool digest = true;
-  TextureSettings texture;
-  double rdo = 0;  ///< CodingParameters
-};
+/// A slice on its way. Steps are called in the order of the members below.
+class SliceEncoder {
+ public:
+  /// @param lead  of slices that share states, else nullptr
+  SliceEncoder(const SliceCoding& coding, const SceneLayout& layout, std::size_t slice,
+               const SliceInput& input, SliceLead* lead);
 
-/// A unit ready to be written.
-struct CodedUnit {
-  UnitType type{};
-  std::vector<std::uint8_t> payload;
-};
+  /// @errors kUnsupported: no Draco in this build.
+  Result<Done, InputError> encode_geometry(const OccupancyStates& states);
+  void encode_normals();
+  /// Components to coefficients, down to the cells, whose values go to the input of the base.
+  /// @errors kInvalidArgument: a component too large to transform.
+  Result<Done, InputError> transform(std::span<std::int32_t> base_input, int threads);
+  /// @errors those of textures
+  Result<Done, InputError> encode_components(const EncodedBase& base, int threads);
+  void encode_digest();
 
-/// The units of a slice in stream order.
-/// @errors kInvalidArgument: a component too large to transform. kUnsupported: no Draco in this
-/// build.
-Result<std::vector<CodedUnit>, InputError> encode_slice(const SliceCut& cut, SliceInput input,
-                                                        const SliceCoding& coding, int threads);
+  /// In the order of a slice's units.
+  std::vector<CodedUnit> take_units() { return std::move(units_); }
+
+ private:
+  bool leads() const { return lead_ != nullptr && slice_ == 0; }
+  bool follows() const { return lead_ != nullptr && slice_ != 0; }
+  void add(UnitType type, std::uint32_t range, std::uint32_t group,
+           std::span<const std::uint8_t> body, std::vector<std::uint32_t> modes = {});
+  void encode_octree(OccupancyStates states);
+  Result<Done, InputError> encode_texture(int threads);
+  void encode_coefficients(const EncodedBase& base, const Quantised& quantised);
+
+  const SliceCoding* coding_;
+  const SceneLayout* layout_;
+  std::size_t slice_;
+  SliceInput input_;
+  SliceLead* lead_;
+  RahtTree tree_;
+  std::vector<std::uint32_t> first_;   // [rows + 1] every row is a point
+  SliceCells cells_;                   // where there is a base
+  std::vector<std::int32_t> decoded_;  // components as a decoder gets them
+  std::vector<CodedUnit> units_;
+};
 
 }  // namespace slf

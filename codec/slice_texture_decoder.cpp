@@ -26,22 +26,16 @@ void store_plane(std::span<const std::int32_t> values, std::span<const std::uint
 
 }  // namespace
 
-Result<Done> SliceDecoder::decode_texture_units(const SequencePlan& plan,
-                                                std::span<std::int32_t> components, int threads) {
-  std::vector<const SliceUnit*> wanted;  // by group
-  std::uint32_t expected = 0;
-  for (const SliceUnit& unit : units) {
-    if (unit.type != UnitType::kCoefficients || codes_.empty()) continue;
-    if (unit.header.range != 0) return Error{Errc::kOutOfRange, "level_range", unit.offset * 8};
-    if (unit.header.group != expected || expected >= plan.set.num_groups())
-      return Error{Errc::kOutOfRange, "plane_group", unit.offset * 8};
-    ++expected;
-    if (unit.header.group < plan.groups.size()) wanted.push_back(&unit);
-  }
-  partial = partial || expected < plan.set.num_groups();
+Result<Done> SliceDecoder::decode_texture_units(std::span<std::int32_t> components, int threads) {
+  std::vector<const PartUnit*> wanted;  // by group
+  for (const PartUnit& unit : *units_)
+    if (unit.type == UnitType::kCoefficients && unit.header.group < plan_->groups.size())
+      wanted.push_back(&unit);
   if (wanted.empty()) return Done{};
-  SLF_TRY(const Atlas atlas, derive_atlas(codes_, static_cast<int>(header.slice_depth),
-                                          static_cast<int>(plan.set.sps_texture_cell_log2)));
+  offset = wanted.front()->offset;
+  const SequencePlan& plan = *plan_;
+  SLF_TRY(const Atlas atlas,
+          derive_atlas(codes_, plan.grid_bits(), static_cast<int>(plan.set.sps_texture_cell_log2)));
   std::vector<std::optional<Error>> errors(wanted.size());
   parallel_ranges(wanted.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
@@ -49,7 +43,7 @@ Result<Done> SliceDecoder::decode_texture_units(const SequencePlan& plan,
       std::vector<std::uint32_t> steps;
       for (const std::size_t j : planes) steps.push_back(plan.steps[j]);
       const auto store = [&](std::size_t i, std::span<const std::int32_t> values) {
-        store_plane(values, first_, planes[i], plan.planes(), components);
+        store_plane(values, top_.first, planes[i], plan.planes(), components);
       };
       auto done = decode_texture(wanted[g]->payload, atlas, plan.set.texture_bits(), steps, store);
       if (!done) errors[g] = done.error();

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "codec/slice_encoder.h"
 #include "slf/parallel.h"
 #include "texture/atlas.h"
 #include "texture/texture_decoder.h"
@@ -38,13 +39,12 @@ Result<Payload, InputError> encode_group(std::size_t group, const SliceInput& in
 
 }  // namespace
 
-Result<std::vector<Payload>, InputError> encode_slice_texture(const SliceCut& cut,
-                                                              const SliceInput& input,
-                                                              std::span<const std::uint64_t> local,
+Result<std::vector<Payload>, InputError> encode_slice_texture(const SliceInput& input,
+                                                              std::span<const std::uint64_t> morton,
                                                               const SliceCoding& coding,
                                                               int threads) {
-  const auto atlas = derive_atlas(local, static_cast<int>(cut.header.slice_depth),
-                                  static_cast<int>(coding.set.sps_texture_cell_log2));
+  const auto atlas =
+      derive_atlas(morton, coding.grid_bits(), static_cast<int>(coding.set.sps_texture_cell_log2));
   if (!atlas)
     return InputError{Errc::kInvalidArgument,
                       "points per slice: a texture would be higher than 8192; fewer are needed"};

@@ -45,7 +45,7 @@ Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
   std::vector<PlaneTransform> transforms;
   bool in_slices = false;
   for (const Unit& unit : units.units) {
-    in_slices = in_slices || unit.type == UnitType::kSlice;
+    in_slices = in_slices || unit.type == UnitType::kSlices;
     if (in_slices && transforms.size() < set.num_transforms())
       return Error{Errc::kOutOfRange, "sps_num_transforms_minus1", unit.offset * 8};
     if (unit.type != UnitType::kTransform) continue;

@@ -1,9 +1,11 @@
 // The light fields behind the golden streams. Everything is made from integers and fixed seeds.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slf/decoder.h"
 #include "slf/encoder.h"
 
 namespace slf::conformance {
@@ -17,8 +19,12 @@ struct Case {
   std::vector<int> levels, groups;  ///< reduced decodes to pin as well
   std::size_t keep_units = 0;       ///< > 0: the stream is cut after so many units
   bool unknown_unit = false;        ///< a unit of type 99 is inserted
+  std::vector<VoxelBox> regions{};  ///< decodes of parts of space to pin as well
+  bool slice_by_slice = false;      ///< units of slice 0 come first, then those of slice 1, ...
+  std::optional<DecodeOptions> truncated{};  ///< the stream is cut to these levels, groups, region
 };
 std::vector<Case> valid_cases();
+std::vector<Case> scene_cases();  ///< among them
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -28,5 +34,6 @@ struct RefusedCase {
   std::vector<std::uint8_t> stream;
 };
 std::vector<RefusedCase> refused_cases();
+std::vector<RefusedCase> refused_scenes();  ///< among them
 
 }  // namespace slf::conformance

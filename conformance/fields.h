@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/morton.h"
+#include "slf/encoder.h"
 #include "slf/types.h"
 
 namespace slf::conformance {
@@ -76,6 +77,12 @@ inline LightField field(std::vector<Voxel> voxels, int bits, int functions,
                                       : (size / 8 * wave / 32 + noise) / (k + c));
       }
   return f;
+}
+
+inline CodingParameters with_steps(int functions, std::uint32_t step) {
+  CodingParameters parameters;
+  for (int k = 0; k < functions; ++k) parameters.step.push_back({step, step, step});
+  return parameters;
 }
 
 }  // namespace slf::conformance

@@ -1,17 +1,20 @@
 // Writes the golden streams and their manifests: slf_conformance_generate DIRECTORY
 //
 // The same bytes for every compiler and optimisation level; conformance/compilers.sh proves it.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "bitstream/bit_writer.h"
+#include "bitstream/index.h"
 #include "bitstream/sha256.h"
 #include "bitstream/units.h"
 #include "conformance/cases.h"
 #include "slf/decoder.h"
 #include "slf/given_planes.h"
+#include "slf/truncate.h"
 
 namespace slf::conformance {
 namespace {
@@ -54,9 +57,17 @@ std::string description(const std::string& id, const std::vector<std::string>& c
          ", \"sha256\": " + quoted(sha256(stream)) + "},\n";
 }
 
-std::string expectation(const LightField& field, int levels, int groups) {
-  std::string text = "    {\"levels\": " + std::to_string(levels) +
-                     ", \"groups\": " + std::to_string(groups) +
+std::string region_text(const VoxelBox& box) {
+  std::string text = ", \"region\": [";
+  for (std::size_t i = 0; i < 6; ++i)
+    text += (i ? ", " : "") + std::to_string(i < 3 ? box.low[i] : box.high[i - 3]);
+  return text + "]";
+}
+
+std::string expectation(const LightField& field, const DecodeOptions& options) {
+  std::string text = "    {\"levels\": " + std::to_string(options.levels) +
+                     ", \"groups\": " + std::to_string(options.groups) +
+                     (options.region ? region_text(*options.region) : "") +
                      ", \"partial\": " + (field.partial ? "true" : "false") +
                      ", \"points\": " + std::to_string(field.num_points()) +
                      ", \"functions\": " + std::to_string(field.header.num_functions) +
@@ -68,6 +79,45 @@ std::string expectation(const LightField& field, int levels, int groups) {
   if (field.normals.bits > 0)
     text += ",\n     \"normals_sha256\": " + quoted(sha256_of(field.normals.octahedral));
   return text + "}";
+}
+
+struct EditableUnit {
+  UnitType type;
+  std::vector<std::uint8_t> payload;
+  std::uint32_t slice;  ///< 0: also of no slice
+};
+
+/// The place of a unit where slices come one after the other.
+std::uint32_t slice_of(const Unit& unit, const SequenceParameterSet& set) {
+  if (unit.type == UnitType::kEnd || unit.type == UnitType::kMetadata) return ~0u;
+  if (!has_ids(unit.type)) return 0;
+  const SliceUnitHeader ids = *read_ids(unit, set);
+  return ids.of_base() ? 0 : ids.slice_id;
+}
+
+/// Sound lengths, CRCs and unit count; no index may be among them.
+std::vector<std::uint8_t> rewritten(const std::vector<EditableUnit>& units) {
+  std::vector<std::uint8_t> out(kSignature.begin(), kSignature.end());
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    BitWriter end;
+    end.ue(i);
+    append_unit(out, units[i].type,
+                units[i].type == UnitType::kEnd ? end.take() : units[i].payload);
+  }
+  return out;
+}
+
+/// Another order of units.
+std::vector<std::uint8_t> sorted(const std::vector<std::uint8_t>& stream, const Case& c) {
+  if (!c.slice_by_slice) return stream;
+  const Units split = *split_units(stream);
+  const SequenceParameterSet set = *parse_sequence_parameter_set(split.units[0].payload);
+  std::vector<EditableUnit> units;
+  for (const Unit& unit : split.units)
+    units.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, slice_of(unit, set)});
+  std::stable_sort(units.begin(), units.end(),
+                   [](const auto& a, const auto& b) { return a.slice < b.slice; });
+  return rewritten(units);
 }
 
 /// Cuts after some units, or slips in one of an unknown type before the last.
@@ -111,21 +161,29 @@ bool write_case(const fs::path& root, const Case& c) {
     std::fprintf(stderr, "%s: %s\n", c.id.c_str(), packed.error().message.c_str());
     return leave_out("streams", c.id, packed.error().code == Errc::kUnsupported);
   }
-  const auto stream = altered(*packed, c);
+  auto stream = altered(sorted(*packed, c), c);
+  if (c.truncated) stream = *truncate(stream, *c.truncated);
   std::string text = description(c.id, c.clauses, c.purpose, stream) + "  \"expect\": [\n";
-  std::vector<std::pair<int, int>> decodes = {{0, 0}};
-  for (const int levels : c.levels) decodes.push_back({levels, 0});
-  for (const int groups : c.groups) decodes.push_back({0, groups});
+  std::vector<DecodeOptions> decodes(1);
+  const auto add = [&](int levels, int groups, std::optional<VoxelBox> region) {
+    decodes.emplace_back();
+    decodes.back().levels = levels;
+    decodes.back().groups = groups;
+    decodes.back().region = region;
+  };
+  for (const int levels : c.levels) add(levels, 0, {});
+  for (const int groups : c.groups) add(0, groups, {});
+  for (const VoxelBox& region : c.regions) {
+    add(0, 0, region);
+    for (const int levels : c.levels) add(levels, 0, region);
+  }
   for (std::size_t i = 0; i < decodes.size(); ++i) {
-    DecodeOptions options;
-    options.levels = decodes[i].first;
-    options.groups = decodes[i].second;
-    const auto field = decode(stream, options);
+    const auto field = decode(stream, decodes[i]);
     if (!field) {
       std::fprintf(stderr, "%s: %s\n", c.id.c_str(), to_string(field.error()).c_str());
       return false;
     }
-    text += (i ? ",\n" : "") + expectation(*field, options.levels, options.groups);
+    text += (i ? ",\n" : "") + expectation(*field, decodes[i]);
   }
   text +=
       "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 "

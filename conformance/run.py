@@ -3,8 +3,8 @@
 
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]
 
-The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--planes" or
-nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
+The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--region=X0,Y0,Z0,X1,Y1,Z1",
+"--planes" or nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
 (int32 [P, K, 3]) and, where the stream has normals, octahedral.npy (uint16 [P, 2]) in {out}. It must exit with 0 on streams/, and with another code,
 not by a signal and not after the time limit, on refused/. With --messages the name of the refused syntax
 element must be in what it prints. Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
@@ -55,6 +55,7 @@ def check_stream(folder, decoder, timeout):
     for expect in case["expect"]:
         out = pathlib.Path(tempfile.mkdtemp())
         options = [w for name in ("levels", "groups") if expect[name] for w in ("--" + name, str(expect[name]))]
+        options += ["--region=" + ",".join(map(str, expect["region"]))] if "region" in expect else []
         options += ["--planes"] if "planes_sha256" in expect else []
         where = " ".join(options) or "whole"
         try:

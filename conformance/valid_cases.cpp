@@ -6,12 +6,6 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-CodingParameters with_steps(int functions, std::uint32_t step) {
-  CodingParameters parameters;
-  for (int k = 0; k < functions; ++k) parameters.step.push_back({step, step, step});
-  return parameters;
-}
-
 std::vector<Voxel> lattice(std::int32_t nx, std::int32_t ny, std::int32_t nz) {
   std::vector<Voxel> voxels;
   for (std::int32_t z = 0; z < nz; ++z)
@@ -160,8 +154,8 @@ void add_structure(std::vector<Case>& cases) {
   for (const Voxel& stray :
        {Voxel{100, 3, 90}, Voxel{127, 127, 127}, Voxel{64, 64, 64}, Voxel{65, 64, 64}})
     uneven.push_back(stray);
-  Case depths{"slices-of-different-depth",
-              "lone points are slices without a level; coarser cells that several slices share",
+  Case depths{"slices-of-one-cell",
+              "every cell is a slice, those of lone points among them",
               {"7.3", "8.9"},
               field(sorted(uneven), 7, 3),
               with_steps(3, 32),
@@ -169,7 +163,8 @@ void add_structure(std::vector<Case>& cases) {
               {},
               0,
               false};
-  depths.parameters.max_slice_points = 600;
+  depths.parameters.base_levels = 3;
+  depths.parameters.max_slice_points = 1;
   depths.field.normals.bits = 4;
   for (std::size_t p = 0; p < depths.field.num_points(); ++p)
     depths.field.normals.octahedral.push_back(
@@ -303,15 +298,13 @@ void add_textures(std::vector<Case>& cases) {
   cases.push_back(intra);
   cases.push_back(texture("texture-low-delay-10", "planes predicted from others; loose points",
                           sphere(5, 3), 5, 3, 2, 10));
-  Case slices = texture("texture-12-slices", "12 bits, several slices, one without a level",
-                        sphere(6), 6, 2, 1, 12);
+  Case slices = texture("texture-12", "12 bits; a lone point", sphere(6), 6, 2, 1, 12);
   slices.field = field(sorted([] {
                          auto voxels = sphere(5);
                          voxels.push_back({63, 63, 63});
                          return voxels;
                        }()),
                        6, 2, 600);
-  slices.parameters.max_slice_points = 700;
   cases.push_back(slices);
   // Charts beyond the limit of extent, upright and lying, sparse, and too small.
   std::vector<Voxel> shapes;
@@ -344,6 +337,7 @@ std::vector<Case> valid_cases() {
   add_components(cases);
   add_transforms(cases);
   add_structure(cases);
+  for (Case& scene : scene_cases()) cases.push_back(std::move(scene));
   add_prefixes(cases);
   add_textures(cases);
   return cases;

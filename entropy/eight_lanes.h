@@ -39,6 +39,8 @@ class EightLanes {
     return EightLanes(_mm_srai_epi16(_mm_add_epi16(high, _mm_set1_epi16(1)), 1));
   }
 
+  __m128i vector() const { return v_; }
+
   std::array<std::int16_t, kCount> values() const {
     std::array<std::int16_t, kCount> x;
     _mm_storeu_si128(reinterpret_cast<__m128i*>(x.data()), v_);

@@ -23,21 +23,30 @@ class MixedBit {
     for (std::size_t i = 0; i < kModels; ++i) models_[i].resize(sizes[i]);
   }
 
+  /// A context of each model.
+  using Contexts = std::array<ContextBit*, kModels>;
+  Contexts select(const std::array<std::uint32_t, kModels>& contexts) {
+    Contexts selected;
+    for (std::size_t i = 0; i < kModels; ++i) selected[i] = &models_[i][contexts[i]];
+    return selected;
+  }
+
   /// Codes one decision in the given context of each model.
   template <class Coder>
   unsigned code(Coder& coder, const std::array<std::uint32_t, kModels>& contexts, std::size_t set,
                 unsigned bit) {
-    std::array<ContextBit*, kModels> selected;
-    std::array<std::int16_t, EightLanes::kCount> inputs{};
-    for (std::size_t i = 0; i < kModels; ++i) {
-      selected[i] = &models_[i][contexts[i]];
-      inputs[i] = selected[i]->logistic();
-    }
-    inputs[kModels] = 256;
-    const Mixed<1> mixed(EightLanes(inputs), {&weights_[set]});
+    return code(coder, select(contexts), 0, set, bit);
+  }
+
+  /// The same in the contexts that are `next` places after those selected.
+  template <class Coder>
+  unsigned code(Coder& coder, const Contexts& selected, std::size_t next, std::size_t set,
+                unsigned bit) {
+    const SelectedContexts<kModels> states(selected, next);
+    const Mixed<1> mixed(states.inputs(), {&weights_[set]});
     bit = coder.bit(mixed.p1(), bit);
     mixed.update(bit, kRate);
-    for (ContextBit* context : selected) context->update(bit);
+    states.update(bit);
     return bit;
   }
 

@@ -7,8 +7,8 @@ namespace slf {
 namespace {
 
 /// Neighbours of the nodes `codes` (ascending, distinct) of the level `depth` of an octree.
-std::vector<OctreeLevel::Neighbours> node_neighbours(const std::vector<std::uint64_t>& codes,
-                                                     int depth) {
+std::vector<BlockGrid::Neighbours> node_neighbours(const std::vector<std::uint64_t>& codes,
+                                                   int depth) {
   OctreeLevel level = octree_root();
   for (int below = depth - 1; below >= 0; --below) {  // levels between the children and the blocks
     std::size_t node = 0;
@@ -19,7 +19,14 @@ std::vector<OctreeLevel::Neighbours> node_neighbours(const std::vector<std::uint
     }
     level = octree_children(level, true);
   }
-  return std::move(level.neighbours);
+  std::vector<BlockGrid::Neighbours> neighbours(level.size());
+  for (std::size_t n = 0; n < level.size(); ++n)
+    for (std::size_t d = 0; d < 27; ++d)
+      neighbours[n][d] = d == kSelf ? static_cast<std::int32_t>(n)
+                         : level.around[n].directions >> d & 1u
+                             ? static_cast<std::int32_t>(level.neighbour(n, d))
+                             : -1;
+  return neighbours;
 }
 
 /// A cell next to one of a block: which block it lies in, by direction, and its code in there.

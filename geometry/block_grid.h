@@ -24,8 +24,9 @@ class BlockGrid {
 
   std::size_t size() const { return blocks_.size(); }
   const Block& block(std::size_t b) const { return blocks_[b]; }
+  using Neighbours = std::array<std::int32_t, 27>;
   /// By direction (8.4.1): index of the block there, -1 where it is empty.
-  const OctreeLevel::Neighbours& neighbours(std::size_t b) const { return neighbours_[b]; }
+  const Neighbours& neighbours(std::size_t b) const { return neighbours_[b]; }
   std::uint32_t block_of(std::size_t point) const { return block_of_[point]; }
 
   /// Index of the point in the cell in direction d of point i, -1 where there is none.
@@ -33,7 +34,7 @@ class BlockGrid {
 
  private:
   std::vector<Block> blocks_;
-  std::vector<OctreeLevel::Neighbours> neighbours_;
+  std::vector<Neighbours> neighbours_;
   std::vector<std::uint32_t> block_of_;  // [P]
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/morton.h"
@@ -15,6 +16,8 @@ namespace slf {
 class OccupancyHistory {
  public:
   void start_level(int level);
+  /// cells: of the level, all stored; leaves the slots empty.
+  void finish_level(std::span<const std::uint64_t> cells);
 
   /// Occupancy of the latest coded node in the same slot, by key: (y, z), (x, z), (x, y).
   /// 0: none yet.
@@ -41,7 +44,7 @@ class OccupancyHistory {
     return (a * 2654435761u ^ b * 2246822519u) >> (32 - kSlotBits);
   }
 
-  std::array<std::vector<std::uint8_t>, 3> latest_;
+  std::array<std::vector<std::uint8_t>, 3> latest_;  // all 0 between levels
   std::array<std::size_t, 3> slot_{};
   int level_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "bitstream/multiversion.h"
@@ -26,15 +27,44 @@ inline unsigned occupied_columns(unsigned o, unsigned axis) {
   return (m & 1) | (m >> 1 & 2) | (m >> 2 & 4) | (m >> 3 & 8);
 }
 
+/// What the decisions of a unit leave to those of the next: a value, so that several slices may
+/// start from the same. Spec 8.4.1.
+struct OccupancyStates {
+  /// points: of all slices; hashed contexts are as many as they can fill.
+  explicit OccupancyStates(std::uint64_t points);
+
+  /// log2 of the number of contexts of each table that is not hashed. Spec table 8-3.
+  static constexpr int kFacesBits = 11, kCornerBits = 15;
+  static constexpr int kMostHashedBits = 18;
+  static constexpr std::uint32_t kHashed = 3;
+
+  // Found on the clouds of docs/rate.md.
+  static constexpr std::int16_t kFirstWeight = 900;  // of 8192
+  static constexpr std::uint32_t kFirstRate = 8, kLastRate = 4;
+
+  std::uint32_t num_nodes = 0;
+  std::int32_t rate = kFirstRate;
+  int hashed_bits;  ///< log2 of the number of contexts of a hashed table
+  std::vector<ContextBit> faces, corner;
+  std::array<std::vector<ContextBit>, kHashed> hashed;
+  WeightSets by_siblings{256 * 8, kFirstWeight};
+  WeightSets by_density{27 * 22, kFirstWeight};
+  WeightSets by_faces{27 * 8, kFirstWeight};
+};
+
 class OccupancyModel {
  public:
-  /// points: of the slice; hashed contexts are as many as they can fill.
-  explicit OccupancyModel(std::uint64_t points);
+  explicit OccupancyModel(OccupancyStates states) : states_(std::move(states)) {}
+
+  const OccupancyStates& states() const { return states_; }
+  void start_from(const OccupancyStates& states) { states_ = states; }
 
   void start_level(int level) {
     history_.start_level(level);
     level_ = static_cast<std::uint32_t>(level);
   }
+  /// nodes: of the level, all coded.
+  void finish_level(const OctreeLevel& nodes) { history_.finish_level(nodes.morton); }
 
   /// Codes the occupancy of node n. The nodes before it are known, those from n on have 0. The
   /// encoder passes the occupancy, the decoder 0; both get it back: 1 .. 255.
@@ -42,7 +72,7 @@ class OccupancyModel {
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
     Node node = node_contexts(nodes, n);
     if (n + 1 < nodes.size())  // for the cache alone
-      group(kByNeighbours, nodes.around[n + 1] * kFactorA, 0, 4);
+      group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, 0, 4);
     unsigned coded = 0;
     code_child<0>(coder, node, coded, occupancy);
     code_child<1>(coder, node, coded, occupancy);
@@ -56,21 +86,14 @@ class OccupancyModel {
     else
       code_child<7>(coder, node, coded, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
-    rate_ = static_cast<std::int32_t>(kFirstRate -
-                                      std::min(++num_nodes_ >> 13, kFirstRate - kLastRate));
+    constexpr std::uint32_t kFirst = OccupancyStates::kFirstRate,
+                            kLast = OccupancyStates::kLastRate;
+    states_.rate =
+        static_cast<std::int32_t>(kFirst - std::min(++states_.num_nodes >> 13, kFirst - kLast));
     return static_cast<std::uint8_t>(coded);
   }
 
  private:
-  /// log2 of the number of contexts of each table that is not hashed. Spec table 8-3.
-  static constexpr int kFacesBits = 11, kCornerBits = 15;
-  static constexpr int kMostHashedBits = 18;
-  static constexpr std::uint32_t kHashed = 3;
-
-  // Found on the clouds of docs/rate.md.
-  static constexpr std::int16_t kFirstWeight = 900;  // of 8192
-  static constexpr std::uint32_t kFirstRate = 8, kLastRate = 4;
-
   /// What is known of a child before its node is coded, and where its contexts are.
   struct Child {
     unsigned faces;     ///< those outside the node
@@ -96,11 +119,12 @@ class OccupancyModel {
 
   Node node_contexts(const OctreeLevel& nodes, std::size_t n) {
     Node node;
-    const std::uint32_t neighbours = nodes.around[n];
+    const std::uint32_t neighbours = nodes.around[n].directions;
+    const std::uint32_t* neighbour = nodes.neighbours.data() + nodes.around[n].first;
     Window occupied = 0, unknown = 0;
     for (std::uint32_t left = neighbours; left != 0; left &= left - 1) {
       const auto d = static_cast<std::size_t>(std::countr_zero(left));
-      const unsigned occupancy = nodes.occupancy[static_cast<std::size_t>(nodes.neighbours[n][d])];
+      const unsigned occupancy = nodes.occupancy[*neighbour++];
       occupied |= std::rotl(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
       unknown |= occupancy == 0 ? kWindowParts[d] : 0;
     }
@@ -120,6 +144,7 @@ class OccupancyModel {
       child.faces = outer_faces_of(around, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
       child.corner = corner_of(neighbours, c);
+      if (c < 6) prefetch(&states_.corner[child.corner << 8 | (1u << c)]);
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
     }
@@ -131,8 +156,8 @@ class OccupancyModel {
     std::uint64_t h = a + coded * kFactorB;
     h = (h ^ h >> 32) * kFactorA;
     const std::uint32_t first =
-        static_cast<std::uint32_t>(h >> (64 - hashed_bits_)) >> size_log2 << size_log2;
-    prefetch(&hashed_[which][first]);
+        static_cast<std::uint32_t>(h >> (64 - states_.hashed_bits)) >> size_log2 << size_log2;
+    prefetch(&states_.hashed[which][first]);
     return first;
   }
 
@@ -146,20 +171,19 @@ class OccupancyModel {
     // Groups by node hold four children's contexts, those by cells the last three siblings'.
     const unsigned in_node = c < 4 ? siblings : (coded & 8) << 1 | 1u << (c & 3) | coded >> 4;
     const unsigned in_cells = c < 4 ? coded : coded >> (c - 3);
-    const std::array<ContextBit*, 5> contexts = {
+    const std::array<ContextBit*, 5> selected = {
         // spec table 8-3
-        &faces_[faces * 8 + c], &corner_[siblings << 7 | child.corner],
-        &hashed_[kByNeighbours][node.neighbours_group + in_node],
-        &hashed_[kByColumns][node.columns_group + in_node],
-        &hashed_[kByCells][child.group + in_cells]};
-    const EightLanes inputs(std::array<std::int16_t, EightLanes::kCount>{
-        contexts[0]->logistic(), contexts[1]->logistic(), contexts[2]->logistic(),
-        contexts[3]->logistic(), contexts[4]->logistic(), 256});
-    const Mixed<3> mixed(inputs, {&by_siblings_[siblings * 8 + node.neighbours_class],
-                                  &by_density_[occupied * 22 + level_], &by_faces_[faces]});
+        &states_.faces[faces * 8 + c], &states_.corner[child.corner << 8 | siblings],
+        &states_.hashed[kByNeighbours][node.neighbours_group + in_node],
+        &states_.hashed[kByColumns][node.columns_group + in_node],
+        &states_.hashed[kByCells][child.group + in_cells]};
+    const SelectedContexts<5> contexts(selected);
+    const Mixed<3> mixed(contexts.inputs(),
+                         {&states_.by_siblings[node.neighbours_class * 256 + siblings],
+                          &states_.by_density[level_ * 27 + occupied], &states_.by_faces[faces]});
     const unsigned bit = coder.bit(mixed.p1(), occupancy >> c & 1u);
-    mixed.update(bit, rate_);
-    for (ContextBit* const context : contexts) context->update(bit);
+    mixed.update(bit, states_.rate);
+    contexts.update(bit);
     coded |= bit << c;
     // Where the later contexts are is known long before their turn.
     if constexpr (c < 4)
@@ -175,14 +199,8 @@ class OccupancyModel {
   }
 
   OccupancyHistory history_;
-  std::uint32_t level_ = 0, num_nodes_ = 0;
-  std::int32_t rate_ = kFirstRate;
-  int hashed_bits_;  // log2 of the number of contexts of a hashed table
-  std::vector<ContextBit> faces_, corner_;
-  std::array<std::vector<ContextBit>, kHashed> hashed_;
-  WeightSets by_siblings_{256 * 8, kFirstWeight};
-  WeightSets by_density_{27 * 22, kFirstWeight};
-  WeightSets by_faces_{27 * 8, kFirstWeight};
+  std::uint32_t level_ = 0;
+  OccupancyStates states_;
 };
 
 }  // namespace slf

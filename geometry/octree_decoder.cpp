@@ -7,6 +7,21 @@
 
 namespace slf {
 
+OctreeDecoder::OctreeDecoder(int depth, std::uint64_t max_nodes, OccupancyStates states)
+    : depth_(depth),
+      max_nodes_(max_nodes),
+      level_(0),
+      nodes_(octree_root()),
+      model_(std::move(states)) {}
+
+OctreeDecoder::OctreeDecoder(int depth, std::uint64_t max_nodes, OccupancyStates states, int level,
+                             std::span<const std::uint64_t> cells)
+    : depth_(depth),
+      max_nodes_(max_nodes),
+      level_(level),
+      nodes_(octree_level(cells, level)),
+      model_(std::move(states)) {}
+
 SLF_MULTIVERSION_ALL
 Result<Done> OctreeDecoder::decode(std::span<const std::uint8_t> payload, int end) {
   RangeDecoder decoder(payload);
@@ -19,6 +34,7 @@ Result<Done> OctreeDecoder::decode(std::span<const std::uint8_t> payload, int en
       if (children > max_nodes_) return Error{Errc::kOutOfRange, "gu_occupancy", 0};
       if (decoder.exhausted()) return decoder.finish("gu_occupancy");
     }
+    model_.finish_level(nodes_);
     nodes_ = octree_children(nodes_, level_ + 1 < depth_);
   }
   return decoder.finish("gu_occupancy");

@@ -1,4 +1,4 @@
-// Voxels of a slice from its geometry units. Spec 8.4.
+// Voxels from geometry units: of the base, or of a slice. Spec 8.4.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,18 @@
 
 namespace slf {
 
-/// Holds the octree between the geometry units of a slice; they come coarse to fine.
+/// Holds the octree between geometry units; they come coarse to fine.
 class OctreeDecoder {
  public:
-  /// depth: of the slice, 0 .. 21. max_nodes: what no level may exceed (the slice's point count).
-  OctreeDecoder(int depth, std::uint64_t max_nodes)
-      : depth_(depth), max_nodes_(max_nodes), model_(max_nodes) {}
+  /// From the root: the base, or a slice where there is no base.
+  /// @param depth      levels that are coded, 0 .. 21
+  /// @param max_nodes  what no level may exceed: the number of cells, or of points
+  OctreeDecoder(int depth, std::uint64_t max_nodes, OccupancyStates states);
+  /// A slice, from its cells on.
+  /// @param level  of the cells; depth and levels are those of the grid
+  /// @param cells  their codes at that level, ascending; at least one
+  OctreeDecoder(int depth, std::uint64_t max_nodes, OccupancyStates states, int level,
+                std::span<const std::uint64_t> cells);
 
   /// Decodes the occupancies of levels level() .. end - 1.
   /// @errors kOutOfRange: more nodes than max_nodes; the codeword does not end where the unit does.
@@ -25,11 +31,14 @@ class OctreeDecoder {
   int level() const { return level_; }  ///< of the nodes known so far
   const std::vector<std::uint64_t>& morton() const { return nodes_.morton; }
 
+  const OccupancyStates& states() const { return model_.states(); }  ///< after the last unit
+  void start_from(const OccupancyStates& states) { model_.start_from(states); }
+
  private:
   int depth_;
   std::uint64_t max_nodes_;
-  int level_ = 0;
-  OctreeLevel nodes_ = octree_root();
+  int level_;
+  OctreeLevel nodes_;
   OccupancyModel model_;
 };
 

@@ -2,8 +2,6 @@
 
 #include "bitstream/multiversion.h"
 #include "entropy/range_encoder.h"
-#include "geometry/occupancy_model.h"
-#include "geometry/octree_levels.h"
 
 namespace slf {
 namespace {
@@ -21,26 +19,43 @@ std::vector<std::uint8_t> occupancies(std::span<const std::uint64_t> morton, std
   return occupancy;
 }
 
+/// The distinct codes without their lower 3 * below bits.
+std::vector<std::uint64_t> cells_of(std::span<const std::uint64_t> morton, int below) {
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t code : morton)
+    if (cells.empty() || cells.back() != code >> (3 * below)) cells.push_back(code >> (3 * below));
+  return cells;
+}
+
 }  // namespace
 
+OctreeEncoder::OctreeEncoder(std::span<const std::uint64_t> morton, int depth,
+                             OccupancyStates states, int level)
+    : morton_(morton),
+      depth_(depth),
+      level_(level),
+      nodes_(octree_level(cells_of(morton, depth - level), level)),
+      model_(std::move(states)) {}
+
 SLF_MULTIVERSION_ALL
+std::vector<std::uint8_t> OctreeEncoder::encode(int end) {
+  RangeEncoder encoder;
+  for (; level_ < end; ++level_) {
+    model_.start_level(level_);
+    const auto occupancy = occupancies(morton_, nodes_.size(), depth_ - level_);
+    for (std::size_t n = 0; n < nodes_.size(); ++n)
+      nodes_.occupancy[n] = model_.code(encoder, nodes_, n, occupancy[n]);
+    model_.finish_level(nodes_);
+    nodes_ = octree_children(nodes_, level_ + 1 < depth_);
+  }
+  return encoder.finish();
+}
+
 std::vector<std::vector<std::uint8_t>> encode_octree(std::span<const std::uint64_t> morton,
                                                      int depth, std::span<const int> level_ends) {
+  OctreeEncoder encoder(morton, depth, OccupancyStates(morton.size()));
   std::vector<std::vector<std::uint8_t>> payloads;
-  OccupancyModel model(morton.size());
-  OctreeLevel nodes = octree_root();
-  int level = 0;
-  for (const int end : level_ends) {
-    RangeEncoder encoder;
-    for (; level < end; ++level) {
-      model.start_level(level);
-      const auto occupancy = occupancies(morton, nodes.size(), depth - level);
-      for (std::size_t n = 0; n < nodes.size(); ++n)
-        nodes.occupancy[n] = model.code(encoder, nodes, n, occupancy[n]);
-      nodes = octree_children(nodes, level + 1 < depth);
-    }
-    payloads.push_back(encoder.finish());
-  }
+  for (const int end : level_ends) payloads.push_back(encoder.encode(end));
   return payloads;
 }
 

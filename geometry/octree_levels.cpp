@@ -4,54 +4,102 @@
 #include <bit>
 
 #include "bitstream/multiversion.h"
+#include "geometry/occupancy_window.h"
 
 namespace slf {
 
 OctreeLevel octree_root() {
   OctreeLevel root;
   root.morton = {0};
-  root.parent = {0};
   root.occupancy = {0};
-  root.neighbours.resize(1);
-  root.neighbours[0].fill(-1);
-  root.neighbours[0][kSelf] = 0;
-  root.around = {0};
+  root.around = {{0, 0}};
   return root;
 }
 
 namespace {
 
-std::size_t lowest_bit(unsigned bits) { return static_cast<std::size_t>(std::countr_zero(bits)); }
-
-/// The eight nodes that a child's neighbours are children of, its parent included.
-struct NodesAround {
-  struct Node {
-    std::uint8_t direction;                       ///< from the parent
-    std::uint8_t children;                        ///< bit c: child c is a neighbour, or the child
-    std::array<std::uint8_t, 8> child_direction;  ///< from the child
-  };
-  std::array<Node, 8> node{};
+/// The children of a direction's neighbour that lie in the window, as bits, and where.
+struct WindowChildren {
+  std::uint8_t children = 0;
+  std::array<std::uint8_t, 8> cell{};  ///< bit of Window
 };
-/// [child]
-constexpr std::array<NodesAround, 8> kNodesAround = [] {
-  std::array<NodesAround, 8> table{};
-  for (std::size_t c = 0; c < 8; ++c) {
-    std::size_t count = 0;
-    for (std::uint8_t d = 0; d < 27; ++d) {
-      const ChildNeighbour& at = kChildNeighbours[c][d];
-      std::size_t i = 0;
-      while (i < count && table[c].node[i].direction != at.node) ++i;
-      count = std::max(count, i + 1);
-      NodesAround::Node& node = table[c].node[i];
-      node.direction = at.node;
-      node.children = static_cast<std::uint8_t>(node.children | 1u << at.child);
-      node.child_direction[at.child] = d;
+/// [direction]
+constexpr std::array<WindowChildren, 27> kWindowChildren = [] {
+  std::array<WindowChildren, 27> table{};
+  for (std::size_t d = 0; d < 27; ++d)
+    for (unsigned c = 0; c < 8; ++c) {
+      const Window cell = std::rotl(kOwnCells[1u << c], kWindowShift[d]) & kWindowParts[d];
+      if (cell == 0) continue;
+      table[d].children = static_cast<std::uint8_t>(table[d].children | 1u << c);
+      table[d].cell[c] = static_cast<std::uint8_t>(std::countr_zero(cell));
     }
-  }
   return table;
 }();
 
+/// The cells of the level below around a node's children, and its children.
+struct ChildWindow {
+  Window occupied = 0;
+  std::array<std::uint32_t, 64> node;  ///< [cell] index of the node there, where there is one
+
+  /// m: the neighbour in direction d.
+  void add(const OctreeLevel& parents, std::size_t d, std::size_t m) {
+    const unsigned occupancy = parents.occupancy[m];
+    const std::uint32_t first = parents.first_child[m];
+    const WindowChildren& part = kWindowChildren[d];
+    occupied |= std::rotl(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
+    for (unsigned left = occupancy & part.children; left != 0; left &= left - 1) {
+      const unsigned before = occupancy & ((left & (0u - left)) - 1);
+      node[part.cell[static_cast<std::size_t>(std::countr_zero(left))]] =
+          first + static_cast<std::uint32_t>(std::popcount(before));
+    }
+  }
+};
+
+ChildWindow window_of(const OctreeLevel& parents, std::size_t n) {
+  ChildWindow window;
+  const std::uint32_t* neighbour = parents.neighbours.data() + parents.around[n].first;
+  for (std::uint32_t left = parents.around[n].directions; left != 0; left &= left - 1)
+    window.add(parents, static_cast<std::size_t>(std::countr_zero(left)), *neighbour++);
+  window.add(parents, kSelf, n);
+  return window;
+}
+
+/// The 3 x 3 x 3 cells at the lower corner of a window as directions.
+std::uint32_t directions_of(Window cells) {
+  const Window planes =
+      (cells & 0x000700070007u) | (cells >> 1 & 0x003800380038u) | (cells >> 2 & 0x01C001C001C0u);
+  return static_cast<std::uint32_t>((planes & 0x1FFu) | (planes >> 7 & 0x3FE00u) |
+                                    (planes >> 14 & 0x7FC0000u));
+}
+
+void add_neighbours(const ChildWindow& window, unsigned child, OctreeLevel& children) {
+  const unsigned base = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
+  const Window around = window.occupied >> base & kAllAround;
+  children.around.push_back(
+      {directions_of(around), static_cast<std::uint32_t>(children.neighbours.size())});
+  std::array<std::uint32_t, 26> found;
+  std::size_t count = 0;
+  for (Window left = around; left != 0; left &= left - 1)
+    found[count++] = window.node[base + static_cast<unsigned>(std::countr_zero(left))];
+  children.neighbours.insert(children.neighbours.end(), found.data(), found.data() + count);
+}
+
 }  // namespace
+
+OctreeLevel octree_level(std::span<const std::uint64_t> cells, int level) {
+  OctreeLevel nodes = octree_root();
+  for (int l = 0; l < level; ++l) {
+    const int below = 3 * (level - l - 1);
+    std::size_t n = 0;
+    for (const std::uint64_t cell : cells) {
+      while (nodes.morton[n] != cell >> below >> 3) ++n;
+      nodes.occupancy[n] =
+          static_cast<std::uint8_t>(nodes.occupancy[n] | 1u << (cell >> below & 7));
+    }
+    nodes = octree_children(nodes, true);
+  }
+  return nodes;
+}
 
 SLF_MULTIVERSION_ALL
 OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
@@ -63,38 +111,21 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
     count += static_cast<std::uint32_t>(std::popcount(parents.occupancy[n]));
   }
   children.morton.reserve(count);
-  children.parent.reserve(count);
   for (std::size_t n = 0; n < parents.size(); ++n)
-    for (unsigned c = 0; c < 8; ++c)
-      if (parents.occupancy[n] >> c & 1u) {
-        children.morton.push_back(parents.morton[n] << 3 | c);
-        children.parent.push_back(static_cast<std::uint32_t>(n));
-      }
+    for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1)
+      children.morton.push_back(parents.morton[n] << 3 |
+                                static_cast<unsigned>(std::countr_zero(left)));
   children.occupancy.assign(count, 0);
   if (!with_neighbours) return children;
 
-  children.neighbours.resize(count);
   children.around.reserve(count);
-  for (std::size_t n = 0, child = 0; n < parents.size(); ++n)
-    for (unsigned own = parents.occupancy[n]; own != 0; own &= own - 1) {
-      OctreeLevel::Neighbours& neighbours = children.neighbours[child++];
-      neighbours.fill(-1);
-      std::uint32_t found = 0;
-      for (const NodesAround::Node& around : kNodesAround[lowest_bit(own)].node) {
-        const std::int32_t there = parents.neighbours[n][around.direction];
-        if (there < 0) continue;
-        const unsigned occupancy = parents.occupancy[static_cast<std::size_t>(there)];
-        const auto first =
-            static_cast<std::int32_t>(parents.first_child[static_cast<std::size_t>(there)]);
-        for (unsigned left = occupancy & around.children; left != 0; left &= left - 1) {
-          const unsigned before = occupancy & ((left & -left) - 1);
-          const unsigned direction = around.child_direction[lowest_bit(left)];
-          neighbours[direction] = first + std::popcount(before);
-          found |= 1u << direction;
-        }
-      }
-      children.around.push_back(found & ~(1u << kSelf));
-    }
+  children.neighbours.reserve(std::size_t{26} * count);  // what is not needed is not touched
+  for (std::size_t n = 0; n < parents.size(); ++n) {
+    if (parents.occupancy[n] == 0) continue;
+    const ChildWindow window = window_of(parents, n);
+    for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1)
+      add_neighbours(window, static_cast<unsigned>(std::countr_zero(left)), children);
+  }
   return children;
 }
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace slf {
@@ -36,20 +39,40 @@ inline constexpr std::array<std::array<ChildNeighbour, 27>, 8> kChildNeighbours 
 
 /// The occupied nodes of one level, Morton order. Level 0 is the root alone.
 struct OctreeLevel {
-  using Neighbours = std::array<std::int32_t, 27>;  ///< node indices by direction, -1: not occupied
+  /// Which cells around a node are occupied.
+  struct Around {
+    std::uint32_t directions;  ///< bit d: the one in direction d is; never 13, the node itself
+    std::uint32_t first;       ///< place in `neighbours` of the first of them
+  };
 
   std::vector<std::uint64_t> morton;       ///< code of the node's cell at this level
-  std::vector<std::uint32_t> parent;       ///< index in the level above
   std::vector<std::uint8_t> occupancy;     ///< bit c: child c is occupied; 0: not coded yet
   std::vector<std::uint32_t> first_child;  ///< index of the first child in the next level
-  std::vector<Neighbours> neighbours;
-  std::vector<std::uint32_t> around;  ///< bit d: the neighbour in direction d is occupied, not 13
+  std::vector<Around> around;
+  std::vector<std::uint32_t> neighbours;  ///< nodes around each node, by direction
 
   std::size_t size() const { return morton.size(); }
+
+  /// The nodes around node n, directions ascending.
+  std::span<const std::uint32_t> neighbours_of(std::size_t n) const {
+    return std::span(neighbours)
+        .subspan(around[n].first, static_cast<std::size_t>(std::popcount(around[n].directions)));
+  }
+
+  /// The node in direction d of node n, which is occupied.
+  std::uint32_t neighbour(std::size_t n, std::size_t d) const {
+    const auto before = static_cast<std::uint32_t>(
+        std::popcount(around[n].directions & ((std::uint32_t{1} << d) - 1)));
+    return neighbours[around[n].first + before];
+  }
 };
 
 /// Level 0.
 OctreeLevel octree_root();
+
+/// Any level, without what is above: walks down from the root, O(nodes * level).
+/// @param cells  codes of its nodes at that level: distinct, ascending, at least one
+OctreeLevel octree_level(std::span<const std::uint64_t> cells, int level);
 
 /// The level below one whose occupancies are all known: O(nodes). with_neighbours: needed unless
 /// the level is the leaves, whose children are not coded.

@@ -54,7 +54,8 @@ Video encode_geometry(const VoxelCloud& cloud, const Capture& capture,
   field.positions = cloud.positions;
   CodingParameters parameters;
   parameters.geometry = settings.geometry;
-  parameters.max_slice_points = settings.max_slice_points;
+  if (cloud.positions.size() <= kMostSlicePoints) parameters.base_levels = 0;  // fewer bytes
+  parameters.max_slice_points = kMostSlicePoints;
   parameters.digest = parameters.index = false;  // bytes that serve no comparison
   parameters.threads = settings.threads;
   return pack(field, parameters);

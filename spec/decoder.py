@@ -2,13 +2,14 @@
 """An independent decoder, written from the text of slf-bitstream.md alone; slow; for reading beside the
 specification and as a second opinion in the conformance tests.
 
-    decoder.py decode STREAM.slf [--dump DIRECTORY] [--planes] [--levels N] [--groups N]
+    decoder.py decode STREAM.slf [--dump DIRECTORY] [--planes] [--levels N] [--groups N] [--region BOX]
 
 Decodes to the integer conformance point and leaves positions.npy (int32 [P, 3]), components.npy (int32
 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]) and, where the stream has normals, octahedral.npy
 (uint16 [P, 2]) in DIRECTORY. --levels keeps the
-first N levels of the grid, --groups the first N groups of functions (clause 8.9). Exit code: 0 decoded,
-1 refused, with the syntax element in question on standard error.
+first N levels of the grid, --groups the first N groups of functions, --region x0,y0,z0,x1,y1,z1 what meets a
+box of the world (clause 8.9). Exit code: 0 decoded, 1 refused, with the syntax element in question on
+standard error.
 
 Needs Python 3 (3.10 or later) and numpy, and for the pictures of profile 2 (textures) libde265, by hevc.py;
 without it they are refused. Profile 1 (Draco geometry, clause 8.5) is not decoded but refused. Beyond 2^28
@@ -26,7 +27,8 @@ import numpy as np
 
 import hevc
 
-SEQUENCE, SLICE, GEOMETRY, NORMALS, COEFFICIENTS, INDEX, METADATA, DIGEST, TRANSFORM, END = 1, 2, 3, 4, 5, 6, 7, 8, 9, 15
+SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
+INDEX, METADATA, DIGEST, TRANSFORM, END = 6, 7, 8, 9, 15
 MAX_VALUES = 1 << 28
 
 
@@ -160,16 +162,18 @@ class Sequence:
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
+        self.origin, self.step = [0.0] * 3, 1.0
         if not reader.u(1, "sps_unit_grid_flag"):
-            for _ in range(3):
-                reader.f64("sps_origin")
-            require(reader.f64("sps_step") > 0, "sps_step")
+            self.origin = [reader.f64("sps_origin") for _ in range(3)]
+            self.step = reader.f64("sps_step")
+            require(self.step > 0, "sps_step")
         checked(3, lambda v: v <= 6, "sps_up_axis")
         reader.u(1, "sps_left_handed_flag")
         if reader.u(1, "sps_metres_flag"):
             require(reader.f64("sps_metres_per_unit") > 0, "sps_metres_per_unit")
         checked(2, lambda v: v == (profile == 1), "sps_geometry_coder")
         self.normal_bits = checked(4, lambda v: v == 0 or 4 <= v <= 12, "sps_normal_bits")
+        self.base_and_cut(reader, checked, profile)
         self.geometry_bounds = self.level_ranges(reader, "geometry")
         require(profile != 1 or len(self.geometry_bounds) == 2, "sps_num_geometry_ranges_minus1")
         self.functions = reader.ue("sps_num_functions")
@@ -208,7 +212,6 @@ class Sequence:
             self.groups = [[] for _ in range(reader.u(4, "sps_num_groups_minus1") + 1)]
             if checked(1, lambda v: coder != 2 or v == 0, "sps_transform_flag"):
                 self.num_transforms = 1
-            checked(2, lambda v: v == 0, "sps_num_stages_minus1")
             if self.num_transforms:
                 self.num_transforms += checked(4, lambda v: v < len(self.groups), "sps_num_transforms_minus1")
             self.coefficient_bounds = self.level_ranges(reader, "coefficient")
@@ -217,6 +220,7 @@ class Sequence:
                 self.plane_run(reader)
         reader.trailing_bits("sps_trailing_bits")
         require(all(self.groups), "sps_num_groups_minus1")
+        require(self.cut_groups <= len(self.groups), "sps_cut_groups")
         require(profile != 1, "sps_profile (Draco geometry is not supported)")
         self.coded = list(self.groups)      # those in whose place components stand
 
@@ -233,7 +237,47 @@ class Sequence:
             end = reader.u(5, f"sps_{kind}_range_end")
             require(bounds[-1] < end <= self.grid_bits - 1, f"sps_{kind}_range_end")
             bounds.append(end)
+        require(self.base_levels in bounds, "sps_base_levels")
         return bounds + [self.grid_bits]
+
+    def base_and_cut(self, reader, checked, profile):
+        """7.2: the base, and what was left out."""
+        most = 0 if profile else self.grid_bits - 1
+        self.base_levels = checked(5, lambda v: v <= most, "sps_base_levels")
+        self.base_weight = reader.ue("sps_base_weight_minus1") + 1 if self.base_levels else 1
+        require(self.base_weight <= 1 << 22, "sps_base_weight_minus1")
+        self.cut = reader.u(1, "sps_cut_flag")
+        self.cut_levels, self.cut_groups, self.cut_slices = self.grid_bits, 0, 0
+        if self.cut:
+            self.cut_levels = checked(5, lambda v: 1 <= v <= self.grid_bits, "sps_cut_levels")
+            self.cut_groups = reader.ue("sps_cut_groups")
+            require(self.cut_groups <= 16, "sps_cut_groups")
+            self.cut_slices = reader.u(1, "sps_cut_slices_flag")
+
+    def unit_kind(self, unit_type, reader, prefix=""):
+        """7.4 - 7.6, 7.9: the numbers a unit begins with: slice (None: the base), (type, level_range, plane_group)."""
+        kind, base = [unit_type], False
+        if unit_type in (GEOMETRY, COEFFICIENTS):
+            bounds = self.geometry_bounds if unit_type == GEOMETRY else self.coefficient_bounds
+            kind.append(reader.ue(prefix + "level_range"))
+            require(kind[1] < len(bounds) - 1, prefix + "level_range")
+            base = bounds[kind[1] + 1] <= self.base_levels
+        part = None if base else reader.ue(prefix + "slice_id")
+        if unit_type == COEFFICIENTS:
+            kind.append(reader.ue(prefix + "plane_group"))
+            require(kind[2] < len(self.groups), prefix + "plane_group")
+        return part, tuple(kind)
+
+    def unit_order(self, base):
+        """7.1: the kinds of the units of the base, or of a slice, in their order, without the digest."""
+        groups = range(self.cut_groups or len(self.groups))
+
+        def ranges(bounds):
+            """2: the ranges of the base, or the others."""
+            return [r for r in range(len(bounds) - 1) if (bounds[r + 1] <= self.base_levels) == base]
+        normals = [(NORMALS,)] if self.normal_bits and not base else []
+        coefficients = [(COEFFICIENTS, r, group) for r in ranges(self.coefficient_bounds) for group in groups]
+        return [(GEOMETRY, r) for r in ranges(self.geometry_bounds)] + normals + coefficients
 
     def plane_run(self, reader):
         """7.2: plane_run( ), functions of one group, shift and steps."""
@@ -322,18 +366,62 @@ def given_planes(sequence, coded, components):
     return planes
 
 
-def check_index(payload, following):
-    """7.7: the index agrees with the units that follow it, as far as the stream goes."""
+class Slices:
+    """7.3: the runs of base cells."""
+
+    def __init__(self, sequence, payload):
+        """7.3: parses the slices unit."""
+        reader = BitReader(payload)
+        count = reader.ue("slices_num_minus1") + 1
+        require(count <= 1 << 16 and (sequence.base_levels or count == 1), "slices_num_minus1")
+        require(count <= 8 * len(payload), "slices_num_minus1 (truncated)")
+        self.shared = reader.u(1, "slices_shared_flag") if count > 1 else 0
+        self.cells, self.points = [], []
+        for _ in range(count):
+            self.cells.append(reader.ue("slice_num_cells_minus1") + 1 if sequence.base_levels else 1)
+            self.points.append(reader.ue("slice_num_points_minus1") + 1)
+            require(self.cells[-1] <= 1 << 22, "slice_num_cells_minus1")
+            require(self.cells[-1] <= self.points[-1] <= 1 << 22, "slice_num_points_minus1")
+        reader.trailing_bits("slices_trailing_bits")
+        total = sum(self.cells)
+        require(total <= 1 << 22 and sequence.base_weight * total <= 1 << 24, "slice_num_cells_minus1")
+        self.first_cell = [sum(self.cells[:s]) for s in range(count)]
+        require(sum(self.points) * 3 * sequence.functions <= MAX_VALUES,
+                "slice_num_points_minus1 (beyond this decoder's limit)")
+
+
+def check_index(sequence, payload, following):
+    """7.7: the index agrees with the units that follow it, as far as the stream goes; its boxes, None without."""
     reader = BitReader(payload)
     count = reader.ue("index_num_units")
     whole = following and following[-1][0] == END
     require(count == len(following) if whole else count >= len(following), "index_num_units")
     for i in range(count):
         unit_type, size = reader.u(8, "index_unit_type"), reader.ue("index_unit_bytes")
+        named = unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST)
+        numbers = sequence.unit_kind(unit_type, reader, "index_") if named else None
         if i < len(following):
             require(unit_type == following[i][0], "index_unit_type")
             require(size == following[i][2], "index_unit_bytes")
+            require(not named or numbers == sequence.unit_kind(unit_type, BitReader(following[i][1])), "index_unit_ids")
+    boxes = None
+    bits = sequence.base_levels
+    require(reader.u(1, "index_boxes_flag") == (bits > 0), "index_boxes_flag")
+    if bits:
+        count = reader.ue("index_num_slices_minus1") + 1
+        require(6 * bits * count <= 8 * len(payload), "index_num_slices_minus1")
+        boxes = [[reader.u(bits, "index_box") for _ in range(6)] for _ in range(count)]
     reader.trailing_bits("index_trailing_bits")
+    return boxes
+
+
+def check_boxes(boxes, slices, cells):
+    """7.7: the boxes of an index are those of the base cells; cells is None where these are not known."""
+    require(len(boxes) == len(slices.cells), "index_num_slices_minus1")
+    for box, first, count in zip(boxes, slices.first_cell, slices.cells):
+        if cells is not None:
+            run = cells[first:first + count]
+            require(box == [min(axis) for axis in zip(*run)] + [max(axis) for axis in zip(*run)], "index_box")
 
 
 def check_metadata(payload):
@@ -378,6 +466,18 @@ def check_end(payload, number):
 RATES = [(131072 + (2 * n + 3) // 2) // (2 * n + 3) for n in range(256)]       # R[n] of 8.3.2
 
 
+def copied(this, **state):
+    """8.1: a copy of an object with other state."""
+    other = object.__new__(type(this))
+    other.__dict__.update(this.__dict__, **state)
+    return other
+
+
+def copied_all(objects):
+    """8.1: copies of several objects."""
+    return [each.copy() for each in objects]
+
+
 class Contexts:
     """8.3.2: a set of contexts: probabilities with 22 fractional bits, and counts."""
 
@@ -385,6 +485,10 @@ class Contexts:
         """8.3.2: the initial state."""
         self.probability = [1 << 21] * size
         self.count = [0] * size
+
+    def copy(self):
+        """8.1: the same state, which does not move with this one."""
+        return copied(self, probability=self.probability[:], count=self.count[:])
 
 
 class MagnitudeContexts:
@@ -394,6 +498,10 @@ class MagnitudeContexts:
         """8.3.4: more[14] and prefix[28]."""
         self.more = Contexts(14)
         self.prefix = Contexts(28)
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, more=self.more.copy(), prefix=self.prefix.copy())
 
 
 class ArithmeticDecoder:
@@ -508,6 +616,10 @@ class Mixer:
         """8.3.3: the weights of a set."""
         return self.sets.setdefault(chosen, [self.first] * 8)
 
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, sets={chosen: weights[:] for chosen, weights in self.sets.items()})
+
 
 def decide_mixed(decoder, contexts, weights, rate):
     """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt."""
@@ -537,6 +649,10 @@ class MixedContexts:
         self.probability = [2048] * size
         self.count = [0] * size
 
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, probability=self.probability[:], count=self.count[:])
+
 
 class MixedDecision:
     """8.3.5: a decision in several contexts at a time."""
@@ -545,6 +661,10 @@ class MixedDecision:
         """8.3.5: the initial state."""
         self.tables = [MixedContexts(size) for size in sizes]
         self.mixer = Mixer(10650 // len(sizes))
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, tables=copied_all(self.tables), mixer=self.mixer.copy())
 
     def decode(self, decoder, indices, chosen):
         """8.3.5: a decision with the weights of set `chosen`; everything adapts."""
@@ -628,19 +748,28 @@ def hash_group(key, coded, bits, group_bits):
     return h >> 64 - bits >> group_bits << group_bits
 
 
-class Octree:
-    """8.4: the geometry of a slice."""
+class OctreeState:
+    """8.1: what geometry units hand on."""
 
     def __init__(self, points):
-        """8.4.2: contexts of table 8-3, three mixers; 8.4.1: the root."""
-        self.points = points
+        """8.4.2: contexts of table 8-3, three mixers, by the points of all slices."""
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
         widths = (11, 15, self.hash_bits, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
         self.mixers = [Mixer(900) for _ in range(3)]
         self.nodes_coded = 0
-        self.nodes = [(0, 0, 0)]
-        self.level = 0
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers))
+
+
+class Octree:
+    """8.4: the geometry of a part."""
+
+    def __init__(self, nodes, level, most):
+        """8.2, 8.4.1: what it begins with, and how many nodes a level may have."""
+        self.nodes, self.level, self.most, self.state = nodes, level, most, None
 
     def decode_level(self, decoder):
         """8.4.1: the children of all nodes of a level."""
@@ -666,29 +795,29 @@ class Octree:
             occupancies.append(coded)
             following += [(2 * x + cx, 2 * y + cy, 2 * z + cz)
                           for c, (cx, cy, cz) in enumerate(CHILDREN) if coded >> c & 1]
-            require(len(following) <= self.points, "gu_occupancy")
+            require(len(following) <= self.most, "gu_occupancy")
         self.nodes = following
         self.level += 1
 
     def decode_node(self, decoder, around_node, history):
         """8.4.1: eight decisions, the last of which may be implied."""
-        coded = 0
-        rate = 8 - min(self.nodes_coded >> 13, 4)
+        coded, state = 0, self.state
+        rate = 8 - min(state.nodes_coded >> 13, 4)
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
                 break
             indices, sets = self.predict(c, coded, around_node, history)
-            weights = [mixer.select(k) for mixer, k in zip(self.mixers, sets)]
-            coded |= decide_mixed(decoder, list(zip(self.tables, indices)), weights, rate) << c
-        self.nodes_coded += 1
+            weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
+            coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate) << c
+        state.nodes_coded += 1
         return coded
 
     def predict(self, c, coded, around_node, history):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
         columns = history
-        bits = self.hash_bits
+        bits = self.state.hash_bits
         siblings = 1 << c | coded
         O = occupied >> WINDOW_SHIFT[c] & ALL
         U = unknown >> WINDOW_SHIFT[c] & ALL
@@ -732,12 +861,12 @@ class Octree:
 # ---- 8.6 The transform tree
 
 class TransformTree:
-    """8.6: the merges of a slice."""
+    """8.6: the merges of a part."""
 
-    def __init__(self, codes):
-        """8.6.1: split, left, first row after the merge, and parent of every row; 8.6.3: coding order."""
+    def __init__(self, codes, weight):
+        """8.6.1: split, left, end and parent of every row, which weighs `weight`; 8.6.3: coding order."""
         count = len(codes)
-        self.codes = codes
+        self.codes, self.weight = codes, weight
         self.split = [3 * 21] + [(codes[r] ^ codes[r - 1]).bit_length() - 1 for r in range(1, count)]
         self.left = [0] * count
         self.end = [count] * count
@@ -756,13 +885,12 @@ class TransformTree:
             else:
                 self.parent[r] = end
         self.order = [0] + sorted(range(1, count), key=lambda r: (-self.split[r], r))
-        self.codes = codes
         self.row_of_cell = {(self.split[r], codes[r] >> self.split[r] + 1): r for r in range(1, count)}
         self.scale = [256] + [self.scale_of(r) for r in range(1, count)]
 
     def scale_of(self, r):
         """8.7.2: the scale of the merge of row r."""
-        left, right = r - self.left[r], self.end[r] - r
+        left, right = (r - self.left[r]) * self.weight, (self.end[r] - r) * self.weight
         return math.isqrt(left * right * 2**16 // (left + right))
 
     def faces(self, r):
@@ -777,19 +905,34 @@ class TransformTree:
 
     def rotation(self, r):
         """8.6.2: c and s of the merge of row r."""
-        left, right = r - self.left[r], self.end[r] - r
+        left, right = (r - self.left[r]) * self.weight, (self.end[r] - r) * self.weight
         cosine, sine = [math.isqrt(weight * 2**40 // (left + right) * 2**20) for weight in (left, right)]
         return cosine, sine
 
-    def rows(self, first_range, begin, end, depth):
-        """8.6.3: rows of the slice levels begin .. end - 1, in coding order."""
+    def rows(self, begin, end, grid_bits):
+        """8.6.3: rows of the levels begin .. end - 1, in coding order; row 0 is one of the first range."""
         return [r for r in self.order
-                if (first_range if r == 0 else begin <= depth - 1 - self.split[r] // 3 < end)]
+                if (begin == 0 if r == 0 else begin <= grid_bits - 1 - self.split[r] // 3 < end)]
+
+    def nodes(self, bits):
+        """8.6.4, 8.9.3: the first rows of the nodes whose codes agree above `bits` bits."""
+        return [r for r in range(len(self.codes)) if r == 0 or self.split[r] >= bits]
+
+
+def round_off(x, bits):
+    """8.6.2: division by 2^bits, to nearest, ties away from zero."""
+    return x + (1 << bits - 1) - (x < 0) >> bits
 
 
 def round30(x):
-    """8.6.2: division by 2^30, to nearest, ties away from zero."""
-    return x + (1 << 29) - (x < 0) >> 30
+    """8.6.2: round30."""
+    return round_off(x, 30)
+
+
+def cell_values(base_values, points, weight):
+    """8.6.4: the values of cell rows, [cells, planes], of those of the base, the points of the cells, and W."""
+    roots = np.array([math.isqrt((w << 40) // weight) for w in points], np.int64)
+    return np.clip(round_off(base_values * roots[:, None], 20), -2**29, 2**29)
 
 
 # ---- 8.7 Coefficients
@@ -797,23 +940,42 @@ def round30(x):
 SHARES = [2, 2, 1, 3, 3, 3, 1]              # of the rows around, 8.7.2
 
 
-class VectorCoder:
-    """8.7.2: the vector coder of one group of a slice."""
+class VectorState:
+    """8.1: what coefficient units of a group hand on, of the vector coder."""
 
-    def __init__(self, functions, tree, group_before):
-        """8.7.1: its contexts and other state."""
-        self.planes, self.tree, self.group_before = 3 * functions, tree, group_before
+    def __init__(self, functions):
+        """8.7.2: contexts and activities."""
         self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4])
         self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)])
         self.rest = MixedDecision([32 * 48, 4**5, 24 * 5 * 12, 32 * 5 * 16])
         self.any = MixedDecision([25 * 48, 48 * 17, 20 * 20, 56 * 24, 48 * 24])
         self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
-        self.activity = [16 if functions > 1 else 0] * self.planes
+        self.activity = [16 if functions > 1 else 0] * (3 * functions)
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        decisions = {name: getattr(self, name).copy() for name in ("node", "more", "rest", "any", "negative")}
+        return copied(self, prefix=copied_all(self.prefix), activity=self.activity[:], **decisions)
+
+
+class VectorCoder:
+    """8.7.2: the vector coder of one group of a part."""
+
+    new_state = VectorState
+
+    def __init__(self, functions, tree, group_before):
+        """8.7.2: vectors kept for contexts."""
+        self.planes, self.tree, self.group_before, self.state = 3 * functions, tree, group_before, None
         self.sums = [0] * len(tree.split)
         self.runs = [0] * len(tree.split)
         self.quantised = {}                 # of rows that are not all zero
         self.kept = {0: [0] * self.planes}  # the same without row 0, within -4095 .. 4095
+
+    def adopt(self, base, row, cell):
+        """8.7.2: a cell row has the kept vector of its base cell."""
+        self.kept[row] = base.kept.get(cell, base.kept[0])
+        self.sums[row], self.runs[row] = base.sums[cell], base.runs[cell]
 
     def decode(self, decoder, rows):
         """8.7.2: rows in coding order; a row whose node decision is 0 has no coefficients."""
@@ -863,7 +1025,7 @@ class VectorCoder:
         sums = [self.sums[row] for row in self.rows]
         z = [size_class(n, 4) for n in sums]
         below = size_class(self.group_before.sums[r], 15) if self.group_before else 0
-        return self.node.decode(decoder, [
+        return self.state.node.decode(decoder, [
             size_class(sum(self.expected([min(n, 4095) for n in sums])) // 2 >> 4, 47) * 16 + below,
             split * 24 + self.scale_class,
             (((z[0] * 5 + z[1]) * 5 + z[2]) * 5 + z[6]) * 3 + self.axis,
@@ -874,7 +1036,7 @@ class VectorCoder:
         values, kept = [0] * self.planes, [0] * self.planes
         around = [self.kept.get(row, self.kept[0]) for row in self.rows + [same_axis]]
         means = [self.expected([abs(row[j]) for row in around[:7]]) for j in range(self.planes)]
-        ahead = [min((up + side) // 2 + (a >> 5), 1 << 18) for (up, side), a in zip(means, self.activity)]
+        ahead = [min((up + side) // 2 + (a >> 5), 1 << 18) for (up, side), a in zip(means, self.state.activity)]
         functions, total, activity_total, recent, last = self.planes // 3, 0, 0, 0, 0
         split = min(split, 24)
         for f in range(functions):
@@ -882,21 +1044,21 @@ class VectorCoder:
             if f and f % 4 == 0 and total:
                 if not self.decode_rest(decoder, f, sum(ahead[3 * f:]), total, recent):
                     for j in range(3 * f, self.planes):
-                        self.activity[j] += -self.activity[j] >> 6
+                        self.state.activity[j] += -self.state.activity[j] >> 6
                     break
                 recent = 0
             before = self.functions_before(kept, f)
             if functions > 1 and (total or f < functions - 1):
                 evidence = [sum(part) for part in zip(*[means[j] for j in planes])]
-                activity = sum(self.activity[j] for j in planes)
+                activity = sum(self.state.activity[j] for j in planes)
                 if not self.decode_any(decoder, split, before, evidence, activity, total, activity_total):
                     activity_total += activity
                     for j in planes:
-                        self.activity[j] += -self.activity[j] >> 6
+                        self.state.activity[j] += -self.state.activity[j] >> 6
                     continue
             recent, last, expected = recent + 1, f, []
             for j in planes:
-                activity = self.activity[j]
+                activity = self.state.activity[j]
                 up, side = means[j]
                 expected.append((up + side) // 2 + (activity >> 5))
                 ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
@@ -909,7 +1071,7 @@ class VectorCoder:
                 total += abs(kept[j])
                 activity_total += activity
                 if self.planes > 3:
-                    self.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
+                    self.state.activity[j] += (min(magnitude, 7) * 4096 - activity) >> 6
         self.quantised[r] = values
         if r:
             self.kept[r], self.sums[r], self.runs[r] = kept, min(total, 65535), min(last // 4 + 1, 255)
@@ -925,7 +1087,7 @@ class VectorCoder:
         """8.7.2, 3: has the vector a value from function f on?"""
         run, size = min(f // 4, 31), size_class(expected >> 4, 47)
         h = [min(max(self.runs[row] - run, 0), 3) for row in self.rows]
-        return self.rest.decode(decoder, [
+        return self.state.rest.decode(decoder, [
             run * 48 + size,
             (((h[0] * 4 + h[3]) * 4 + h[4]) * 4 + h[5]) * 4 + h[6],
             (size_class(total, 23) * 5 + recent) * 12 + size // 4,
@@ -937,7 +1099,7 @@ class VectorCoder:
         size = size_class((up + side) // 2 + (activity >> 5) >> 4, 47)
         ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 55)
         act = size_class(activity >> 2, 47)
-        return self.any.decode(decoder, [
+        return self.state.any.decode(decoder, [
             split * 48 + act,
             size * 17 + before,
             size_class(up >> 4, 39) // 2 * 20 + size_class(side >> 4, 39) // 2,
@@ -969,9 +1131,9 @@ class VectorCoder:
         chosen = (j % 3 if total else 3 + j % 3) * 16
         implied = j % 3 == 2 and not kept[j - 1] and not kept[j - 2]
         for magnitude in range(1 if implied else 0, 15):
-            if not self.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
+            if not self.state.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
                 return magnitude
-        prefix = self.prefix[min(size_class(expected >> 8, 47) // 4, 11)]
+        prefix = self.state.prefix[min(size_class(expected >> 8, 47) // 4, 11)]
         return 14 + decoder.exp_golomb(prefix, 255)
 
     def decode_sign(self, decoder, kept, j, around):
@@ -991,7 +1153,7 @@ class VectorCoder:
         own = [sign(kept[first + c]) if c < channel else 0 for c in range(2)]
         place = self.axis * 3 + channel
         f = [sign(row[j]) for row in faces]
-        return self.negative.decode(decoder, [
+        return self.state.negative.decode(decoder, [
             ((own[0] * 3 + product(parent, 0)) * 3 + product(grandparent, 0)) * 9 +
             product(previous, 0) * 3 + channel,
             ((f[0] * 3 + f[1]) * 3 + f[2]) * 9 + place,
@@ -1001,21 +1163,37 @@ class VectorCoder:
             place], channel * 3 + own[0])
 
 
-class IndependentCoder:
-    """8.7.3: the independent coder of one group of a slice."""
+class IndependentState:
+    """8.1: what coefficient units of a group hand on, of the independent coder."""
 
-    def __init__(self, functions, _tree, _group_before):
-        """8.7.1: its contexts."""
+    def __init__(self, functions):
+        """8.7.3: contexts."""
         self.nonzero = Contexts(3 * functions)
         self.magnitudes = [MagnitudeContexts() for _ in range(3 * functions)]
-        self.quantised = {}
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, nonzero=self.nonzero.copy(), magnitudes=copied_all(self.magnitudes))
+
+
+class IndependentCoder:
+    """8.7.3: the independent coder of one group of a part."""
+
+    new_state = IndependentState
+
+    def __init__(self, functions, _tree, _group_before):
+        """8.7.3: nothing but quantised coefficients."""
+        self.quantised, self.state = {}, None
+
+    def adopt(self, base, row, cell):
+        """8.7.2: no vectors are kept."""
 
     def decode(self, decoder, rows):
         """8.7.3: rows in coding order, planes ascending."""
         for r in rows:
-            values = [0] * len(self.magnitudes)
-            for j, contexts in enumerate(self.magnitudes):
-                if decoder.adaptive(self.nonzero, j, 30):
+            values = [0] * len(self.state.magnitudes)
+            for j, contexts in enumerate(self.state.magnitudes):
+                if decoder.adaptive(self.state.nonzero, j, 30):
                     magnitude = decoder.magnitude(contexts, 30)
                     values[j] = -magnitude if decoder.raw(1) else magnitude
             self.quantised[r] = values
@@ -1033,21 +1211,17 @@ def reconstruct(sequence, coders, points, coded):
     return coefficients
 
 
-def round25(x):
-    """8.7.6: division by 2^25, to nearest, ties away from zero."""
-    return x + (1 << 24) - (x < 0) >> 25
-
-
 class Prediction:
     """8.7.6: the corrections of the children of a level, for planes of one mode."""
 
-    def __init__(self, codes, depth, level, mode):
+    def __init__(self, tree, grid_bits, level, mode):
         """8.7.6: the nodes of the level and of the one below, by their cells."""
-        self.codes, self.mode, self.side = codes, mode, 1 << (depth - 1 - level)
+        self.codes, self.weight, self.mode = tree.codes, tree.weight, mode
+        self.side = 1 << (grid_bits - 1 - level)
         self.sums = [(0, 0, 0)]             # of the positions before a row
-        for code in codes:
+        for code in self.codes:
             self.sums.append(tuple(s + v for s, v in zip(self.sums[-1], from_morton(code))))
-        self.nodes, self.children = [self.cells(3 * (depth - below)) for below in (level, level + 1)]
+        self.nodes, self.children = [self.cells(3 * (grid_bits - below)) for below in (level, level + 1)]
         self.order = {cell: i for i, cell in enumerate(self.nodes)}
 
     def cells(self, bits):
@@ -1063,10 +1237,9 @@ class Prediction:
         square = 51 + sum((x - y) ** 2 for x, y in zip(*centres))
         return (1 << 24) // square if self.mode == 1 else (1 << 30) // square ** 2
 
-    @staticmethod
-    def mean(values, node):
+    def mean(self, values, node):
         """8.7.6: the mean of a node."""
-        value = round30(values[node[0]] * math.isqrt(2**60 // (node[1] - node[0])))
+        value = round30(values[node[0]] * math.isqrt(2**60 // ((node[1] - node[0]) * self.weight)))
         return np.clip(value, 1 - 2**17, 2**17 - 1)
 
     def difference(self, cell, child, values, before):
@@ -1095,24 +1268,24 @@ class Prediction:
                 continue
             d = [self.difference(cell, child, values, before) for child in children]
             rows = [self.children[child] for child in children]
-            weights = [end - r for r, end in rows]
+            weights = [(end - r) * self.weight for r, end in rows]
             common = round30(sum((w << 30) // sum(weights) * x for w, x in zip(weights, d)))
             for (r, _), w, x in zip(rows, weights, d):
                 root = math.isqrt(w << 38)
                 root -= root >> 2 if self.mode == 2 else 0
-                values[r] = np.clip(values[r] + round25((x - common) * root), -2**29, 2**29)
+                values[r] = np.clip(values[r] + round_off((x - common) * root, 25), -2**29, 2**29)
 
 
 # ---- 8.8 Inverse transform
 
-def inverse_level(values, tree, depth, level, modes):
+def inverse_level(values, tree, grid_bits, level, modes):
     """8.8.1, 8.7.6: the merges of a level, and the corrections; modes are those of the planes."""
     before = values.copy() if any(modes) else None
-    undo_merges(values, tree, 3 * (depth - level), 3 * (depth - 1 - level))
+    undo_merges(values, tree, 3 * (grid_bits - level), 3 * (grid_bits - 1 - level))
     for mode in sorted(set(modes) - {0}):
         planes = [j for j, m in enumerate(modes) if m == mode]
         some = values[:, planes]
-        Prediction(tree.codes, depth, level, mode).correct(some, before[:, planes])
+        Prediction(tree, grid_bits, level, mode).correct(some, before[:, planes])
         values[:, planes] = some
 
 
@@ -1135,99 +1308,78 @@ def undo_merges(values, tree, above, least):
         begin = end
 
 
-# ---- 8.9 Partial and coarser light fields; a slice as a whole
+# ---- 8.2 The base and slices
 
-class Slice:
-    """7.3: a slice, filled by its units (7.1) and then given out (8.9)."""
+class Part:
+    """8.2: the base (number None) or a slice, filled by its units."""
 
-    def __init__(self, sequence, slice_id, reader, cube_end):
-        """7.3: parses the slice unit; cube_end is where the cube before ends in Morton order."""
-        self.sequence = sequence
-        require(reader.ue("slice_id") == slice_id < 1 << 16, "slice_id")
-        self.points = reader.ue("slice_num_points_minus1") + 1
-        require(self.points <= 1 << 22, "slice_num_points_minus1")
-        self.depth = reader.u(5, "slice_depth")
-        require(self.depth <= sequence.grid_bits, "slice_depth")
-        self.top = sequence.grid_bits - self.depth
-        self.cell = [reader.u(self.top, "slice_cell") for _ in range(3)]
-        reader.trailing_bits("slice_trailing_bits")
-        cube = morton(*self.cell) << 3 * self.depth
-        require(cube >= cube_end, "slice_cell")
-        self.id, self.cube_end = slice_id, cube + (1 << 3 * self.depth)
-        self.octree = Octree(self.points)
-        self.tree = self.digest = self.normals = None
+    def __init__(self, sequence, slices, number, base):
+        """8.2: what it has and begins with; base is that of a slice, if any."""
+        self.sequence, self.number, self.base = sequence, number, base
+        self.is_base = number is None
+        self.first, self.last = sequence.base_levels, sequence.grid_bits        # its levels
+        self.points, self.weight = sum(slices.cells), sequence.base_weight
+        if self.is_base:
+            self.first, self.last = 0, sequence.base_levels
+        else:
+            self.points, self.weight = slices.points[number], 1
+            self.first_cell, self.num_cells = slices.first_cell[number], slices.cells[number]
+        self.octree = self.tree = self.digest = self.normals = self.atlas = None
+        self.known = 0                      # geometry units
         self.modes = {}                     # cu_prediction by (group, level of the grid)
         self.coders = []                    # of each group; arrays [P, planes] of components for textures
-        self.atlas = None
-        self.expected = self.unit_order()
+        self.states = {}                    # 8.1: by type of unit and group
+        self.expected = sequence.unit_order(self.is_base)
 
-    def unit_order(self):
-        """7.1: the units of the slice in their order, without the digest."""
-        sequence = self.sequence
-        geometry = [(GEOMETRY, level_range) for level_range in range(len(sequence.geometry_bounds) - 1)]
-        normals = [(NORMALS,)] if sequence.normal_bits else []
-        coefficients = [(COEFFICIENTS, level_range, group)
-                        for level_range in range(len(sequence.coefficient_bounds) - 1)
-                        for group in range(len(sequence.groups))]
-        return geometry + normals + coefficients
+    def take(self, kind):
+        """7.1: the kind of a unit is the next one of the part."""
+        require(self.expected and self.expected[0][0] == kind[0], "unit_type")
+        element = {GEOMETRY: "level_range", COEFFICIENTS: "plane_group"}.get(kind[0])
+        require(self.expected.pop(0) == kind, element)
 
-    def read_unit(self, unit_type, payload):
-        """7.4, 7.5, 7.6, 7.9: a unit of the slice, which must be the next one by 7.1."""
-        reader = BitReader(payload)
-        require(reader.ue("slice_id") == self.id, "slice_id")
-        if unit_type == DIGEST:
-            require(not self.expected and self.digest is None, "unit_type (digest)")
-            self.digest = reader.rest("digest_alignment")
-            require(len(self.digest) == 32, "digest_sha256")
-            return
-        require(self.expected and self.expected[0][0] == unit_type, "unit_type")
-        _, *numbers = self.expected.pop(0)
-        for element, number in zip(("level_range", "plane_group"), numbers):
-            require(reader.ue(element) == number, element)
-        if unit_type == COEFFICIENTS and self.sequence.texture:
-            self.decode_textures(reader, numbers[1])
-            return
-        if unit_type == COEFFICIENTS and self.sequence.prediction:
-            for level in range(*self.sequence.coefficient_bounds[numbers[0]:numbers[0] + 2]):
-                self.modes[numbers[1], level] = reader.u(2, "cu_prediction")
-        element = {GEOMETRY: "gu_occupancy", NORMALS: "nu_normals"}.get(unit_type, "cu_coefficients")
-        decoder = ArithmeticDecoder(reader.rest(element))
-        if unit_type == GEOMETRY:
-            self.decode_geometry(decoder, *numbers)
-        elif unit_type == NORMALS:
-            self.normals = decode_normals(decoder, self.points, self.sequence.normal_bits)
-        else:
-            self.decode_coefficients(decoder, *numbers)
-        decoder.finish(element)
+    def begin_geometry(self):
+        """8.2: the root, or the base cells of a slice."""
+        if self.octree is None:
+            cells = [(0, 0, 0)]
+            if self.base:
+                cells = self.base.octree.nodes[self.first_cell:self.first_cell + self.num_cells]
+            self.octree = Octree(cells, self.first, self.points)
 
-    def decode_geometry(self, decoder, level_range):
-        """8.4.1: the levels of a range that lie within the slice."""
-        bounds = self.sequence.geometry_bounds[level_range:level_range + 2]
-        begin, end = [max(g - self.top, 0) for g in bounds]
-        for _ in range(begin, end):
+    def decode_geometry(self, decoder, level_range, state):
+        """8.4.1: the levels of a range."""
+        self.begin_geometry()
+        self.octree.state = state
+        end = self.sequence.geometry_bounds[level_range + 1]
+        while self.octree.level < end:
             self.octree.decode_level(decoder)
-        if level_range == len(self.sequence.geometry_bounds) - 2:
+        self.known += 1
+        if end == self.last:
             require(len(self.octree.nodes) == self.points, "gu_occupancy")
-            self.tree = TransformTree([morton(*node) for node in self.octree.nodes])
+            self.make_tree()
 
-    def decode_coefficients(self, decoder, level_range, group):
+    def make_tree(self):
+        """8.6.1: rows and merges; 8.6.4, 8.7.2: cell rows, which have the scale of the base's."""
+        shift = 3 * (self.sequence.grid_bits - self.last)
+        self.tree = TransformTree([morton(*node) << shift for node in self.octree.nodes], self.weight)
+        self.cell_rows = []
+        if self.base:
+            self.cell_rows = self.tree.nodes(3 * (self.sequence.grid_bits - self.first))
+            for cell, r in enumerate(self.cell_rows, self.first_cell):
+                self.tree.scale[r] = self.base.tree.scale[cell]
+
+    def decode_coefficients(self, decoder, level_range, group, state):
         """8.7.1: the rows of a level range, the functions of a group."""
+        sequence = self.sequence
         if group == len(self.coders):
             before = self.coders[-1] if self.coders else None
-            self.coders.append(self.sequence.coder(len(self.sequence.coded[group]), self.tree, before))
-        begin, end = [g - self.top for g in self.sequence.coefficient_bounds[level_range:level_range + 2]]
-        if self.sequence.coded[group] and decoder.codeword:
-            self.coders[group].decode(decoder, self.tree.rows(level_range == 0, begin, end, self.depth))
-
-    def inverse_transform(self, values, coders, shift, coded):
-        """8.8: level by level, the modes of 8.7.6 by plane; levels below those kept stay as they are (8.9)."""
-        groups = self.sequence.coded[:len(coders)]
-        for level in range(self.depth - shift):
-            modes = [0] * (3 * len(coded))
-            for group, functions in enumerate(groups):
-                for r in map(coded.index, functions):
-                    modes[3 * r:3 * r + 3] = [self.modes.get((group, level + self.top), 0)] * 3
-            inverse_level(values, self.tree, self.depth, level, modes)
+            self.coders.append(sequence.coder(len(sequence.coded[group]), self.tree, before))
+            for cell, r in enumerate(self.cell_rows, self.first_cell if self.base else 0):
+                if r:
+                    self.coders[group].adopt(self.base.coders[group], r, cell)
+        begin, end = sequence.coefficient_bounds[level_range:level_range + 2]
+        self.coders[group].state = state
+        if sequence.coded[group] and decoder.codeword:
+            self.coders[group].decode(decoder, self.tree.rows(begin, end, sequence.grid_bits))
 
     def decode_textures(self, reader, group):
         """7.6: flags, offsets and pictures of the planes of a group; 8.11.6: the components."""
@@ -1244,7 +1396,7 @@ class Slice:
         stream = reader.rest("tx_alignment")
         if any(flags):
             if self.atlas is None:
-                self.atlas = Atlas(self.octree.nodes, self.depth, sequence.texture_cell_log2)
+                self.atlas = Atlas(self.octree.nodes, sequence.grid_bits, sequence.texture_cell_log2)
             pictures = decode_pictures(stream, sum(flags), sequence.texture_bits, self.atlas)
             planes = [plane for plane, flag in enumerate(flags) if flag]
             for plane, picture in zip(planes, pictures, strict=True):
@@ -1254,41 +1406,82 @@ class Slice:
             require(not stream, "hevc_pictures (longer)")
         self.coders.append(components)
 
-    def output(self, levels, groups):
-        """8.9: positions, components and normals of the first levels and groups, 0: of all."""
+    def values(self, wanted, base_values):
+        """8.8: rows by planes, when the merges of the levels asked for are undone, with their corrections."""
         sequence = self.sequence
-        coded = sequence.coded_functions(groups)
-        shift = max(sequence.grid_bits - levels, 0) if levels else 0
-        corner = np.array(self.cell, np.int64) << self.depth
-        nodes = np.array(self.octree.nodes, np.int64)
-        if self.tree is None:
-            known = len(sequence.geometry_bounds) - 1 - sum(unit[0] == GEOMETRY for unit in self.expected)
-            nodes = nodes if known else nodes[:0]
-            side = 1 << (self.depth - self.octree.level)
-            positions = (corner + nodes * side + side // 2) >> shift
-            components = np.zeros((len(nodes), len(coded), 3), np.int64)
-            return positions, components, np.zeros((len(nodes), 2), np.int64)
-        positions = corner + nodes
-        coders = self.coders[:groups] if groups else self.coders
+        coders = self.coders[:wanted.groups]
         if sequence.texture:
-            values = texture_components(sequence, coders, self.points, coded)
-        else:
-            values = reconstruct(sequence, coders, self.points, coded)
-            self.inverse_transform(values, coders, shift, coded)
-        normals = np.zeros((self.points, 2), np.int64) if self.normals is None else self.normals
-        if shift:
-            first = [r for r in range(self.points) if r == 0 or self.tree.split[r] >= 3 * shift]
-            weights = np.diff(first + [self.points])
-            positions, normals = positions[first] >> shift, normals[first]
-            if sequence.texture:
-                values = mean(values, first, weights)
-            else:
-                scale = np.array([math.isqrt(2**60 // int(w)) for w in weights], np.int64)
-                values = round30(values[first] * scale[:, None])
-        components = values.reshape(len(positions), len(coded), 3)
-        if self.digest and not self.expected and not shift and len(coders) == len(sequence.groups):
-            check_digest(self.digest, positions, components, normals if sequence.normal_bits else None)
-        return positions, components, normals
+            return texture_components(sequence, coders, self.points, wanted.coded)
+        values = reconstruct(sequence, coders, self.points, wanted.coded)
+        if self.base:
+            weights = np.diff(self.cell_rows + [self.points]).tolist()
+            cells = base_values[self.first_cell:self.first_cell + self.num_cells]
+            values[self.cell_rows] = cell_values(cells, weights, self.base.weight)
+        for level in range(self.first, min(self.last, wanted.levels)):
+            modes = [0] * values.shape[1]
+            for group, functions in enumerate(sequence.coded[:len(coders)]):
+                for r in map(wanted.coded.index, functions):
+                    modes[3 * r:3 * r + 3] = [self.modes.get((group, level), int(sequence.prediction))] * 3
+            inverse_level(values, self.tree, sequence.grid_bits, level, modes)
+        return values
+
+    def nodes(self, wanted, base_values):
+        """8.9.3, 8.8: points, or nodes of a level."""
+        rows = self.tree.nodes(3 * wanted.shift)
+        values = self.values(wanted, base_values)
+        weights = np.diff(rows + [self.points]) * self.weight
+        if self.sequence.texture:
+            values = mean(values, rows, weights)
+        elif self.is_base or wanted.shift:
+            scale = np.array([math.isqrt(2**60 // int(w)) for w in weights], np.int64)
+            values = round30(values[rows] * scale[:, None])
+        positions = np.array(self.octree.nodes, np.int64) << self.sequence.grid_bits - self.last
+        normals = np.zeros((len(rows), 2), np.int64) if self.normals is None else self.normals[rows]
+        components = values.reshape(len(rows), len(wanted.coded), 3)
+        if self.digest and wanted.all and not self.expected:
+            check_digest(self.digest, positions, components, normals if self.sequence.normal_bits else None)
+        return positions[rows] >> wanted.shift, components, normals
+
+    def deepest_nodes(self, wanted, base_values):
+        """8.9.2: the nodes of the deepest level known, for want of geometry."""
+        sequence = self.sequence
+        if not self.known and (not self.base or sequence.cut_slices):
+            return nothing(wanted)
+        self.begin_geometry()
+        nodes = np.array(self.octree.nodes, np.int64)
+        side = 1 << sequence.grid_bits - self.octree.level
+        components = np.zeros((len(nodes), len(wanted.coded), 3), np.int64)
+        if self.base:
+            number = {cell: i for i, cell in enumerate(self.base.octree.nodes)}
+            own = [number[tuple(cell)] for cell in (nodes >> self.octree.level - self.first).tolist()]
+            components = round30(base_values[own] * math.isqrt(2**60 // self.base.weight)).reshape(components.shape)
+        return nodes * side + side // 2 >> wanted.shift, components, np.zeros((len(nodes), 2), np.int64)
+
+
+# ---- 8.9 Partial and coarser light fields
+
+class Wanted:
+    """8.9: the levels and groups that are given out."""
+
+    def __init__(self, sequence, levels, groups):
+        """8.9: what is asked for, 0: all; less if the stream was cut."""
+        self.levels = min(levels or sequence.grid_bits, sequence.cut_levels)
+        self.groups = min(groups or 16, sequence.cut_groups or 16, len(sequence.groups))
+        self.shift = sequence.grid_bits - self.levels
+        self.coded = sequence.coded_functions(self.groups) if self.groups else []
+        self.all = self.shift == 0 and self.groups == len(sequence.groups)
+
+
+def nothing(wanted):
+    """8.9: no points."""
+    return np.zeros((0, 3), np.int64), np.zeros((0, len(wanted.coded), 3), np.int64), np.zeros((0, 2), np.int64)
+
+
+def in_region(sequence, positions, shift, region):
+    """8.9.4: which cubes meet a box of the world, six numbers; its corners are put on the grid by 6.1."""
+    low, high = [[math.floor((v - o) / sequence.step + 0.5) for v, o in zip(corner, sequence.origin)]
+                 for corner in (region[:3], region[3:])]
+    return (((positions << shift) <= high) & ((positions + 1 << shift) - 1 >= low)).all(axis=1)
 
 
 # ---- 8.10 Normals
@@ -1404,8 +1597,8 @@ class Chart:
 class Atlas:
     """8.11: the size W x H of the pictures of a slice, and the pixel of every point."""
 
-    def __init__(self, points, depth, cell_log2):
-        """8.11.1, 8.11.3 - 8.11.5: from the points in the slice's cube, in Morton order."""
+    def __init__(self, points, grid_bits, cell_log2):
+        """8.11.1, 8.11.3 - 8.11.5: from the points, in Morton order."""
         cell_of = [(x >> cell_log2, y >> cell_log2, z >> cell_log2) for x, y, z in points]
         first = [i for i, cell in enumerate(cell_of) if i == 0 or cell != cell_of[i - 1]]
         cells = {cell_of[i]: number for number, i in enumerate(first)}
@@ -1413,7 +1606,7 @@ class Atlas:
         taken, charts = set(), []
         for place, number in cells.items():
             if number not in taken:
-                chart = Chart(cells, axes, (number, place), taken, 1 << min(9, max(depth - cell_log2, 0)))
+                chart = Chart(cells, axes, (number, place), taken, 1 << min(9, max(grid_bits - cell_log2, 0)))
                 if chart.kept:
                     charts.append(chart)
         charted = {first[number] for chart in charts for number in chart.cells.values()}
@@ -1502,51 +1695,155 @@ def mean(values, first, weights):
 
 # ---- 8.1 The whole stream
 
-def decode(data, levels, groups):
-    """8.1: units in; sequence, coded functions, positions, components, normals out; 7.1: the order of units."""
+class LightField:
+    """8.1: what the units of a stream make."""
+
+    def __init__(self, sequence):
+        """8.1: nothing but the sequence."""
+        self.sequence, self.slices, self.base, self.parts = sequence, None, None, []
+        self.boxes = None
+        self.handed = {}                    # 8.1: the states after each unit of slice 0
+        self.metadata = False
+
+    def read(self, units):
+        """7.1: all units behind the sequence."""
+        for number, (unit_type, payload, _) in enumerate(units[1:], 1):
+            require(unit_type != SEQUENCE, "unit_type")
+            if unit_type == SLICES:
+                self.read_slices(payload)
+            elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST):
+                require(self.slices, "unit_type (before the slices unit)")
+                self.read_unit(unit_type, BitReader(payload))
+            elif unit_type == TRANSFORM:
+                transforms = self.sequence.transforms
+                require(not self.slices and len(transforms) < self.sequence.num_transforms, "unit_type (transform)")
+                transforms.append(Transform(self.sequence, payload))
+            elif unit_type == INDEX:
+                self.boxes = check_index(self.sequence, payload, units[number + 1:])
+            elif unit_type == METADATA:
+                require(not self.metadata, "unit_type (metadata)")
+                self.metadata = True
+                check_metadata(payload)
+            elif unit_type == END:
+                check_end(payload, number)
+                self.check_whole()
+        if self.boxes and self.slices:
+            check_boxes(self.boxes, self.slices, self.base.octree.nodes if self.base.tree else None)
+
+    def read_slices(self, payload):
+        """7.3: the slices unit, once, behind the transforms."""
+        sequence = self.sequence
+        require(not self.slices, "unit_type (slices)")
+        require(len(sequence.transforms) == sequence.num_transforms, "sps_num_transforms_minus1")
+        self.slices = Slices(sequence, payload)
+        self.base = Part(sequence, self.slices, None, None) if sequence.base_levels else None
+        self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
+        self.fresh_octree = OctreeState(sum(self.slices.points))
+
+    def check_whole(self):
+        """7.1: before the end unit nothing is missing that was not left out."""
+        if not self.sequence.cut:
+            require(self.slices, "unit_type (slices)")
+            for part in [self.base] * bool(self.base) + self.parts:
+                require(not part.expected, "unit_type (missing)")
+
+    def read_unit(self, unit_type, reader):
+        """7.4 - 7.6, 7.9: a unit of the base or of a slice, which must be the next one of it by 7.1."""
+        sequence = self.sequence
+        number, kind = sequence.unit_kind(unit_type, reader)
+        if number is None:
+            part = self.base
+            require(all(len(each.expected) == len(self.parts[0].expected) and not each.known
+                        for each in self.parts), "unit_type (base behind slices)")
+        else:
+            require(number < len(self.parts), "slice_id")
+            part = self.parts[number]
+            require(not self.base or not self.base.expected, "unit_type (the base is not complete)")
+        if unit_type == DIGEST:
+            require(not part.expected and part.digest is None and not sequence.cut, "unit_type (digest)")
+            part.digest = reader.rest("digest_alignment")
+            require(len(part.digest) == 32, "digest_sha256")
+            return
+        part.take(kind)
+        if unit_type == NORMALS:
+            decoder = ArithmeticDecoder(reader.rest("nu_alignment"))
+            part.normals = decode_normals(decoder, part.points, sequence.normal_bits)
+            decoder.finish("nu_normals")
+        elif unit_type == GEOMETRY:
+            decoder = ArithmeticDecoder(reader.rest("gu_alignment"))
+            part.decode_geometry(decoder, kind[1], self.start_state(part, kind, self.fresh_octree.copy))
+            decoder.finish("gu_occupancy")
+        elif sequence.texture:
+            part.decode_textures(reader, kind[2])
+        else:
+            self.read_coefficients(part, kind, reader)
+        self.hand_on(part, kind)
+
+    def read_coefficients(self, part, kind, reader):
+        """7.6: the modes of a coefficient unit and its codeword."""
+        sequence, (_, level_range, group) = self.sequence, kind
+        if sequence.prediction:
+            for level in range(*sequence.coefficient_bounds[level_range:level_range + 2]):
+                part.modes[group, level] = reader.u(2, "cu_prediction")
+        functions = len(sequence.coded[group])
+        state = self.start_state(part, kind, lambda: sequence.coder.new_state(functions))
+        decoder = ArithmeticDecoder(reader.rest("cu_alignment"))
+        part.decode_coefficients(decoder, level_range, group, state)
+        decoder.finish("cu_coefficients")
+
+    def start_state(self, part, kind, new):
+        """8.1: the state that a unit starts from."""
+        what = kind[0], kind[2:]
+        if part.number and self.slices.shared:
+            require(kind in self.handed, "slice_id (before the unit of slice 0)")
+            return self.handed[kind].copy()
+        if what not in part.states:
+            part.states[what] = part.base.states[what].copy() if part.base else new()
+        return part.states[what]
+
+    def hand_on(self, part, kind):
+        """8.1: what a unit of slice 0 has left, for those that start from it."""
+        what = kind[0], kind[2:]
+        if part.number == 0 and self.slices.shared and what in part.states:
+            self.handed[kind] = part.states[what].copy()
+        if not part.is_base and part.tree:
+            part.states.pop((GEOMETRY, ()), None)
+
+    def output(self, wanted):
+        """8.9.2: positions, components and normals, part by part."""
+        if not self.slices:
+            return [nothing(wanted)]
+        if self.base and not self.base.tree:
+            return [self.base.deepest_nodes(wanted, None)]
+        if wanted.levels <= self.sequence.base_levels:
+            return [self.base.nodes(wanted, None)]
+        base_values = self.base.values(wanted, None) if self.base else None
+        return [part.nodes(wanted, base_values) if part.tree else part.deepest_nodes(wanted, base_values)
+                for part in self.parts]
+
+
+def given_out(sequence, light_field, wanted, region):
+    """8.9: positions, components and normals of what is asked for."""
+    positions, components, normals = [np.concatenate(arrays) for arrays in zip(*light_field.output(wanted))]
+    keep = np.ones(len(positions), bool)
+    keep[1:] = (positions[1:] != positions[:-1]).any(axis=1)        # 8.9.2: equal ones are counted once
+    if region:
+        keep &= in_region(sequence, positions, wanted.shift, region)
+    return positions[keep], components[keep], normals[keep]
+
+
+def decode(data, levels, groups, region):
+    """8.1: units in; sequence, coded functions, positions, components, normals out."""
     units = read_units(data)
     sequence = Sequence(units[0][1])
-    parts = []
-    current, slices, cube_end, values, metadata = None, 0, 0, 0, 0
-    for number, (unit_type, payload, _) in enumerate(units[1:], 1):
-        require(unit_type != SEQUENCE, "unit_type")
-        if unit_type in (SLICE, END) and current:
-            require(not current.expected, "unit_type (the slice before is not complete)")
-            parts.append(current.output(levels, groups))
-            cube_end, current = current.cube_end, None
-        if unit_type == SLICE:
-            require(len(sequence.transforms) == sequence.num_transforms, "sps_num_transforms_minus1")
-            current = Slice(sequence, slices, BitReader(payload), cube_end)
-            slices += 1
-            values += current.points * 3 * sequence.functions
-            require(values <= MAX_VALUES, "slice_num_points_minus1 (beyond this decoder's limit)")
-        elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST):
-            require(current, "slice_id")
-            current.read_unit(unit_type, payload)
-        elif unit_type == TRANSFORM:
-            require(not slices and len(sequence.transforms) < sequence.num_transforms, "unit_type (transform)")
-            sequence.transforms.append(Transform(sequence, payload))
-        elif unit_type == INDEX:
-            check_index(payload, units[number + 1:])
-        elif unit_type == METADATA:
-            metadata += 1
-            require(metadata == 1, "unit_type (metadata)")
-            check_metadata(payload)
-        elif unit_type == END:
-            check_end(payload, number)
-    if current:
-        parts.append(current.output(levels, groups))
-    coded = sequence.coded_functions(groups)
-    parts.append((np.zeros((0, 3)), np.zeros((0, len(coded), 3)), np.zeros((0, 2))))
-    positions, components, normals = [np.concatenate(arrays) for arrays in zip(*parts)]
-    if levels and levels < sequence.grid_bits and len(positions):
-        keep = np.append(True, (positions[1:] != positions[:-1]).any(axis=1))       # 8.9: the first one's
-        positions, components, normals = positions[keep], components[keep], normals[keep]
-    return sequence, coded, positions, components, normals
+    light_field = LightField(sequence)
+    light_field.read(units)
+    wanted = Wanted(sequence, levels, groups)
+    return sequence, wanted.coded, *given_out(sequence, light_field, wanted, region)
 
 
 def main():
-    """8.2: decodes a file, with --levels and --groups."""
+    """8.9: decodes a file, with --levels, --groups and --region."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=["decode"])
@@ -1554,11 +1851,15 @@ def main():
     parser.add_argument("--dump", metavar="DIRECTORY")
     parser.add_argument("--levels", type=int, default=0)
     parser.add_argument("--groups", type=int, default=0)
+    parser.add_argument("--region", type=lambda text: [float(word) for word in text.split(",")], default=[])
     parser.add_argument("--planes", action="store_true")
     arguments = parser.parse_args()
+    if len(arguments.region) not in (0, 6):
+        parser.error("--region takes x0,y0,z0,x1,y1,z1")
     try:
         with open(arguments.stream, "rb") as file:
-            sequence, coded, positions, components, normals = decode(file.read(), arguments.levels, arguments.groups)
+            sequence, coded, positions, components, normals = decode(
+                file.read(), arguments.levels, arguments.groups, arguments.region)
     except (Refused, OSError) as problem:
         print("refused:", problem, file=sys.stderr)
         return 1

@@ -106,6 +106,7 @@ TEST(Spec_8_5_Draco, PositionsComeBackInMortonOrder) {
   ASSERT_TRUE(decoded) << to_string(decoded.error());
   EXPECT_EQ(decoded->positions, field.positions);
   parameters.geometry = GeometryCoder::kOctree;
+  parameters.base_levels = 0;
   EXPECT_EQ(decode(packed(field, parameters))->components, decoded->components);
 }
 
@@ -248,28 +249,6 @@ TEST(Spec_7_1_Prefix, EveryCutAtAUnitBoundaryDecodesAndIsPartial) {
     options.max_bytes = size;
     EXPECT_EQ(decode(stream, options)->components, decoded->components);
   }
-}
-
-TEST(Spec_8_9_Levels, SlicesSmallerThanTheCellsGiveEachCellOnce) {
-  const LightField field = test::make_field({{0, 0, 0}, {5, 5, 5}, {7, 0, 0}}, 3, 1);
-  CodingParameters parameters = with_step(1, 1);
-  parameters.max_slice_points = 1;
-  const auto stream = packed(field, parameters);
-  const auto whole = decode(stream);
-  ASSERT_TRUE(whole) << to_string(whole.error());
-  EXPECT_EQ(whole->num_points(), 3u);
-  DecodeOptions options;
-  options.levels = 1;
-  const auto coarse = decode(stream, options);
-  ASSERT_TRUE(coarse) << to_string(coarse.error());
-  EXPECT_EQ(coarse->positions, (std::vector<Voxel>{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}));
-  const auto dense = packed(test::make_field(test::sphere_cloud(5), 5, 1), [&] {
-    parameters.max_slice_points = 40;
-    return parameters;
-  }());
-  const auto cells = decode(dense, options);
-  ASSERT_TRUE(cells) << to_string(cells.error());
-  EXPECT_EQ(cells->num_points(), 8u);
 }
 
 TEST(Pack, WhatItWritesDecodesAtTheLargestCoefficients) {

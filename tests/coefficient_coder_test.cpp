@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
@@ -37,8 +38,9 @@ TEST_P(CoefficientNeighboursTest, FacesAreTheMergesOfTheCellsBeside) {
       while (3 * size + static_cast<int>(axis) <= tree.split[row]) ++size;
       beside[axis] -= 1 << size;
       const auto found = row_at.find({tree.split[row], beside});
-      EXPECT_EQ(around.faces[row][axis], found == row_at.end() ? 0 : found->second);
-      EXPECT_LT(around.faces[row][axis], row);  // coded before
+      const std::uint32_t face = around.rows[around.place[row]].faces[axis];
+      EXPECT_EQ(tree.order[face], found == row_at.end() ? 0 : found->second);
+      EXPECT_LT(face, around.place[row]);  // coded before
     }
 }
 
@@ -47,11 +49,11 @@ TEST_P(CoefficientNeighboursTest, ScaleIsTheCoefficientOfAUnitDifference) {
   const RahtTree tree = build_raht_tree(morton_codes);
   const auto around = find_coefficient_neighbours(tree, morton_codes, one_row_a_point(tree.size()));
   std::vector<std::uint32_t> weight(tree.size(), 1);
-  EXPECT_EQ(around.scale[0], 256u);
+  EXPECT_EQ(around.rows[0].scale, 256u);
   for (std::size_t i = tree.merges.size(); i-- > 0;) {
     const Merge& m = tree.merges[i];
     const double l = weight[m.left], r = weight[m.right];
-    EXPECT_NEAR(around.scale[m.right], 256 * std::sqrt(l * r / (l + r)), 1);
+    EXPECT_NEAR(around.rows[around.place[m.right]].scale, 256 * std::sqrt(l * r / (l + r)), 1);
     weight[m.left] += weight[m.right];
   }
 }
@@ -63,9 +65,26 @@ TEST_P(CoefficientNeighboursTest, OfTheKeptLevelsAreThoseOfTheWholeTree) {
   const RahtTop top = build_raht_top(morton_codes, 6);
   const auto kept = find_coefficient_neighbours(top.tree, morton_codes, top.first);
   for (std::size_t row = 0; row < top.tree.size(); ++row) {
-    EXPECT_EQ(kept.scale[row], whole.scale[top.first[row]]);
+    const auto& of_kept = kept.rows[kept.place[row]];
+    const auto& of_whole = whole.rows[whole.place[top.first[row]]];
+    EXPECT_EQ(of_kept.scale, of_whole.scale);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_EQ(top.first[kept.faces[row][axis]], whole.faces[top.first[row]][axis]);
+      EXPECT_EQ(top.first[top.tree.order[of_kept.faces[axis]]], tree.order[of_whole.faces[axis]]);
+  }
+}
+
+TEST_P(CoefficientNeighboursTest, TheHeaviestCellsOfABaseScaleByTheRootOfTheirWeight) {
+  const auto morton_codes = test::codes(GetParam().voxels);
+  const RahtTree tree = build_raht_tree(morton_codes);
+  const auto first = one_row_a_point(tree.size());
+  const auto weight = static_cast<std::uint32_t>(
+      std::min((std::size_t{1} << 24) / tree.size(), std::size_t{1} << 22));
+  const auto one = find_coefficient_neighbours(tree, morton_codes, first);
+  const auto many = find_coefficient_neighbours(tree, morton_codes, first, weight);
+  EXPECT_EQ(many.rows[0].scale, 256u);
+  for (std::size_t place = 1; place < tree.size(); ++place) {
+    EXPECT_EQ(many.rows[place].faces, one.rows[place].faces);
+    EXPECT_NEAR(many.rows[place].scale / (one.rows[place].scale * std::sqrt(weight)), 1, 0.006);
   }
 }
 
@@ -199,6 +218,132 @@ TEST(Spec_8_7_1_CoefficientModels, UnitsOfZerosAreEmptyAndLeaveTheStateAlone) {
                                         ends[range + 1], false));
       }
     EXPECT_EQ(decoded, values);
+  }
+}
+
+/// Small values in some rows.
+std::vector<std::int32_t> sparse_values(std::size_t count, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<std::int32_t> values(count);
+  for (auto& v : values) v = random() % 4 == 0 ? static_cast<std::int32_t>(random() % 9) - 4 : 0;
+  return values;
+}
+
+std::vector<std::uint8_t> encode_unit(CoefficientModels& models, const RahtTree& tree,
+                                      std::vector<std::int32_t>& values, std::size_t planes,
+                                      std::size_t group, std::size_t begin, std::size_t end) {
+  RangeEncoder encoder;
+  EXPECT_TRUE(models.code(encoder, {tree, values, planes}, group, begin, end));
+  return encoder.finish();
+}
+
+// Where all cells have as many points as the base says, scales are the same, and so are contexts.
+TEST(Spec_8_2_1_CoefficientModels, ASliceOfAllCellsCostsWhatTheWholeTreeDoes) {
+  std::vector<Voxel> voxels;
+  for (std::int32_t i = 0; i < 4096; ++i) voxels.push_back({i & 15, i >> 4 & 15, i >> 8});
+  const auto points = test::codes(test::sorted_distinct(voxels));
+  const int bits = 4, level = 2, below = 3 * (bits - level);
+  auto cells = test::cells_of(points, bits - level);
+  for (auto& code : cells) code <<= below;
+  const RahtTree tree = build_raht_tree(points), base_tree = build_raht_tree(cells);
+  const PlaneGroups groups = {{0}, {1, 2, 3, 4, 5, 6}};
+  auto values = sparse_values(tree.size() * 21, 5);
+  std::vector<std::int32_t> base_values;
+  const auto first = one_row_a_point(tree.size());
+  const SliceCells in_slice = find_cells(tree, first, below, 0);
+  for (const std::uint32_t row : in_slice.row)
+    base_values.insert(base_values.end(), values.begin() + 21 * row,
+                       values.begin() + 21 * row + 21);
+  for (const bool vector : {true, false}) {
+    CoefficientModels whole(groups, tree, points, first, vector),
+        base(groups, base_tree, cells, one_row_a_point(cells.size()), vector, 64),
+        slice(groups, tree, points, first, vector);
+    const std::size_t cut = order_end(tree, below);
+    for (std::size_t g = 0; g < 2; ++g)
+      EXPECT_EQ(encode_unit(base, base_tree, base_values, 21, g, 0, cells.size()),
+                encode_unit(whole, tree, values, 21, g, 0, cut));
+    slice.adopt(base, in_slice);
+    for (std::size_t g = 0; g < 2; ++g) {
+      slice.start_from(g, base.states(g));
+      EXPECT_EQ(encode_unit(slice, tree, values, 21, g, cut, tree.size()),
+                encode_unit(whole, tree, values, 21, g, cut, tree.size()));
+    }
+  }
+}
+
+TEST(Spec_8_2_1_CoefficientModels, SlicesDecodeFromTheBaseOrFromTheFirstSlice) {
+  const int bits = 6, level = 3, below = 3 * (bits - level);
+  const auto points = test::codes(test::sphere_cloud(bits));
+  auto cells = test::cells_of(points, bits - level);
+  for (auto& code : cells) code <<= below;
+  const RahtTree base_tree = build_raht_tree(cells);
+  const PlaneGroups groups = {{0}, {1, 2, 3, 4, 5, 6}};
+  auto base_values = sparse_values(base_tree.size() * 21, 6);
+  const auto base_first = one_row_a_point(cells.size());
+  for (const bool vector : {true, false}) {
+    CoefficientModels written(groups, base_tree, cells, base_first, vector, 20),
+        read(groups, base_tree, cells, base_first, vector, 20);
+    std::vector<std::int32_t> decoded(base_values.size());
+    std::vector<CoefficientStates> write_from, read_from;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const auto unit = encode_unit(written, base_tree, base_values, 21, g, 0, cells.size());
+      ASSERT_TRUE(
+          decode_coefficients(unit, read, {base_tree, decoded, 21}, g, 0, cells.size(), false));
+      write_from.push_back(written.states(g));
+      read_from.push_back(read.states(g));
+    }
+    ASSERT_EQ(decoded, base_values);
+    std::uint32_t seed = 7;
+    for (const auto& slice : test::slices_of(points, bits - level, 3)) {
+      const RahtTree tree = build_raht_tree(slice.points);
+      const auto first = one_row_a_point(tree.size());
+      const SliceCells own = find_cells(tree, first, below, slice.first_cell);
+      auto values = sparse_values(tree.size() * 21, ++seed);
+      std::vector<std::int32_t> result = values;
+      const std::size_t begin = order_end(tree, below);
+      for (std::size_t i = begin; i < tree.size(); ++i)
+        std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(tree.order[i] * 21), 21, 0);
+      CoefficientModels writer(groups, tree, slice.points, first, vector),
+          reader(groups, tree, slice.points, first, vector);
+      writer.adopt(written, own);
+      reader.adopt(read, own);
+      for (std::size_t g = 0; g < 2; ++g) {
+        writer.start_from(g, write_from[g]);
+        reader.start_from(g, read_from[g]);
+        const auto unit = encode_unit(writer, tree, values, 21, g, begin, tree.size());
+        ASSERT_TRUE(
+            decode_coefficients(unit, reader, {tree, result, 21}, g, begin, tree.size(), false));
+        if (slice.first_cell == 0) {  // the others start from this one
+          write_from[g] = writer.states(g);
+          read_from[g] = reader.states(g);
+        }
+      }
+      EXPECT_EQ(result, values);
+    }
+  }
+}
+
+TEST(Spec_8_2_1_CoefficientModels, StatesGivenAwayDoNotMoveOn) {
+  const auto points = test::codes(test::sphere_cloud(5));
+  const RahtTree tree = build_raht_tree(points);
+  const auto first = one_row_a_point(points.size());
+  const PlaneGroups groups = {{0, 1, 2}};
+  auto values = sparse_values(tree.size() * 9, 8);
+  for (const bool vector : {true, false}) {
+    CoefficientModels models(groups, tree, points, first, vector);
+    const std::size_t middle = order_end(tree, 6);
+    encode_unit(models, tree, values, 9, 0, 0, middle);
+    const CoefficientStates given = models.states(0);
+    const auto of_a_copy = [&] {
+      CoefficientModels other(groups, tree, points, first, vector);
+      other.start_from(0, given);
+      return encode_unit(other, tree, values, 9, 0, 0, middle);
+    };
+    const auto before = of_a_copy();
+    encode_unit(models, tree, values, 9, 0, middle, tree.size());
+    EXPECT_EQ(of_a_copy(), before);
+    CoefficientModels fresh(groups, tree, points, first, vector);
+    EXPECT_NE(encode_unit(fresh, tree, values, 9, 0, 0, middle), before);
   }
 }
 

@@ -51,6 +51,35 @@ inline std::vector<Voxel> sphere_cloud(int bits) {
   return sorted_distinct(voxels);
 }
 
+/// Distinct codes of the cells that hold the points, 3 * below bits shorter.
+inline std::vector<std::uint64_t> cells_of(const std::vector<std::uint64_t>& points, int below) {
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t code : points)
+    if (cells.empty() || cells.back() != code >> (3 * below)) cells.push_back(code >> (3 * below));
+  return cells;
+}
+
+/// A part of a scene: its points and the number of the first of its cells.
+struct TestSlice {
+  std::vector<std::uint64_t> points;
+  std::size_t first_cell = 0;
+};
+
+/// Runs of cells, as many of each as of the others.
+inline std::vector<TestSlice> slices_of(const std::vector<std::uint64_t>& points, int below,
+                                        std::size_t count) {
+  const auto cells = cells_of(points, below);
+  std::vector<TestSlice> slices;
+  for (std::size_t i = 0, cell = 0; i < points.size(); ++i) {
+    if (points[i] >> (3 * below) != cells[cell]) ++cell;
+    if (const std::size_t slice = cell * count / cells.size();
+        slices.empty() || (slices.back().first_cell * count / cells.size()) != slice)
+      slices.push_back({{}, cell});
+    slices.back().points.push_back(points[i]);
+  }
+  return slices;
+}
+
 struct NamedCloud {
   std::string name;
   int bits;

@@ -41,8 +41,11 @@ TEST(Spec_8_4_1_Neighbours, AreThoseOfTheGrid) {
             std::int32_t expected = -1;
             for (std::size_t m = 0; m < nodes.size(); ++m)
               if (from_morton(nodes.morton[m]) == to) expected = static_cast<std::int32_t>(m);
-            ASSERT_EQ(nodes.neighbours[n][static_cast<std::size_t>(direction_index(dx, dy, dz))],
-                      expected);
+            const auto d = static_cast<std::size_t>(direction_index(dx, dy, dz));
+            if (d == kSelf) continue;
+            ASSERT_EQ(nodes.around[n].directions >> d & 1u, expected < 0 ? 0u : 1u);
+            if (expected < 0) continue;
+            ASSERT_EQ(nodes.neighbour(n, d), static_cast<std::uint32_t>(expected));
           }
     }
   }
@@ -57,7 +60,7 @@ TEST_P(OctreeTest, EveryRangeOfLevelsDecodesToItsNodes) {
        {std::vector<int>{bits}, std::vector<int>{(bits + 1) / 2, bits}}) {
     const auto payloads = encode_octree(morton_codes, bits, ends);
     ASSERT_EQ(payloads.size(), ends.size());
-    OctreeDecoder decoder(bits, voxels.size());
+    OctreeDecoder decoder(bits, voxels.size(), OccupancyStates(voxels.size()));
     for (std::size_t i = 0; i < ends.size(); ++i) {
       ASSERT_TRUE(decoder.decode(payloads[i], ends[i]));
       std::vector<std::uint64_t> nodes;
@@ -69,11 +72,81 @@ TEST_P(OctreeTest, EveryRangeOfLevelsDecodesToItsNodes) {
   }
 }
 
+TEST_P(OctreeTest, ALevelFromItsCellsAloneIsThatOfTheWalkDown) {
+  const auto& [name, bits, voxels] = GetParam();
+  const auto points = codes(voxels);
+  for (int level = 0; level < bits; ++level) {
+    const auto cells = test::cells_of(points, bits - level);
+    const OctreeLevel found = octree_level(cells, level);
+    EXPECT_EQ(found.morton, cells);
+    for (std::size_t n = 0; n < cells.size(); ++n)
+      for (std::size_t d = 0; d < 27; ++d)
+        if (found.around[n].directions >> d & 1u) {
+          const Voxel at = from_morton(cells[n]), to = from_morton(cells[found.neighbour(n, d)]);
+          const auto direction = static_cast<int>(d);
+          EXPECT_EQ(to, (Voxel{at[0] + direction % 3 - 1, at[1] + direction / 3 % 3 - 1,
+                               at[2] + direction / 9 - 1}));
+        }
+  }
+}
+
+TEST_P(OctreeTest, SlicesOfCellsDecodeFromTheStatesOfTheBase) {
+  const auto& [name, bits, voxels] = GetParam();
+  const auto points = codes(voxels);
+  for (const int base : {1, bits / 2, bits - 1}) {
+    if (base < 1 || base >= bits) continue;
+    const auto cells = test::cells_of(points, bits - base);
+    const OccupancyStates fresh(points.size());
+    OctreeEncoder base_encoder(cells, base, fresh);
+    OctreeDecoder base_decoder(base, cells.size(), fresh);
+    ASSERT_TRUE(base_decoder.decode(base_encoder.encode(base), base));
+    ASSERT_EQ(base_decoder.morton(), cells);
+    for (const auto& slice : test::slices_of(points, bits - base, 3)) {
+      const auto own_cells = test::cells_of(slice.points, bits - base);
+      OctreeEncoder encoder(slice.points, bits, base_encoder.states(), base);
+      OctreeDecoder decoder(bits, slice.points.size(), base_decoder.states(), base, own_cells);
+      for (int end = base + 1; end <= bits; ++end)
+        ASSERT_TRUE(decoder.decode(encoder.encode(end), end));
+      EXPECT_EQ(decoder.morton(), slice.points);
+    }
+  }
+}
+
+TEST_P(OctreeTest, ASliceOfAllCellsCostsWhatTheWholeTreeDoes) {
+  const auto& [name, bits, voxels] = GetParam();
+  const auto points = codes(voxels);
+  for (int base = 1; base < bits; base += 2) {
+    OctreeEncoder whole(points, bits, OccupancyStates(points.size()));
+    whole.encode(base);
+    OctreeEncoder slice(points, bits, whole.states(), base);
+    EXPECT_EQ(slice.encode(bits), whole.encode(bits));
+  }
+}
+
+TEST_P(OctreeTest, AUnitThatStartsFromCopiedStatesTakesTheSameDecisions) {
+  const auto& [name, bits, voxels] = GetParam();
+  if (bits < 3) GTEST_SKIP() << "too few levels";
+  const auto points = codes(voxels);
+  const OccupancyStates fresh(points.size());
+  OctreeEncoder one(points, bits, fresh), other(points, bits, fresh);
+  one.encode(1);
+  const OccupancyStates after_first = one.states();
+  one.encode(2);
+  other.encode(1);
+  other.start_from(one.states());  // of another time
+  other.encode(2);
+  other.start_from(after_first);
+  OctreeEncoder third(points, bits, fresh);
+  third.encode(2);
+  third.start_from(after_first);
+  EXPECT_EQ(other.encode(bits), third.encode(bits));
+}
+
 TEST_P(OctreeTest, MoreNodesThanAllowedAreRefused) {
   const auto& [name, bits, voxels] = GetParam();
   const std::vector<int> ends = {bits};
   const auto payloads = encode_octree(codes(voxels), bits, ends);
-  OctreeDecoder decoder(bits, voxels.size() - 1);
+  OctreeDecoder decoder(bits, voxels.size() - 1, OccupancyStates(voxels.size()));
   EXPECT_FALSE(decoder.decode(payloads[0], bits));
 }
 
@@ -81,7 +154,8 @@ TEST(Spec_8_4_Bounds, AnExhaustedCodewordEndsTheWorkNotTheUnit) {
   // What a codeword of a few bytes asks for is bounded, whatever number of points is announced.
   for (const int byte : {0x00, 0x55, 0xFF}) {
     const std::vector<std::uint8_t> payload(16, static_cast<std::uint8_t>(byte));
-    OctreeDecoder decoder(21, std::uint64_t{1} << 22);
+    constexpr std::uint64_t kPoints = std::uint64_t{1} << 22;
+    OctreeDecoder decoder(21, kPoints, OccupancyStates(kPoints));
     const auto decoded = decoder.decode(payload, 21);
     ASSERT_FALSE(decoded);
     // 8.3.3: at most 16600 decisions a byte, of which a node takes seven or eight.

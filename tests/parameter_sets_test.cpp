@@ -94,9 +94,21 @@ TEST_P(SequenceParameterSetTest, EveryFlippedBitGivesAValueOrAnError) {
   }
 }
 
+SequenceParameterSet cut_set() {
+  SequenceParameterSet s = full_set();
+  s.sps_base_levels = 5;
+  s.sps_base_weight_minus1 = (1u << 22) - 1;
+  s.sps_coefficient_range_end = {5};
+  s.sps_cut_flag = s.sps_cut_slices_flag = 1;
+  s.sps_cut_levels = 21;
+  s.sps_cut_groups = 3;
+  return s;
+}
+
 INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
                          testing::Values(SetCase{"geometry_alone", {}},
                                          SetCase{"everything", full_set()},
+                                         SetCase{"base_and_cut", cut_set()},
                                          SetCase{"texture", texture_set()}),
                          [](const auto& set) { return set.param.name; });
 
@@ -173,10 +185,63 @@ TEST(Spec_3_3_BitReader, WhatFollowsAHeaderIsRefused) {
   EXPECT_EQ(nonzero.error().code, Errc::kReserved);
 }
 
+TEST(Spec_7_3_Slices, ParseToWhatWasWrittenAndEveryTruncationIsReported) {
+  SequenceParameterSet set = cut_set();
+  set.sps_base_weight_minus1 = 9;
+  const SliceTable table{3, 1, {{0, 0}, {5, 700}, {70000, kMaxSlicePoints - 1}, {0, 8}}};
+  const auto bytes = write_slice_table(table, set);
+  const auto parsed = parse_slice_table(bytes, set);
+  ASSERT_TRUE(parsed) << to_string(parsed.error());
+  EXPECT_EQ(write_slice_table(*parsed, set), bytes);
+  EXPECT_EQ(parsed->num_cells(), table.num_cells());
+  EXPECT_EQ(parsed->num_points(), table.num_points());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    const auto cut = parse_slice_table(std::span(bytes).first(size), set);
+    ASSERT_FALSE(cut) << size;
+    EXPECT_EQ(cut.error().code, Errc::kTruncated);
+  }
+}
+
+TEST(Spec_7_3_Slices, CellsAreNoMoreThanPointsAndWeighAtMost2To24) {
+  SequenceParameterSet set = cut_set();
+  set.sps_base_weight_minus1 = 15;
+  const auto element = [&](const SliceTable& table) -> std::string {
+    const auto parsed = parse_slice_table(write_slice_table(table, set), set);
+    return parsed ? "" : parsed.error().element;
+  };
+  EXPECT_EQ(element({0, 0, {{(1u << 20) - 1, (1u << 20) - 1}}}), "");
+  EXPECT_EQ(element({0, 0, {{1u << 20, 1u << 20}}}), "slice_num_cells_minus1");
+  EXPECT_EQ(element({0, 0, {{6, 5}}}), "slice_num_points_minus1");
+  set.sps_base_levels = 0;
+  EXPECT_EQ(element({1, 0, {{0, 5}, {0, 5}}}), "slices_num_minus1");
+}
+
+TEST(Spec_7_4_UnitHeaders, HaveASliceOnlyBelowTheBase) {
+  const SequenceParameterSet set = cut_set();
+  for (const UnitType type :
+       {UnitType::kGeometry, UnitType::kCoefficients, UnitType::kNormals, UnitType::kDigest})
+    for (const std::uint32_t range : {0u, 1u}) {
+      SliceUnitHeader header{7, range, 0, {}};
+      const bool ranged = type == UnitType::kGeometry || type == UnitType::kCoefficients;
+      if (!ranged) header.range = 0;
+      if (ranged && range == 0) header.slice_id = SliceUnitHeader::kBase;
+      BitWriter out;
+      WriteSyntax write{out};
+      unit_ids(write, header, type, set);
+      const auto bytes = out.take();
+      BitReader in(bytes);
+      ParseSyntax parse{in};
+      SliceUnitHeader read;
+      unit_ids(parse, read, type, set);
+      EXPECT_EQ(read.slice_id, header.slice_id);
+      EXPECT_EQ(read.range, header.range);
+    }
+}
+
 TEST(Spec_7_7_Index, CountsAreBelievedOnlyIfTheBitsAreThere) {
   BitWriter out;
   out.ue(4000000000u);
-  const auto entries = parse_index(out.take());
+  const auto entries = parse_index(out.take(), {});
   ASSERT_FALSE(entries);
   EXPECT_EQ(entries.error().code, Errc::kTruncated);
 }

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -170,6 +172,28 @@ TEST(Spec_8_3_5_Context, FollowsTheShareOfOnesAndStaysWithinItsRange) {
   }
   EXPECT_LT(zeros.logistic(), -1000);
   EXPECT_GT(ones.logistic(), 1000);
+}
+
+TEST(Spec_8_3_5_Context, SeveralMoveTogetherAsEachAlone) {
+  for (std::uint32_t state = 0; state < 65536; ++state)
+    for (const unsigned bit : {0u, 1u}) {
+      std::array<ContextBit, 3> alone = {
+          std::bit_cast<ContextBit>(static_cast<std::uint16_t>(state)), ContextBit(),
+          std::bit_cast<ContextBit>(static_cast<std::uint16_t>(~state))};
+      std::array<ContextBit, 6> together;
+      std::copy(alone.begin(), alone.end(), together.begin() + 3);
+      const std::array<ContextBit*, 3> first = {&together[0], &together[1], &together[2]};
+      const SelectedContexts<3> selected(first, 3);
+      const auto inputs = selected.inputs().values();
+      selected.update(bit);
+      for (std::size_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(inputs[i], alone[i].logistic());
+        alone[i].update(bit);
+        ASSERT_EQ(std::bit_cast<std::uint16_t>(together[i + 3]),
+                  std::bit_cast<std::uint16_t>(alone[i]));
+      }
+      ASSERT_EQ(inputs[3], 256);
+    }
 }
 
 /// code(coder, contexts, value) gives the value back on both sides.

@@ -24,6 +24,8 @@ std::vector<std::uint8_t> small_stream(bool index = true) {
   parameters.group = {0, 1, 1, 2};
   parameters.geometry_level_ends = {2, 4};
   parameters.coefficient_level_ends = {3, 4};
+  parameters.base_levels = 2;
+  parameters.max_slice_points = 150;
   parameters.index = index;
   parameters.metadata = {{"source", "test"}, {"empty", ""}};
   return *pack(field, parameters);
@@ -148,7 +150,7 @@ TEST(Spec_7_1_Order, RepeatedUnitsOfASliceAreRefused) {
   const auto whole = small_stream(false);
   const auto units = split_units(whole);
   ASSERT_TRUE(units);
-  for (const UnitType repeated : {UnitType::kSlice, UnitType::kGeometry, UnitType::kNormals,
+  for (const UnitType repeated : {UnitType::kSlices, UnitType::kGeometry, UnitType::kNormals,
                                   UnitType::kCoefficients, UnitType::kDigest}) {
     std::vector<std::uint8_t> stream(whole.begin(), whole.begin() + 8);
     std::uint64_t count = 0;

@@ -195,7 +195,6 @@ TEST_P(TextureRoundTrip, BytesDoNotDependOnThreads) {
   const LightField field = test::make_field(GetParam().voxels, GetParam().bits, 4);
   CodingParameters parameters = texture_coding(4, 4, 8, false);
   parameters.group = {0, 1, 1, 2};
-  parameters.max_slice_points = 1000;
   parameters.threads = 1;
   const auto one = packed(field, parameters);
   parameters.threads = 5;
@@ -329,7 +328,7 @@ TEST(TextureParameters, GeometryAloneStaysInTheMainProfile) {
   EXPECT_EQ(read_info(stream)->profile, 0);
 }
 
-/// The first coefficient unit's payload behind slice_id, level_range and plane_group replaced.
+/// The first coefficient unit's payload behind level_range, slice_id and plane_group replaced.
 std::vector<std::uint8_t> with_texture_unit(
     const std::vector<std::uint8_t>& stream,
     const std::function<std::vector<std::uint8_t>(std::vector<std::uint8_t>)>& edit) {
@@ -355,8 +354,8 @@ std::vector<std::uint8_t> texture_unit(std::uint64_t level_range,
                                        const std::vector<std::pair<int, std::int64_t>>& planes,
                                        std::span<const std::uint8_t> pictures = {}) {
   BitWriter out;
-  out.ue(0);
   out.ue(level_range);
+  out.ue(0);
   out.ue(0);
   out.align();
   for (const auto& [flag, offset] : planes) {

@@ -99,6 +99,31 @@ CLI::Option* add_predict_choice(CLI::App& verb, bool& choice) {
                           "Predict finer levels from coarser ones where that pays; paper: off");
 }
 
+CLI::Option* add_base_levels(CLI::App& verb, int& levels) {
+  const CLI::Validator levels_or_auto(
+      [](std::string& given) {
+        if (given != "auto") return whole_range(0, 20)(given);
+        given = std::to_string(kAutomaticBase);
+        return std::string();
+      },
+      "0 to 20 or auto");
+  return verb
+      .add_option("--base-levels", levels,
+                  "Octree levels coded once for all slices; 0: none, and one slice; auto: about 24 "
+                  "points in a cell of the base")
+      ->default_str("auto")
+      ->transform(levels_or_auto);
+}
+
+CLI::Option* add_slice_points(CLI::App& verb, std::uint32_t& points) {
+  return verb
+      .add_option(
+          "--slice-points", points,
+          "Points of a slice, about: slices are decoded side by side, or some of them alone")
+      ->capture_default_str()
+      ->check(whole_range(1, kMostSlicePoints));
+}
+
 CLI::Option* add_rdo(CLI::App& verb, double& strength) {
   return verb
       .add_option("--rdo", strength,

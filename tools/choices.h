@@ -17,6 +17,10 @@ void add_texture_options(CLI::App& verb, TextureSettings& settings);
 /// --predict on|off.
 CLI::Option* add_predict_choice(CLI::App& verb, bool& choice);
 CLI::Option* add_rdo(CLI::App& verb, double& strength);
+
+/// How a scene is divided.
+CLI::Option* add_base_levels(CLI::App& verb, int& levels);
+CLI::Option* add_slice_points(CLI::App& verb, std::uint32_t& points);
 CLI::Option* add_klt_choice(CLI::App& verb, TransformMode& choice);
 CLI::Option* add_colour_choice(CLI::App& verb, ColourTransform& choice);
 CLI::Option* add_fit_choice(CLI::App& verb, FitMethod& choice);

@@ -198,8 +198,8 @@ void add_coding_options(CLI::App& verb, EncodeOptions& o, const EncoderSettings&
   coding(o.rdo_option = add_rdo(verb, o.rdo));
   coding(add(verb, "--normal-bits", o.normal_bits, initial.normal_bits,
              "Code normals with 4 to 12 bits per coordinate; 0: not", whole_range(0, 12)));
-  coding(add(verb, "--slice-points", o.slice_points, initial.max_slice_points,
-             "Most points of a slice", whole_range(1, 1 << 22)));
+  coding(o.base_levels_option = add_base_levels(verb, o.base_levels));
+  coding(o.slice_points_option = add_slice_points(verb, o.slice_points));
 }
 
 template <class T, class U>
@@ -333,6 +333,18 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
   return Done{};
 }
 
+/// More slices than one need a base, whatever the preset has.
+void resolve_slices(const EncodeOptions& given, EncoderSettings& settings) {
+  const auto is_given = [](const CLI::Option* option) {
+    return option != nullptr && option->count() > 0;
+  };
+  if (is_given(given.slice_points_option)) {
+    settings.max_slice_points = given.slice_points;
+    settings.base_levels = kAutomaticBase;
+  }
+  if (is_given(given.base_levels_option)) settings.base_levels = given.base_levels;
+}
+
 }  // namespace
 
 void add_encode_options(CLI::App& verb, EncodeOptions& o) {
@@ -374,7 +386,7 @@ Result<EncoderSettings, Failure> resolved(const EncodeOptions& given) {
   replace(s.fit.iterations, given.iterations);
   replace(s.fit.neighbours, given.neighbours);
   replace(s.normal_bits, given.normal_bits);
-  replace(s.max_slice_points, given.slice_points);
+  resolve_slices(given, s);
   if (s.normal_bits > 0 && s.normal_bits < 4)
     return usage(given, "--normal-bits " + std::to_string(s.normal_bits) + " is not 0, or 4 to 12");
   if (given.check_cameras_given) s.check_cameras = given.check_cameras;

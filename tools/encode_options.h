@@ -23,7 +23,6 @@ struct EncodeOptions {
   std::optional<double> voxel_size, q, delta, occlusion_resolution, depth_tolerance, lambda, beta;
   std::optional<double> target_psnr;
   std::optional<std::uint64_t> target_bytes;
-  std::optional<std::uint32_t> slice_points;
   std::vector<int> scales;
   bool penalise_dc = false, free_dc = false, linear = false;
   bool steps_given = false, by_norm = true;
@@ -49,6 +48,9 @@ struct EncodeOptions {
   bool predict_given = false, predict = EncoderSettings{}.predict;
   double rdo = EncoderSettings{}.rdo;
   CLI::Option* rdo_option = nullptr;
+  int base_levels = kAutomaticBase;
+  std::uint32_t slice_points = kDefaultSlicePoints;
+  CLI::Option *base_levels_option = nullptr, *slice_points_option = nullptr;
   UpAxis up = UpAxis::kPlusZ;
   std::vector<std::string> metadata;  ///< key=value
   CommonOptions common;

@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_render(program, verb);
   add_eval(program, verb);
   add_info(program, verb);
+  add_truncate(program, verb);
   add_igc(program, verb);
   for (CLI::App* each : program.get_subcommands({})) each->footer("Exit codes: slf --help");
   try {

@@ -1,6 +1,8 @@
 #include "tools/options.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "slf/capture.h"
 #include "tools/text.h"
@@ -72,15 +74,51 @@ void add_part(CLI::App& verb, PartOptions& options) {
                   "Use only the units that end within the first BYTES; 0 is all")
       ->capture_default_str()
       ->check(whole_range(0, std::int64_t{1} << 40));
+  verb.add_option("--region", options.region,
+                  "Only points in a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world units. Slices "
+                  "outside are not decoded")
+      ->delimiter(',')
+      ->expected(6)
+      ->check(range(-1e300, 1e300));
+}
+
+namespace {
+
+/// The voxel whose cell holds a coordinate; any beyond the grid for one beyond it.
+std::int32_t voxel_at(double coordinate, double origin, double step) {
+  const double voxel = std::floor((coordinate - origin) / step + 0.5);
+  return static_cast<std::int32_t>(std::clamp(voxel, -1.0, double{1 << 22}));
+}
+
+VoxelBox voxel_box(const Grid& grid, const std::vector<double>& corners) {
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax(corners[axis], corners[axis + 3]);
+    box.low[axis] = voxel_at(low, grid.origin[axis], grid.step);
+    box.high[axis] = voxel_at(high, grid.origin[axis], grid.step);
+  }
+  return box;
+}
+
+}  // namespace
+
+Result<DecodeOptions, Failure> decode_options(const std::string& file,
+                                              const std::vector<std::uint8_t>& stream,
+                                              const PartOptions& part) {
+  DecodeOptions options;
+  options.levels = part.levels;
+  options.groups = part.groups;
+  options.max_bytes = part.max_bytes;
+  if (part.region.empty()) return options;
+  SLF_TRY(const StreamInfo info, from(input_name(file), read_info(stream)));
+  options.region = voxel_box(info.header.grid, part.region);
+  return options;
 }
 
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          int threads) {
   SLF_TRY(const auto stream, from(input_name(file), read_file(file)));
-  DecodeOptions options;
-  options.levels = part.levels;
-  options.groups = part.groups;
-  options.max_bytes = part.max_bytes;
+  SLF_TRY(DecodeOptions options, decode_options(file, stream, part));
   options.threads = threads;
   Stopwatch watch;
   SLF_TRY(auto field, from(input_name(file), decode(stream, options)));

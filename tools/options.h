@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -25,13 +26,19 @@ void add_threads(CLI::App& verb, CommonOptions& options);
 void add_quiet(CLI::App& verb, CommonOptions& options);
 void add_json(CLI::App& verb, CommonOptions& options);
 
-/// --levels, --groups and --max-bytes: which part of a stream is decoded.
+/// --levels, --groups, --max-bytes and --region: which part of a stream is decoded.
 struct PartOptions {
   int levels = 0;
   int groups = 0;
   std::uint64_t max_bytes = 0;
+  std::vector<double> region;  ///< two corners in world units, or nothing
 };
 void add_part(CLI::App& verb, PartOptions& options);
+
+/// The same for the library. Of the stream only headers are read, and only for a region.
+Result<DecodeOptions, Failure> decode_options(const std::string& file,
+                                              const std::vector<std::uint8_t>& stream,
+                                              const PartOptions& part);
 
 /// Reads and decodes; "-" is standard input.
 struct DecodedFile {

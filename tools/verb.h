@@ -21,5 +21,6 @@ void add_decode(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
 void add_eval(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
+void add_truncate(CLI::App& program, Run& run);
 
 }  // namespace slf::tools

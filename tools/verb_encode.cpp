@@ -50,17 +50,17 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                         {"pull", e.pictures.pull},
                         {"held_out_before", e.pictures.held_out_before},
                         {"held_out_after", e.pictures.held_out_after}};
-  json["seconds"] = {{"load", load},
-                     {"refine", e.refined.seconds},
-                     {"voxelise", e.seconds_voxelise},
-                     {"observe", e.seconds_observe},
-                     {"choose", e.seconds_choose},
-                     {"fit", e.seconds_fit},
-                     {"pictures", e.seconds_pictures},
-                     {"code", e.seconds_code},
-                     {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
-                                   e.seconds_choose + e.seconds_fit + e.seconds_pictures +
-                                   e.seconds_code}};
+  json["seconds"] = {
+      {"load", load},
+      {"refine", e.refined.seconds},
+      {"voxelise", e.seconds_voxelise},
+      {"observe", e.seconds_observe},
+      {"choose", e.seconds_choose},
+      {"fit", e.seconds_fit},
+      {"pictures", e.seconds_pictures},
+      {"code", e.seconds_code},
+      {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
+                    e.seconds_choose + e.seconds_fit + e.seconds_pictures + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;

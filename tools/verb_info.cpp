@@ -22,6 +22,7 @@ nlohmann::ordered_json units_json(const StreamInfo& info) {
   for (const UnitInfo& unit : info.units) {
     nlohmann::ordered_json entry = {
         {"type", unit.type}, {"offset", unit.offset}, {"bytes", unit.bytes}};
+    if (unit.base) entry["base"] = true;
     if (unit.slice >= 0) entry["slice"] = unit.slice;
     if (unit.group >= 0) entry["group"] = unit.group;
     if (unit.level_first >= 0) entry["levels"] = {unit.level_first, unit.level_last};
@@ -29,6 +30,27 @@ nlohmann::ordered_json units_json(const StreamInfo& info) {
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+nlohmann::ordered_json slices_json(const StreamInfo& info) {
+  auto list = nlohmann::ordered_json::array();
+  for (const SliceInfo& slice : info.slices) {
+    nlohmann::ordered_json entry = {
+        {"cells", slice.cells}, {"points", slice.points}, {"bytes", slice.bytes}};
+    if (slice.box) entry["voxels"] = {slice.box->low, slice.box->high};
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+nlohmann::ordered_json base_json(const StreamInfo& info) {
+  std::uint64_t cells = 0, bytes = 0;
+  for (const SliceInfo& slice : info.slices) cells += slice.cells;
+  for (const UnitInfo& unit : info.units) bytes += unit.base ? unit.bytes : 0;
+  return {{"levels", info.base_levels},
+          {"cells", info.base_levels > 0 ? cells : 0},
+          {"weight", info.base_weight},
+          {"bytes", bytes}};
 }
 
 nlohmann::ordered_json transforms_json(const StreamInfo& info) {
@@ -51,6 +73,12 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes) {
   json["complete"] = info.complete;
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
+  json["shared_states"] = info.shared_states;
+  json["base"] = base_json(info);
+  json["slice"] = slices_json(info);
+  if (info.cut)
+    json["cut"] = {
+        {"levels", info.cut->levels}, {"groups", info.cut->groups}, {"slices", info.cut->slices}};
   json["bits_per_point"] = bits_per_point(bytes, info.num_points);
   json["geometry_coder"] = info.geometry_coder;
   json["coefficient_coder"] = info.coefficient_coder;
@@ -70,6 +98,7 @@ std::string units_text(const StreamInfo& info) {
   for (const UnitInfo& unit : info.units) {
     out += text("%12llu %11llu  %s", static_cast<unsigned long long>(unit.offset),
                 static_cast<unsigned long long>(unit.bytes), unit.type.c_str());
+    if (unit.base) out += "  base";
     if (unit.slice >= 0) out += text("  slice %d", unit.slice);
     if (unit.group >= 0) out += text("  group %d", unit.group);
     if (unit.level_first >= 0) out += text("  levels %d to %d", unit.level_first, unit.level_last);
@@ -104,6 +133,34 @@ std::string groups_text(const StreamInfo& info) {
   return out;
 }
 
+std::string cut_text(const CutInfo& cut) {
+  return text("  cut           to %d levels, %s groups%s\n", cut.levels,
+              cut.groups > 0 ? std::to_string(cut.groups).c_str() : "all",
+              cut.slices ? ", some of the slices" : "");
+}
+
+std::string base_text(const StreamInfo& info) {
+  const auto base = base_json(info);
+  return text("  base          %d levels, %s cells of weight %u, %s bytes; slices %s\n",
+              info.base_levels, grouped(base["cells"].get<std::uint64_t>()).c_str(),
+              info.base_weight, grouped(base["bytes"].get<std::uint64_t>()).c_str(),
+              info.shared_states ? "after the first" : "each alone");
+}
+
+std::string slices_text(const StreamInfo& info) {
+  std::string out = "\nslices\n       cells      points       bytes  voxels\n";
+  for (const SliceInfo& slice : info.slices) {
+    out += text("%12llu %11llu %11llu", static_cast<unsigned long long>(slice.cells),
+                static_cast<unsigned long long>(slice.points),
+                static_cast<unsigned long long>(slice.bytes));
+    if (slice.box)
+      out += text("  %d %d %d to %d %d %d", slice.box->low[0], slice.box->low[1], slice.box->low[2],
+                  slice.box->high[0], slice.box->high[1], slice.box->high[2]);
+    out += '\n';
+  }
+  return out;
+}
+
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t bytes,
                       bool units) {
   std::string out = input_name(file) + ": " + grouped(bytes) + " bytes, .slf version " +
@@ -113,6 +170,8 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
   out += text("  points        %s in %llu slice%s, %.3f bits per point\n",
               grouped(info.num_points).c_str(), static_cast<unsigned long long>(info.num_slices),
               info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
+  if (info.base_levels > 0) out += base_text(info);
+  if (info.cut) out += cut_text(*info.cut);
   out += header_text(info.header);
   out += text("  coders        %s geometry", info.geometry_coder.c_str());
   out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";
@@ -125,6 +184,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
                 : t.colour ? "with channels"
                            : "channels alike");
   out += "\n" + bytes_by_type_text(info, bytes);
+  if (info.num_slices > 1) out += slices_text(info);
   if (units) out += units_text(info);
   if (!info.metadata.empty()) out += "\nmetadata\n";
   for (const auto& [key, value] : info.metadata)

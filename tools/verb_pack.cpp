@@ -20,7 +20,9 @@ namespace {
 struct PackOptions {
   std::string positions, components, output, steps, groups;
   int grid_bits = 0;
-  std::uint32_t step = 1, slice_points = 1u << 20;
+  std::uint32_t step = 1, slice_points = kDefaultSlicePoints;
+  int base_levels = kAutomaticBase;
+  bool independent_slices = false;
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   TextureSettings texture;
@@ -141,7 +143,9 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   if (given.coefficients != CoefficientCoder::kTexture)
     parameters.coefficient_level_ends = given.levels;
   if (given.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
+  parameters.base_levels = given.base_levels;
   parameters.max_slice_points = given.slice_points;
+  parameters.share_states = !given.independent_slices;
   parameters.digest = !given.no_digest;
   parameters.index = given.index || (functions > 0 && !given.no_index);
   parameters.threads = given.common.threads;
@@ -233,9 +237,10 @@ void add_pack(CLI::App& program, Run& run) {
           "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")
       ->delimiter(',')
       ->check(whole_range(1, 21));
-  verb->add_option("--slice-points", o->slice_points, "Most points of a slice")
-      ->capture_default_str()
-      ->check(whole_range(1, 1 << 22));
+  add_base_levels(*verb, o->base_levels);
+  add_slice_points(*verb, o->slice_points);
+  verb->add_flag("--independent-slices", o->independent_slices,
+                 "Slices do not start from what the first has learnt: larger, each decodes alone");
   auto* index =
       verb->add_flag("--index", o->index, "Write the index unit (default with COMPONENTS)");
   verb->add_flag("--no-index", o->no_index, "Leave out the index unit")->excludes(index);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,12 +19,18 @@ struct DecodeSeconds {
   double coefficients = 0;  ///< components, normals, the check of the digests
 };
 
+/// Voxels of the whole grid from low to high, both included.
+struct VoxelBox {
+  Voxel low{0, 0, 0}, high{0, 0, 0};
+};
+
 struct DecodeOptions {
   DecodeLimits limits;
   int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
                    ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
   std::uint64_t max_bytes = 0;       ///< use only units that end within the first max_bytes; 0: all
+  std::optional<VoxelBox> region;    ///< only points whose voxel, of the levels asked for, meets it
   int threads = 1;                   ///< 0: all cores. The result does not depend on it
   DecodeSeconds* seconds = nullptr;  ///< filled where given
 };
@@ -46,6 +53,7 @@ struct UnitInfo {
   std::uint64_t offset = 0;  ///< of its first byte in the stream
   std::uint64_t bytes = 0;   ///< with its header and CRC
   int slice = -1, group = -1, level_first = -1, level_last = -1;  ///< -1: does not apply
+  bool base = false;            ///< geometry and coefficients of all slices together
   std::vector<int> prediction;  ///< coefficients: of each level, 0 .. 3; empty: the stream has none
 };
 
@@ -57,11 +65,29 @@ struct TransformInfo {
   bool colour = false;                     ///< else: has a matrix of its own for the channels
 };
 
+/// A run of cells of the base.
+struct SliceInfo {
+  std::uint64_t cells = 0, points = 0;  ///< 1 cell where there is no base
+  std::uint64_t bytes = 0;              ///< of its units
+  std::optional<VoxelBox> box;          ///< voxels of its cells, where the index has boxes
+};
+
+/// What was left out of a stream on purpose (slf truncate).
+struct CutInfo {
+  int levels = 0, groups = 0;  ///< that are left; groups 0: all
+  bool slices = false;         ///< slices were left out
+};
+
 struct StreamInfo {
   int version_major = 0, version_minor = 0, profile = 0, level = 0;
   LightFieldHeader header;
-  std::uint64_t num_points = 0;  ///< as the slice units say
+  std::uint64_t num_points = 0;  ///< as the slices unit says
   std::uint64_t num_slices = 0;
+  int base_levels = 0;            ///< the coarsest levels, coded once for all slices; 0: one slice
+  std::uint32_t base_weight = 0;  ///< points that a cell counts as, where there is a base
+  bool shared_states = false;     ///< slices are coded after the first, not alone
+  std::vector<SliceInfo> slices;
+  std::optional<CutInfo> cut;
   int num_groups = 0;
   std::vector<int> group;  ///< [K]
   std::vector<std::array<std::uint32_t, 3>>

@@ -44,6 +44,11 @@ struct TextureSettings {
   bool lossless = false;             ///< the pictures, not the rounding to samples; qp is not used
 };
 
+/// CodingParameters::base_levels: about 24 points in a cell, no base for a few points.
+inline constexpr int kAutomaticBase = -1;
+inline constexpr std::uint32_t kDefaultSlicePoints = 1u << 17;
+inline constexpr std::uint32_t kMostSlicePoints = 1u << 22;
+
 /// How given integers become bytes. Same integers and parameters give the same bytes everywhere;
 /// with a transform, which is found in floating point, from one binary.
 struct CodingParameters {
@@ -62,7 +67,15 @@ struct CodingParameters {
   bool predict = true;      ///< coarser levels predict finer ones where that pays. Spec 8.7.6
   double rdo = 0;           ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
   TextureSettings texture;  ///< where coefficients is kTexture
-  std::uint32_t max_slice_points = 1u << 20;
+  /// Octree levels that are coded once for all slices; 0: none, and one slice. They end a unit of
+  /// either kind, whatever the level ends above
+  int base_levels = kAutomaticBase;
+  std::uint32_t base_weight =
+      0;  ///< points that a cell of the base counts as; 0: their mean number
+  /// There are as many slices as give this many points each, about. One with Draco or a texture
+  std::uint32_t max_slice_points = kDefaultSlicePoints;
+  bool share_states = true;  ///< slices start from what the first has learnt: smaller, and the
+                             ///< first has to be decoded with any other
   bool digest = true;
   bool index = true;
   Metadata metadata;
@@ -104,7 +117,8 @@ struct EncoderSettings {
   bool predict = true;      ///< CodingParameters
   double rdo = 0;           ///< CodingParameters
   int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
-  std::uint32_t max_slice_points = 1u << 20;
+  int base_levels = kAutomaticBase;                      ///< CodingParameters
+  std::uint32_t max_slice_points = kDefaultSlicePoints;  ///< CodingParameters
   Metadata metadata;  ///< added to what the encoder itself records
   int threads = 0;
 };

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""Two builds of slf on the same integers, in turns: bytes, user seconds, peak memory, parts.
+
+    bench/compare_versions.py OLD_SLF NEW_SLF [--runs 3] [--cloud FILE.ply ...]
+        [--planes POSITIONS.npy COMPONENTS.npy STEP NAME ...] [--large BITS]
+
+Prints a Markdown table, a row an input: what `pack` writes, and what it and `decode` take. Seconds
+are user time, least of the runs; two threads are seconds on the clock. Memory is the greatest
+resident set. Needs numpy.
+"""
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+DECODES = {'one thread': ['-j', '1'], 'two threads': ['-j', '2']}
+
+
+def large_cloud(bits, folder):
+    """A wavy torus of some 0.33 * 4^bits voxels with a colour that changes slowly along it."""
+    side = 1 << bits
+    wide, thin = 0.14 * side, 0.047 * side
+    u = np.linspace(0, 2 * np.pi, int(9 * wide), endpoint=False)
+    v = np.linspace(0, 2 * np.pi, int(9 * thin), endpoint=False)
+    codes = []
+    for part in np.array_split(u, 64):
+        a, b = np.meshgrid(part, v, indexing='ij')
+        radius = thin * (1 + 0.10 * np.sin(9 * a) * np.cos(5 * b) + 0.02 * np.sin(61 * a + 47 * b))
+        around = wide + radius * np.cos(b)
+        xyz = np.stack([around * np.cos(a), around * np.sin(a), radius * np.sin(b)], -1) + side / 2
+        x, y, z = np.floor(xyz.reshape(-1, 3)).astype(np.int64).T
+        codes.append(np.unique(x | y << 21 | z << 42))
+    codes = np.unique(np.concatenate(codes))
+    mask = (1 << 21) - 1
+    p = np.stack([codes & mask, codes >> 21 & mask, codes >> 42], 1).astype(np.int32)
+    s = p / side
+    shade = [np.sin(7 * s @ [1, 0.3, 0.2]), np.cos(11 * s @ [0.2, 1, 0.4]), np.sin(5 * s @ [1, 1, 1])]
+    noise = np.random.default_rng(1).normal(0, 2, p.shape)
+    colour = np.clip(128 + 80 * np.stack(shade, 1) + noise, 0, 255).round().astype(np.int32)
+    np.save(folder / 'large_p.npy', p)
+    np.save(folder / 'large_c.npy', colour[:, None, :])
+    return folder / 'large_p.npy', folder / 'large_c.npy'
+
+
+def run(command):
+    """User seconds, seconds on the clock, MiB."""
+    begin = time.monotonic()
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        sys.exit(f'failed: {" ".join(map(str, command))}')
+    return usage.ru_utime, time.monotonic() - begin, usage.ru_maxrss / 1024
+
+
+def in_turns(commands, runs):
+    """The least of every figure, of each command; the commands take turns."""
+    best = [np.full(3, np.inf) for _ in commands]
+    for _ in range(runs):
+        for i, command in enumerate(commands):
+            best[i] = np.minimum(best[i], run(command))
+    return best
+
+
+def measure(name, positions, components, options, programs, runs, folder):
+    files = [folder / f'{i}.slf' for i in range(len(programs))]
+    what = [positions] + ([components] if components else [])
+    packs = in_turns([[p, 'pack', *what, *options, '-j', '1', '--quiet', '-o', f]
+                      for p, f in zip(programs, files)], runs)
+    out = folder / 'out'
+    rows = {'pack': packs}
+    for label, threads in DECODES.items():
+        rows[label] = in_turns([[p, 'decode', f, '--dump', out, '--quiet', *threads]
+                                for p, f in zip(programs, files)], runs)
+    cells = [name, *(str(f.stat().st_size) for f in files)]
+    cells += [f'{r[0]:.2f}' for r in rows['pack']]
+    cells += [f'{r[0]:.3f}, {r[2]:.0f}' for r in rows['one thread']]
+    cells += [f'{r[1]:.3f}' for r in rows['two threads']]
+    print('| ' + ' | '.join(cells) + ' |', flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument('old')
+    parser.add_argument('new')
+    parser.add_argument('--runs', type=int, default=3)
+    parser.add_argument('--cloud', nargs='*', default=[])
+    parser.add_argument('--planes', nargs=4, action='append', default=[],
+                        metavar=('POSITIONS', 'COMPONENTS', 'STEP', 'NAME'))
+    parser.add_argument('--options', default='', help='of pack, for --planes')
+    parser.add_argument('--large', type=int, metavar='BITS')
+    args = parser.parse_args()
+    programs = [args.old, args.new]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        print('| | bytes, old | new | pack s, old | new | decode s and MiB, old | new '
+              '| two threads s, old | new |\n|---|---|---|---|---|---|---|---|---|')
+        for cloud in args.cloud:
+            measure(pathlib.Path(cloud).stem, cloud, None, [], programs, args.runs, folder)
+        for positions, components, step, name in args.planes:
+            measure(name, positions, components, ['--step', step, *args.options.split()], programs,
+                    args.runs, folder)
+        if args.large:
+            measure(f'torus of {args.large} bits', *large_cloud(args.large, folder), ['--step', '8'],
+                    programs, args.runs, folder)
+
+
+if __name__ == '__main__':
+    main()

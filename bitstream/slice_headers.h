@@ -1,0 +1,104 @@
+// The slices of a scene, and what the units of its base and its slices begin with. Spec 7.3 - 7.9.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/parameter_sets.h"
+#include "bitstream/units.h"
+
+namespace slf {
+
+/// One slice of the slices unit: a run of cells, and how many points they hold.
+struct SliceEntry {
+  std::uint32_t slice_num_cells_minus1 = 0;
+  std::uint32_t slice_num_points_minus1 = 0;
+
+  std::size_t cells() const { return std::size_t{slice_num_cells_minus1} + 1; }
+  std::size_t points() const { return std::size_t{slice_num_points_minus1} + 1; }
+};
+
+/// Spec 7.3: all slices of the scene, in Morton order.
+struct SliceTable {
+  std::uint32_t slices_num_minus1 = 0;
+  std::uint32_t slices_shared_flag = 0;  ///< slices begin with what slice 0 has learnt
+  std::vector<SliceEntry> slices;
+
+  std::uint64_t num_points() const {
+    std::uint64_t points = 0;
+    for (const SliceEntry& slice : slices) points += slice.points();
+    return points;
+  }
+  std::uint64_t num_cells() const {
+    std::uint64_t cells = 0;
+    for (const SliceEntry& slice : slices) cells += slice.cells();
+    return cells;
+  }
+};
+
+// Spec 7.3  slices_unit( )
+template <class V, class Table>
+void slice_table(V& v, Table& t, std::uint32_t base_levels) {
+  v.ue("slices_num_minus1", t.slices_num_minus1, Range{0, base_levels > 0 ? kMaxSlices - 1 : 0});
+  if (t.slices_num_minus1 > 0) v.u(1, "slices_shared_flag", t.slices_shared_flag, Range{0, 1});
+  v.resize("slices_num_minus1", t.slices, std::uint64_t{t.slices_num_minus1} + 1);
+  for (auto& slice : t.slices) {
+    if (base_levels > 0)
+      v.ue("slice_num_cells_minus1", slice.slice_num_cells_minus1, Range{0, kMaxCells - 1});
+    v.ue("slice_num_points_minus1", slice.slice_num_points_minus1,
+         Range{slice.slice_num_cells_minus1, kMaxSlicePoints - 1});
+  }
+}
+
+/// Spec 7.4 - 7.6, 7.9: what stands before the payload of a unit of the base or of a slice.
+struct SliceUnitHeader {
+  static constexpr std::uint32_t kBase = ~0u;
+  std::uint32_t slice_id = kBase;
+  std::uint32_t range = 0;                   ///< geometry and coefficient units
+  std::uint32_t group = 0;                   ///< coefficient units
+  std::vector<std::uint32_t> cu_prediction;  ///< coefficient units: [levels of the range], or none
+
+  bool of_base() const { return slice_id == kBase; }
+};
+
+/// Does a unit of this type begin with ids?
+constexpr bool has_ids(UnitType type) {
+  return type == UnitType::kGeometry || type == UnitType::kNormals ||
+         type == UnitType::kCoefficients || type == UnitType::kDigest;
+}
+
+// Spec 7.4 - 7.6, 7.9  unit_ids( ): in the unit, and in the index.
+template <class V, class Header>
+void unit_ids(V& v, Header& h, UnitType type, const SequenceParameterSet& set) {
+  std::uint32_t base_ranges = 0;
+  if (type == UnitType::kGeometry) {
+    v.ue("level_range", h.range, Range{0, set.sps_num_geometry_ranges_minus1});
+    base_ranges = set.base_geometry_ranges();
+  }
+  if (type == UnitType::kCoefficients) {
+    v.ue("level_range", h.range, Range{0, set.sps_num_coefficient_ranges_minus1});
+    base_ranges = set.base_coefficient_ranges();
+  }
+  if (h.range >= base_ranges) v.ue("slice_id", h.slice_id, Range{0, kMaxSlices - 1});
+  if (type == UnitType::kCoefficients)
+    v.ue("plane_group", h.group, Range{0, set.sps_num_groups_minus1});
+}
+
+// Spec 7.4  geometry_unit( ), 7.5 normals_unit( ), 7.6 coefficient_unit( ), 7.9 digest_unit( )
+template <class V, class Header>
+void slice_unit_header(V& v, Header& h, UnitType type, const SequenceParameterSet& set) {
+  unit_ids(v, h, type, set);
+  if (type != UnitType::kCoefficients || set.sps_prediction_flag == 0) return;
+  v.resize("cu_prediction", h.cu_prediction,
+           set.coefficient_end(h.range) - set.coefficient_begin(h.range));
+  for (auto& mode : h.cu_prediction) v.u(2, "cu_prediction", mode, Range{0, 3});
+}
+
+/// @errors of parsing; kOutOfRange also where cells are too many, or too many for their weight.
+Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
+                                     const SequenceParameterSet& set);
+std::vector<std::uint8_t> write_slice_table(const SliceTable& table,
+                                            const SequenceParameterSet& set);
+
+}  // namespace slf

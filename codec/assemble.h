@@ -1,0 +1,19 @@
+// Units to a stream. Spec 7.1, 7.7, 7.10.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/index.h"
+#include "codec/coded_unit.h"
+
+namespace slf {
+
+/// Signature, sequence, index, the units, end.
+/// @param boxes  of the index, [slices] or none; nullopt: no index
+std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
+                                   std::span<const CodedUnit> units,
+                                   const std::optional<std::vector<CellBox>>& boxes);
+
+}  // namespace slf

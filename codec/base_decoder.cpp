@@ -1,0 +1,96 @@
+#include "codec/base_decoder.h"
+
+#include <algorithm>
+
+#include "codec/node_voxels.h"
+#include "geometry/cell_box.h"
+#include "geometry/octree_decoder.h"
+
+namespace slf {
+namespace {
+
+/// Codes of the base in the grid's frame, so that splits and levels are those of the whole tree.
+std::vector<std::uint64_t> grid_codes(const Base& base, const SequencePlan& plan) {
+  std::vector<std::uint64_t> codes = base.cells;
+  for (auto& code : codes) code <<= plan.lowest_split(base.level);
+  return codes;
+}
+
+/// Components of the rows of `top`; what slices need of them stays in base.components.
+Result<Done> decode_components(const PartUnits& units, const SequencePlan& plan,
+                               const std::vector<std::uint64_t>& codes, const RahtTop& top,
+                               int threads, bool means, Base& base) {
+  ComponentDecoder decoder(
+      plan, {codes, top.tree, top.first, 0, std::min(plan.levels, plan.base_levels()),
+             plan.set.base_weight()});
+  std::vector<std::int32_t> components(top.tree.size() * plan.planes());
+  for (const PartUnit& unit : units)
+    if (unit.type == UnitType::kCoefficients && unit.header.group < plan.groups.size() &&
+        !plan.begins_below(unit.header.range))
+      SLF_CHECK(decoder.decode(unit, components));
+  SLF_CHECK(decoder.reconstruct(components, threads));
+  if (means) decoder.to_means(components);
+  base.components = decoder.take_base(std::move(components));
+  return Done{};
+}
+
+}  // namespace
+
+Result<Base> decode_base_geometry(const PartUnits& units, const SequencePlan& plan) {
+  Base base{{0}, 0, OccupancyStates(plan.table.num_points()), {}, {}, true};
+  const std::uint64_t cells = plan.table.num_cells();
+  std::uint32_t next = 0;
+  for (const SliceEntry& slice : plan.table.slices) {
+    base.first.push_back(next);
+    next += static_cast<std::uint32_t>(slice.cells());
+  }
+  if (!plan.has_base()) return base;
+  OctreeDecoder octree(plan.base_levels(), cells, base.states);
+  for (const PartUnit& unit : units) {
+    if (unit.type != UnitType::kGeometry) continue;
+    if (!plan.needs_points() && octree.level() >= plan.levels) break;
+    SLF_CHECK(
+        octree.decode(unit.payload, static_cast<int>(plan.set.geometry_end(unit.header.range))));
+  }
+  base.level = octree.level();
+  base.states = octree.states();
+  base.cells = octree.morton();
+  if (base.level == 0) base.cells.clear();  // 8.9.2: nothing is known without a geometry unit
+  base.whole = base.is_known(plan) || (!plan.needs_points() && base.level >= plan.levels);
+  if (base.is_known(plan) && base.cells.size() != cells)
+    return Error{Errc::kOutOfRange, "gu_occupancy", 0};
+  return base;
+}
+
+Result<Done> check_boxes(const std::vector<CellBox>& boxes, const SequencePlan& plan,
+                         const Base& base) {
+  for (std::size_t s = 0; s < boxes.size(); ++s)
+    if (box_of_cells(base.cells_of(plan.table, s)) != boxes[s])
+      return Error{Errc::kOutOfRange, "index_box", 0};
+  return Done{};
+}
+
+Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& plan, int threads,
+                                    Base& base) {
+  if (!plan.has_base() || plan.planes() == 0) return Done{};
+  const auto codes = grid_codes(base, plan);
+  return decode_components(units, plan, codes,
+                           build_raht_top(codes, plan.lowest_split(plan.base_levels())), threads,
+                           false, base);
+}
+
+Result<Done> give_out_base(const PartUnits& units, const SequencePlan& plan, int threads,
+                           Base& base, LightField& field) {
+  const auto codes = grid_codes(base, plan);
+  if (base.is_known(plan) && plan.planes() > 0) {
+    const RahtTop top = build_raht_top(codes, plan.lowest_split(plan.levels));
+    SLF_CHECK(decode_components(units, plan, codes, top, threads, true, base));
+    field.components = std::move(base.components.values);
+  }
+  field.positions = node_voxels(base.cells, base.level, plan);
+  field.components.resize(field.num_points() * plan.planes());
+  field.normals.octahedral.resize(field.normals.bits > 0 ? field.num_points() : 0);
+  return Done{};
+}
+
+}  // namespace slf

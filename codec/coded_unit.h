@@ -1,0 +1,42 @@
+// Units of a scene on their way into a stream, and what all parts of a scene share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "attributes/coefficient_decoder.h"
+#include "bitstream/slice_headers.h"
+#include "slf/encoder.h"
+
+namespace slf {
+
+/// A unit ready to be written.
+struct CodedUnit {
+  UnitType type{};
+  std::vector<std::uint8_t> payload;
+  SliceUnitHeader ids;  ///< of a part of the scene
+};
+
+/// What the base and all slices share.
+struct SliceCoding {
+  const SequenceParameterSet& set;
+  PlaneGroups groups;                ///< places of components
+  std::vector<std::uint32_t> steps;  ///< [3 R]
+  bool digest = true;
+  TextureSettings texture;
+  double rdo = 0;  ///< CodingParameters
+
+  std::size_t planes() const { return steps.size(); }
+  int grid_bits() const { return static_cast<int>(set.grid_bits()); }
+};
+
+/// A unit of the base or of a slice: header and body.
+CodedUnit part_unit(UnitType type, SliceUnitHeader header, std::span<const std::uint8_t> body,
+                    const SequenceParameterSet& set);
+
+/// cu_prediction of the levels of a range. modes: [levels from `start` on]
+std::vector<std::uint32_t> modes_of_range(const SequenceParameterSet& set, std::uint32_t range,
+                                          const std::vector<std::uint8_t>& modes, int start);
+
+}  // namespace slf

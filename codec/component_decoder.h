@@ -1,0 +1,73 @@
+// Coefficient units of the base or of a slice to components. Spec 8.6 - 8.9.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "attributes/coefficient_decoder.h"
+#include "attributes/raht_tree.h"
+#include "attributes/slice_cells.h"
+#include "codec/scene_units.h"
+#include "codec/sequence_plan.h"
+#include "codec/shared_states.h"
+
+namespace slf {
+
+/// What slices start from when the base is decoded.
+struct BaseComponents {
+  std::vector<CoefficientModels> models;  ///< one, or none: no unit was decoded
+  std::vector<CoefficientStates> states;  ///< [groups]
+  std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(W)
+  std::vector<bool> any;                  ///< [groups] not all of its values are zero
+};
+
+/// The rows whose components are decoded: nodes of the kept levels.
+struct ComponentRows {
+  std::span<const std::uint64_t> codes;  ///< of all points (base: cells), in the grid's frame
+  const RahtTree& tree;
+  std::span<const std::uint32_t> first;  ///< [rows + 1] first code of each
+  int start = 0;                         ///< level where coding starts: 0, or that of the cells
+  int levels = 0;                        ///< of the rows
+  std::uint32_t weight = 1;              ///< of a code
+};
+
+class ComponentDecoder {
+ public:
+  ComponentDecoder(const SequencePlan& plan, const ComponentRows& rows);
+
+  /// A slice, after the base. first_cell: the slice's among those of the scene.
+  void start_from_base(const BaseComponents& base, std::size_t first_cell,
+                       std::span<std::int32_t> components);
+  /// Entropy decoding of units[place]. components: [rows][planes], coefficients after.
+  Result<Done> decode(const PartUnit& unit, std::span<std::int32_t> components);
+  /// Dequantisation and inverse transform, when all units are decoded.
+  Result<Done> reconstruct(std::span<std::int32_t> components, int threads);
+  /// The mean of each node, of what reconstruct() left.
+  void to_means(std::span<std::int32_t> components) const;
+  /// What the rows of `other` have in common with these, which are finer.
+  void take_rows(const ComponentDecoder& finer, std::span<const std::int32_t> from,
+                 std::span<std::int32_t> to);
+
+  CoefficientStates states(std::size_t group) { return models_.states(group); }
+  void start_from(std::size_t group, const CoefficientStates& states) {
+    models_.start_from(group, states);
+  }
+  /// Leaves nothing here.
+  BaseComponents take_base(std::vector<std::int32_t> values);
+
+ private:
+  std::size_t order_at(std::uint32_t level) const;
+  void set_modes(const PartUnit& unit);
+  std::size_t used_planes();
+
+  const SequencePlan& plan_;
+  ComponentRows rows_;
+  CoefficientModels models_;
+  SliceCells cells_;                              // of a slice with a base; else empty
+  std::vector<std::uint8_t> nonzero_, of_unit_;   // [rows]
+  std::vector<bool> any_;                         // [groups] a value or coefficient is not zero
+  std::vector<std::vector<std::uint8_t>> modes_;  // [groups][levels from start] cu_prediction
+};
+
+}  // namespace slf

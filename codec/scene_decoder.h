@@ -1,0 +1,21 @@
+// All slices of a scene, several at a time. Spec 8.2.
+#pragma once
+
+#include "codec/base_decoder.h"
+#include "codec/scene_units.h"
+#include "codec/sequence_plan.h"
+#include "slf/decoder.h"
+
+namespace slf {
+
+/// Appends their points to `field`, in order.
+/// @param seconds  receives what geometry and components took
+/// @return is something missing?
+/// @errors that of the unit which stands first in the stream, for any number of threads.
+Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan, const Base& base,
+                           int threads, DecodeSeconds& seconds, LightField& field);
+
+/// Leaves points from `begin` on that are in the region.
+void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field);
+
+}  // namespace slf

@@ -1,0 +1,128 @@
+#include "codec/scene_units.h"
+
+namespace slf {
+namespace {
+
+Error at(const Unit& unit, const char* element) {
+  return {Errc::kOutOfRange, element, unit.offset * 8};
+}
+
+/// What of a unit is wrong that is not the next of its list.
+const char* misplaced(UnitType type, UnitType expected) {
+  if (type != expected) return "unit_type";
+  return type == UnitType::kGeometry ? "level_range" : "plane_group";
+}
+
+class Collector {
+ public:
+  explicit Collector(const SequenceParameterSet& set)
+      : set_(set), base_(set, true), slice_(set, false) {}
+
+  Result<Done> add(const Unit& unit) {
+    if (unit.type == UnitType::kSlices) return add_table(unit);
+    if (unit.type == UnitType::kEnd) return check_end(unit);
+    return has_ids(unit.type) ? add_part(unit) : Done{};
+  }
+
+  SceneUnits take() { return std::move(scene_); }
+
+ private:
+  Result<Done> add_table(const Unit& unit) {
+    if (!scene_.slices.empty()) return at(unit, "unit_type");
+    SLF_TRY(scene_.table, parse_slice_table(unit.payload, set_));
+    scene_.slices.resize(scene_.table.slices.size());
+    return Done{};
+  }
+
+  Result<Done> add_part(const Unit& unit) {
+    if (scene_.slices.empty()) return at(unit, "unit_type");
+    SLF_TRY(PartUnit read, read_part_unit(unit, set_));
+    const bool of_base = read.header.of_base();
+    if (!of_base && read.header.slice_id >= scene_.slices.size()) return at(unit, "slice_id");
+    if (of_base ? in_slices_ : scene_.base.size() < base_.size()) return at(unit, "unit_type");
+    in_slices_ = !of_base;
+    PartUnits& units = of_base ? scene_.base : scene_.slices[read.header.slice_id];
+    SLF_CHECK(check_place(unit, read, units.size(), of_base ? base_ : slice_));
+    units.push_back(std::move(read));
+    return Done{};
+  }
+
+  Result<Done> check_place(const Unit& unit, const PartUnit& read, std::size_t next,
+                           const PartList& list) const {
+    const bool digest = unit.type == UnitType::kDigest;
+    if (digest && set_.sps_cut_flag) return at(unit, "unit_type");
+    if (list.place_of(read) != next || (next == list.size()) != digest)
+      return at(unit, misplaced(unit.type, list.type_at(next)));
+    const bool follows_slice_0 = scene_.table.slices_shared_flag && !read.header.of_base() &&
+                                 read.header.slice_id > 0 && unit.type != UnitType::kNormals &&
+                                 !digest;
+    if (follows_slice_0 && scene_.slices[0].size() <= next) return at(unit, "slice_id");
+    return Done{};
+  }
+
+  Result<Done> check_end(const Unit& unit) const {
+    if (set_.sps_cut_flag) return Done{};
+    bool whole = !scene_.slices.empty() && scene_.base.size() >= base_.size();
+    for (const PartUnits& units : scene_.slices) whole = whole && units.size() >= slice_.size();
+    if (!whole) return at(unit, "unit_type");
+    return Done{};
+  }
+
+  const SequenceParameterSet& set_;
+  PartList base_, slice_;
+  SceneUnits scene_;
+  bool in_slices_ = false;
+};
+
+}  // namespace
+
+PartList::PartList(const SequenceParameterSet& set, bool base)
+    : first_geometry_(base ? 0 : set.base_geometry_ranges()),
+      first_coefficients_(base ? 0 : set.base_coefficient_ranges()),
+      groups_(set.kept_groups()),
+      geometry_(base ? set.base_geometry_ranges() : set.geometry_ranges() - first_geometry_),
+      normals_(!base && set.sps_normal_bits > 0 ? 1 : 0),
+      coefficients_(std::size_t{groups_} *
+                    (base ? set.base_coefficient_ranges()
+                          : set.coefficient_ranges() - first_coefficients_)) {}
+
+UnitType PartList::type_at(std::size_t place) const {
+  if (place < geometry_) return UnitType::kGeometry;
+  if (place < geometry_ + normals_) return UnitType::kNormals;
+  return place < size() ? UnitType::kCoefficients : UnitType::kDigest;
+}
+
+std::size_t PartList::place_of(const PartUnit& unit) const {
+  const SliceUnitHeader& h = unit.header;
+  if (unit.type == UnitType::kGeometry) return h.range - first_geometry_;
+  if (unit.type == UnitType::kNormals) return normals_ > 0 ? geometry_ : size() + 1;
+  if (unit.type == UnitType::kDigest) return size();
+  if (coefficients_ == 0 || h.group >= groups_) return size() + 1;
+  return geometry_ + normals_ + std::size_t{h.range - first_coefficients_} * groups_ + h.group;
+}
+
+Result<SequenceParameterSet> find_sequence(const Units& units) {
+  if (units.units.empty()) return Error{Errc::kTruncated, "sequence_unit", 64};
+  if (units.units.front().type != UnitType::kSequence) return at(units.units.front(), "unit_type");
+  for (std::size_t i = 1; i < units.units.size(); ++i)
+    if (units.units[i].type == UnitType::kSequence) return at(units.units[i], "unit_type");
+  return parse_sequence_parameter_set(units.units.front().payload);
+}
+
+Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& set) {
+  BitReader in(unit.payload);
+  ParseSyntax parse{in};
+  PartUnit read{unit.type, {}, {}, unit.offset};
+  slice_unit_header(parse, read.header, unit.type, set);
+  read.payload = in.align_and_rest("alignment_zero_bits");
+  if (!in.ok()) return in.error();
+  return read;
+}
+
+Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet& set) {
+  Collector collector(set);
+  for (const Unit& unit : units.units) SLF_CHECK(collector.add(unit));
+  return collector.take();
+}
+
+}  // namespace slf

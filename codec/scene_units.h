@@ -1,0 +1,57 @@
+// The units of a stream by what they belong to: the base of the scene, or a slice. Spec 7.1, 8.2.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/slice_headers.h"
+#include "bitstream/units.h"
+
+namespace slf {
+
+/// A unit of the base or of a slice with its header read.
+struct PartUnit {
+  UnitType type{};
+  SliceUnitHeader header;
+  std::span<const std::uint8_t> payload;  ///< what follows the header
+  std::uint64_t offset = 0;               ///< of the unit in the stream
+};
+
+/// Those of the base, or of one slice, in stream order: geometry, normals, coefficients, digest.
+using PartUnits = std::vector<PartUnit>;
+
+struct SceneUnits {
+  SliceTable table;  ///< no slices: the stream ends before it
+  PartUnits base;
+  std::vector<PartUnits> slices;
+};
+
+/// The sequence unit, which must come first.
+/// @errors kTruncated where there is no unit at all; kOutOfRange where another comes first or a
+/// second one follows; those of parse_sequence_parameter_set.
+Result<SequenceParameterSet> find_sequence(const Units& units);
+
+/// Reads the header that a unit of the base or of a slice begins with.
+Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& set);
+
+/// Checks that units of every part are a beginning of the list of 7.1, and all of it where the
+/// stream is complete and not cut.
+Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet& set);
+
+/// Of the list of units that a part has: how many, and which of them a unit is. Spec 7.1.
+class PartList {
+ public:
+  PartList(const SequenceParameterSet& set, bool base);
+
+  std::size_t size() const { return geometry_ + normals_ + coefficients_; }
+  UnitType type_at(std::size_t place) const;
+  /// Its place; size() for a digest, beyond that for a group that was cut.
+  std::size_t place_of(const PartUnit& unit) const;
+
+ private:
+  std::uint32_t first_geometry_, first_coefficients_, groups_;
+  std::size_t geometry_, normals_, coefficients_;
+};
+
+}  // namespace slf

@@ -1,0 +1,135 @@
+// A stream with less in it: units are kept or left out, none is coded again. Spec 7.2, 8.9.
+#include <algorithm>
+
+#include "codec/assemble.h"
+#include "codec/base_decoder.h"
+#include "codec/scene_units.h"
+#include "codec/sequence_plan.h"
+#include "geometry/morton.h"
+#include "slf/truncate.h"
+
+namespace slf {
+namespace {
+
+/// Does what was asked for need a unit of a slice, or of the base?
+class Selection {
+ public:
+  explicit Selection(const SequencePlan& plan)
+      : plan_(plan), slice_(plan.table.slices.size(), true) {}
+
+  /// Keeps slices that meet the region, and the one they start from.
+  void choose_slices(const Base& base) {
+    for (std::size_t s = 0; s < slice_.size(); ++s) {
+      const auto cells = base.cells_of(plan_.table, s);
+      slice_[s] = std::any_of(cells.begin(), cells.end(), [&](std::uint64_t cell) {
+        return plan_.meets_region(from_morton(cell), base.level);
+      });
+    }
+    if (plan_.table.slices_shared_flag) slice_[0] = true;
+  }
+
+  bool all_slices() const { return std::find(slice_.begin(), slice_.end(), false) == slice_.end(); }
+
+  bool wants(const PartUnit& unit) const {
+    const SliceUnitHeader& h = unit.header;
+    if (!h.of_base() && (plan_.base_alone() || !slice_[h.slice_id])) return false;
+    if (unit.type == UnitType::kGeometry)
+      return plan_.needs_points() ||
+             static_cast<int>(plan_.set.geometry_begin(h.range)) < plan_.levels;
+    if (unit.type == UnitType::kCoefficients)
+      return h.group < plan_.groups.size() && !plan_.begins_below(h.range);
+    return unit.type == UnitType::kNormals;  // a digest is of the whole
+  }
+
+ private:
+  const SequencePlan& plan_;
+  std::vector<bool> slice_;  // [slices] kept
+};
+
+/// Is this one of the units that are written anew?
+bool is_frame(UnitType type) {
+  return type == UnitType::kSequence || type == UnitType::kIndex || type == UnitType::kEnd;
+}
+
+Result<CodedUnit> copy_of(const Unit& unit, const SequenceParameterSet& set) {
+  CodedUnit copy{unit.type, {unit.payload.begin(), unit.payload.end()}, {}};
+  if (!has_ids(unit.type)) return copy;
+  SLF_TRY(copy.ids, read_ids(unit, set));
+  return copy;
+}
+
+/// Units in the order of the stream, those that are wanted.
+Result<std::vector<CodedUnit>> select(const Units& units, const SequenceParameterSet& set,
+                                      const Selection& selection) {
+  std::vector<CodedUnit> kept;
+  for (const Unit& unit : units.units) {
+    if (is_frame(unit.type)) continue;
+    if (has_ids(unit.type)) {
+      SLF_TRY(const PartUnit part, read_part_unit(unit, set));
+      if (!selection.wants(part)) continue;
+    }
+    SLF_TRY(CodedUnit copy, copy_of(unit, set));
+    kept.push_back(std::move(copy));
+  }
+  return kept;
+}
+
+/// What the sequence says of a stream with so much in it.
+SequenceParameterSet cut_sequence(const SequencePlan& plan, bool all_slices) {
+  SequenceParameterSet set = plan.set;
+  const bool all_groups = plan.groups.size() == set.num_groups();
+  set.sps_cut_flag = 1;
+  set.sps_cut_levels = static_cast<std::uint32_t>(plan.levels);
+  set.sps_cut_groups = all_groups ? 0 : static_cast<std::uint32_t>(plan.groups.size());
+  set.sps_cut_slices_flag = set.sps_cut_slices_flag || !all_slices;
+  return set;
+}
+
+/// Only headers and the geometry of the base are decoded, and that only where a region asks for it.
+Result<Done> choose_by_region(const SceneUnits& scene, const SequencePlan& plan,
+                              Selection& selection) {
+  if (!plan.region || !plan.has_base() || scene.slices.empty()) return Done{};
+  SLF_TRY(const Base base, decode_base_geometry(scene.base, plan));
+  if (base.is_known(plan)) selection.choose_slices(base);
+  return Done{};
+}
+
+/// As many of the units as fit, the first first.
+Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& set,
+                                                  std::span<const CodedUnit> units,
+                                                  const std::optional<std::vector<CellBox>>& boxes,
+                                                  std::uint64_t max_bytes) {
+  auto whole = assemble(set, units, boxes);
+  if (max_bytes == 0 || whole.size() <= max_bytes) return whole;
+  std::size_t fits = 0, too_many = units.size();
+  while (fits + 1 < too_many) {
+    const std::size_t middle = fits + (too_many - fits) / 2;
+    (assemble(set, units.first(middle), boxes).size() <= max_bytes ? fits : too_many) = middle;
+  }
+  auto some = assemble(set, units.first(fits), boxes);
+  if (some.size() > max_bytes) return Error{Errc::kLimitExceeded, "max_bytes", 0};
+  return some;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
+                                           const DecodeOptions& options) {
+  if (stream.size() > options.limits.max_stream_bytes)
+    return Error{Errc::kLimitExceeded, "stream", 0};
+  SLF_TRY(const Units units, split_units(stream));
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));
+  SLF_TRY(const SceneUnits scene, collect_units(units, set));
+  SLF_CHECK(check_index(units, set, scene.slices.size()));
+  SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));
+  Selection selection(plan);
+  SLF_CHECK(choose_by_region(scene, plan, selection));
+  SLF_TRY(std::vector<CodedUnit> kept, select(units, set, selection));
+  SLF_TRY(const auto index, find_index(units, set));
+  std::optional<std::vector<CellBox>> boxes;
+  if (index) boxes = index->boxes;
+  const SequenceParameterSet cut = cut_sequence(plan, selection.all_slices());
+  return assemble_within(cut, kept, boxes, options.max_bytes);
+}
+
+}  // namespace slf

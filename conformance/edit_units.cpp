@@ -1,0 +1,56 @@
+#include "conformance/edit_units.h"
+
+#include <algorithm>
+
+#include "bitstream/bit_writer.h"
+#include "conformance/fields.h"
+
+namespace slf::conformance {
+
+Bytes base_stream(bool index) {
+  LightField f = field(sphere(4), 4, 4);
+  f.header.has_basis = true;
+  f.header.basis = {BasisId::kBspline, 2, 1, 1};
+  CodingParameters parameters;
+  for (int k = 0; k < 4; ++k) parameters.step.push_back({16, 16, 16});
+  parameters.group = {0, 1, 1, 1};
+  parameters.geometry_level_ends = {1, 2, 4};
+  parameters.base_levels = 2;
+  parameters.max_slice_points = 150;
+  parameters.index = index;
+  parameters.metadata = {{"source", "generated"}};
+  return *pack(f, parameters);
+}
+
+Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  if (base.empty()) return base;
+  std::vector<EditableUnit> units;
+  const Units split = *split_units(base);
+  for (const Unit& unit : split.units)
+    units.push_back({unit.type, Bytes(unit.payload.begin(), unit.payload.end())});
+  edit(units);
+  Bytes stream(kSignature.begin(), kSignature.end());
+  std::uint64_t count = 0;
+  for (const EditableUnit& unit : units) {
+    if (unit.type == UnitType::kEnd) {
+      BitWriter end;
+      end.ue(count);
+      append_unit(stream, unit.type, end.take());
+    } else {
+      append_unit(stream, unit.type, unit.payload);
+    }
+    ++count;
+  }
+  return stream;
+}
+
+Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  return edited(base_stream(false), edit);
+}
+
+EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type) {
+  return *std::find_if(units.begin(), units.end(),
+                       [type](const EditableUnit& u) { return u.type == type; });
+}
+
+}  // namespace slf::conformance

@@ -1,0 +1,294 @@
+"""A random stream, made without an encoder: the text decoder (spec/decoder.py) runs with something in place of its
+arithmetic decoder that chooses decisions, at random by their probabilities or by a cloud of points, and writes
+down the codeword they make. So a stream may have any order of units, level ranges, groups, base and runs of
+cells that the syntax allows, whether an encoder would write them or not. For random_streams.py.
+"""
+import pathlib
+import random
+import sys
+import zlib
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "spec"))
+import decoder as text  # noqa: E402
+
+SIGNATURE = bytes.fromhex("8B534C460D0A1A0A")
+
+
+class BitWriter:
+    """3.3: the inverse of text.BitReader."""
+
+    def __init__(self):
+        self.bits = ""
+
+    def u(self, value, count):
+        """3.3: u(n)."""
+        self.bits += format(value, f"0{count}b") if count else ""
+        return self
+
+    def ue(self, *values):
+        """3.3: ue(v)."""
+        for value in values:
+            self.bits += "0" * ((value + 1).bit_length() - 1) + format(value + 1, "b")
+        return self
+
+    def payload(self):
+        """3.3: zero bits up to the next byte."""
+        padded = self.bits + "0" * (-len(self.bits) % 8)
+        return int("1" + padded, 2).to_bytes(len(padded) // 8 + 1, "big")[1:]
+
+
+class Chooser(text.ArithmeticDecoder):
+    """8.3.1 turned round: chooses bits and keeps the codeword that would have given them."""
+
+    random, queue, bias, empty = random.Random(0), None, 0, False     # of the unit at work
+    last = None
+
+    def __init__(self, _codeword):
+        self.low, self.range, self.bytes = 0, (1 << 32) - 1, 0
+        self.codeword = b"" if Chooser.empty else b"?"
+        Chooser.last = self
+
+    def decide(self, p):
+        """8.3.1: a bit of the queue, or by chance; with a bias it is 1 more often."""
+        if Chooser.queue is not None:
+            bit = Chooser.queue.pop(0)
+        else:
+            bit = int(Chooser.random.random() * 65536 < min(p * (1 + Chooser.bias), 60000))
+        bound = (self.range >> 16) * p
+        if bit:
+            self.range = bound
+        else:
+            self.low, self.range = self.low + bound, self.range - bound
+        while self.range < 1 << 24:
+            self.low, self.range, self.bytes = self.low << 8, self.range << 8, self.bytes + 1
+        return bit
+
+    def finish(self, _element):
+        """8.3.1: the codeword."""
+        self.codeword = self.codeword and self.low.to_bytes(self.bytes + 4, "big")
+
+
+def unit(unit_type, payload):
+    """7.1: a unit."""
+    length, left = b"", len(payload)
+    while left > 127 or not length:
+        length += bytes([left & 127 | (128 if left > 127 else 0)])
+        left >>= 7
+    length += bytes([left]) if left else b""
+    body = bytes([unit_type]) + length + payload
+    return body + zlib.crc32(body).to_bytes(4, "big")
+
+
+def stream_of(units):
+    """7.1: a stream, with an end unit that counts the others."""
+    units = units + [(text.END, BitWriter().ue(len(units)).payload())]
+    return SIGNATURE + b"".join(unit(*each) for each in units)
+
+
+def random_cloud(rng, bits):
+    """Morton codes of a sphere, of noise or of a bent patch."""
+    side, points = 1 << bits, set()
+    kind, count = rng.choice(["sphere", "noise", "patch"]), rng.choice([5, 60, 700, 2000])
+    corner, width = [rng.randrange(max(side - 24, 0) + 1) for _ in range(3)], min(side, 24)
+    for _ in range(count):
+        if kind == "noise":
+            points.add(tuple(rng.randrange(side) for _ in range(3)))
+        elif kind == "sphere":
+            v = np.array([rng.gauss(0, 1) for _ in range(3)]) + 1e-9
+            points.add(tuple(int(c) for c in np.clip((v / np.linalg.norm(v) * 0.45 + 0.5) * side, 0, side - 1)))
+        else:
+            x, y = rng.randrange(width), rng.randrange(width)
+            points.add((corner[0] + x, corner[1] + y, corner[2] + x * y // width % width))
+    return sorted(text.morton(*point) for point in points)
+
+
+def range_ends(rng, bits, base, most):
+    """7.2: ends of level ranges, the base's among them."""
+    ends = {base} | {rng.randrange(1, bits) for _ in range(rng.randrange(most))}
+    return sorted(end for end in ends if end)
+
+
+class RandomStream:
+    """A stream; its units without the index and the end unit are left in `units`."""
+
+    def __init__(self, seed):
+        """Makes all units; text.Refused where chance broke a rule, such as a magnitude that is too great."""
+        self.rng = rng = Chooser.random = random.Random(seed)
+        Chooser.bias = rng.choice([0, 0, 0.15, 0.4])
+        self.bits = rng.choice([2, 3, 4, 5, 6, 7, 8, 12, 21])
+        self.base = rng.choice([0] + [rng.randrange(1, self.bits) for _ in range(3)])
+        self.codes = random_cloud(rng, self.bits)
+        self.runs()
+        self.sequence_unit()
+        self.units = [(text.SEQUENCE, self.sequence_payload(""))]
+        self.sequence = text.Sequence(self.units[0][1])
+        keep, text.ArithmeticDecoder = text.ArithmeticDecoder, Chooser
+        try:
+            self.coded_units()
+        finally:
+            text.ArithmeticDecoder = keep
+        text.decode(stream_of(self.units), 0, 0, [])        # refused where a coefficient is too great
+
+    def runs(self):
+        """8.2: base cells, and runs of them."""
+        cell = [code >> 3 * (self.bits - self.base) for code in self.codes] if self.base else [0] * len(self.codes)
+        self.first = [i for i in range(len(cell)) if i == 0 or cell[i] != cell[i - 1]]
+        count = min(self.rng.choice([1, 2, 3, 5]) if self.base else 1, len(self.first))
+        self.cuts = [0] + sorted(self.rng.sample(range(1, len(self.first)), count - 1)) + [len(self.first)]
+        bounds = self.first + [len(self.codes)]
+        self.spans = [(bounds[a], bounds[b]) for a, b in zip(self.cuts, self.cuts[1:])]
+        self.shared = self.rng.randrange(2)
+
+    def sequence_unit(self):
+        """7.2: the header in two pieces, between which sps_cut_flag stands."""
+        rng, cells = self.rng, len(self.first)
+        self.normal_bits = rng.choice([0, 0, 4, 7])
+        head = BitWriter().u(0, 8).u(4, 8).u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
+        head.u(self.base, 5)
+        if self.base:
+            weight = rng.choice([1, round(len(self.codes) / cells), 100, 1 << 20])
+            head.ue(max(1, min(weight, (1 << 24) // cells)) - 1)
+        self.geometry = range_ends(rng, self.bits, self.base, 3)
+        tail = BitWriter().ue(len(self.geometry))
+        for end in self.geometry:
+            tail.u(end, 5)
+        functions = rng.choice([0, 1, 3, 3, 6])
+        self.groups = rng.randrange(1, min(functions, 3) + 1) if functions else 0
+        self.prediction = rng.randrange(2)
+        self.transform = rng.randrange(3) == 0 and functions > 0
+        tail.ue(functions)
+        if functions:
+            tail.u(0, 1).u(rng.choice([0, 0, 0, 1]), 2).u(self.prediction, 1).u(self.groups - 1, 4).u(self.transform, 1)
+            tail.u(0, 4 if self.transform else 0)
+            self.coefficients = range_ends(rng, self.bits, self.base, 4)
+            tail.ue(len(self.coefficients))
+            for end in self.coefficients:
+                tail.u(end, 5)
+            step = rng.choice([1, 7, 1000, 1 << 18])
+            others = [rng.randrange(self.groups) for _ in range(functions - self.groups)]
+            for group in list(range(self.groups)) + others:
+                tail.ue(0, group).u(0, 4).u(1, 1).ue(step)
+        self.head, self.tail = head.bits, tail.bits
+
+    def sequence_payload(self, cut):
+        """7.2: the sequence unit, with the bits behind sps_cut_flag, "" without it."""
+        writer = BitWriter()
+        writer.bits = self.head + ("1" + cut if cut else "0") + self.tail
+        return writer.payload()
+
+    def coded_units(self):
+        """7.1: transforms, slices, the base, and slices in any order that is allowed."""
+        if self.transform:
+            self.transform_unit()
+        slices = BitWriter().ue(len(self.spans) - 1).u(self.shared, 1 if len(self.spans) > 1 else 0)
+        for s, (first, end) in enumerate(self.spans):
+            slices.ue(*[self.cuts[s + 1] - self.cuts[s] - 1] * bool(self.base), end - first - 1)
+        self.units.append((text.SLICES, slices.payload()))
+        self.field = text.LightField(self.sequence)
+        self.field.read_slices(slices.payload())
+        for kind in self.sequence.unit_order(True) if self.base else []:
+            self.unit_of(None, kind)
+        left, done = [self.sequence.unit_order(False) for _ in self.spans], set()
+        while any(left):
+            s = self.rng.choice([s for s, kinds in enumerate(left) if kinds])
+            kind = left[s][0]
+            if s and self.shared and kind[0] != text.NORMALS and kind not in done:
+                continue
+            self.unit_of(s, left[s].pop(0))
+            if s == 0:
+                done.add(kind)
+
+    def transform_unit(self):
+        """7.11: a transform with a matrix by chance."""
+        first = self.rng.randrange(self.groups)
+        count = self.rng.randrange(1, self.groups - first + 1)
+        functions = sum(len(group) for group in self.sequence.groups[first:first + count])
+        joint = self.rng.randrange(2)
+        header = BitWriter().ue(first, count - 1).u(joint, 1).ue(self.rng.randrange(functions))
+        header = header.u(0, 1 - joint).payload()
+        Chooser.queue, Chooser.empty = None, False
+        self.sequence.transforms.append(text.Transform(self.sequence, header))
+        self.units.append((text.TRANSFORM, header + Chooser.last.codeword))
+
+    def unit_of(self, number, kind):
+        """7.4 - 7.6: a unit of the base (None) or a slice."""
+        numbers = [*kind[1:2], *([] if number is None else [number]), *kind[2:]]
+        header = BitWriter().ue(*numbers)
+        Chooser.queue, Chooser.empty = None, False
+        if kind[0] == text.GEOMETRY:
+            Chooser.queue = self.occupancy(number, *([0] + self.geometry + [self.bits])[kind[1]:kind[1] + 2])
+        elif kind[0] == text.COEFFICIENTS:
+            begin, end = ([0] + self.coefficients + [self.bits])[kind[1]:kind[1] + 2]
+            for _ in range(end - begin if self.prediction else 0):
+                header.u(self.rng.randrange(4), 2)
+            Chooser.empty = self.rng.random() < 0.12
+        self.field.read_unit(kind[0], text.BitReader(header.payload()))
+        self.units.append((kind[0], header.payload() + Chooser.last.codeword))
+
+    def occupancy(self, number, begin, end):
+        """8.4.1: the decisions of the levels of a unit."""
+        codes = [self.codes[i] for i in self.first] if number is None else self.codes[slice(*self.spans[number])]
+        decisions = []
+        for level in range(begin, end):
+            nodes = {}
+            for code in codes:
+                child = code >> 3 * (self.bits - level - 1)
+                nodes.setdefault(child >> 3, set()).add(child & 7)
+            for children in nodes.values():
+                decisions += [int(c in children) for c in range(8)][:7 if children == {7} else 8]
+        return decisions
+
+    def cut(self, levels, groups, kept, slices_flag, lost):
+        """7.1: the stream without units on purpose, and without the last ones."""
+        cut = BitWriter().u(levels, 5).ue(groups).u(slices_flag, 1).bits
+        units = [(text.SEQUENCE, self.sequence_payload(cut))]
+        for unit_type, payload in self.units[1:]:
+            if unit_type in (text.GEOMETRY, text.NORMALS, text.COEFFICIENTS):
+                number, kind = self.sequence.unit_kind(unit_type, text.BitReader(payload))
+                if number is not None and (number not in kept or levels <= self.base):
+                    continue
+                if unit_type == text.COEFFICIENTS and (
+                        groups and kind[2] >= groups or self.sequence.coefficient_bounds[kind[1]] >= levels):
+                    continue
+            units.append((unit_type, payload))
+        return stream_of(units[:max(len(units) - lost, 2)])
+
+    def damaged(self):
+        """The stream with a bit inverted, or a unit lost, moved or repeated; checksums are right."""
+        units, i, j = list(self.units), *[self.rng.randrange(len(self.units)) for _ in range(2)]
+        kind = self.rng.randrange(5)
+        if kind == 0:
+            units.pop(i)
+        elif kind == 1:
+            units.insert(j, units[i])
+        elif kind == 2:
+            units[i], units[j] = units[j], units[i]
+        elif units[i][1]:
+            payload = bytearray(units[i][1])
+            reach = min(len(payload), 4) if kind == 3 else len(payload)
+            payload[self.rng.randrange(reach)] ^= 1 << self.rng.randrange(8)
+            units[i] = units[i][0], bytes(payload)
+        return stream_of(units)
+
+    def requests(self):
+        """Streams and what is asked of them: levels, groups, region."""
+        rng, data, side = self.rng, stream_of(self.units), 1 << self.bits
+        groups = rng.randrange(self.groups) + 1 if self.groups else 0
+        low = [rng.randrange(side) for _ in range(3)]
+        region = low + [min(side - 1, v + rng.randrange(side // 2 + 1)) for v in low]
+        yield data, 0, 0, []
+        yield data, rng.randrange(1, self.bits + 1), 0, []
+        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), groups, []
+        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, region
+        prefix = SIGNATURE + b"".join(unit(*each) for each in self.units[:rng.randrange(1, len(self.units))])
+        yield prefix, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, []
+        kept = {s for s in range(len(self.spans)) if rng.randrange(2)}
+        kept |= {0} if self.shared or not self.base else set()
+        levels = rng.choice([self.bits, rng.randrange(1, self.bits + 1)])
+        slices_flag, lost = rng.randrange(2) if self.base else 0, rng.choice([0, 2, 5])
+        cut = self.cut(levels, rng.choice([0, groups]), kept, slices_flag, lost)
+        yield cut, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, []
+        for _ in range(3):
+            yield self.damaged(), 0, 0, []

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Random streams, which a decoder has to decode as the text decoder (spec/decoder.py) does.
+
+    random_streams.py --decoder "slf decode {in} --dump {out} {options}" [--seeds FIRST LAST] [--keep DIRECTORY]
+
+The streams of random_stream.py, each whole, in fewer levels and groups, in a region, as a prefix, cut on purpose
+(7.2), and damaged: both decoders have to give the same arrays, or both refuse.
+Needs numpy. Exit code: 0 all agree, 1 some differ (those streams are kept), 2 usage.
+"""
+import argparse
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+from random_stream import RandomStream, text
+
+
+def decoded_by_text(request):
+    """The arrays, or None where the text decoder refuses."""
+    try:
+        sequence, _, positions, components, normals = text.decode(*request)
+    except text.Refused:
+        return None
+    return [positions, components] + ([normals] if sequence.normal_bits else [])
+
+
+def decoded_by(command, folder, request):
+    """The arrays of the other decoder, None where it refuses; its exit code."""
+    data, levels, groups, region = request
+    (folder / "stream.slf").write_bytes(data)
+    for old in folder.glob("*.npy"):
+        old.unlink()
+    options = ["--levels", str(levels)] * bool(levels) + ["--groups", str(groups)] * bool(groups)
+    options += ["--region", ",".join(map(str, region))] * bool(region)
+    words = []
+    for word in shlex.split(command):
+        words += options if word == "{options}" else [
+            word.replace("{in}", str(folder / "stream.slf")).replace("{out}", str(folder))]
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True)
+    if done.returncode:
+        return None, done.returncode
+    names = [folder / f"{name}.npy" for name in ("positions", "components", "octahedral")]
+    return [np.load(name) for name in names if name.exists()], 0
+
+
+def same(ours, others):
+    """Whether two lists of arrays are equal."""
+    if ours is None or others is None:
+        return ours is others
+    return all(a.size == b.size and (a.ravel() == b.ravel()).all() for a, b in zip(ours, others))
+
+
+def main():
+    """Compares the two decoders."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--decoder", required=True)
+    parser.add_argument("--seeds", nargs=2, type=int, default=[0, 20], metavar=("FIRST", "LAST"))
+    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("."), metavar="DIRECTORY",
+                        help="for streams that differ [.]")
+    arguments = parser.parse_args()
+    tried = refused = differ = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(arguments.seeds[0], arguments.seeds[1]):
+            try:
+                stream = RandomStream(seed)
+            except text.Refused:
+                continue
+            for number, request in enumerate(stream.requests()):
+                ours = decoded_by_text(request)
+                others, code = decoded_by(arguments.decoder, pathlib.Path(folder), request)
+                tried, refused = tried + 1, refused + (ours is None)
+                if code < 0 or not same(ours, others):
+                    differ += 1
+                    name = arguments.keep / f"random-{seed}-{number}.slf"
+                    name.write_bytes(request[0])
+                    print(f"{name}: levels, groups, region {request[1:]}, exit code {code}", file=sys.stderr)
+    print(f"random streams: {tried} decoded, {refused} of them refused, {differ} differ")
+    return 1 if differ or not tried else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,163 @@
+// What is wrong with slices, their units and the index of them.
+#include <algorithm>
+#include <functional>
+
+#include "bitstream/index.h"
+#include "codec/coded_unit.h"
+#include "codec/scene_units.h"
+#include "conformance/cases.h"
+#include "conformance/edit_units.h"
+
+namespace slf::conformance {
+namespace {
+
+/// The unit with other ids, nth of its type.
+void edit_ids(std::vector<EditableUnit>& units, UnitType type, std::size_t nth,
+              const std::function<void(SliceUnitHeader&)>& edit) {
+  const auto set = *parse_sequence_parameter_set(units[0].payload);
+  for (EditableUnit& unit : units) {
+    if (unit.type != type || nth-- > 0) continue;
+    PartUnit part = *read_part_unit({type, unit.payload, 0, 0}, set);
+    const Bytes body(part.payload.begin(), part.payload.end());
+    edit(part.header);
+    unit.payload = part_unit(type, part.header, body, set).payload;
+    return;
+  }
+}
+
+/// The first unit of a type that belongs to a slice.
+EditableUnit& unit_of_slice(std::vector<EditableUnit>& units, UnitType type, std::uint32_t slice) {
+  const auto set = *parse_sequence_parameter_set(units[0].payload);
+  return *std::find_if(units.begin(), units.end(), [&](const EditableUnit& u) {
+    return u.type == type && read_ids({type, u.payload, 0, 0}, set)->slice_id == slice;
+  });
+}
+
+bool is_digest(const EditableUnit& unit) { return unit.type == UnitType::kDigest; }
+
+void add_slices(std::vector<RefusedCase>& cases) {
+  const auto add = [&](const char* id, const char* purpose, const char* clause,
+                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+    cases.push_back({id, purpose, {clause}, edited(edit)});
+  };
+  add("slices-repeated", "the slices unit twice", "7.3", [](auto& units) {
+    const EditableUnit table = first_of(units, UnitType::kSlices);
+    units.insert(units.begin() + 2, table);
+  });
+  add("slices-late", "geometry before the slices unit", "7.1", [](auto& units) {
+    auto& table = first_of(units, UnitType::kSlices);
+    std::swap(table, *(&table + 1));
+  });
+  const auto add_table = [&](const char* id, const char* purpose,
+                             const std::function<void(SliceTable&)>& edit) {
+    add(id, purpose, "7.3", [&](auto& units) {
+      const auto set = *parse_sequence_parameter_set(units[0].payload);
+      auto& payload = first_of(units, UnitType::kSlices).payload;
+      SliceTable table = *parse_slice_table(payload, set);
+      edit(table);
+      payload = write_slice_table(table, set);
+    });
+  };
+  add_table("cells-more", "a slice of more cells than points",
+            [](auto& t) { t.slices[0].slice_num_cells_minus1 = 3000; });
+  add_table("cells-of-all", "more than 2^22 cells together", [](auto& t) {
+    t.slices[0].slice_num_cells_minus1 = t.slices[0].slice_num_points_minus1 = kMaxCells - 2;
+  });
+  add_table("cells-one-more", "a cell that the base has not",
+            [](auto& t) { ++t.slices[0].slice_num_cells_minus1; });
+  add_table("cells-one-less", "a cell that no slice has",
+            [](auto& t) { --t.slices[0].slice_num_cells_minus1; });
+  add_table("points-one-more", "a point that the slice has not",
+            [](auto& t) { ++t.slices[0].slice_num_points_minus1; });
+  add("slices-too-many", "more slices than the unit has bits for", "7.3", [](auto& units) {
+    BitWriter out;
+    out.ue(kMaxSlices - 1);
+    out.u(1, 0);
+    first_of(units, UnitType::kSlices).payload = out.take();
+  });
+  add("slice-id", "a unit of a slice that there is not", "7.4", [](auto& units) {
+    edit_ids(units, UnitType::kGeometry, 2, [](auto& ids) { ids.slice_id = 100; });
+  });
+  add("slice-before-the-first", "a slice before the states it starts from", "7.1", [](auto& units) {
+    auto& first = unit_of_slice(units, UnitType::kGeometry, 0);
+    std::swap(first, unit_of_slice(units, UnitType::kGeometry, 1));
+  });
+  add("coefficients-before-the-first", "coefficients before the states they start from", "7.1",
+      [](auto& units) {
+        auto& first = unit_of_slice(units, UnitType::kCoefficients, 0);
+        std::swap(first, unit_of_slice(units, UnitType::kCoefficients, 1));
+      });
+  add("base-late", "a unit of the base after one of a slice", "7.1", [](auto& units) {
+    auto& slice = unit_of_slice(units, UnitType::kGeometry, 0);
+    std::swap(slice, *(&slice - 1));
+  });
+  add("geometry-range-skipped", "the second of two geometry ranges first", "7.1", [](auto& units) {
+    auto& base = first_of(units, UnitType::kGeometry);
+    std::swap(base, *(&base + 1));
+  });
+  add("units-missing", "an end unit before the last units of the slices", "7.1", [](auto& units) {
+    units.erase(std::remove_if(units.begin(), units.end(), is_digest), units.end());
+    units.erase(units.end() - 3);
+  });
+  add("geometry-longer", "a codeword with bytes to spare", "8.3.1", [](auto& units) {
+    auto& payload = first_of(units, UnitType::kGeometry).payload;
+    payload.insert(payload.end(), 5, 0x55);  // four could be the decoder's register
+  });
+  add("geometry-shorter", "a codeword without its last bytes", "8.3.1", [](auto& units) {
+    auto& payload = unit_of_slice(units, UnitType::kGeometry, 0).payload;
+    payload.resize(payload.size() / 2);
+  });
+  add("coefficients-shorter", "coefficients without their last bytes", "8.3.1", [](auto& units) {
+    auto& payload = first_of(units, UnitType::kCoefficients).payload;
+    payload.resize(payload.size() / 2);
+  });
+  add("coefficients-out-of-order", "group 1 before group 0", "7.1", [](auto& units) {
+    auto& first = first_of(units, UnitType::kCoefficients);
+    std::swap(first, *(&first + 1));
+  });
+  add("digest", "another digest", "7.9",
+      [](auto& units) { first_of(units, UnitType::kDigest).payload.back() ^= 1; });
+  add("metadata-garbage", "metadata that does not inflate", "7.8",
+      [](auto& units) { first_of(units, UnitType::kMetadata).payload.back() ^= 1; });
+}
+
+/// The index changed; the units it is about stay.
+Bytes with_index(const std::function<void(Index&)>& edit) {
+  const Bytes whole = base_stream(true);
+  const Units units = *split_units(whole);
+  const auto set = *parse_sequence_parameter_set(units.units[0].payload);
+  Index index = *parse_index(units.units[1].payload, set);
+  edit(index);
+  Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[1].offset));
+  append_unit(s, UnitType::kIndex, write_index(index, set));
+  s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[2].offset),
+           whole.end());
+  return s;
+}
+
+void add_index(std::vector<RefusedCase>& cases) {
+  const auto add = [&](const char* id, const char* purpose,
+                       const std::function<void(Index&)>& edit) {
+    cases.push_back({id, purpose, {"7.7"}, with_index(edit)});
+  };
+  add("index-wrong", "an index that names another length", [](auto& i) { ++i.entries[2].bytes; });
+  add("index-type", "an index that names another type",
+      [](auto& i) { i.entries[0].type = UnitType::kMetadata; });
+  add("index-ids", "an index that names another slice",
+      [](auto& i) { ++i.entries[i.entries.size() - 3].ids.slice_id; });
+  add("index-slices", "boxes of fewer slices than there are", [](auto& i) { i.boxes.pop_back(); });
+  add("index-box", "a box that is not that of the cells", [](auto& i) { ++i.boxes[0][3]; });
+  add("index-box-range", "a box that ends before it begins",
+      [](auto& i) { i.boxes[0][0] = 1, i.boxes[0][3] = 0; });
+}
+
+}  // namespace
+
+std::vector<RefusedCase> refused_scenes() {
+  std::vector<RefusedCase> cases;
+  add_slices(cases);
+  add_index(cases);
+  return cases;
+}
+
+}  // namespace slf::conformance

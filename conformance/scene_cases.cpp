@@ -1,0 +1,106 @@
+// A base and slices; what was cut; parts of space.
+#include "conformance/cases.h"
+#include "conformance/fields.h"
+
+namespace slf::conformance {
+namespace {
+
+/// Three groups and level ranges above and below the base.
+Case scene(const char* id, const char* purpose, int base_levels, std::uint32_t slice_points) {
+  Case c{id,
+         purpose,
+         {"7.3", "8.2", "8.9"},
+         field(sphere(6), 6, 6),
+         with_steps(6, 40),
+         {2, 3, 4, 5},
+         {1, 2},
+         0,
+         false};
+  c.parameters.group = {0, 1, 1, 2, 2, 2};
+  c.parameters.geometry_level_ends = {2, 5, 6};
+  c.parameters.coefficient_level_ends = {2, 4, 6};
+  c.parameters.base_levels = base_levels;
+  c.parameters.max_slice_points = slice_points;
+  c.regions = {{{0, 0, 0}, {20, 31, 63}}, {{60, 60, 60}, {90, 90, 90}}};
+  return c;
+}
+
+void add_scenes(std::vector<Case>& cases) {
+  cases.push_back(scene("base", "a base and one slice", 3, 1u << 20));
+  cases.push_back(scene("base-one-level", "a base of one level", 1, 1u << 20));
+  cases.push_back(scene("base-all-but-one-level", "every cell has few points", 5, 1u << 20));
+  cases.push_back(scene("scene-shared", "slices that start from the first one's states", 3, 1500));
+  Case alone = scene("scene-alone", "slices that start from the base's states", 3, 1500);
+  alone.parameters.share_states = false;
+  cases.push_back(alone);
+  Case independent = scene("scene-independent", "the independent coder, shared states", 3, 2500);
+  independent.parameters.coefficients = CoefficientCoder::kIndependent;
+  cases.push_back(independent);
+  Case unpredicted = scene("scene-unpredicted", "no prediction; normals; no index", 2, 2500);
+  unpredicted.parameters.predict = unpredicted.parameters.index = false;
+  unpredicted.field.normals.bits = 5;
+  for (std::size_t p = 0; p < unpredicted.field.num_points(); ++p)
+    unpredicted.field.normals.octahedral.push_back(
+        {static_cast<std::uint16_t>(p % 32), static_cast<std::uint16_t>(p / 5 % 32)});
+  cases.push_back(unpredicted);
+  Case order = scene("scene-slice-by-slice", "slices one after the other", 3, 1500);
+  order.parameters.index = false;
+  order.slice_by_slice = true;
+  cases.push_back(order);
+  for (const bool most : {false, true}) {
+    Case weight = scene(most ? "base-weight-most" : "base-weight-least",
+                        "cells of a weight at the end of its range", most ? 1 : 4, 1500);
+    weight.parameters.base_weight = most ? 1u << 21 : 1;
+    cases.push_back(weight);
+  }
+  Case geometry = scene("scene-geometry", "slices without components", 3, 1500);
+  geometry.field = field(sphere(6), 6, 0);
+  geometry.parameters.step.clear();
+  geometry.parameters.group.clear();
+  geometry.groups.clear();
+  cases.push_back(geometry);
+}
+
+void add_cuts(std::vector<Case>& cases) {
+  const auto add = [&](const char* id, const char* purpose, int levels, int groups,
+                       std::optional<VoxelBox> region, std::uint64_t max_bytes = 0) {
+    Case c = scene(id, purpose, 3, 1500);
+    c.clauses = {"7.2", "8.9"};
+    c.truncated.emplace();
+    c.truncated->levels = levels;
+    c.truncated->groups = groups;
+    c.truncated->region = region;
+    c.truncated->max_bytes = max_bytes;
+    c.levels = {2, 4};
+    c.groups = {1};
+    cases.push_back(c);
+  };
+  add("cut-levels", "a level range left out", 4, 0, {});
+  add("cut-levels-of-base", "no slice left", 2, 0, {});
+  add("cut-groups", "a group left out", 0, 2, {});
+  add("cut-region", "slices left out", 0, 0, VoxelBox{{0, 0, 0}, {20, 31, 63}});
+  add("cut-all", "levels, a group and slices left out", 5, 1, VoxelBox{{0, 0, 0}, {20, 31, 63}});
+  add("cut-bytes", "units left out from the end", 0, 0, {}, 3000);
+}
+
+void add_prefixes(std::vector<Case>& cases) {
+  for (const std::size_t units : {3u, 5u, 6u, 9u, 11u, 14u, 17u, 22u, 30u}) {
+    Case c = scene(("scene-prefix-" + std::to_string(units)).c_str(), "a scene cut short", 3, 2500);
+    c.parameters.index = true;
+    c.regions.clear();
+    c.keep_units = units;
+    cases.push_back(c);
+  }
+}
+
+}  // namespace
+
+std::vector<Case> scene_cases() {
+  std::vector<Case> cases;
+  add_scenes(cases);
+  add_cuts(cases);
+  add_prefixes(cases);
+  return cases;
+}
+
+}  // namespace slf::conformance
