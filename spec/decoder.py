@@ -1419,7 +1419,7 @@ class Part:
             values[self.cell_rows] = cell_values(cells, weights, self.base.weight)
         for level in range(self.first, min(self.last, wanted.levels)):
             modes = [0] * values.shape[1]
-            for group, functions in enumerate(sequence.coded[:len(coders)]):
+            for group, functions in enumerate(sequence.coded[:wanted.groups]):
                 for r in map(wanted.coded.index, functions):
                     modes[3 * r:3 * r + 3] = [self.modes.get((group, level), int(sequence.prediction))] * 3
             inverse_level(values, self.tree, sequence.grid_bits, level, modes)
