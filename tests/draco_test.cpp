@@ -37,7 +37,7 @@ TEST_F(Draco, PositionsComeBack) {
 // By the number, type and length of attributes 70 bytes could ask for gigabytes.
 TEST_F(Draco, NothingButPositionsReachesTheLibrary) {
   const auto sound = payload_;
-  for (const std::size_t at : {0, 5, 7, 8, 9, 10, 15, 16, 17, 18, 19, 20})
+  for (const std::size_t at : {0u, 5u, 7u, 8u, 9u, 10u, 15u, 16u, 17u, 18u, 19u, 20u})
     for (const int value : {2, 9, 127, 255}) {
       payload_ = sound;
       if (payload_[at] == value) continue;
