@@ -146,7 +146,7 @@ void add_index(std::vector<RefusedCase>& cases) {
   add("index-ids", "an index that names another slice",
       [](auto& i) { ++i.entries[i.entries.size() - 3].ids.slice_id; });
   add("index-slices", "boxes of fewer slices than there are", [](auto& i) { i.boxes.pop_back(); });
-  add("index-box", "a box that is not that of the cells", [](auto& i) { ++i.boxes[0][3]; });
+  add("index-box", "a box that is not that of the cells", [](auto& i) { --i.boxes[0][3]; });
   add("index-box-range", "a box that ends before it begins",
       [](auto& i) { i.boxes[0][0] = 1, i.boxes[0][3] = 0; });
 }
