@@ -12,8 +12,9 @@ if pkg-config --exists x265 libde265; then
 else
   excluded=(--exclude 'texture-*')
 fi
-sources="conformance/*.cpp bitstream/*.cpp geometry/*.cpp attributes/*.cpp codec/decode.cpp codec/read_info.cpp
-  codec/derive_transforms.cpp codec/sequence.cpp codec/slice_*.cpp codec/pack*.cpp codec/texture_*.cpp codec/transform_units.cpp lightfield/basis*.cpp lightfield/harmonics.cpp texture/*.cpp video/picture.cpp video/hevc_*.cpp"
+sources="conformance/*.cpp bitstream/*.cpp geometry/*.cpp attributes/*.cpp codec/assemble.cpp codec/base_*.cpp codec/coded_unit.cpp
+  codec/component_decoder.cpp codec/decode.cpp codec/node_voxels.cpp codec/read_info.cpp codec/scene_*.cpp codec/truncate.cpp
+  codec/derive_transforms.cpp codec/sequence*.cpp codec/slice_*.cpp codec/pack*.cpp codec/texture_*.cpp codec/transform_units.cpp lightfield/basis*.cpp lightfield/harmonics.cpp texture/*.cpp video/picture.cpp video/hevc_*.cpp"
 for compiler in g++ clang++; do
   for level in -O0 -O3; do
     objects="$work/$compiler$level"
