@@ -53,12 +53,11 @@ TEST_F(Draco, MorePointsThanTheSliceHasAreRefused) {
   expect_refused();
 }
 
-TEST_F(Draco, EveryCutIsRefused) {
+TEST_F(Draco, ACutHeaderIsRefused) {
   const auto sound = payload_;
-  for (std::size_t size = 0; size < sound.size(); ++size) {
+  for (std::size_t size = 0; size < 22; ++size) {
     payload_.assign(sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size));
     SCOPED_TRACE(size);
-    if (decode_draco(payload_, kBits, 3)) continue;  // the last bytes may hold nothing
     expect_refused();
   }
 }
