@@ -36,53 +36,67 @@ struct CoefficientStates {
 /// range to level range, and the vectors around which the next are coded.
 class CoefficientModels {
  public:
-  /// morton, first, weight: as for find_coefficient_neighbours; for the vector coder alone.
+  /// morton, first, weights: as for find_coefficient_neighbours; for the vector coder alone.
+  /// layers: of all groups; more than one with the vector coder alone.
   CoefficientModels(const PlaneGroups& groups, const RahtTree& tree,
                     std::span<const std::uint64_t> morton, std::span<const std::uint32_t> first,
-                    bool vector, std::uint32_t weight = 1);
+                    bool vector, const CodeWeights& weights = {}, std::size_t layers = 1);
 
   /// A slice's cells take vectors and scales of the base's rows. Once, before any coding; `base`
   /// has coded all that it is going to. O(cells * planes).
   void adopt(const CoefficientModels& base, const SliceCells& cells);
 
-  /// The states of a group after its last unit. The model goes on with a copy.
-  CoefficientStates states(std::size_t group);
-  /// The group's next unit starts from them. Several models on several threads may have the same.
-  void start_from(std::size_t group, const CoefficientStates& states);
+  /// The states of a layer of a group after its last unit. The model goes on with a copy.
+  CoefficientStates states(std::size_t group, std::size_t layer = 0);
+  /// The next unit starts from them. Several models on several threads may have the same.
+  void start_from(std::size_t group, const CoefficientStates& states, std::size_t layer = 0);
+  /// The same of all groups, layer by layer.
+  std::vector<CoefficientStates> all_states();
+  void start_from_all(std::span<const CoefficientStates> states);
 
-  /// Codes rows order[begin .. end) of a group; see VectorCoefficients::code.
+  /// Codes rows order[begin .. end) of a layer of a group; see VectorCoefficients::code.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,
-            std::size_t end) {
+            std::size_t end, std::size_t layer = 0) {
     if (empty_[group]) return true;
     if constexpr (!Coder::kDecodes)
-      if (all_zero(rows, group, begin, end)) return true;  // an empty codeword
+      if (all_zero(rows, group, begin, end, layer > 0)) return true;  // an empty codeword
     if (!vector_.empty())
-      return vector_[group].code(coder, rows, neighbours_,
-                                 group > 0 ? &vector_[group - 1] : nullptr, begin, end);
+      return vector_[place(group, layer)].code(
+          coder, rows, neighbours_, group > 0 ? &vector_[place(group - 1, layer)] : nullptr, begin,
+          end);
     return independent_[group].code(coder, rows, begin, end);
   }
+  /// A refinement whose codeword is empty. False: a value is too large for it.
+  bool double_values(const CoefficientRows& rows, std::size_t group, std::size_t begin,
+                     std::size_t end) const;
 
  private:
-  bool all_zero(const CoefficientRows& rows, std::size_t group, std::size_t begin,
-                std::size_t end) const {
-    const auto& functions =
-        vector_.empty() ? independent_[group].functions() : vector_[group].functions();
+  std::size_t place(std::size_t group, std::size_t layer) const {
+    return layer * empty_.size() + group;
+  }
+  const std::vector<std::uint16_t>& functions(std::size_t group) const {
+    return vector_.empty() ? independent_[group].functions() : vector_[group].functions();
+  }
+  /// bits: of the last bits of all values.
+  bool all_zero(const CoefficientRows& rows, std::size_t group, std::size_t begin, std::size_t end,
+                bool bits) const {
     for (std::size_t i = begin; i < end; ++i)
-      if (has_any(rows.row(rows.tree.order[i]), functions)) return false;
+      if (has_any(rows.row(rows.tree.order[i]), functions(group), bits ? 1 : -1)) return false;
     return true;
   }
 
   CoefficientNeighbours neighbours_;
   std::vector<bool> empty_;                 // groups without functions to code
-  std::vector<VectorCoefficients> vector_;  // one of the two is empty
+  std::vector<VectorCoefficients> vector_;  // layer by layer; one of the two is empty
   std::vector<IndependentCoefficients> independent_;
 };
 
-/// Decodes one unit: rows order[begin .. end) of `group` into rows.values. cut: the rows are fewer
-/// than the unit holds, so its end is not reached.
+/// Decodes one unit: rows order[begin .. end) of `group` into rows.values; of a layer above 0 they
+/// hold the values of the layers before. cut: the rows are fewer than the unit holds, so its end is
+/// not reached.
 Result<Done> decode_coefficients(std::span<const std::uint8_t> payload, CoefficientModels& models,
                                  const CoefficientRows& rows, std::size_t group, std::size_t begin,
-                                 std::size_t end, bool cut);
+                                 std::size_t end, bool cut, std::size_t layer = 0);
 
 }  // namespace slf

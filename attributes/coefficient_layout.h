@@ -22,12 +22,16 @@ struct CoefficientRows {
   }
 };
 
-/// Is one of the functions' values other than 0?
-inline bool has_any(const std::int32_t* row, const std::vector<std::uint16_t>& functions) {
+/// Have the functions' values one of these bits? By default: is one of them other than 0?
+inline bool has_any(const std::int32_t* row, const std::vector<std::uint16_t>& functions,
+                    std::int32_t bits = -1) {
   std::int32_t any = 0;
   for (const std::size_t f : functions) any |= row[3 * f] | row[3 * f + 1] | row[3 * f + 2];
-  return any != 0;
+  return (any & bits) != 0;
 }
+
+/// Values before a refinement are below this in magnitude, and so below 2^27 after it. Spec 8.7.7.
+inline constexpr std::int32_t kRefinedLimit = 1 << 26;
 
 /// The levels a row's difference belongs to, finest 0; the mean of all has a class of its own.
 inline constexpr std::uint32_t kLevelClasses = 13;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "entropy/binarisation.h"
+#include "entropy/context_shape.h"
 #include "entropy/log_class.h"
 #include "entropy/mixed_bit.h"
 
@@ -37,14 +38,26 @@ class CoefficientMagnitudeModel {
   std::uint32_t code(Coder& coder, const MagnitudeEvidence& evidence, bool nonzero,
                      std::uint32_t magnitude) {
     const auto contexts = more_.select(contexts_of(evidence));
-    const std::size_t set = (evidence.first ? 3 : 0) + evidence.channel;
     for (std::uint32_t reached = nonzero ? 1 : 0; reached < kUnary; ++reached)
-      if (!more_.code(coder, contexts, reached, set * 16 + reached, magnitude > reached))
+      if (!more_.code(coder, contexts, reached,
+                      Set::index(evidence.first, evidence.channel, reached), magnitude > reached))
         return reached;
     const std::uint32_t rest = code_exp_golomb(
         coder, prefix_[std::min(log_class(evidence.expected[evidence.channel] >> 8, 47) / 4, 11u)],
         kLimit, Coder::kDecodes ? 0 : magnitude - kUnary + 1);
     return rest == 0 ? kDamaged : kUnary - 1 + rest;
+  }
+
+  /// Codes whether a magnitude is 2 * before or one more. Spec 8.7.7.
+  template <class Coder>
+  std::uint32_t refine(Coder& coder, const MagnitudeEvidence& evidence, bool nonzero,
+                       std::uint32_t before, std::uint32_t magnitude) {
+    const std::uint32_t least = 2 * before;
+    if (nonzero && least == 0) return 1;
+    const std::uint32_t reached = std::min(least, kUnary - 1);
+    return least + more_.code(coder, more_.select(contexts_of(evidence)), reached,
+                              Set::index(evidence.first, evidence.channel, reached),
+                              magnitude > least);
   }
 
  private:
@@ -64,25 +77,29 @@ class CoefficientMagnitudeModel {
           std::uint64_t{e.magnitude[b] * 2 + 1} * 8 * (e.expected[c] + 16) / (e.expected[b] + 16),
           47);
     };
-    const std::uint32_t channels = c == 0   ? 0
-                                   : c == 1 ? by_channel(0)
-                                            : by_channel(1) / 2 * 24 + by_channel(0) / 2;
+    std::array<std::uint32_t, 2> ratios{};
+    const std::uint32_t to_first = c > 0 ? by_channel(0) : 0;
+    if (c == 1) ratios = {to_first / 24, to_first % 24};  // all of its 48 classes
+    if (c == 2) ratios = {by_channel(1) / 2, to_first / 2};
     const std::uint32_t size = log_class(e.expected[c] >> 4, 47);
-    std::array<std::uint32_t, kModels> contexts = {
-        e.split * 24 + e.scale_class,
-        other,
-        log_class(e.parents >> 4, 39) / 2 * 20 + log_class(e.beside >> 4, 39) / 2,
-        std::min(size / 2, 19u) * 64 + other,
-        channels,
-        e.vector_ratio / 3 * 16 + size / 3};
-    for (std::uint32_t& context : contexts) context = (context * 3 + c) * 16;
-    return contexts;
+    return {Split::index(e.split, e.scale_class, c, 0),
+            Other::index(other, c, 0),
+            Sides::index(log_class(e.parents >> 4, 39) / 2, log_class(e.beside >> 4, 39) / 2, c, 0),
+            Expected::index(std::min(size / 2, 19u), other, c, 0),
+            Channels::index(ratios[0], ratios[1], c, 0),
+            Ratio::index(e.vector_ratio / 3, size / 3, c, 0)};
   }
 
-  static constexpr std::uint32_t kDecisions = 3 * 16;  // of a channel, of a place in the unary code
-  MixedBit<kModels, 2 * kDecisions> more_{{25 * 24 * kDecisions, 64 * kDecisions,
-                                           20 * 20 * kDecisions, 20 * 64 * kDecisions,
-                                           24 * 24 * kDecisions, 16 * 16 * kDecisions}};
+  // The last two: the channel, and the place in the unary code.
+  using Split = ContextShape<25, 24, 3, 16>;     // and scale
+  using Other = ContextShape<64, 3, 16>;         // magnitudes that are known
+  using Sides = ContextShape<20, 20, 3, 16>;     // expected above; beside
+  using Expected = ContextShape<20, 64, 3, 16>;  // magnitude; those that are known
+  using Channels = ContextShape<24, 24, 3, 16>;  // of earlier channels to their expectation
+  using Ratio = ContextShape<16, 16, 3, 16>;     // of the vector so far; magnitude
+  using Set = ContextShape<2, 3, 16>;            // first of the vector; as above
+  MixedBit<kModels, Set::kCount> more_{{Split::kCount, Other::kCount, Sides::kCount,
+                                        Expected::kCount, Channels::kCount, Ratio::kCount}};
   std::array<PrefixContexts, 12> prefix_;
 };
 

@@ -37,17 +37,17 @@ class Scales {
   std::array<std::uint32_t, kSmall * kSmall> small_{};
 };
 
-void set_scales(const RahtTree& tree, std::span<const std::uint32_t> first, std::uint32_t weight,
-                CoefficientNeighbours& around) {
-  std::vector<std::uint32_t> points(tree.size());
+void set_scales(const RahtTree& tree, std::span<const std::uint32_t> first,
+                const CodeWeights& weights, CoefficientNeighbours& around) {
+  std::vector<std::uint32_t> weight(tree.size());
   for (std::size_t row = 0; row < tree.size(); ++row)
-    points[row] = (first[row + 1] - first[row]) * weight;
+    weight[row] = weights.of(first[row], first[row + 1]);
   Scales scales;
   around.rows[0].scale = 256;
   for (std::size_t i = tree.merges.size(); i-- > 0;) {  // children before parents
     const Merge& m = tree.merges[i];
-    around.rows[around.place[m.right]].scale = scales.of(points[m.left], points[m.right]);
-    points[m.left] += points[m.right];
+    around.rows[around.place[m.right]].scale = scales.of(weight[m.left], weight[m.right]);
+    weight[m.left] += weight[m.right];
   }
 }
 
@@ -68,9 +68,9 @@ CoefficientNeighbours rows_in_order(const RahtTree& tree) {
 CoefficientNeighbours find_coefficient_neighbours(const RahtTree& tree,
                                                   std::span<const std::uint64_t> morton,
                                                   std::span<const std::uint32_t> first,
-                                                  std::uint32_t weight) {
+                                                  const CodeWeights& weights) {
   CoefficientNeighbours around = rows_in_order(tree);
-  set_scales(tree, first, weight, around);
+  set_scales(tree, first, weights, around);
   std::vector<std::uint64_t> cells;  // of the merges of one split
   for (std::size_t begin = 1; begin < tree.size(); begin += cells.size()) {
     const std::uint32_t split = around.rows[begin].split;

@@ -31,12 +31,11 @@ struct CoefficientNeighbours {
 
 /// @param morton  codes of the points, ascending
 /// @param first   [rows + 1] first point of each row of the tree, and the number of points
-/// @param weight  of every code: that of a cell where the codes are the base's (spec 8.2.1); at
-///                most 2^24 together
+/// @param weights  of the codes
 /// O(P) time on average.
 CoefficientNeighbours find_coefficient_neighbours(const RahtTree& tree,
                                                   std::span<const std::uint64_t> morton,
                                                   std::span<const std::uint32_t> first,
-                                                  std::uint32_t weight = 1);
+                                                  const CodeWeights& weights = {});
 
 }  // namespace slf

@@ -5,11 +5,12 @@
 #include <cstdlib>
 
 #include "attributes/level_prediction.h"
+#include "attributes/mode_trial.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
 #include "attributes/rate_model.h"
 #include "attributes/row_quantiser.h"
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -21,45 +22,14 @@ constexpr std::size_t kLanes = kPredictionLanes;
 SLF_MULTIVERSION
 void inverse_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                   std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) {
-    const std::int32_t a = low[j], b = high[j];
-    low[j] = round_q30(std::int64_t{m.cos_q30} * a - std::int64_t{m.sin_q30} * b);
-    high[j] = round_q30(std::int64_t{m.sin_q30} * a + std::int64_t{m.cos_q30} * b);
-  }
+  for (std::size_t j = 0; j < lanes; ++j) inverse_merge(m, low[j], high[j], low[j], high[j]);
 }
 
 SLF_MULTIVERSION
 void forward_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                   std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) {
-    const std::int32_t a = low[j], b = high[j];
-    low[j] = round_q30(std::int64_t{m.cos_q30} * a + std::int64_t{m.sin_q30} * b);
-    high[j] = round_q30(std::int64_t{m.cos_q30} * b - std::int64_t{m.sin_q30} * a);
-  }
+  for (std::size_t j = 0; j < lanes; ++j) forward_merge(m, low[j], high[j]);
 }
-
-/// How often each small magnitude came in a plane, and the squared error.
-struct Histogram {
-  std::array<std::uint32_t, 17> count{};
-  std::uint64_t long_bits_q8 = 0, distortion_q12 = 0;
-
-  void add(std::uint32_t error, std::uint32_t magnitude, std::uint32_t step) {
-    ++count[std::min(magnitude, 16u)];
-    if (magnitude >= 16) long_bits_q8 += 2 * log2_q8(magnitude - 15) + 256;
-    const std::uint64_t e = std::min<std::uint64_t>(std::uint64_t{64} * error / step, 1u << 20);
-    distortion_q12 += e * e;
-  }
-  /// Bits by the plane's own statistics, and distortion at 0.15 squared steps a bit; 256ths.
-  std::uint64_t cost_q8() const {
-    std::uint64_t total = 0, bits = long_bits_q8;
-    for (const std::uint32_t n : count) total += n;
-    for (std::size_t i = 0; i < count.size(); ++i)
-      if (count[i] > 0)
-        bits += count[i] * std::uint64_t{log2_q8(total) - log2_q8(count[i])} +
-                (i > 0 ? count[i] * 256u : 0u);
-    return bits + distortion_q12 * 20 / (3 * 16);
-  }
-};
 
 class LevelQuantiser {
  public:
@@ -71,7 +41,7 @@ class LevelQuantiser {
         planes_(input.steps.size()),
         threads_(threads),
         levels_(input.morton, input.depth, input.dropped,
-                input.base != nullptr ? input.base->level : 0, input.weight) {
+                input.base != nullptr ? input.base->level : 0, input.weights) {
     for (const auto& functions : input.groups)
       rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
     if (input.base != nullptr) {
@@ -124,7 +94,7 @@ class LevelQuantiser {
   /// The rows of a slice's cells as the base has them.
   void adopt(const QuantisedBase& base) {
     for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].start_from(base.quantised.rates[g]);
-    start_from_base(base.cells, base.quantised.values, base.weight, planes_, values_);
+    start_from_base(base.cells, base.quantised.values, base.weights, planes_, values_);
     for (std::size_t i = 0; i < base.cells.size(); ++i) {
       const std::uint32_t row = base.cells.row[i];
       const auto there = base.coefficients.subspan((base.cells.first + i) * planes_, planes_);
@@ -151,7 +121,7 @@ class LevelQuantiser {
     for (std::size_t n = 0; n < level_->nodes.size(); ++n)
       std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[n] * planes_), planes_,
                   parents.begin() + static_cast<std::ptrdiff_t>(n * planes_));
-    std::array<std::vector<Histogram>, kPredictionModes> tried;
+    std::array<std::vector<ModeTrial>, kPredictionModes> tried;
     for (std::uint8_t mode = 0; mode < kPredictionModes; ++mode) {
       tried[mode].resize(planes_);
       const std::vector<std::uint8_t> same(planes_, mode);
@@ -177,7 +147,7 @@ class LevelQuantiser {
 
   /// Codes planes begin .. end - 1 of the level, or tries to: then coefficients stay as they are.
   void code(std::size_t begin, std::size_t end, const std::vector<std::uint8_t>& modes,
-            Histogram* tried) {
+            ModeTrial* tried) {
     Plans plans;
     const NodePrediction& plan = plans[0];  // any has the rows
     const auto used = [&](std::uint8_t mode) {
@@ -258,7 +228,7 @@ class LevelQuantiser {
   }
 
   void code_row(std::uint32_t row, std::size_t begin, std::size_t lanes,
-                const std::int32_t* predicted, Histogram* tried) {
+                const std::int32_t* predicted, ModeTrial* tried) {
     std::int32_t* coefficient = coefficients_.data() + row * planes_ + begin;
     std::int32_t* value = values_.data() + row * planes_ + begin;
     if (tried != nullptr) {

@@ -21,11 +21,11 @@ struct Quantised {
   std::vector<RateModel> rates;                  ///< [groups] what was learnt of the bits
 };
 
-/// The base that a slice goes on from. Spec 8.2.1.
+/// The base that a slice goes on from. Spec 8.2.
 struct QuantisedBase {
   const SliceCells& cells;                     ///< of the slice
   int level;                                   ///< of the cells
-  std::uint32_t weight;                        ///< of a cell in the base
+  CodeWeights weights;                         ///< of the cells of the scene
   std::span<const std::int32_t> coefficients;  ///< [cells of the scene][planes] quantised
   const Quantised& quantised;
 };
@@ -37,9 +37,9 @@ struct QuantiserInput {
   const PlaneGroups& groups;
   std::span<const std::uint32_t> steps;  ///< [planes]
   bool predict = false;
-  double rdo = 0;                       ///< 0 .. 1
-  int dropped = 0;                      ///< levels below the rows: of a base those of its slices
-  std::uint32_t weight = 1;             ///< of every code; of a base that of a cell
+  double rdo = 0;   ///< 0 .. 1
+  int dropped = 0;  ///< levels below the rows: of a base those of its slices
+  CodeWeights weights{};
   const QuantisedBase* base = nullptr;  ///< nullptr: the tree is coded from the root
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 
 namespace slf {
@@ -29,19 +30,14 @@ class CoefficientSignModel {
   bool code(Coder& coder, const SignEvidence& e, bool negative) {
     const std::uint32_t c = e.channel;
     const std::uint32_t own0 = c > 0 ? sign(e.own[0]) : 0, own1 = c > 1 ? sign(e.own[1]) : 0;
-    const std::uint32_t place = e.axis * 3 + c;
+    const std::uint32_t parent = product(e.parent, 0, c), previous = product(e.previous, 0, c);
     const std::array<std::uint32_t, 4> contexts = {
-        ((own0 * 3 + product(e.parent, 0, c)) * 3 + product(e.grandparent, 0, c)) * 9 +
-            product(e.previous, 0, c) * 3 + c,
-        ((sign(e.faces[0][c]) * 3 + sign(e.faces[1][c])) * 3 + sign(e.faces[2][c])) * 9 + place,
-        (((own0 * 3 + own1) * 3 + product(e.parent, 0, c)) * 3 + product(e.parent, 1, c)) * 9 +
-            product(e.previous, 1, c) * 3 + c,
-        (((strong_sign(e.same_axis[c]) * 5 + strong_sign(e.parent[c])) * 5 +
-          strong_sign(e.previous[c])) *
-             3 +
-         own0) * 9 +
-            place};
-    return negative_.code(coder, contexts, c * 3 + own0, negative) != 0;
+        Above::index(own0, parent, product(e.grandparent, 0, c), previous, c),
+        Faces::index(sign(e.faces[0][c]), sign(e.faces[1][c]), sign(e.faces[2][c]), e.axis, c),
+        Channels::index(own0, own1, parent, product(e.parent, 1, c), product(e.previous, 1, c), c),
+        Strong::index(strong_sign(e.same_axis[c]), strong_sign(e.parent[c]),
+                      strong_sign(e.previous[c]), own0, e.axis, c)};
+    return negative_.code(coder, contexts, Set::index(c, own0), negative) != 0;
   }
 
  private:
@@ -55,7 +51,13 @@ class CoefficientSignModel {
     return (values[earlier] > 0) == (values[c] > 0) ? 1 : 2;
   }
 
-  MixedBit<4, 9> negative_{{243, 243, 729, 125 * 27}};
+  using Above = ContextShape<3, 3, 3, 3, 3>;
+  using Faces = ContextShape<3, 3, 3, 3, 3>;
+  using Channels = ContextShape<3, 3, 3, 3, 3, 3>;
+  using Strong = ContextShape<5, 5, 5, 3, 3, 3>;
+  using Set = ContextShape<3, 3>;  // channel; the sign of the first
+  MixedBit<4, Set::kCount> negative_{
+      {Above::kCount, Faces::kCount, Channels::kCount, Strong::kCount}};
 };
 
 }  // namespace slf

@@ -5,8 +5,8 @@
 
 #include "attributes/raht_arithmetic.h"
 #include "attributes/raht_tree.h"
-#include "bitstream/multiversion.h"
-#include "bitstream/prefetch.h"
+#include "base/multiversion.h"
+#include "base/prefetch.h"
 
 namespace slf {
 namespace {

@@ -52,7 +52,8 @@ class NormalModel {
     const std::uint32_t magnitude =
         code_magnitude(coder, contexts.magnitude, kLimit,
                        static_cast<std::uint32_t>(residual < 0 ? -residual : residual));
-    if (magnitude == 0 || magnitude > 1u << (bits_ - 1)) return false;
+    const std::uint32_t most = (1u << (bits_ - 1)) - (negative ? 0 : 1);
+    if (magnitude == 0 || magnitude > most) return false;
     residual =
         negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
     return true;

@@ -1,6 +1,6 @@
 #include "attributes/plane_transform.h"
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "slf/given_planes.h"
 #include "slf/parallel.h"
 

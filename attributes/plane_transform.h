@@ -29,19 +29,25 @@ struct ExpansionScratch {
 void expand_point(const PlaneTransform& transform, const std::int32_t* components,
                   std::int32_t* planes, ExpansionScratch& scratch);
 
-/// Codes the matrix, column by column, entries in 2^-precision[column]. Written once for decoder
-/// and encoder. Spec 7.11. Returns false where the decoder met a value no encoder writes.
+/// Columns of a matrix, from `begin` to before `end`.
+struct ColumnRange {
+  std::size_t begin = 0, end = 0;
+  bool empty() const { return begin == end; }
+};
+
+/// Codes columns of the matrix, one by one, entries in 2^-precision[column]. Written once for
+/// decoder and encoder. Spec 7.11. Returns false where the decoder met a value no encoder writes.
 /// @param precision  [columns] 0 .. 14: fractional bits; the decoder does not read it
 template <class Coder>
-bool code_matrix(Coder& coder, PlaneTransform& t, std::span<const std::uint8_t> precision) {
+bool code_columns(Coder& coder, PlaneTransform& t, ColumnRange columns,
+                  std::span<const std::uint8_t> precision) {
   constexpr std::uint32_t kLimit = 255;
   constexpr std::size_t kClasses = 16;
   std::vector<AdaptiveBit> nonzero(kClasses);
   std::vector<MagnitudeContexts> magnitude(kClasses);
   const std::size_t rows = t.rows();
   const auto root = static_cast<std::uint32_t>(isqrt(rows));
-  t.matrix.resize(rows * t.columns());
-  for (std::size_t c = 0; c < t.columns(); ++c) {
+  for (std::size_t c = columns.begin; c < columns.end; ++c) {
     const std::uint32_t bits = coder.raw(4, Coder::kDecodes ? 0 : precision[c]);
     if (bits > PlaneTransform::kFractionBits) return false;
     const auto shift = PlaneTransform::kFractionBits - static_cast<int>(bits);

@@ -1,7 +1,7 @@
 #include "attributes/raht_forward.h"
 
 #include "attributes/raht_arithmetic.h"
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -16,11 +16,7 @@ void forward_lanes(const Merge* merges, std::size_t count, std::int32_t* values,
     const Merge& m = merges[i];
     std::int32_t* __restrict left = values + m.left * stride;
     std::int32_t* __restrict right = values + m.right * stride;
-    for (std::size_t j = 0; j < lanes; ++j) {
-      const std::int32_t a = left[j], b = right[j];
-      left[j] = round_q30(std::int64_t{m.cos_q30} * a + std::int64_t{m.sin_q30} * b);
-      right[j] = round_q30(std::int64_t{m.cos_q30} * b - std::int64_t{m.sin_q30} * a);
-    }
+    for (std::size_t j = 0; j < lanes; ++j) forward_merge(m, left[j], right[j]);
   }
 }
 

@@ -8,9 +8,9 @@
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
-#include "bitstream/huge_pages.h"
-#include "bitstream/multiversion.h"
-#include "bitstream/prefetch.h"
+#include "base/huge_pages.h"
+#include "base/multiversion.h"
+#include "base/prefetch.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -42,17 +42,15 @@ inline void spread_mean(const Merge& m, std::int32_t* __restrict low, std::int32
 
 /// The same for any difference, still quantised. Not zero: a coefficient is too large; it counts
 /// as 0.
-inline std::int32_t inverse_merge(const Merge& m, std::int32_t* __restrict low,
-                                  std::int32_t* __restrict high,
-                                  const std::int32_t* __restrict step,
-                                  const std::int32_t* __restrict most, std::size_t lanes) {
+inline std::int32_t inverse_rows(const Merge& m, std::int32_t* __restrict low,
+                                 std::int32_t* __restrict high, const std::int32_t* __restrict step,
+                                 const std::int32_t* __restrict most, std::size_t lanes) {
   std::int32_t bad = 0;
   for (std::size_t j = 0; j < lanes; ++j) {
     const bool good = high[j] <= most[j] && high[j] >= -most[j];
     bad |= !good;
     const std::int32_t mean = low[j], difference = (good ? high[j] : 0) * step[j];
-    low[j] = round_q30(std::int64_t{m.cos_q30} * mean - std::int64_t{m.sin_q30} * difference);
-    high[j] = round_q30(std::int64_t{m.sin_q30} * mean + std::int64_t{m.cos_q30} * difference);
+    inverse_merge(m, mean, difference, low[j], high[j]);
   }
   return bad;
 }
@@ -87,7 +85,7 @@ inline std::int32_t inverse_block(const Merge& m, bool zero, const Range& range,
   std::int32_t* low = range.values.row(m.left) + j;
   std::int32_t* high = range.values.row(m.right) + j;
   if (!zero && any_nonzero(high, lanes))
-    return inverse_merge(m, low, high, range.step + j, range.most + j, lanes);
+    return inverse_rows(m, low, high, range.step + j, range.most + j, lanes);
   if (any_nonzero(low, lanes)) spread_mean(m, low, high, lanes);
   return 0;
 }
@@ -185,7 +183,7 @@ bool over_planes(std::size_t planes, int threads, const Body& body) {
   return good;
 }
 
-Error too_large() { return {Errc::kOutOfRange, "cu_magnitude", 0}; }
+Error too_large() { return {Errc::kOutOfRange, "cu_magnitude"}; }
 
 /// Runs of planes with the same mode on a level, neighbours joined.
 std::vector<Run> runs_of_level(std::span<const PredictedPlanes> planes, std::size_t level) {

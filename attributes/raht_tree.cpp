@@ -35,7 +35,7 @@ Children cartesian_tree(const std::vector<std::uint8_t>& split) {
   return tree;
 }
 
-/// Spec 8.6.2: sqrt(part / whole) with 30 fractional bits, part < whole <= 2^22.
+/// Spec 8.6.2: sqrt(part / whole) with 30 fractional bits, part < whole <= 2^24.
 std::int32_t root_of_share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<std::int32_t>(isqrt(((part << 40) / whole) << 20));
 }
@@ -82,7 +82,7 @@ std::array<std::size_t, kSplits / 3 + 2> level_begins(const std::vector<std::uin
 }
 
 /// Merges with their weights, by level and otherwise from the top down; fills in the parents too.
-void add_merges(RahtTree& tree, std::span<const std::uint32_t> first) {
+void add_merges(RahtTree& tree, std::span<const std::uint32_t> first, const CodeWeights& weights) {
   const auto count = static_cast<std::uint32_t>(tree.size());
   const Children children = cartesian_tree(tree.split);
   auto place = level_begins(tree.split);
@@ -96,11 +96,11 @@ void add_merges(RahtTree& tree, std::span<const std::uint32_t> first) {
   while (!open.empty()) {
     const Open node = open.back();
     open.pop_back();
-    const auto points = [&](std::uint32_t begin, std::uint32_t end) -> std::uint64_t {
-      return first.empty() ? end - begin : first[end] - first[begin];
+    const auto weight = [&](std::uint32_t begin, std::uint32_t end) {
+      return first.empty() ? weights.of(begin, end) : weights.of(first[begin], first[end]);
     };
     const auto [cosine, sine] =
-        shares.of(points(node.first, node.merge), points(node.merge, node.end));
+        shares.of(weight(node.first, node.merge), weight(node.merge, node.end));
     tree.merges[place[level_of(tree.split[node.merge])]++] = {node.first, node.merge, cosine, sine};
     if (const std::uint32_t below = children.right[node.merge]; below != kNone) {
       tree.parent[below] = node.merge;
@@ -113,26 +113,28 @@ void add_merges(RahtTree& tree, std::span<const std::uint32_t> first) {
   }
 }
 
-/// first: [rows + 1] first point of each row; empty: every row is one.
-RahtTree build_tree(std::vector<std::uint8_t> split, std::span<const std::uint32_t> first) {
+/// first: [rows + 1] first code of each row; empty: every row is one.
+RahtTree build_tree(std::vector<std::uint8_t> split, std::span<const std::uint32_t> first,
+                    const CodeWeights& weights) {
   RahtTree tree;
   tree.split = std::move(split);
   tree.parent.assign(tree.size(), 0);
   tree.order = coding_order(tree.split);
-  add_merges(tree, first);
+  add_merges(tree, first, weights);
   return tree;
 }
 
 }  // namespace
 
-RahtTree build_raht_tree(std::span<const std::uint64_t> morton) {
+RahtTree build_raht_tree(std::span<const std::uint64_t> morton, const CodeWeights& weights) {
   std::vector<std::uint8_t> split(morton.size(), 255);
   for (std::size_t row = 1; row < morton.size(); ++row)
     split[row] = static_cast<std::uint8_t>(std::bit_width(morton[row] ^ morton[row - 1]) - 1);
-  return build_tree(std::move(split), {});
+  return build_tree(std::move(split), {}, weights);
 }
 
-RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split) {
+RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split,
+                       const CodeWeights& weights) {
   RahtTop top;
   std::vector<std::uint8_t> split;
   for (std::size_t p = 0; p < morton.size(); ++p) {
@@ -142,7 +144,7 @@ RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split) 
     top.first.push_back(static_cast<std::uint32_t>(p));
   }
   top.first.push_back(static_cast<std::uint32_t>(morton.size()));
-  top.tree = build_tree(std::move(split), top.first);
+  top.tree = build_tree(std::move(split), top.first, weights);
   return top;
 }
 

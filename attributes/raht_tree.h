@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "attributes/code_weights.h"
 #include "geometry/isqrt.h"  // of 8.6.2
 
 namespace slf {
@@ -29,7 +30,7 @@ struct RahtTree {
 };
 
 /// morton: distinct, ascending, at least one, at most 2^22. O(P).
-RahtTree build_raht_tree(std::span<const std::uint64_t> morton);
+RahtTree build_raht_tree(std::span<const std::uint64_t> morton, const CodeWeights& weights = {});
 
 /// The top of the tree over points: only merges of split >= lowest_split; a row is what they join.
 struct RahtTop {
@@ -37,7 +38,8 @@ struct RahtTop {
   std::vector<std::uint32_t> first;  ///< [rows + 1] first point of each row's node, and P
 };
 /// O(P) time to count, O(rows) for the rest and in memory.
-RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split);
+RahtTop build_raht_top(std::span<const std::uint64_t> morton, int lowest_split,
+                       const CodeWeights& weights = {});
 
 /// All merges but those that join cells; merges come by level, so these are the last. 0: all.
 inline std::span<const Merge> merges_below(const RahtTree& tree, std::size_t cells) {

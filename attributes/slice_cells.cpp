@@ -34,9 +34,10 @@ std::int32_t WeightChange::operator()(std::int32_t value) const {
 }
 
 void start_from_base(const SliceCells& cells, std::span<const std::int32_t> base,
-                     std::uint32_t weight, std::size_t planes, std::span<std::int32_t> values) {
+                     const CodeWeights& weights, std::size_t planes,
+                     std::span<std::int32_t> values) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const WeightChange change(weight, cells.weight[i]);
+    const WeightChange change(weights.of(cells.first + i), cells.weight[i]);
     const auto from = base.subspan((cells.first + i) * planes, planes);
     std::transform(from.begin(), from.end(),
                    values.begin() + static_cast<std::ptrdiff_t>(cells.row[i] * planes), change);
@@ -44,9 +45,9 @@ void start_from_base(const SliceCells& cells, std::span<const std::int32_t> base
 }
 
 void put_into_base(const SliceCells& cells, std::span<const std::int32_t> values,
-                   std::uint32_t weight, std::size_t planes, std::span<std::int32_t> base) {
+                   const CodeWeights& weights, std::size_t planes, std::span<std::int32_t> base) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const WeightChange change(cells.weight[i], weight);
+    const WeightChange change(cells.weight[i], weights.of(cells.first + i));
     const auto from = values.subspan(cells.row[i] * planes, planes);
     std::transform(from.begin(), from.end(),
                    base.begin() + static_cast<std::ptrdiff_t>((cells.first + i) * planes), change);

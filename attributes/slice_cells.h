@@ -1,5 +1,5 @@
 // The cells of the base that a slice consists of, and what its transform starts from: values and
-// contexts of the base. Spec 8.2.1.
+// contexts of the base. Spec 8.6.4, 8.7.2.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct SliceCells {
 SliceCells find_cells(const RahtTree& tree, std::span<const std::uint32_t> first_point,
                       int lowest_split, std::size_t first_cell);
 
-/// The weight of a node changes: its value, mean * sqrt(weight), with it. Spec 8.2.1.
+/// The weight of a node changes: its value, mean * sqrt(weight), with it. Spec 8.6.4.
 class WeightChange {
  public:
   /// from, to: 1 .. 2^22.
@@ -42,14 +42,15 @@ class WeightChange {
 
 /// Values of the base's rows to those of a slice's cells, whose rows are overwritten.
 /// @param base    [cells of the scene][planes] what the transform of the base leaves
-/// @param weight  of a cell of the base (sps_base_weight)
+/// @param weights  of the cells of the base
 /// @param values  [rows][planes] of the slice
 void start_from_base(const SliceCells& cells, std::span<const std::int32_t> base,
-                     std::uint32_t weight, std::size_t planes, std::span<std::int32_t> values);
+                     const CodeWeights& weights, std::size_t planes,
+                     std::span<std::int32_t> values);
 
 /// The way back, for an encoder: what raht_forward leaves in the rows of the cells (sum / sqrt(w)),
 /// to the base's input, rows cells.first .. of it.
 void put_into_base(const SliceCells& cells, std::span<const std::int32_t> values,
-                   std::uint32_t weight, std::size_t planes, std::span<std::int32_t> base);
+                   const CodeWeights& weights, std::size_t planes, std::span<std::int32_t> base);
 
 }  // namespace slf

@@ -1,4 +1,4 @@
-// Adaptive states that several coders start from, and a copy that one of them works on. Spec 8.2.1.
+// Adaptive states that several coders start from, and a copy that one of them works on. Spec 8.1.
 #pragma once
 
 #include <memory>

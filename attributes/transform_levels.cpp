@@ -8,12 +8,12 @@
 namespace slf {
 
 TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped,
-                                 int start, std::uint32_t weight)
+                                 int start, const CodeWeights& weights)
     : depth_(depth),
       dropped_(std::min(dropped, depth)),
       start_(start),
       level_(start - 1),
-      weight_(weight) {
+      weights_(weights) {
   std::array<std::int64_t, 3> sum{};
   for (std::size_t p = 0; p < morton.size(); ++p) {
     const std::uint64_t code = morton[p] >> (3 * dropped_);
@@ -111,7 +111,7 @@ std::vector<NodePlace> TransformLevels::places_of(const std::vector<std::uint32_
     const std::uint32_t row = rows[n], end = rows[n + 1];
     NodePlace& place = places[n];
     const std::uint32_t codes = first_[end] - first_[row];
-    place.weight = codes * weight_;
+    place.weight = weights_.of(first_[row], first_[end]);
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int64_t sum = (sums_[end][a] - sums_[row][a]) << 4;
       place.centre[a] = static_cast<std::int32_t>(

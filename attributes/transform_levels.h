@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "attributes/code_weights.h"
 #include "geometry/octree_levels.h"
 
 namespace slf {
@@ -13,7 +14,7 @@ namespace slf {
 /// Where the points of a node are.
 struct NodePlace {
   std::array<std::int32_t, 3> centre;  ///< mean position, in sixteenths of the side of a child
-  std::uint32_t weight;                ///< number of points
+  std::uint32_t weight;                ///< of its points, or cells of a base
 };
 
 /// A level and the level below it. A node's row is that of its first point.
@@ -42,10 +43,9 @@ class TransformLevels {
   /// the first depth - dropped levels (RahtTop), at least the root.
   /// @param start   the first level: that of a slice's cells, 0 without a base, at most depth -
   ///                dropped
-  /// @param weight  of every code: that of a cell where the codes are the base's (spec 8.2.1); at
-  ///                most 2^24 together
+  /// @param weights  of the codes; they move no centre
   TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped, int start = 0,
-                  std::uint32_t weight = 1);
+                  const CodeWeights& weights = {});
 
   /// Levels from `start` on.
   int count() const { return depth_ - dropped_ - start_; }
@@ -59,7 +59,7 @@ class TransformLevels {
   std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
 
   int depth_, dropped_, start_, level_;
-  std::uint32_t weight_;
+  CodeWeights weights_;
   std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels
   std::vector<std::uint32_t> first_;               // [rows + 1] first point
   std::vector<std::array<std::int64_t, 3>> sums_;  // [rows + 1] of the positions of points before

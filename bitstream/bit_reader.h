@@ -27,9 +27,10 @@ class BitReader {
 
   /// Exp-Golomb, 0 .. 2^32 - 2. A run of 32 zeros is no valid code: it fails, it does not spin.
   std::uint64_t ue(const char* element) {
+    const std::uint64_t begin = pos_;
     int zeros = 0;
     while (u(1, element) == 0)
-      if (failed_ || ++zeros == 32) return fail(Errc::kOutOfRange, element);
+      if (failed_ || ++zeros == 32) return fail(Errc::kOutOfRange, element, begin);
     const std::uint64_t suffix = u(zeros, element);
     return failed_ ? 0 : (std::uint64_t{1} << zeros) - 1 + suffix;
   }
@@ -45,21 +46,28 @@ class BitReader {
   /// Fewer than 8 bits may follow, all zero. Spec 3.3.
   void trailing_bits(const char* element) {
     if (!failed_ && bits_left() >= 8) fail(Errc::kOutOfRange, element);
-    if (!failed_ && u(static_cast<int>(bits_left()), element) != 0) fail(Errc::kReserved, element);
+    const std::uint64_t begin = pos_;
+    if (!failed_ && u(static_cast<int>(bits_left()), element) != 0)
+      fail(Errc::kReserved, element, begin);
   }
 
   /// Skips zero bits to the next byte and returns the bytes that follow.
   std::span<const std::uint8_t> align_and_rest(const char* element) {
+    const std::uint64_t begin = pos_;
     const int padding = static_cast<int>((8 - pos_ % 8) % 8);
-    if (u(padding, element) != 0) fail(Errc::kReserved, element);
+    if (u(padding, element) != 0) fail(Errc::kReserved, element, begin);
     return failed_ ? std::span<const std::uint8_t>{} : bytes_.subspan(pos_ / 8);
   }
 
-  std::uint64_t fail(Errc code, const char* element) {
-    if (!failed_) error_ = {code, element, pos_};
+  void skip_all() { pos_ = bytes_.size() * 8; }
+
+  /// Of what begins at bit `begin`, or at the next one to read.
+  std::uint64_t fail(Errc code, const char* element, std::uint64_t begin) {
+    if (!failed_) error_ = {code, element, begin};
     failed_ = true;
     return 0;
   }
+  std::uint64_t fail(Errc code, const char* element) { return fail(code, element, pos_); }
 
   bool ok() const { return !failed_; }
   const Error& error() const { return error_; }

@@ -12,7 +12,7 @@ template <class V, class Entry>
 void index_entry(V& v, Entry& entry, const SequenceParameterSet& set) {
   v.u(8, "index_unit_type", entry.type, Range{0, 255});
   v.ue("index_unit_bytes", entry.bytes, Range{6, 0xFFFFFFFE});
-  if (has_ids(entry.type)) unit_ids(v, entry.ids, entry.type, set);
+  if (has_ids(entry.type)) unit_ids(v, entry.ids, entry.type, set, kIndexIds);
 }
 
 // Spec 7.7  index_boxes( )
@@ -30,35 +30,35 @@ void index_boxes(V& v, Boxes& boxes, std::uint32_t base_levels) {
           Range{i < 3 ? 0 : std::int64_t{box[i - 3]}, (std::int64_t{1} << bits) - 1});
 }
 
-bool same_ids(const SliceUnitHeader& a, const SliceUnitHeader& b) {
-  return a.slice_id == b.slice_id && a.range == b.range && a.group == b.group;
-}
-
 Result<Done> check_entry(const IndexEntry& entry, const Unit& unit, const SequenceParameterSet& set,
                          const Unit& index) {
   if (unit.type != entry.type || unit.bytes != entry.bytes)
-    return Error{Errc::kOutOfRange, "index_unit_bytes", index.offset * 8};
+    return in_unit(index, Error{Errc::kOutOfRange, "index_unit_bytes"});
   if (!has_ids(unit.type)) return Done{};
   SLF_TRY(const SliceUnitHeader ids, read_ids(unit, set));
-  if (!same_ids(ids, entry.ids))
-    return Error{Errc::kOutOfRange, "index_unit_ids", index.offset * 8};
+  if (!same_ids(ids, entry.ids)) return in_unit(index, Error{Errc::kOutOfRange, "index_unit_ids"});
   return Done{};
 }
 
 }  // namespace
+
+bool same_ids(const SliceUnitHeader& a, const SliceUnitHeader& b) {
+  return a.slice_id == b.slice_id && a.range == b.range && a.group == b.group && a.layer == b.layer;
+}
 
 Result<SliceUnitHeader> read_ids(const Unit& unit, const SequenceParameterSet& set) {
   BitReader in(unit.payload);
   ParseSyntax parse{in};
   SliceUnitHeader ids;
   unit_ids(parse, ids, unit.type, set);
-  if (!in.ok()) return in.error();
+  if (!in.ok()) return in_unit(unit, in.error());
   return ids;
 }
 
-Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set) {
+Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set,
+                          SyntaxLog* log) {
   BitReader in(payload);
-  ParseSyntax parse{in};
+  ParseSyntax parse{in, log};
   std::uint32_t count = 0;
   Index index;
   parse.ue("index_num_units", count, Range{0, 0xFFFFFFFE});
@@ -72,36 +72,38 @@ Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceP
   return index;
 }
 
+Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set) {
+  return in_unit(unit, parse_index(unit.payload, set));
+}
+
 std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set) {
   BitWriter out;
   WriteSyntax write{out};
-  write.ue("index_num_units", index.entries.size(), Range{});
+  write.ue("index_num_units", index.entries.size(), Range{0, 0xFFFFFFFE});
   for (const IndexEntry& entry : index.entries) index_entry(write, entry, set);
   index_boxes(write, index.boxes, set.sps_base_levels);
   return out.take();
 }
 
 Result<std::optional<Index>> find_index(const Units& units, const SequenceParameterSet& set) {
-  for (const Unit& unit : units.units) {
-    if (unit.type != UnitType::kIndex) continue;
-    SLF_TRY(Index index, parse_index(unit.payload, set));
-    return std::optional<Index>(std::move(index));
-  }
-  return std::optional<Index>();
+  const Unit* unit = units.first(UnitType::kIndex);
+  if (unit == nullptr) return std::optional<Index>();
+  SLF_TRY(Index index, read_index(*unit, set));
+  return std::optional<Index>(std::move(index));
 }
 
 Result<Done> check_index(const Units& units, const SequenceParameterSet& set, std::size_t slices) {
   for (std::size_t at = 0; at < units.units.size(); ++at) {
     const Unit& unit = units.units[at];
     if (unit.type != UnitType::kIndex) continue;
-    SLF_TRY(const Index index, parse_index(unit.payload, set));
+    SLF_TRY(const Index index, read_index(unit, set));
     const std::size_t present = units.units.size() - at - 1;
     if (present > index.entries.size() || (units.complete && present < index.entries.size()))
-      return Error{Errc::kOutOfRange, "index_unit_bytes", unit.offset * 8};
+      return in_unit(unit, Error{Errc::kOutOfRange, "index_unit_bytes"});
     for (std::size_t i = 0; i < present; ++i)
       SLF_CHECK(check_entry(index.entries[i], units.units[at + 1 + i], set, unit));
     if (slices > 0 && !index.boxes.empty() && index.boxes.size() != slices)
-      return Error{Errc::kOutOfRange, "index_num_slices_minus1", unit.offset * 8};
+      return in_unit(unit, Error{Errc::kOutOfRange, "index_num_slices_minus1"});
   }
   return Done{};
 }

@@ -29,7 +29,11 @@ struct Index {
   std::vector<CellBox> boxes;  ///< [slices], or none
 };
 
-Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set);
+/// @param log  receives every element, where given
+Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set,
+                          SyntaxLog* log = nullptr);
+/// Of a unit of the stream, which its errors name.
+Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set);
 std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set);
 
 /// The first index unit there is, parsed.
@@ -39,6 +43,9 @@ Result<std::optional<Index>> find_index(const Units& units, const SequenceParame
 /// The boxes, where there are, against the number of slices.
 /// @param slices  0: not known
 Result<Done> check_index(const Units& units, const SequenceParameterSet& set, std::size_t slices);
+
+/// Do they name the same slice, range and group?
+bool same_ids(const SliceUnitHeader& a, const SliceUnitHeader& b);
 
 /// The ids that a unit begins with.
 Result<SliceUnitHeader> read_ids(const Unit& unit, const SequenceParameterSet& set);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "slf/error.h"
@@ -10,7 +11,10 @@
 
 namespace slf {
 
-/// @errors kOutOfRange: damaged, not UTF-8 sized as said, more than 1 MiB when inflated.
+/// Well-formed: no character in more bytes than it needs, no half of a surrogate pair.
+bool is_utf8(std::string_view text);
+
+/// @errors kOutOfRange: damaged, not sized as said, not UTF-8, more than 1 MiB when inflated.
 Result<Metadata> parse_metadata(std::span<const std::uint8_t> payload);
 std::vector<std::uint8_t> write_metadata(const Metadata& metadata);
 

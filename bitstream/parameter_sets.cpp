@@ -11,9 +11,8 @@ Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::u
   if (!in.ok()) return in.error();
   std::uint32_t used = 0;  // groups, by bit: each has a function
   for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;
-  if (used + 1 != 1u << set.num_groups())
-    return Error{Errc::kOutOfRange, "sps_num_groups_minus1", 0};
-  if (set.sps_cut_groups > set.num_groups()) return Error{Errc::kOutOfRange, "sps_cut_groups", 0};
+  if (used + 1 != 1u << set.num_groups()) return Error{Errc::kOutOfRange, "sps_num_groups_minus1"};
+  if (set.sps_cut_groups > set.num_groups()) return Error{Errc::kOutOfRange, "sps_cut_groups"};
   return set;
 }
 

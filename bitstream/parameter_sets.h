@@ -16,12 +16,12 @@ inline constexpr int kVersionMajor = 0, kVersionMinor = 4;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
-inline constexpr std::uint32_t kTextureCoder = 2;  ///< sps_coefficient_coder
+/// sps_coefficient_coder; 0 is the vector coder, 1 the independent one.
+inline constexpr std::uint32_t kTextureCoder = 2, kLayeredCoder = 3;
 
 inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
 inline constexpr std::uint32_t kMaxSlices = 1u << 16;
 inline constexpr std::uint32_t kMaxCells = 1u << 22;
-inline constexpr std::uint64_t kMaxBasePoints = 1u << 24;  ///< cells times the weight of each
 
 /// Functions k .. k + length - 1 share group, shift and steps.
 struct PlaneRun {
@@ -44,7 +44,7 @@ struct SequenceParameterSet {
   double sps_metres_per_unit = 0;
   std::uint32_t sps_geometry_coder = 0;
   std::uint32_t sps_normal_bits = 0;
-  std::uint32_t sps_base_levels = 0, sps_base_weight_minus1 = 0;
+  std::uint32_t sps_base_levels = 0;
   std::uint32_t sps_cut_flag = 0, sps_cut_levels = 0, sps_cut_groups = 0, sps_cut_slices_flag = 0;
   std::uint32_t sps_num_functions = 0;
   std::uint32_t sps_basis_flag = 0;
@@ -55,6 +55,8 @@ struct SequenceParameterSet {
   std::uint32_t sps_normal_cell_log2 = 0;
   std::uint32_t sps_coefficient_coder = 0, sps_num_groups_minus1 = 0;
   std::uint32_t sps_prediction_flag = 0;
+  std::vector<std::uint32_t> sps_num_layers_minus1;  ///< [groups] with kLayeredCoder
+  std::uint32_t sps_cut_layers = 0;
   std::uint32_t sps_texture_bits = 0, sps_texture_cell_log2 = 0;
   std::vector<PlaneRun> runs;
   std::uint32_t sps_transform_flag = 0;
@@ -64,6 +66,20 @@ struct SequenceParameterSet {
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
   bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }
+  /// Vectors, in one layer or several.
+  bool has_vectors() const {
+    return sps_coefficient_coder == 0 || sps_coefficient_coder == kLayeredCoder;
+  }
+  std::uint32_t layers_of(std::size_t group) const {
+    return group < sps_num_layers_minus1.size() ? sps_num_layers_minus1[group] + 1 : 1;
+  }
+  /// Of the group that has most; 1 where there is none.
+  std::uint32_t num_layers() const {
+    std::uint32_t most = 1;
+    for (std::size_t g = 0; g < sps_num_layers_minus1.size(); ++g)
+      most = std::max(most, layers_of(g));
+    return most;
+  }
   int texture_bits() const { return 8 + 2 * static_cast<int>(sps_texture_bits); }
   std::uint32_t functions_of_basis() const {
     return sps_basis_idc == 0 ? 1u << (sps_scales_theta + sps_scales_gamma)
@@ -76,7 +92,6 @@ struct SequenceParameterSet {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
   }
   std::uint32_t base_levels() const { return sps_base_levels; }
-  std::uint32_t base_weight() const { return sps_base_weight_minus1 + 1; }
   /// Level ranges. The last ends at grid_bits; a range begins where the one before ends.
   std::uint32_t geometry_end(std::uint32_t range) const {
     return range < sps_geometry_range_end.size() ? sps_geometry_range_end[range] : grid_bits();
@@ -108,6 +123,7 @@ struct SequenceParameterSet {
   }
   /// Groups whose units are all there, where a cut leaves out the others.
   std::uint32_t kept_groups() const { return sps_cut_groups > 0 ? sps_cut_groups : num_groups(); }
+  std::uint32_t kept_layers() const { return sps_cut_layers > 0 ? sps_cut_layers : num_layers(); }
 };
 
 template <class V, class Run>
@@ -139,8 +155,6 @@ template <class V, class Set>
 void base_and_cut(V& v, Set& s) {
   v.u(5, "sps_base_levels", s.sps_base_levels, Range{0, s.sps_grid_bits_minus1});
   v.require(s.sps_base_levels == 0 || s.sps_profile == 0, Errc::kOutOfRange, "sps_base_levels");
-  if (s.sps_base_levels > 0)
-    v.ue("sps_base_weight_minus1", s.sps_base_weight_minus1, Range{0, kMaxSlicePoints - 1});
   v.u(1, "sps_cut_flag", s.sps_cut_flag, Range{0, 1});
   if (!s.sps_cut_flag) return;
   v.u(5, "sps_cut_levels", s.sps_cut_levels, Range{1, std::int64_t{s.grid_bits()}});
@@ -168,13 +182,43 @@ void plane_table(V& v, Set& s) {
   }
 }
 
+// Spec 7.2  what functions are of, and how their sum is a colour
+template <class V, class Set>
+void basis(V& v, Set& s) {
+  v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 1});
+  if (s.sps_basis_idc == 0) {
+    v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
+    v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
+    v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
+  } else {
+    v.u(4, "sps_degree", s.sps_degree, Range{0, 10});
+  }
+  v.require(s.sps_num_functions == s.functions_of_basis(), Errc::kOutOfRange, "sps_num_functions");
+  v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 1});
+  v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
+  v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
+  v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
+  v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
+  if (s.sps_frame_idc == 1)
+    v.u(5, "sps_normal_cell_log2", s.sps_normal_cell_log2, Range{0, s.sps_grid_bits_minus1});
+}
+
+// Spec 7.2  how many layers every group has
+template <class V, class Set>
+void group_layers(V& v, Set& s) {
+  v.resize("sps_num_groups_minus1", s.sps_num_layers_minus1, s.num_groups());
+  for (auto& layers : s.sps_num_layers_minus1) v.u(2, "sps_num_layers_minus1", layers, Range{0, 3});
+  if (s.sps_cut_flag)
+    v.u(2, "sps_cut_layers", s.sps_cut_layers, Range{0, std::int64_t{s.num_layers()} - 1});
+}
+
 // Spec 7.2  sequence_parameter_set( )
 template <class V, class Set>
 void sequence_parameter_set(V& v, Set& s) {
   v.u(8, "sps_version_major", s.sps_version_major, Range{0, 255});
+  v.require(s.sps_version_major == kVersionMajor, Errc::kUnsupported, "sps_version_major");
   v.u(8, "sps_version_minor", s.sps_version_minor, Range{0, 255});
   // Before 1.0 every minor version may differ in anything that follows.
-  v.require(s.sps_version_major == kVersionMajor, Errc::kUnsupported, "sps_version_major");
   v.require(s.sps_version_minor == kVersionMinor, Errc::kUnsupported, "sps_version_minor");
   v.u(4, "sps_profile", s.sps_profile, Range{0, 15});
   v.require(s.sps_profile <= kTextureProfile, Errc::kUnsupported, "sps_profile");
@@ -204,26 +248,8 @@ void sequence_parameter_set(V& v, Set& s) {
   v.ue("sps_num_functions", s.sps_num_functions, Range{0, 4096});
   if (s.sps_num_functions == 0) return;
   v.u(1, "sps_basis_flag", s.sps_basis_flag, Range{0, 1});
-  if (s.sps_basis_flag) {
-    v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 1});
-    if (s.sps_basis_idc == 0) {
-      v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
-      v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
-      v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
-    } else {
-      v.u(4, "sps_degree", s.sps_degree, Range{0, 10});
-    }
-    v.require(s.sps_num_functions == s.functions_of_basis(), Errc::kOutOfRange,
-              "sps_num_functions");
-    v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 1});
-    v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
-    v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
-    v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
-    v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
-    if (s.sps_frame_idc == 1)
-      v.u(5, "sps_normal_cell_log2", s.sps_normal_cell_log2, Range{0, s.sps_grid_bits_minus1});
-  }
-  v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, kTextureCoder});
+  if (s.sps_basis_flag) basis(v, s);
+  v.u(2, "sps_coefficient_coder", s.sps_coefficient_coder, Range{0, kLayeredCoder});
   v.require(s.has_texture() == (s.sps_profile == kTextureProfile), Errc::kOutOfRange,
             "sps_coefficient_coder");
   if (!s.has_texture()) v.u(1, "sps_prediction_flag", s.sps_prediction_flag, Range{0, 1});
@@ -232,6 +258,7 @@ void sequence_parameter_set(V& v, Set& s) {
     v.u(3, "sps_texture_cell_log2", s.sps_texture_cell_log2, Range{0, 7});
   }
   v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
+  if (s.sps_coefficient_coder == kLayeredCoder) group_layers(v, s);
   v.u(1, "sps_transform_flag", s.sps_transform_flag, Range{0, s.has_texture() ? 0 : 1});
   if (s.sps_transform_flag)
     v.u(4, "sps_num_transforms_minus1", s.sps_num_transforms_minus1,

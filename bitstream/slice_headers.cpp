@@ -10,9 +10,8 @@ Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
   slice_table(parse, table, set.sps_base_levels);
   in.trailing_bits("slices_trailing_bits");
   if (!in.ok()) return in.error();
-  const std::uint64_t cells = table.num_cells();
-  if (set.sps_base_levels > 0 && (cells > kMaxCells || cells * set.base_weight() > kMaxBasePoints))
-    return Error{Errc::kOutOfRange, "slice_num_cells_minus1", 0};
+  if (set.sps_base_levels > 0 && table.num_cells() > kMaxCells)
+    return Error{Errc::kOutOfRange, "slice_num_cells_minus1"};
   return table;
 }
 

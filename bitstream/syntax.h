@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "bitstream/bit_reader.h"
@@ -15,48 +17,87 @@ struct Range {
   std::int64_t min, max;
 };
 
+/// An element that was read, and where.
+struct SyntaxEntry {
+  const char* element;  ///< its name; a literal
+  const char* kind;     ///< u, ue, se, s8, f64: how it is coded. Spec 3.3
+  std::uint64_t bit;    ///< of its first bit in the unit's payload
+  std::uint64_t bits;
+  std::variant<std::int64_t, double> value;
+};
+using SyntaxLog = std::vector<SyntaxEntry>;
+
 /// Reads; a value outside its range fails with the element's name. See BitReader.
 struct ParseSyntax {
   BitReader& in;
+  SyntaxLog* log;
+
+  /// @param syntax_log  receives every element, where given
+  explicit ParseSyntax(BitReader& reader, SyntaxLog* syntax_log = nullptr)
+      : in(reader), log(syntax_log) {}
 
   template <class T>
   void u(int n, const char* element, T& value, Range range) {
-    store(element, value, static_cast<std::int64_t>(in.u(n, element)), range);
+    const std::uint64_t bit = in.bit_position();
+    store({element, "u", bit, 0, static_cast<std::int64_t>(in.u(n, element))}, value, range);
   }
   template <class T>
   void ue(const char* element, T& value, Range range) {
-    store(element, value, static_cast<std::int64_t>(in.ue(element)), range);
+    const std::uint64_t bit = in.bit_position();
+    store({element, "ue", bit, 0, static_cast<std::int64_t>(in.ue(element))}, value, range);
   }
   template <class T>
   void se(const char* element, T& value, Range range) {
-    store(element, value, in.se(element), range);
+    const std::uint64_t bit = in.bit_position();
+    store({element, "se", bit, 0, in.se(element)}, value, range);
   }
   template <class T>
   void s8(const char* element, T& value, Range range) {  // two's complement
-    store(element, value, static_cast<std::int8_t>(in.u(8, element)), range);
+    const std::uint64_t bit = in.bit_position();
+    store({element, "s8", bit, 0, static_cast<std::int8_t>(in.u(8, element))}, value, range);
   }
   /// Finite numbers only; positive says > 0.
   void f64(const char* element, double& value, bool positive) {
+    const std::uint64_t bit = in.bit_position();
     value = in.f64(element);
-    if (!std::isfinite(value) || (positive && !(value > 0))) in.fail(Errc::kOutOfRange, element);
+    if (!std::isfinite(value) || (positive && !(value > 0)))
+      in.fail(Errc::kOutOfRange, element, bit);
+    note({element, "f64", bit, 0, value});
   }
   /// `count` elements, each of which takes at least one bit: believed only if the bits are there.
   template <class T>
   void resize(const char* element, std::vector<T>& list, std::uint64_t count) {
-    if (count > in.bits_left()) in.fail(Errc::kTruncated, element);
+    if (count > in.bits_left()) in.fail(Errc::kTruncated, element, begin_of(element));
     list.assign(in.ok() ? count : 0, T{});
   }
   void require(bool condition, Errc code, const char* element) {
-    if (!condition) in.fail(code, element);
+    if (!condition) in.fail(code, element, begin_of(element));
   }
   bool ok() const { return in.ok(); }
 
  private:
   template <class T>
-  void store(const char* element, T& value, std::int64_t read, Range range) {
-    if (in.ok() && (read < range.min || read > range.max)) in.fail(Errc::kOutOfRange, element);
+  void store(const SyntaxEntry& entry, T& value, Range range) {
+    const std::int64_t read = *std::get_if<std::int64_t>(&entry.value);
+    if (in.ok() && (read < range.min || read > range.max))
+      in.fail(Errc::kOutOfRange, entry.element, entry.bit);
     value = static_cast<T>(in.ok() ? read : range.min);
+    note(entry);
   }
+  /// Of the element that was read last; what is asked of another one shows where reading stands.
+  std::uint64_t begin_of(std::string_view element) const {
+    return element == last_ ? last_begin_ : in.bit_position();
+  }
+  void note(SyntaxEntry entry) {
+    last_ = entry.element;
+    last_begin_ = entry.bit;
+    if (log == nullptr || !in.ok()) return;
+    entry.bits = in.bit_position() - entry.bit;
+    log->push_back(entry);
+  }
+
+  std::string_view last_;
+  std::uint64_t last_begin_ = 0;
 };
 
 /// Writes. Values are the encoder's own and within range.

@@ -3,50 +3,50 @@
 #include <algorithm>
 
 #include "bitstream/bit_reader.h"
-#include "bitstream/zlib_adapter.h"
+#include "bitstream/crc32.h"
 
 namespace slf {
 namespace {
 
 constexpr int kMaxLengthBytes = 6;  // 42 bits
+constexpr std::size_t kCrcBytes = 4;
 
 /// unit_length, seven bits a byte, least significant first. Advances `at`.
 Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::size_t& at) {
   std::uint64_t length = 0;
   for (int i = 0; i < kMaxLengthBytes; ++i) {
-    if (at >= stream.size()) return Error{Errc::kTruncated, "unit_length", at * 8};
+    if (at >= stream.size()) return Error{Errc::kTruncated, "unit_length"};
     const std::uint8_t byte = stream[at++];
     length |= std::uint64_t{byte & 0x7Fu} << (7 * i);
     if (byte & 0x80) continue;
     if (byte == 0 && i > 0) break;  // not the shortest form
     return length;
   }
-  return Error{Errc::kOutOfRange, "unit_length", at * 8};
-}
-
-Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
-  std::size_t at = offset;
-  const auto type = static_cast<UnitType>(stream[at++]);
-  SLF_TRY(const std::uint64_t length, read_length(stream, at));
-  if (stream.size() - at < 4 || length > stream.size() - at - 4)
-    return Error{Errc::kTruncated, "unit_payload", stream.size() * 8};
-  const auto size = static_cast<std::size_t>(length);
-  const Unit unit{type, stream.subspan(at, size), offset, at + size + 4 - offset};
-  std::uint32_t expected = 0;
-  for (std::size_t i = 0; i < 4; ++i) expected = expected << 8 | stream[at + size + i];
-  if (crc32(stream.subspan(offset, at + size - offset)) != expected)
-    return Error{Errc::kChecksum, "unit_crc", (at + size) * 8};
-  return unit;
+  return Error{Errc::kOutOfRange, "unit_length"};
 }
 
 /// Spec 7.10  end_unit( ): no unit was lost.
-Result<Done> check_end(const Unit& unit, std::size_t units_before) {
-  BitReader in(unit.payload);
+Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before) {
+  BitReader in(payload);
   const std::uint64_t count = in.ue("end_num_units");
   in.trailing_bits("end_trailing_bits");
   if (!in.ok()) return in.error();
-  if (count != units_before) return Error{Errc::kOutOfRange, "end_num_units", unit.offset * 8};
+  if (count != units_before) return Error{Errc::kOutOfRange, "end_num_units"};
   return Done{};
+}
+
+/// The unit that begins at `offset`; its checksum is in the stream, and not looked at.
+Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
+  std::size_t at = offset;
+  Unit unit{static_cast<UnitType>(stream[at++]), {}, offset, 0, offset + 1};
+  SLF_TRY(const std::uint64_t length, in_unit(unit, read_length(stream, at)));
+  unit.payload_offset = at;
+  const std::span<const std::uint8_t> rest = stream.subspan(at);
+  if (rest.size() < kCrcBytes || length > rest.size() - kCrcBytes)
+    return in_unit(unit, Error{Errc::kTruncated, "unit_payload"});
+  unit.payload = rest.first(static_cast<std::size_t>(length));
+  unit.bytes = at + unit.payload.size() + kCrcBytes - offset;
+  return unit;
 }
 
 }  // namespace
@@ -71,10 +71,39 @@ const char* unit_name(UnitType type) {
       return "digest";
     case UnitType::kTransform:
       return "transform";
+    case UnitType::kFiller:
+      return "filler";
+    case UnitType::kRefinement:
+      return "refinement";
     case UnitType::kEnd:
       return "end";
   }
   return "unknown";
+}
+
+const Unit* Units::first(UnitType type) const {
+  const auto found = std::find_if(units.begin(), units.end(),
+                                  [type](const Unit& unit) { return unit.type == type; });
+  return found == units.end() ? nullptr : &*found;
+}
+
+Error of_unit(UnitType type, std::uint64_t offset, Errc code, const char* element) {
+  return {code, element, 8 * offset, unit_name(type)};
+}
+
+Error of_sequence(Errc code, const char* element) {
+  return of_unit(UnitType::kSequence, kSignature.size(), code, element);
+}
+
+Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
+  SLF_TRY(const Unit unit, find_unit(stream, offset));
+  const auto bytes = stream.subspan(offset, static_cast<std::size_t>(unit.bytes));
+  const auto checked = bytes.first(bytes.size() - kCrcBytes);
+  std::uint32_t expected = 0;
+  for (const std::uint8_t byte : bytes.last(kCrcBytes)) expected = expected << 8 | byte;
+  if (crc32(checked) != expected)
+    return Error{Errc::kChecksum, "unit_crc", 8 * (offset + checked.size()), unit_name(unit.type)};
+  return unit;
 }
 
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes) {
@@ -95,7 +124,8 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
                      (unit ? at + unit->bytes > max_bytes : unit.error().code == Errc::kTruncated);
     if (cut) break;
     if (!unit) return unit.error();
-    if (unit->type == UnitType::kEnd) SLF_CHECK(check_end(*unit, result.units.size()));
+    if (unit->type == UnitType::kEnd)
+      SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
     result.units.push_back(*unit);
     result.complete = unit->type == UnitType::kEnd;
     at += static_cast<std::size_t>(unit->bytes);

@@ -24,22 +24,28 @@ enum class UnitType : std::uint8_t {
   kMetadata = 7,
   kDigest = 8,
   kTransform = 9,
+  kRefinement = 10,
+  kFiller = 14,
   kEnd = 15,
 };
 
-/// The name `slf info` prints; "unknown" for types of later versions.
+/// As 7.1 names it, and `slf info`; "unknown" for types of later versions.
 const char* unit_name(UnitType type);
 
 struct Unit {
   UnitType type{};
   std::span<const std::uint8_t> payload;
-  std::uint64_t offset = 0;  ///< of its first byte in the stream
-  std::uint64_t bytes = 0;   ///< with type, length and CRC
+  std::uint64_t offset = 0;          ///< of its first byte in the stream
+  std::uint64_t bytes = 0;           ///< with type, length and CRC
+  std::uint64_t payload_offset = 0;  ///< of the payload's first byte in the stream
 };
 
 struct Units {
   std::vector<Unit> units;
   bool complete = false;  ///< the end unit was reached
+
+  /// The first of a type; nullptr where there is none.
+  const Unit* first(UnitType type) const;
 };
 
 /// Checks signature, lengths and every CRC-32. Unknown types are kept; a decoder skips them.
@@ -48,6 +54,29 @@ struct Units {
 /// the
 ///         end unit, or a length longer than it need be.
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0);
+
+/// The unit whose first byte is stream[offset]; offset < stream.size(). Its CRC-32 is checked.
+Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset);
+
+/// Of a unit as a whole: of its first byte.
+Error of_unit(UnitType type, std::uint64_t offset, Errc code, const char* element);
+/// Of an element of the sequence unit, which is the first of a stream, found wrong later.
+Error of_sequence(Errc code, const char* element);
+
+/// The error of whoever read a unit's payload and knew nothing else of the stream, as one of the
+/// stream. One that is of a unit already stays as it is.
+/// @param unit  a Unit, or a PartUnit, of which what follows its header was read
+template <class AnyUnit>
+Error in_unit(const AnyUnit& unit, Error error) {
+  if (*error.unit != 0) return error;
+  return {error.code, error.element, 8 * unit.payload_offset + error.bit_offset,
+          unit_name(unit.type)};
+}
+template <class AnyUnit, class T>
+Result<T> in_unit(const AnyUnit& unit, Result<T> result) {
+  if (!result) return in_unit(unit, result.error());
+  return result;
+}
 
 /// Appends one unit. Informative mirror of the above.
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,

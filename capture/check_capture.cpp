@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/vec3.h"
 #include "capture/image_formats.h"
 
 namespace slf {
@@ -73,8 +74,6 @@ Result<Done, InputError> check_size(const std::filesystem::path& file, const Cam
                                     std::to_string(camera.width) + " x " +
                                     std::to_string(camera.height));
 }
-
-Vec3 to_double(const std::array<float, 3>& p) { return {double{p[0]}, double{p[1]}, double{p[2]}}; }
 
 // What a set of points looks like to the cameras.
 struct Survey {

@@ -9,6 +9,7 @@
 
 #include "capture/densify.h"
 #include "capture/mesh_sampling.h"
+#include "capture/mesh_triangles.h"
 #include "capture/nearest.h"
 #include "capture/quantile.h"
 #include "capture/thin_layer.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vec3.h"
 #include "capture/voxelise.h"
 
 namespace slf {
@@ -10,10 +11,6 @@ namespace slf {
 namespace {
 
 constexpr double kMostLost = 1e-7;  // of the extent; a voxel of the finest grid is 4.8e-7
-
-std::array<float, 3> to_float(const Vec3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
 
 struct Survey {
   Box box;

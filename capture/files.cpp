@@ -131,11 +131,17 @@ Result<std::vector<std::uint8_t>, InputError> read_file(const fs::path& file,
                                                         std::uint64_t max_bytes) {
   const bool standard = file == "-";
   const fs::path name = standard ? fs::path("standard input") : file;
-  Descriptor in(standard ? STDIN_FILENO : ::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without waiting: a pipe that nobody writes to would hold up open() for ever.
+  Descriptor in(standard ? STDIN_FILENO : ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!in.ok()) return unreadable(name, std::strerror(errno));
   struct stat status {};
   if (::fstat(in.get(), &status) != 0) return unreadable(name, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) return unreadable(name, std::strerror(EISDIR));
+  // What the caller has opened, as <(command) does, may be anything.
+  if (!S_ISREG(status.st_mode) && !standard && !names_descriptor(file))
+    return unreadable(name, "is not a regular file");
+  if (!standard && ::fcntl(in.get(), F_SETFL, 0) != 0)
+    return unreadable(name, std::strerror(errno));
   const std::string too_large =
       "larger than the " + std::to_string(max_bytes) + " bytes accepted here";
 

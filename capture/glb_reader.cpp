@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vec3.h"
 #include "capture/exact_positions.h"
 #include "capture/glb_accessor.h"
 #include "capture/json_numbers.h"
@@ -83,10 +84,6 @@ Result<Matrix, InputError> transform_of(const JsonView& node) {
     m[i][3] = translation[i];
   }
   return m;
-}
-
-std::array<float, 3> to_float(const Vec3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
 /// [3.7.2.1] Corners of triangles from a primitive's indices; empty for points and lines.

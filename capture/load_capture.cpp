@@ -1,9 +1,11 @@
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
+#include "capture/crop.h"
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
 #include "capture/mesh_sampling.h"
+#include "capture/mesh_sides.h"
 
 namespace slf {
 
@@ -109,13 +111,27 @@ void take_origin(PointCloud& cloud, Capture& capture) {
   for (Camera& camera : capture.cameras) camera = moved(std::move(camera), back);
 }
 
+// Leaves out what is not wanted; else says what perhaps is not.
+Result<Done, InputError> crop_or_warn(const std::string& name, const CaptureOptions& options,
+                                      Capture& capture, Mesh& mesh) {
+  if (options.crop) {
+    auto cropped = crop(mesh, capture.origin, *options.crop);
+    if (!cropped) return InputError{cropped.error().code, name + ": " + cropped.error().message};
+    return Done{};
+  }
+  const std::string warning = far_points_warning(mesh.vertices, capture.origin);
+  if (!warning.empty()) capture.warnings.push_back(name + ": " + warning);
+  return Done{};
+}
+
 // Reads the cloud from where it is; returns its name for messages.
-Result<std::string, InputError> load_cloud(const fs::path& given, Import& import) {
+Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import& import) {
   auto& capture = import.capture;
-  const fs::path file = !given.empty() ? given : geometry_file(import);
+  const fs::path file = !options.points.empty() ? options.points : geometry_file(import);
   if (!file.empty()) {
     SLF_TRY(Mesh mesh, read_mesh(file, &capture.warnings));
     take_origin(mesh.vertices, capture);
+    SLF_CHECK(crop_or_warn(file.string(), options, capture, mesh));
     if (mesh.triangles.empty())
       capture.cloud = std::move(mesh.vertices);
     else
@@ -124,6 +140,9 @@ Result<std::string, InputError> load_cloud(const fs::path& given, Import& import
   }
   if (!import.cloud_name.empty()) {
     take_origin(capture.cloud, capture);
+    Mesh points{std::move(capture.cloud), {}};
+    SLF_CHECK(crop_or_warn(import.cloud_name, options, capture, points));
+    capture.cloud = std::move(points.vertices);
     return std::string(import.cloud_name);
   }
   return InputError{Errc::kUnreadable,
@@ -162,7 +181,7 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   SLF_CHECK(check_cameras(import));
   SLF_CHECK(resolve_files(import));
   if (options.check_images) SLF_CHECK(check_image_files(import.capture));
-  SLF_TRY(const auto cloud_name, load_cloud(options.points, import));
+  SLF_TRY(const auto cloud_name, load_cloud(options, import));
   SLF_CHECK(check_cloud(import.capture, cloud_name));
   // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their
   // photographs say otherwise.

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "capture/density.h"
+#include "capture/mesh_triangles.h"
 
 namespace slf {
 
@@ -16,41 +17,6 @@ constexpr double kMostPoints = 1 << 24, kMostLines = 1 << 27;
 constexpr double kOverlap = 0.88;    // of the largest component of a normal: its axis counts too
 constexpr double kInclusive = 1e-7;  // voxels: edges belong to both of their triangles
 constexpr std::size_t kSurveyed = 2000;  // triangles that tell the size of a pixel
-constexpr int kSurveyBits = 6;           // of the sample that tells inside from outside
-constexpr std::size_t kSurveyCameras = 32;
-
-using Corners = std::array<Vec3, 3>;
-
-Vec3 to_double(const std::array<float, 3>& p) { return {double{p[0]}, double{p[1]}, double{p[2]}}; }
-
-std::array<float, 3> to_float(const Vec3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Unit; nothing for a vector without a direction.
-std::optional<Vec3> direction_of(const Vec3& v) {
-  const double length = std::sqrt(dot(v, v));
-  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-  return Vec3{v[0] / length, v[1] / length, v[2] / length};
-}
-
-std::optional<Vec3> normal_of(const Corners& c) {
-  return direction_of(cross(minus(c[1], c[0]), minus(c[2], c[0])));
-}
-
-Corners corners_of(const Mesh& mesh, std::size_t triangle) {
-  Corners corners;
-  for (std::size_t i = 0; i < 3; ++i)
-    corners[i] = to_double(mesh.vertices.positions[mesh.triangles[triangle][i]]);
-  return corners;
-}
 
 /// The same in voxels from the centre of the first.
 Corners on_grid(Corners corners, const Grid& grid) {
@@ -189,7 +155,7 @@ class Sampler {
       return sum;
     };
     std::optional<Vec3> normal;
-    if (!vertices.normals.empty()) normal = direction_of(mixed(vertices.normals));
+    if (!vertices.normals.empty()) normal = unit_vector(mixed(vertices.normals));
     cloud_.normals.push_back(to_float(normal.value_or(face)));
     if (vertices.colours.empty()) return;
     const Vec3 colour = mixed(vertices.colours);
@@ -204,74 +170,7 @@ class Sampler {
   PointCloud cloud_;
 };
 
-/// Of the points that a camera sees in front of all others: how many more face it than do not.
-/// @param tolerance  depth behind the foremost that still counts as in front
-std::ptrdiff_t facing_in_front(const Camera& camera, const PointCloud& points, double tolerance) {
-  struct Seen {
-    double u, v, depth;
-    std::size_t point;
-  };
-  std::vector<Seen> seen;
-  double u0 = camera.width, u1 = 0, v0 = camera.height, v1 = 0;
-  for (std::size_t p = 0; p < points.positions.size(); ++p) {
-    double depth = 0;
-    const auto at = camera.project(to_double(points.positions[p]), &depth);
-    if (!at || !((*at)[0] >= 0 && (*at)[1] >= 0) || (*at)[0] > camera.width ||
-        (*at)[1] > camera.height)
-      continue;
-    seen.push_back({(*at)[0], (*at)[1], depth, p});
-    u0 = std::min(u0, (*at)[0]);
-    u1 = std::max(u1, (*at)[0]);
-    v0 = std::min(v0, (*at)[1]);
-    v1 = std::max(v1, (*at)[1]);
-  }
-  constexpr std::size_t kSide = 32;  // cells, each wider than the points are apart
-  const double cell = std::max({u1 - u0, v1 - v0, 1e-9}) / (kSide - 1);
-  std::vector<double> nearest(kSide * kSide, std::numeric_limits<double>::infinity());
-  const auto cell_of = [&](const Seen& s) {
-    return static_cast<std::size_t>((s.v - v0) / cell) * kSide +
-           static_cast<std::size_t>((s.u - u0) / cell);
-  };
-  for (const Seen& s : seen) nearest[cell_of(s)] = std::min(nearest[cell_of(s)], s.depth);
-  std::ptrdiff_t facing = 0;
-  const Vec3 centre = camera.centre();
-  for (const Seen& s : seen) {
-    if (s.depth > nearest[cell_of(s)] + tolerance) continue;
-    const double cosine = dot(minus(centre, to_double(points.positions[s.point])),
-                              to_double(points.normals[s.point]));
-    facing += (cosine > 0) - (cosine < 0);
-  }
-  return facing;
-}
-
 }  // namespace
-
-Box bounding_box(const Mesh& mesh) {
-  Box box;
-  bool first = true;
-  const auto add = [&](const std::array<float, 3>& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.min[k] = first ? double{p[k]} : std::min(box.min[k], double{p[k]});
-      box.max[k] = first ? double{p[k]} : std::max(box.max[k], double{p[k]});
-    }
-    first = false;
-  };
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle) add(mesh.vertices.positions[v]);
-  if (mesh.triangles.empty())
-    for (const auto& p : mesh.vertices.positions) add(p);
-  return box;
-}
-
-double sampled_area(const Mesh& mesh) {
-  double area = 0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Corners c = corners_of(mesh, f);
-    const Vec3 n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
-    area += std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}) / 2;
-  }
-  return area;
-}
 
 double automatic_step(const Mesh& mesh, double pixel) {
   return std::max(kPixelsPerVoxel * pixel,
@@ -294,39 +193,6 @@ Result<PointCloud, InputError> sample_for_cameras(const Capture& capture, const 
   SLF_TRY(const Grid grid, choose_grid(box, mesh.triangles.size(), kUnseenBits,
                                        pixel > 0 ? automatic_step(mesh, pixel) : 0));
   return sample_mesh(mesh, grid);
-}
-
-PointCloud triangle_centres(const Mesh& mesh, std::size_t count) {
-  PointCloud cloud;
-  const std::size_t all = mesh.triangles.size();
-  const std::size_t stride =
-      std::max<std::size_t>((all + count - 1) / std::max<std::size_t>(count, 1), 1);
-  for (std::size_t f = 0; f < all; f += stride) {
-    const Corners c = corners_of(mesh, f);
-    const auto normal = normal_of(c);
-    if (!normal) continue;
-    cloud.positions.push_back(
-        to_float({(c[0][0] + c[1][0] + c[2][0]) / 3, (c[0][1] + c[1][1] + c[2][1]) / 3,
-                  (c[0][2] + c[1][2] + c[2][2]) / 3}));
-    cloud.normals.push_back(to_float(*normal));
-  }
-  return cloud;
-}
-
-bool turn_towards(const std::vector<Camera>& cameras, Mesh& mesh) {
-  const auto grid = choose_grid(bounding_box(mesh), 1, kSurveyBits, 0);
-  if (!grid) return false;
-  const auto points = sample_mesh(mesh, *grid);
-  if (!points) return false;
-  std::ptrdiff_t facing = 0;
-  const std::size_t chosen = std::min(cameras.size(), kSurveyCameras);
-  for (std::size_t c = 0; c < chosen; ++c)
-    facing += facing_in_front(cameras[c * cameras.size() / chosen], *points, 2 * grid->step);
-  if (facing >= 0) return false;
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  for (auto& normal : mesh.vertices.normals)
-    for (float& n : normal) n = -n;
-  return true;
 }
 
 }  // namespace slf

@@ -9,9 +9,6 @@
 
 namespace slf {
 
-/// Of the vertices that triangles have; of all where there are no triangles.
-Box bounding_box(const Mesh& mesh);
-
 /// Lines through the centres of a grid's voxels, along its three axes, meet the triangles: a
 /// crossing counts for the axis that the triangle's normal is closest to. So the grid gets a closed
 /// layer of voxels one thick, hardly any of them twice, and a point lies on the surface itself.
@@ -24,23 +21,11 @@ Box bounding_box(const Mesh& mesh);
 /// The same on every run. O(points + F).
 Result<PointCloud, InputError> sample_mesh(const Mesh& mesh, const Grid& grid);
 
-/// Area of the triangles' projections along the axes they look along: over the square of a step,
-/// the number of points that it takes, nearly.
-double sampled_area(const Mesh& mesh);
-
 /// The step of a mesh's automatic grid: kPixelsPerVoxel pixels, or what kMostAutomaticPoints take.
 double automatic_step(const Mesh& mesh, double pixel);
 
 /// The sample on the automatic grid of all cameras (choose_density). Where none sees the mesh,
 /// 1/255 of its extent stands in for their pixels: the capture will be refused, or warned about.
 Result<PointCloud, InputError> sample_for_cameras(const Capture& capture, const Mesh& mesh);
-
-/// Middles of up to `count` triangles, spread evenly over the list, with the faces' normals: for
-/// measuring where a mesh is before it is sampled.
-PointCloud triangle_centres(const Mesh& mesh, std::size_t count);
-
-/// Turns all faces and normals where most of what the cameras see first faces away from them.
-/// @return whether it did
-bool turn_towards(const std::vector<Camera>& cameras, Mesh& mesh);
 
 }  // namespace slf

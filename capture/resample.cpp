@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "capture/nearest.h"
 #include "slf/parallel.h"
@@ -14,28 +15,48 @@ constexpr int kNear = 16;
 
 using Node = std::array<std::int32_t, 3>;
 
-/// Nodes around a point, each once, in a fixed order.
+Node node_of(const Float3& at, const Lattice& lattice) {
+  Node node{};
+  for (std::size_t a = 0; a < 3; ++a)
+    node[a] = static_cast<std::int32_t>(
+        std::floor((double(at[a]) - lattice.origin[a]) / lattice.step + 0.5));
+  return node;
+}
+
+/// How far a node is from the plane of a point.
+double off_plane(const SurfacePoints& points, std::size_t p, const Node& node,
+                 const Lattice& lattice) {
+  double off = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    off += double(points.normals[p][a]) *
+           (lattice.origin[a] + lattice.step * node[a] - double(points.positions[p][a]));
+  return std::abs(off);
+}
+
+/// Nodes around points, each once, in a fixed order. Points that share a node are looked at
+/// together, as there may be many.
 std::vector<Node> candidates(const SurfacePoints& points, const Lattice& lattice,
                              const ResampleSettings& settings) {
-  std::vector<Node> nodes;
-  const auto node_near = [&](std::size_t p, const Node& node) {
-    double off = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-      off += double(points.normals[p][a]) *
-             (lattice.origin[a] + lattice.step * node[a] - double(points.positions[p][a]));
-    return std::abs(off) <= settings.off_plane * lattice.step;
-  };
+  std::vector<std::pair<Node, std::uint32_t>> own(points.size());
+  for (std::size_t p = 0; p < own.size(); ++p)
+    own[p] = {node_of(points.positions[p], lattice), std::uint32_t(p)};
+  std::sort(own.begin(), own.end());
+  const double most = settings.off_plane * lattice.step;
   const std::int32_t n = settings.around;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    Node at{};
-    for (std::size_t a = 0; a < 3; ++a)
-      at[a] = static_cast<std::int32_t>(
-          std::floor((double(points.positions[p][a]) - lattice.origin[a]) / lattice.step + 0.5));
+  std::vector<Node> nodes;
+  for (std::size_t begin = 0, end = 0; begin < own.size(); begin = end) {
+    const Node& at = own[begin].first;
+    while (end < own.size() && own[end].first == at) ++end;
+    const auto same = std::span(own).subspan(begin, end - begin);
     for (std::int32_t z = -n; z <= n; ++z)
       for (std::int32_t y = -n; y <= n; ++y)
-        for (std::int32_t x = -n; x <= n; ++x)
-          if (const Node node{at[0] + x, at[1] + y, at[2] + z}; node_near(p, node))
+        for (std::int32_t x = -n; x <= n; ++x) {
+          const Node node{at[0] + x, at[1] + y, at[2] + z};
+          if (std::any_of(same.begin(), same.end(), [&](const auto& point) {
+                return off_plane(points, point.second, node, lattice) <= most;
+              }))
             nodes.push_back(node);
+        }
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

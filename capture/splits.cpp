@@ -38,12 +38,16 @@ Result<std::vector<int>, InputError> split_cameras(const Capture& capture,
   }
   // Without `dense`, the input is all that `evaluation`, or every fourth, leaves; or 1/n of it.
   const auto kept_out = capture.splits.find("evaluation");
+  std::vector<bool> is_kept_out(capture.cameras.size(), false);
+  if (kept_out != capture.splits.end())
+    for (const int i : kept_out->second)
+      if (const auto at = static_cast<std::size_t>(i); at < is_kept_out.size())
+        is_kept_out[at] = true;
   std::vector<int> cameras;
   int left = 0;  // cameras that are not held out, so far
   for (int i = 0; i < static_cast<int>(capture.cameras.size()); ++i) {
-    const bool out = kept_out == capture.splits.end()
-                         ? held_out(i)
-                         : std::count(kept_out->second.begin(), kept_out->second.end(), i) > 0;
+    const bool out =
+        kept_out == capture.splits.end() ? held_out(i) : is_kept_out[static_cast<std::size_t>(i)];
     const bool chosen = name == "all" || (evaluation ? out : !out && left % every == 0);
     left += !out;
     if (chosen) cameras.push_back(i);

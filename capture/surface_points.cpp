@@ -35,9 +35,10 @@ Float3 least_direction(const Symmetric& c, const Float3& start) {
 
 }  // namespace
 
-Neighbours find_neighbours(const SurfacePoints& points, std::size_t k, double reach, int threads) {
+SurfaceNeighbours find_neighbours(const SurfacePoints& points, std::size_t k, double reach,
+                                  int threads) {
   const std::size_t count = points.size();
-  Neighbours found;
+  SurfaceNeighbours found;
   found.k = std::min(k, count - 1);
   found.index.resize(count * found.k);
   found.weight.resize(count * found.k);
@@ -61,7 +62,7 @@ Neighbours find_neighbours(const SurfacePoints& points, std::size_t k, double re
   return found;
 }
 
-std::vector<Float3> plane_normals(const SurfacePoints& points, const Neighbours& neighbours,
+std::vector<Float3> plane_normals(const SurfacePoints& points, const SurfaceNeighbours& neighbours,
                                   int threads) {
   std::vector<Float3> normals(points.size());
   parallel_ranges(points.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
@@ -97,8 +98,8 @@ std::vector<Float3> plane_normals(const SurfacePoints& points, const Neighbours&
   return normals;
 }
 
-std::vector<float> distance_to_neighbours(const SurfacePoints& points, const Neighbours& neighbours,
-                                          int threads) {
+std::vector<float> distance_to_neighbours(const SurfacePoints& points,
+                                          const SurfaceNeighbours& neighbours, int threads) {
   std::vector<float> distance(points.size(), 0);
   parallel_ranges(points.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

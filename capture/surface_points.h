@@ -31,7 +31,7 @@ struct SurfacePoints {
 
 /// The k nearest others of every point and what they count: less with distance, nothing where they
 /// face away (the other wall of a thin part).
-struct Neighbours {
+struct SurfaceNeighbours {
   std::size_t k = 0;
   std::vector<std::uint32_t> index;  ///< [P][k]
   std::vector<float> weight;         ///< [P][k] 0 .. 1
@@ -41,16 +41,17 @@ struct Neighbours {
 };
 
 /// @param reach  world units: standard deviation of the weight over distance
-Neighbours find_neighbours(const SurfacePoints& points, std::size_t k, double reach, int threads);
+SurfaceNeighbours find_neighbours(const SurfacePoints& points, std::size_t k, double reach,
+                                  int threads);
 
 /// Planes through the neighbours; each normal stays on the side where it was.
-std::vector<Float3> plane_normals(const SurfacePoints& points, const Neighbours& neighbours,
+std::vector<Float3> plane_normals(const SurfacePoints& points, const SurfaceNeighbours& neighbours,
                                   int threads);
 
 /// How far along its normal each point is from the surface that its neighbours with their normals
 /// make. Zero on a sphere of exact normals: chord and tangent planes err alike to either side.
-std::vector<float> distance_to_neighbours(const SurfacePoints& points, const Neighbours& neighbours,
-                                          int threads);
+std::vector<float> distance_to_neighbours(const SurfacePoints& points,
+                                          const SurfaceNeighbours& neighbours, int threads);
 
 /// positions += offset * normal
 void move_along_normals(SurfacePoints& points, std::span<const float> offsets);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vec3.h"
 #include "geometry/morton.h"
 
 namespace slf {
@@ -90,10 +91,6 @@ Vec3 mean_of(const std::vector<std::array<T, 3>>& values, const std::vector<Cell
     for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(values[cells[i].point][k]);
   for (double& s : sum) s /= static_cast<double>(end - begin);
   return sum;
-}
-
-std::array<float, 3> to_float(const Vec3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
 }  // namespace

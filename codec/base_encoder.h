@@ -19,7 +19,7 @@ struct EncodedBase {
   Quantised quantised;
   std::vector<std::int32_t> coefficients;  ///< [cells][planes] quantised
   std::vector<CoefficientModels> models;   ///< one, or none without a base
-  std::vector<CoefficientStates> states;   ///< [groups]
+  std::vector<CoefficientStates> states;   ///< [layers][groups]
 };
 
 EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& layout);

@@ -26,6 +26,8 @@ struct SliceCoding {
   bool digest = true;
   TextureSettings texture;
   double rdo = 0;  ///< CodingParameters
+  /// [groups], or none: codewords of their columns, 7.11
+  std::vector<std::vector<std::uint8_t>> matrices = {};
 
   std::size_t planes() const { return steps.size(); }
   int grid_bits() const { return static_cast<int>(set.grid_bits()); }
@@ -34,6 +36,15 @@ struct SliceCoding {
 /// A unit of the base or of a slice: header and body.
 CodedUnit part_unit(UnitType type, SliceUnitHeader header, std::span<const std::uint8_t> body,
                     const SequenceParameterSet& set);
+
+/// A unit of coefficients, the first of a group with its columns.
+CodedUnit coefficient_unit(SliceUnitHeader header, std::vector<std::uint8_t> codeword,
+                           const SliceCoding& coding);
+
+/// The quantised values of a layer: of every group as many bits less as layers follow. Spec 8.7.7.
+/// values: [rows][planes] of the last layer
+std::vector<std::int32_t> values_of_layer(const SliceCoding& coding, std::uint32_t layer,
+                                          std::span<const std::int32_t> values);
 
 /// cu_prediction of the levels of a range. modes: [levels from `start` on]
 std::vector<std::uint32_t> modes_of_range(const SequenceParameterSet& set, std::uint32_t range,

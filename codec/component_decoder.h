@@ -17,9 +17,10 @@ namespace slf {
 /// What slices start from when the base is decoded.
 struct BaseComponents {
   std::vector<CoefficientModels> models;  ///< one, or none: no unit was decoded
-  std::vector<CoefficientStates> states;  ///< [groups]
-  std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(W)
+  std::vector<CoefficientStates> states;  ///< [layers][groups]
+  std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(its weight)
   std::vector<bool> any;                  ///< [groups] not all of its values are zero
+  const PartUnit* last = nullptr;         ///< unit that was decoded last
 };
 
 /// The rows whose components are decoded: nodes of the kept levels.
@@ -29,19 +30,20 @@ struct ComponentRows {
   std::span<const std::uint32_t> first;  ///< [rows + 1] first code of each
   int start = 0;                         ///< level where coding starts: 0, or that of the cells
   int levels = 0;                        ///< of the rows
-  std::uint32_t weight = 1;              ///< of a code
+  CodeWeights weights{};                 ///< of the codes
 };
 
 class ComponentDecoder {
  public:
   ComponentDecoder(const SequencePlan& plan, const ComponentRows& rows);
 
-  /// A slice, after the base. first_cell: the slice's among those of the scene.
-  void start_from_base(const BaseComponents& base, std::size_t first_cell,
-                       std::span<std::int32_t> components);
+  /// A slice, after the base. first_cell: the slice's among those of the scene, which weigh
+  /// `weights`.
+  void start_from_base(const BaseComponents& base, const CodeWeights& weights,
+                       std::size_t first_cell, std::span<std::int32_t> components);
   /// Entropy decoding of units[place]. components: [rows][planes], coefficients after.
   Result<Done> decode(const PartUnit& unit, std::span<std::int32_t> components);
-  /// Dequantisation and inverse transform, when all units are decoded.
+  /// Dequantisation and inverse transform, when all units are decoded. An error is of the last.
   Result<Done> reconstruct(std::span<std::int32_t> components, int threads);
   /// The mean of each node, of what reconstruct() left.
   void to_means(std::span<std::int32_t> components) const;
@@ -49,9 +51,12 @@ class ComponentDecoder {
   void take_rows(const ComponentDecoder& finer, std::span<const std::int32_t> from,
                  std::span<std::int32_t> to);
 
-  CoefficientStates states(std::size_t group) { return models_.states(group); }
-  void start_from(std::size_t group, const CoefficientStates& states) {
-    models_.start_from(group, states);
+  /// Of the layer of a group that a unit is of.
+  CoefficientStates states(const SliceUnitHeader& unit) {
+    return models_.states(unit.group, unit.layer);
+  }
+  void start_from(const SliceUnitHeader& unit, const CoefficientStates& states) {
+    models_.start_from(unit.group, states, unit.layer);
   }
   /// Leaves nothing here.
   BaseComponents take_base(std::vector<std::int32_t> values);
@@ -59,15 +64,22 @@ class ComponentDecoder {
  private:
   std::size_t order_at(std::uint32_t level) const;
   void set_modes(const PartUnit& unit);
+  bool misses_layers() const;
+  Result<Done> dequantise(std::span<std::int32_t> components) const;
+  Result<Done> transform_back(std::span<std::int32_t> components, int threads);
+  Result<Done> undo(std::span<const std::uint32_t> steps, std::span<std::int32_t> components,
+                    std::size_t used, int threads);
   std::size_t used_planes();
 
   const SequencePlan& plan_;
   ComponentRows rows_;
   CoefficientModels models_;
-  SliceCells cells_;                              // of a slice with a base; else empty
-  std::vector<std::uint8_t> nonzero_, of_unit_;   // [rows]
-  std::vector<bool> any_;                         // [groups] a value or coefficient is not zero
-  std::vector<std::vector<std::uint8_t>> modes_;  // [groups][levels from start] cu_prediction
+  SliceCells cells_;                                // of a slice with a base; else empty
+  std::vector<std::uint8_t> nonzero_, of_unit_;     // [rows]
+  std::vector<bool> any_;                           // [groups] a value or coefficient is not zero
+  std::vector<std::vector<std::uint8_t>> modes_;    // [groups][levels from start] cu_prediction
+  std::vector<std::vector<std::uint32_t>> layers_;  // [groups][coefficient ranges] decoded so far
+  const PartUnit* last_ = nullptr;                  // decoded, here or in the base
 };
 
 }  // namespace slf

@@ -1,10 +1,12 @@
 // The decoder's main path. Spec clause 8; steps and names are mirrored in codec/pack.cpp.
+#include "base/stopwatch.h"
 #include "bitstream/index.h"
 #include "codec/base_decoder.h"
+#include "codec/decode_cost.h"
+#include "codec/decode_units.h"
 #include "codec/scene_decoder.h"
 #include "codec/scene_units.h"
 #include "codec/sequence_plan.h"
-#include "codec/stopwatch.h"
 #include "slf/decoder.h"
 
 namespace slf {
@@ -13,9 +15,10 @@ namespace {
 /// Boxes of slices, where an index has them and the base is there to compare them with.
 Result<Done> check_boxes_of_index(const Units& units, const SequencePlan& plan, const Base& base) {
   if (!plan.has_base() || !base.is_known(plan)) return Done{};
-  SLF_TRY(const auto index, find_index(units, plan.set));
-  if (!index) return Done{};
-  return check_boxes(index->boxes, plan, base);
+  const Unit* unit = units.first(UnitType::kIndex);
+  if (unit == nullptr) return Done{};
+  SLF_TRY(const Index index, read_index(*unit, plan.set));
+  return in_unit(*unit, check_boxes(index.boxes, plan, base));
 }
 
 /// Is what comes out less than the stream was made of?
@@ -44,17 +47,40 @@ Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Seq
   return Done{};
 }
 
+/// Bytes of the units of a part that will be decoded, or nearly.
+std::uint64_t bytes_of(const PartUnits& units, const SequencePlan& plan) {
+  std::uint64_t bytes = 0;
+  for (const PartUnit& unit : units)
+    if (!has_values(unit.type) || plan.wants_values(unit.type, unit.header))
+      bytes += unit.payload.size();
+  return bytes;
+}
+
+/// Whoever wants to know how far it has come.
+void watch(const SceneUnits& scene, const DecodeOptions& options, SequencePlan& plan) {
+  if (!options.progress) return;
+  std::uint64_t bytes = bytes_of(scene.base, plan);
+  for (const PartUnits& slice : scene.slices) bytes += bytes_of(slice, plan);
+  plan.watch = std::make_shared<DecodeWatch>(options.progress, bytes);
+}
+
 }  // namespace
 
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes)
-    return Error{Errc::kLimitExceeded, "stream", 0};
-  SLF_TRY(const Units units, split_units(stream, options.max_bytes));                 // 7.1
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));                      // 7.2
-  SLF_TRY(const SceneUnits scene, collect_units(units, set));                         // 7.3 - 7.6
-  SLF_CHECK(check_index(units, set, scene.slices.size()));                            // 7.7
-  SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));  // 8.2
-  SLF_CHECK(check_limits(plan, options.limits));                                      // 9
+  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
+  SLF_TRY(const Units units, split_units(stream, options.max_bytes));  // 7.1
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));       // 7.2
+  return decode_units(units, set, options);
+}
+
+Result<LightField> decode_units(const Units& units, const SequenceParameterSet& set,
+                                const DecodeOptions& options) {
+  SLF_TRY(const SceneUnits scene, collect_units(units, set));                   // 7.3 - 7.6
+  SLF_CHECK(check_index(units, set, scene.slices.size()));                      // 7.7
+  SLF_CHECK(collect_metadata(units));                                           // 7.8
+  SLF_TRY(SequencePlan plan, plan_sequence(units, set, scene.table, options));  // 8.2
+  SLF_CHECK(check_limits(plan, options));                                       // 9
+  watch(scene, options, plan);
   LightField field = empty_field(plan);
   DecodeSeconds seconds;
   field.partial = is_partial(units, plan);  // 8.9

@@ -258,7 +258,7 @@ std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
 
 std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
                                           std::uint32_t num_groups) {
-  PlaneTransform t = transform.inverse;
+  const PlaneTransform& t = transform.inverse;
   TransformHeader header;
   header.tr_first_group = static_cast<std::uint32_t>(t.first_group);
   header.tr_num_groups_minus1 = static_cast<std::uint32_t>(t.num_groups - 1);
@@ -269,10 +269,14 @@ std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
   BitWriter out;
   WriteSyntax write{out};
   transform_header(write, header, num_groups);
-  RangeEncoder encoder;
-  code_matrix(encoder, t, transform.precision);
-  out.append(encoder.finish());
   return out.take();
+}
+
+std::vector<std::uint8_t> write_columns(const ForwardTransform& transform, ColumnRange columns) {
+  PlaneTransform t = transform.inverse;
+  RangeEncoder encoder;
+  code_columns(encoder, t, columns, transform.precision);
+  return encoder.finish();
 }
 
 }  // namespace slf

@@ -33,6 +33,9 @@ std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
                                                 const std::vector<std::uint32_t>& steps,
                                                 TransformMode mode, int threads);
 
+/// Codeword of columns of its matrix. Spec 7.11.
+std::vector<std::uint8_t> write_columns(const ForwardTransform& transform, ColumnRange columns);
+
 /// Payload of the unit of a transform. Spec 7.11.
 std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
                                           std::uint32_t num_groups);

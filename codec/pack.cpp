@@ -9,6 +9,7 @@
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/assemble.h"
+#include "codec/decode_cost.h"
 #include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
 #include "codec/scene_encoder.h"
@@ -137,6 +138,12 @@ Result<Done, InputError> choose_transforms(const LightField& field, SortedField&
   set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);
   for (const ForwardTransform& transform : transforms)
     units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups()), {}});
+  coding.matrices.resize(coding.groups.size());
+  for (const ForwardTransform& transform : transforms)
+    for (std::size_t g = 0; g < coding.groups.size(); ++g)
+      if (const auto columns = columns_of_group(transform.inverse, coding.groups, g);
+          !columns.empty())
+        coding.matrices[g] = write_columns(transform, columns);
   CodedFunctions coded = code_functions(std::move(coding.groups), inverse);
   for (std::size_t i = 0; i < transforms.size(); ++i)
     transforms[i].inverse.components = inverse[i].components;
@@ -162,6 +169,27 @@ std::vector<CellBox> boxes_of(const SceneLayout& layout) {
   return boxes;
 }
 
+/// Spec 9: zeros before the parts of the scene, where these have more values than bytes allow.
+/// Their geometry is enough by itself, or that of the base: what follows may be missing.
+void add_filler(std::vector<CodedUnit>& units, const std::vector<CodedUnit>& parts,
+                std::uint64_t cells, std::uint64_t points, std::uint64_t planes) {
+  std::uint64_t bytes = 0, of_base = 0, all = 0;
+  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.payload.size());
+  for (const CodedUnit& unit : parts) {
+    if (unit.type != UnitType::kGeometry) continue;
+    (unit.ids.of_base() ? of_base : all) += unit_bytes(unit.payload.size());
+  }
+  all += of_base;
+  const auto lacking = [&](std::uint64_t rows, std::uint64_t there) {
+    const std::uint64_t values = rows * std::max<std::uint64_t>(planes, 1);
+    const std::uint64_t least = values / kLevelValuesOfByte + 1 - kLevelValues / kLevelValuesOfByte;
+    return values <= kLevelValues || least <= bytes + there ? 0 : least - bytes - there;
+  };
+  const std::uint64_t filler = std::max(lacking(points + cells, all), lacking(cells, of_base));
+  if (filler > 0)
+    units.push_back({UnitType::kFiller, std::vector<std::uint8_t>(std::size_t{filler}), {}});
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
@@ -180,6 +208,8 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
     SLF_CHECK(choose_transforms(field, sorted, layout, parameters, set, coding, units));  // 7.11
   units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});         // 7.3
   SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
+  add_filler(units, parts, layout.base_levels > 0 ? layout.cells.size() : 0, sorted.morton.size(),
+             coding.planes());  // 9
   std::move(parts.begin(), parts.end(), std::back_inserter(units));
   if (!parameters.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/metadata.h"
 #include "codec/sequence.h"
 
 namespace slf {
@@ -28,6 +29,7 @@ bool valid_metadata(const Metadata& metadata) {
   std::size_t bytes = 0;
   for (const auto& [key, value] : metadata) {
     if (key.empty() || (key + value).find('\0') != std::string::npos) return false;
+    if (!is_utf8(key) || !is_utf8(value)) return false;
     bytes += key.size() + value.size() + 2;
   }
   return bytes <= 1u << 20;
@@ -89,6 +91,24 @@ Result<Done, InputError> check_texture(const CodingParameters& p) {
   return Done{};
 }
 
+int most_layers(const CodingParameters& p) {
+  int most = p.quality_layers;
+  for (const int layers : p.group_layers) most = std::max(most, layers);
+  return most;
+}
+
+Result<Done, InputError> check_layers(const CodingParameters& p, int groups) {
+  if (!p.group_layers.empty() && p.group_layers.size() != static_cast<std::size_t>(groups))
+    return invalid("quality layers: one number per group");
+  int least = p.quality_layers;
+  for (const int layers : p.group_layers) least = std::min(least, layers);
+  if (least < 1 || most_layers(p) > static_cast<int>(kMostLayers))
+    return invalid("quality layers: 1 to 4");
+  if (most_layers(p) > 1 && p.coefficients != CoefficientCoder::kVector)
+    return invalid("quality layers: of the vector coder alone");
+  return Done{};
+}
+
 Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
   const auto functions = static_cast<std::size_t>(field.header.num_functions);
   if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
@@ -114,8 +134,9 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
   if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid("rdo: 0 to 1");
   if (p.coefficients == CoefficientCoder::kTexture && p.transform != TransformMode::kNone)
     return invalid("transform: a texture has none");
+  SLF_CHECK(check_layers(p, std::max(groups, 1)));
   if (!valid_metadata(p.metadata))
-    return invalid("metadata: keys without a name, zero bytes, or over 1 MiB");
+    return invalid("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
     return invalid("points per slice: 1 to 2^22");
   if (p.base_levels < kAutomaticBase) return invalid("base levels: 0 to the grid's bits - 1");
@@ -162,7 +183,6 @@ void add_end(std::uint32_t end, std::vector<std::uint32_t>& ends, std::uint32_t&
 void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
   if (layout.base_levels == 0) return;
   set.sps_base_levels = static_cast<std::uint32_t>(layout.base_levels);
-  set.sps_base_weight_minus1 = layout.weight - 1;
   add_end(set.sps_base_levels, set.sps_geometry_range_end, set.sps_num_geometry_ranges_minus1);
   if (set.sps_num_functions == 0) return;
   // Where levels are to be had one after the other, the first bytes have colours of all groups.
@@ -213,6 +233,12 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.runs = runs_of(h, p);
   for (const PlaneRun& run : set.runs)
     set.sps_num_groups_minus1 = std::max(set.sps_num_groups_minus1, run.sps_plane_group);
+  if (h.num_functions > 0 && most_layers(p) > 1) {
+    set.sps_coefficient_coder = kLayeredCoder;
+    for (std::size_t g = 0; g < set.num_groups(); ++g)
+      set.sps_num_layers_minus1.push_back(static_cast<std::uint32_t>(
+          (p.group_layers.empty() ? p.quality_layers : p.group_layers[g]) - 1));
+  }
   set.sps_coefficient_range_end = coded_ends(p.coefficient_level_ends);
   set.sps_num_coefficient_ranges_minus1 =
       static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());

@@ -1,6 +1,5 @@
 // Headers alone: what `slf info` shows. Spec 7.
 #include "bitstream/index.h"
-#include "bitstream/metadata.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
 #include "codec/transform_units.h"
@@ -22,10 +21,11 @@ Result<UnitInfo> describe(const Unit& unit, const SequenceParameterSet& set) {
   if (unit.type == UnitType::kGeometry) {
     info.level_first = static_cast<int>(set.geometry_begin(h.range));
     info.level_last = static_cast<int>(set.geometry_end(h.range)) - 1;
-  } else if (unit.type == UnitType::kCoefficients) {
+  } else if (has_values(unit.type)) {
     info.level_first = static_cast<int>(set.coefficient_begin(h.range));
     info.level_last = static_cast<int>(set.coefficient_end(h.range)) - 1;
     info.group = static_cast<int>(h.group);
+    info.layer = static_cast<int>(h.layer);
   }
   info.prediction.assign(h.cu_prediction.begin(), h.cu_prediction.end());
   return info;
@@ -46,7 +46,6 @@ VoxelBox box_of(const CellBox& cells, const SequenceParameterSet& set) {
 Result<Done> describe_scene(const Units& units, const SequenceParameterSet& set,
                             const SliceTable& table, StreamInfo& info) {
   info.base_levels = static_cast<int>(set.sps_base_levels);
-  if (info.base_levels > 0) info.base_weight = set.base_weight();
   info.shared_states = table.slices_shared_flag != 0;
   info.num_slices = table.slices.size();
   info.num_points = table.num_points();
@@ -57,14 +56,14 @@ Result<Done> describe_scene(const Units& units, const SequenceParameterSet& set,
   }
   if (set.sps_cut_flag)
     info.cut = CutInfo{static_cast<int>(set.sps_cut_levels), static_cast<int>(set.sps_cut_groups),
-                       set.sps_cut_slices_flag != 0};
+                       static_cast<int>(set.sps_cut_layers), set.sps_cut_slices_flag != 0};
   return Done{};
 }
 
 }  // namespace
 
 Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeLimits& limits) {
-  if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream", 0};
+  if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   SLF_TRY(const Units units, split_units(stream));
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, set));
@@ -79,7 +78,9 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.num_groups = static_cast<int>(set.num_groups());
   info.group = function_groups(set);
   info.step = function_steps(set);
-  SLF_TRY(const auto transforms, collect_transforms(units, set, plane_groups(set)));
+  const PlaneGroups groups = plane_groups(set);
+  SLF_TRY(auto transforms, collect_transforms(units, set, groups));
+  SLF_CHECK(read_matrices(units, set, groups, groups.size(), transforms));
   for (const PlaneTransform& t : transforms)
     info.transforms.push_back({static_cast<int>(t.first_group),
                                static_cast<int>(t.first_group + t.num_groups - 1),
@@ -87,18 +88,17 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
                                t.lanes == 1, t.colour != PlaneTransform::kNoColour});
   info.geometry_coder = set.sps_geometry_coder == 0 ? "octree" : "draco";
   info.coefficient_coder =
-      std::array{"vector", "independent", "texture"}[set.sps_coefficient_coder];
+      std::array{"vector", "independent", "texture", "vector"}[set.sps_coefficient_coder];
+  for (std::uint32_t g = 0; g < set.num_groups(); ++g)
+    info.layers.push_back(static_cast<int>(set.layers_of(g)));
   if (set.has_texture()) info.texture_bits = set.texture_bits();
-  bool has_metadata = false;
+  info.prediction = set.sps_prediction_flag != 0;
+  SLF_TRY(info.metadata, collect_metadata(units));
+  info.normal_bits = static_cast<int>(set.sps_normal_bits);
   for (const Unit& unit : units.units) {
     SLF_TRY(UnitInfo described, describe(unit, set));
     if (described.slice >= 0) info.slices[std::size_t(described.slice)].bytes += described.bytes;
     info.units.push_back(std::move(described));
-    if (unit.type != UnitType::kMetadata) continue;
-    if (has_metadata) return Error{Errc::kOutOfRange, "unit_type", unit.offset * 8};
-    has_metadata = true;
-    SLF_TRY(const Metadata metadata, parse_metadata(unit.payload));
-    info.metadata.insert(info.metadata.end(), metadata.begin(), metadata.end());
   }
   info.complete = units.complete;
   return info;

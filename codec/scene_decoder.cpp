@@ -4,18 +4,15 @@
 #include <atomic>
 #include <optional>
 
-#include "bitstream/huge_pages.h"
+#include "base/huge_pages.h"
+#include "base/stopwatch.h"
+#include "codec/decode_cost.h"
 #include "codec/slice_decoder.h"
-#include "codec/stopwatch.h"
 #include "geometry/morton.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
-
-/// Slices whose values are decoded while the geometry of the next is: what they need beside their
-/// output, some 40 bytes a point, is let go of after.
-constexpr std::size_t kBatchPoints = std::size_t{1} << 19;
 
 /// A slice on its way, and the error that ended it.
 struct Task {
@@ -45,7 +42,11 @@ class SceneDecoder {
  public:
   SceneDecoder(const SceneUnits& units, const SequencePlan& plan, const Base& base, int threads,
                LightField& field)
-      : plan_(plan), threads_(threads), field_(field), lead_(PartList(plan.set, false).size()) {
+      : plan_(plan),
+        base_cells_(plan.has_base() ? base.cells.size() : 0),
+        threads_(threads),
+        field_(field),
+        lead_(PartList(plan.set, false).size()) {
     SliceLead* lead = plan.table.slices_shared_flag ? &lead_ : nullptr;
     for (std::size_t s = 0; s < units.slices.size(); ++s)
       if ((lead != nullptr && s == 0) || meets_region(base, s))
@@ -61,6 +62,7 @@ class SceneDecoder {
       run(now, next);
       if (plan_.region && !now.empty()) keep_region(plan_, now.front().begin, field_);
       if (at == 0 && !next.front().error) reserve_points();
+      SLF_CHECK(check_rows(next));
       append_points(next);
       at += next.size();
       (now.empty() ? seconds.geometry : seconds.coefficients) += watch.lap();
@@ -120,15 +122,21 @@ class SceneDecoder {
     task.slice.drop();
   }
 
-  /// Room for all points that the slices say there are, unless that is out of proportion.
+  /// Room for all points that the slices say there are: within the limits (check_limits), and on
+  /// pages that are not there until they are used.
   void reserve_points() {
     if (plan_.kept_levels_only() || plan_.region) return;
-    constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-    const std::size_t points = std::min<std::size_t>(
-        plan_.table.num_points(), kMostBytes / (sizeof(std::int32_t) * (plan_.planes() + 1)));
+    const auto points = static_cast<std::size_t>(plan_.table.num_points());
     field_.positions.reserve(points);
     field_.components.reserve(points * plan_.planes());
     advise_huge_pages(field_.components.data(), points * plan_.planes() * sizeof(std::int32_t));
+  }
+
+  /// What was found so far, before there is room for its components.
+  Result<Done> check_rows(std::span<const Task> batch) const {
+    std::uint64_t rows = base_cells_ + field_.num_points();
+    for (const Task& task : batch) rows += task.slice.positions.size();
+    return check_level(plan_, rows);
   }
 
   /// Components and normals of zero.
@@ -156,6 +164,7 @@ class SceneDecoder {
   }
 
   const SequencePlan& plan_;
+  std::uint64_t base_cells_;
   int threads_;
   LightField& field_;
   SliceLead lead_;

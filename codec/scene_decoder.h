@@ -8,6 +8,10 @@
 
 namespace slf {
 
+/// Slices whose values are decoded while the geometry of the next is: what they need beside their
+/// output, some 40 bytes a point, is let go of after.
+inline constexpr std::size_t kBatchPoints = std::size_t{1} << 19;
+
 /// Appends their points to `field`, in order.
 /// @param seconds  receives what geometry and components took
 /// @return is something missing?

@@ -1,16 +1,15 @@
 #include "codec/scene_layout.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "geometry/weight_classes.h"
 
 namespace slf {
 namespace {
 
 constexpr std::size_t kFewPoints = 2000;   // a base does not pay below
-constexpr std::size_t kPointsOfCell = 24;  // at least, by choice
-constexpr std::size_t kPointsOfUnevenCell = 256;
-constexpr double kMostUneven = 0.25;      // square of the points' deviation over their mean
-constexpr std::size_t kCellsOfSlice = 2;  // at least, where there are several slices
+constexpr std::size_t kPointsOfCell = 24;  // at least, by choice: docs/format-0.4.md
+constexpr std::size_t kCellsOfSlice = 2;   // at least, where there are several slices
 
 InputError invalid(const char* what) { return {Errc::kInvalidArgument, what}; }
 
@@ -51,29 +50,15 @@ std::vector<std::size_t> find_layout_cells(std::span<const std::uint64_t> morton
   return first;
 }
 
-/// Every cell of a base counts as much: what that costs grows with how differently full they are
-/// (docs/format-0.4.md).
-bool are_uneven(std::span<const std::uint64_t> morton, int below) {
-  std::vector<std::uint64_t> cells;
-  const std::vector<std::size_t> first = find_layout_cells(morton, below, cells);
-  double squares = 0;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    squares += std::pow(static_cast<double>(first[i + 1] - first[i]), 2);
-  const auto points = static_cast<double>(morton.size());
-  return squares * static_cast<double>(cells.size()) > (1 + kMostUneven) * points * points;
-}
-
 /// The deepest level whose cells are large enough, and enough for the slices.
-int choose_base_levels(std::span<const std::uint64_t> morton, const std::vector<std::size_t>& nodes,
-                       std::size_t slices, const CodingParameters& p) {
+int choose_base_levels(const std::vector<std::size_t>& nodes, std::size_t slices,
+                       const CodingParameters& p) {
   const std::size_t points = nodes.back();
   if (one_unit_for_all(p) || (slices == 1 && points < kFewPoints)) return 0;
   const int most = static_cast<int>(nodes.size()) - 2;
   int level = std::min(1, most);
   const auto at = [&](int l) { return nodes[static_cast<std::size_t>(l)]; };
   while (level < most && at(level + 1) * kPointsOfCell <= points) ++level;
-  if (are_uneven(morton, 3 * (most + 1 - level)))
-    while (level > 1 && at(level) * kPointsOfUnevenCell > points) --level;
   while (slices > 1 && level < most && at(level) < kCellsOfSlice * slices) ++level;
   return level;
 }
@@ -109,10 +94,25 @@ Result<Done, InputError> describe_slices(SceneLayout& layout) {
   return Done{};
 }
 
-Result<int, InputError> levels_of_base(std::span<const std::uint64_t> morton,
-                                       const std::vector<std::size_t>& nodes, std::size_t slices,
+/// What cells count as, by their points, or all alike; smaller by a power of two where together
+/// they would be too heavy.
+std::vector<std::uint8_t> classes_of(const std::vector<std::size_t>& first, std::uint32_t alike) {
+  std::vector<std::uint8_t> classes(first.size() - 1);
+  for (int smaller = 0;; ++smaller) {
+    std::uint64_t weight = 0;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      const int k = weight_class(
+          std::min<std::uint64_t>(alike > 0 ? alike : first[i + 1] - first[i], kMaxSlicePoints));
+      classes[i] = static_cast<std::uint8_t>(std::max(k - smaller, 0));
+      weight += std::uint64_t{1} << classes[i];
+    }
+    if (weight <= kMostBaseWeight) return classes;
+  }
+}
+
+Result<int, InputError> levels_of_base(const std::vector<std::size_t>& nodes, std::size_t slices,
                                        const CodingParameters& p) {
-  if (p.base_levels < 0) return choose_base_levels(morton, nodes, slices, p);
+  if (p.base_levels < 0) return choose_base_levels(nodes, slices, p);
   if (p.base_levels > 0 && one_unit_for_all(p))
     return invalid("base levels: 0 for Draco and for textures");
   if (p.base_levels > static_cast<int>(nodes.size()) - 2)
@@ -129,17 +129,17 @@ Result<SceneLayout, InputError> lay_out(std::span<const std::uint64_t> morton, i
   const std::vector<std::size_t> nodes = count_nodes(morton, grid_bits);
   std::size_t slices = wanted_slices(morton.size(), parameters);
   SceneLayout layout;
-  SLF_TRY(layout.base_levels, levels_of_base(morton, nodes, slices, parameters));
+  SLF_TRY(layout.base_levels, levels_of_base(nodes, slices, parameters));
   const std::vector<std::size_t> first =
       find_layout_cells(morton, 3 * (grid_bits - layout.base_levels), layout.cells);
   const std::size_t cells = layout.cells.size();
   if (layout.base_levels == 0) slices = 1;
   slices = std::min({slices, cells, std::size_t{kMaxSlices}});
   layout.cuts = cut_runs(first, slices);
-  const std::size_t mean = (morton.size() + cells / 2) / cells;
-  if (layout.base_levels > 0)
-    layout.weight = static_cast<std::uint32_t>(std::clamp<std::size_t>(
-        parameters.base_weight > 0 ? parameters.base_weight : mean, 1, kMaxBasePoints / cells));
+  if (layout.base_levels > 0) {
+    layout.classes = classes_of(first, parameters.base_weight);
+    layout.weight_before = weights_before(layout.classes);
+  }
   layout.table.slices_shared_flag = slices > 1 && parameters.share_states;
   SLF_CHECK(describe_slices(layout));
   return layout;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "attributes/code_weights.h"
 #include "bitstream/slice_headers.h"
 #include "slf/encoder.h"
 
@@ -18,10 +19,13 @@ struct SliceCut {
 
 struct SceneLayout {
   int base_levels = 0;
-  std::uint32_t weight = 1;          ///< of a cell in the base
-  std::vector<std::uint64_t> cells;  ///< codes of the nodes at that level, ascending
+  std::vector<std::uint64_t> cells;          ///< codes of the nodes at that level, ascending
+  std::vector<std::uint8_t> classes;         ///< [cells] where there is a base, spec 8.4.5
+  std::vector<std::uint32_t> weight_before;  ///< [cells + 1] of the cells before each
   std::vector<SliceCut> cuts;
   SliceTable table;
+
+  CodeWeights weights() const { return CodeWeights(weight_before); }
 };
 
 /// @param morton  distinct, ascending codes of the grid

@@ -1,15 +1,18 @@
 #include "codec/scene_units.h"
 
+#include <algorithm>
+
 namespace slf {
 namespace {
 
 Error at(const Unit& unit, const char* element) {
-  return {Errc::kOutOfRange, element, unit.offset * 8};
+  return of_unit(unit.type, unit.offset, Errc::kOutOfRange, element);
 }
 
 /// What of a unit is wrong that is not the next of its list.
 const char* misplaced(UnitType type, UnitType expected) {
   if (type != expected) return "unit_type";
+  if (type == UnitType::kRefinement) return "refinement_layer";
   return type == UnitType::kGeometry ? "level_range" : "plane_group";
 }
 
@@ -29,7 +32,8 @@ class Collector {
  private:
   Result<Done> add_table(const Unit& unit) {
     if (!scene_.slices.empty()) return at(unit, "unit_type");
-    SLF_TRY(scene_.table, parse_slice_table(unit.payload, set_));
+    SLF_TRY(scene_.table, in_unit(unit, parse_slice_table(unit.payload, set_)));
+    scene_.table.offset = unit.offset;
     scene_.slices.resize(scene_.table.slices.size());
     return Done{};
   }
@@ -82,14 +86,33 @@ PartList::PartList(const SequenceParameterSet& set, bool base)
       groups_(set.kept_groups()),
       geometry_(base ? set.base_geometry_ranges() : set.geometry_ranges() - first_geometry_),
       normals_(!base && set.sps_normal_bits > 0 ? 1 : 0),
-      coefficients_(std::size_t{groups_} *
-                    (base ? set.base_coefficient_ranges()
-                          : set.coefficient_ranges() - first_coefficients_)) {}
+      coefficients_(std::size_t{groups_} * kept_ranges(set, base)) {
+  std::size_t next = geometry_ + normals_ + coefficients_;
+  for (std::uint32_t layer = 1; layer < set.kept_layers() && coefficients_ > 0; ++layer) {
+    Layer& of_groups = layers_.emplace_back(Layer{next, {}});
+    for (std::uint32_t g = 0; g < groups_; ++g)
+      if (set.layers_of(g) > layer) of_groups.groups.push_back(g);
+    next += coefficients_ / groups_ * of_groups.groups.size();
+  }
+  size_ = next;
+}
+
+/// Of coefficients: those that begin above what a cut left.
+std::uint32_t PartList::kept_ranges(const SequenceParameterSet& set, bool base) {
+  const std::uint32_t of_base = set.base_coefficient_ranges();
+  std::uint32_t kept = 0;
+  for (std::uint32_t r = 0; r < set.coefficient_ranges(); ++r)
+    if ((r < of_base) == base &&
+        !(set.sps_cut_flag && set.coefficient_begin(r) >= set.sps_cut_levels))
+      ++kept;
+  return kept;
+}
 
 UnitType PartList::type_at(std::size_t place) const {
   if (place < geometry_) return UnitType::kGeometry;
   if (place < geometry_ + normals_) return UnitType::kNormals;
-  return place < size() ? UnitType::kCoefficients : UnitType::kDigest;
+  if (place < geometry_ + normals_ + coefficients_) return UnitType::kCoefficients;
+  return place < size() ? UnitType::kRefinement : UnitType::kDigest;
 }
 
 std::size_t PartList::place_of(const PartUnit& unit) const {
@@ -98,24 +121,52 @@ std::size_t PartList::place_of(const PartUnit& unit) const {
   if (unit.type == UnitType::kNormals) return normals_ > 0 ? geometry_ : size() + 1;
   if (unit.type == UnitType::kDigest) return size();
   if (coefficients_ == 0 || h.group >= groups_) return size() + 1;
+  if ((h.range - first_coefficients_) * std::size_t{groups_} >= coefficients_) return size() + 1;
+  if (unit.type == UnitType::kRefinement) return place_of_refinement(h);
   return geometry_ + normals_ + std::size_t{h.range - first_coefficients_} * groups_ + h.group;
 }
 
+std::size_t PartList::place_of_refinement(const SliceUnitHeader& h) const {
+  if (h.layer > layers_.size()) return size() + 1;
+  const Layer& layer = layers_[h.layer - 1];
+  const auto group = std::find(layer.groups.begin(), layer.groups.end(), h.group);
+  if (group == layer.groups.end()) return size() + 1;
+  return layer.first + std::size_t{h.range - first_coefficients_} * layer.groups.size() +
+         static_cast<std::size_t>(group - layer.groups.begin());
+}
+
 Result<SequenceParameterSet> find_sequence(const Units& units) {
-  if (units.units.empty()) return Error{Errc::kTruncated, "sequence_unit", 64};
+  if (units.units.empty()) return Error{Errc::kTruncated, "unit_type", 8 * kSignature.size()};
   if (units.units.front().type != UnitType::kSequence) return at(units.units.front(), "unit_type");
   for (std::size_t i = 1; i < units.units.size(); ++i)
     if (units.units[i].type == UnitType::kSequence) return at(units.units[i], "unit_type");
-  return parse_sequence_parameter_set(units.units.front().payload);
+  const Unit& unit = units.units.front();
+  return in_unit(unit, parse_sequence_parameter_set(unit.payload));
+}
+
+Result<Metadata> collect_metadata(const Units& units) {
+  const Unit* found = nullptr;
+  for (const Unit& unit : units.units) {
+    if (unit.type != UnitType::kMetadata) continue;
+    if (found != nullptr) return at(unit, "unit_type");
+    found = &unit;
+  }
+  if (found == nullptr) return Metadata{};
+  return in_unit(*found, parse_metadata(found->payload));
 }
 
 Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& set) {
   BitReader in(unit.payload);
   ParseSyntax parse{in};
-  PartUnit read{unit.type, {}, {}, unit.offset};
+  PartUnit read{unit.type, {}, {}, {}, unit.offset, unit.payload_offset};
   slice_unit_header(parse, read.header, unit.type, set);
-  read.payload = in.align_and_rest("alignment_zero_bits");
-  if (!in.ok()) return in.error();
+  const auto rest = in.align_and_rest("alignment_zero_bits");
+  if (in.ok() && read.header.cu_matrix_bytes > rest.size())
+    in.fail(Errc::kTruncated, "cu_matrix_bytes");
+  if (!in.ok()) return in_unit(unit, in.error());
+  read.matrix = rest.first(read.header.cu_matrix_bytes);
+  read.payload = rest.subspan(read.matrix.size());
+  read.payload_offset += unit.payload.size() - read.payload.size();
   return read;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/metadata.h"
 #include "bitstream/slice_headers.h"
 #include "bitstream/units.h"
 
@@ -14,11 +15,14 @@ namespace slf {
 struct PartUnit {
   UnitType type{};
   SliceUnitHeader header;
-  std::span<const std::uint8_t> payload;  ///< what follows the header
+  std::span<const std::uint8_t> matrix;   ///< codeword of the group's columns, 7.11
+  std::span<const std::uint8_t> payload;  ///< what follows the header, and the matrix
   std::uint64_t offset = 0;               ///< of the unit in the stream
+  std::uint64_t payload_offset = 0;       ///< of what follows the header
 };
 
-/// Those of the base, or of one slice, in stream order: geometry, normals, coefficients, digest.
+/// Those of the base, or of one slice, in stream order: geometry, normals, coefficients,
+/// refinements, digest.
 using PartUnits = std::vector<PartUnit>;
 
 struct SceneUnits {
@@ -32,6 +36,10 @@ struct SceneUnits {
 /// second one follows; those of parse_sequence_parameter_set.
 Result<SequenceParameterSet> find_sequence(const Units& units);
 
+/// Of the one metadata unit; empty where there is none.
+/// @errors kOutOfRange: a second one; those of parse_metadata.
+Result<Metadata> collect_metadata(const Units& units);
+
 /// Reads the header that a unit of the base or of a slice begins with.
 Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& set);
 
@@ -44,14 +52,24 @@ class PartList {
  public:
   PartList(const SequenceParameterSet& set, bool base);
 
-  std::size_t size() const { return geometry_ + normals_ + coefficients_; }
+  std::size_t size() const { return size_; }
   UnitType type_at(std::size_t place) const;
-  /// Its place; size() for a digest, beyond that for a group that was cut.
+  /// Its place; size() for a digest, beyond that for a group or a layer that was cut.
   std::size_t place_of(const PartUnit& unit) const;
 
  private:
+  /// A refinement of all ranges.
+  struct Layer {
+    std::size_t first;                  ///< place
+    std::vector<std::uint32_t> groups;  ///< that have it
+  };
+  std::size_t place_of_refinement(const SliceUnitHeader& header) const;
+
+  static std::uint32_t kept_ranges(const SequenceParameterSet& set, bool base);
+
   std::uint32_t first_geometry_, first_coefficients_, groups_;
-  std::size_t geometry_, normals_, coefficients_;
+  std::size_t geometry_, normals_, coefficients_, size_ = 0;
+  std::vector<Layer> layers_;  // from layer 1 on
 };
 
 }  // namespace slf

@@ -10,9 +10,11 @@ namespace {
 
 Result<Done> check_options(const SequenceParameterSet& set, const DecodeOptions& options) {
   if (options.levels < 0 || options.levels > static_cast<int>(set.grid_bits()))
-    return Error{Errc::kInvalidArgument, "levels", 0};
+    return Error{Errc::kInvalidArgument, "levels"};
   if (options.groups < 0 || options.groups > static_cast<int>(set.num_groups()))
-    return Error{Errc::kInvalidArgument, "groups", 0};
+    return Error{Errc::kInvalidArgument, "groups"};
+  if (options.layers < 0 || options.layers > static_cast<int>(set.num_layers()))
+    return Error{Errc::kInvalidArgument, "layers"};
   return Done{};
 }
 
@@ -38,30 +40,28 @@ bool SequencePlan::meets_region(const Voxel& node, int level) const {
 Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
                                    const SliceTable& table, const DecodeOptions& options) {
   SLF_CHECK(check_options(set, options));
-  SequencePlan plan{set, table, {}, {}, {}, {}, 0, true, options.region};
+  SequencePlan plan{set, table, {}, {}, {}, {}, 0, 1, true, options.region, 0, false};
+  if (!units.units.empty())
+    plan.stream_bytes = units.units.back().offset + units.units.back().bytes;
+  plan.complete = units.complete && !set.sps_cut_flag;
   plan.levels = static_cast<int>(least(set.grid_bits(), options.levels, set.sps_cut_levels));
+  plan.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));
   PlaneGroups groups = plane_groups(set);
   SLF_TRY(plan.transforms, collect_transforms(units, set, groups));  // 7.11
-  groups.resize(least(groups.size(), options.groups, set.sps_cut_groups));
+  const std::size_t kept = least(groups.size(), options.groups, set.sps_cut_groups);
+  SLF_CHECK(read_matrices(units, set, groups, kept, plan.transforms));
+  groups.resize(kept);
   CodedFunctions coded = code_functions(std::move(groups), plan.transforms);  // 8.7.1
   plan.groups = std::move(coded.groups);
   plan.coded = std::move(coded.functions);
   if (plan.planes() > options.limits.max_planes)
-    return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
-  plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups();
+    return of_sequence(Errc::kLimitExceeded, "sps_num_functions");
+  plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups() &&
+               plan.layers == static_cast<int>(set.num_layers());
   const auto steps = function_steps(set);
   for (const std::uint16_t k : plan.coded)
     plan.steps.insert(plan.steps.end(), steps[k].begin(), steps[k].end());
   return plan;
-}
-
-Result<Done> check_limits(const SequencePlan& plan, const DecodeLimits& limits) {
-  const std::uint64_t points = plan.base_alone() ? plan.table.num_cells() : plan.table.num_points();
-  const std::uint64_t bytes_per_point = sizeof(Voxel) + plan.planes() * sizeof(std::int32_t) + 4;
-  if (points > limits.max_points) return Error{Errc::kLimitExceeded, "slice_num_points_minus1", 0};
-  if (points > limits.max_output_bytes / bytes_per_point)
-    return Error{Errc::kLimitExceeded, "sps_num_functions", 0};
-  return Done{};
 }
 
 LightField empty_field(const SequencePlan& plan) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
 #include "attributes/plane_transform.h"
 #include "bitstream/slice_headers.h"
+#include "codec/decode_watch.h"
 #include "slf/decoder.h"
 #include "slf/types.h"
 
@@ -21,8 +23,12 @@ struct SequencePlan {
   std::vector<PlaneTransform> transforms;
   std::vector<std::uint32_t> steps;  ///< [3 R]
   int levels = 0;                    ///< octree levels to keep, 1 .. grid_bits
-  bool whole = true;                 ///< no levels or groups are left out: digests are checked
-  std::optional<VoxelBox> region;    ///< of the whole grid
+  int layers = 1;                    ///< of coefficients to decode, at most
+  bool whole = true;  ///< no levels, groups or layers are left out: digests are checked
+  std::optional<VoxelBox> region;                ///< of the whole grid
+  std::uint64_t stream_bytes = 0;                ///< of signature and units
+  bool complete = false;                         ///< no unit is missing
+  std::shared_ptr<DecodeWatch> watch = nullptr;  ///< where the caller wants to know
 
   int grid_bits() const { return static_cast<int>(set.grid_bits()); }
   int base_levels() const { return static_cast<int>(set.sps_base_levels); }
@@ -40,8 +46,17 @@ struct SequencePlan {
   bool begins_below(std::uint32_t coefficient_range) const {
     return set.coefficient_begin(coefficient_range) >= static_cast<std::uint32_t>(levels);
   }
+  /// Is this a unit of values that were asked for?
+  bool wants_values(UnitType type, const SliceUnitHeader& unit) const {
+    return has_values(type) && unit.group < groups.size() && !begins_below(unit.range) &&
+           unit.layer < static_cast<std::uint32_t>(layers);
+  }
   /// Bit of a Morton code of the grid that is the lowest of those that join nodes of a level.
   int lowest_split(int level) const { return 3 * (grid_bits() - level); }
+  /// A unit of so many bytes is about to be decoded.
+  Result<Done> begin_unit(std::uint64_t bytes) const {
+    return watch ? watch->begin_unit(bytes) : Result<Done>(Done{});
+  }
   /// Does a voxel of the kept levels stand for one in the region?
   bool in_region(const Voxel& voxel) const { return meets_region(voxel, levels); }
   /// Does the cube of a node at `level` meet the region?
@@ -51,9 +66,6 @@ struct SequencePlan {
 /// @errors kInvalidArgument: levels or groups beyond what the stream has; those of the transforms.
 Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
                                    const SliceTable& table, const DecodeOptions& options);
-
-/// The sum of what the slices say they hold, checked before any of it is decoded.
-Result<Done> check_limits(const SequencePlan& plan, const DecodeLimits& limits);
 
 /// The header of what comes out, without points.
 LightField empty_field(const SequencePlan& plan);

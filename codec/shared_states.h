@@ -1,11 +1,11 @@
-// What slice 0 leaves after each of its units, for the slices that start from it. Spec 7.3, 8.2.1.
+// What slice 0 leaves after each of its units, for the slices that start from it. Spec 7.3, 8.1.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <mutex>
 #include <optional>
 #include <vector>
+
+#include "base/monitor.h"
 
 namespace slf {
 
@@ -18,34 +18,24 @@ class SharedStates {
   explicit SharedStates(std::size_t units) : states_(units) {}
 
   void publish(std::size_t unit, const States& states) {
-    {
-      const std::lock_guard lock(mutex_);
-      states_[unit] = states;
-    }
-    changed_.notify_all();
+    monitor_.change([&] { states_[unit] = states; });
   }
 
   /// Nothing else will be published.
   void close() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-    }
-    changed_.notify_all();
+    monitor_.change([&] { closed_ = true; });
   }
 
   /// @return those after the unit of slice 0; nullptr where it failed before.
   const States* wait(std::size_t unit) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || states_[unit].has_value(); });
+    monitor_.wait([&] { return closed_ || states_[unit].has_value(); });
     return states_[unit] ? &*states_[unit] : nullptr;
   }
 
  private:
   std::vector<std::optional<States>> states_;  // [units] once set, never changed
   bool closed_ = false;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  Monitor monitor_;
 };
 
 }  // namespace slf

@@ -15,7 +15,7 @@ namespace slf {
 namespace {
 
 /// Slice 0 failed where this one would have gone on from it: its error is the one to report.
-Error abandoned() { return {Errc::kTruncated, "slice_id", 0}; }
+Error abandoned() { return {Errc::kTruncated, "slice_id"}; }
 
 }  // namespace
 
@@ -40,7 +40,9 @@ Result<Done> SliceDecoder::decode_octree() {
       if (states == nullptr) return abandoned();
       octree.start_from(*states);
     }
-    SLF_CHECK(octree.decode(unit.payload, static_cast<int>(set.geometry_end(unit.header.range))));
+    SLF_CHECK(plan_->begin_unit(unit.payload.size()));
+    const int end = static_cast<int>(set.geometry_end(unit.header.range));
+    SLF_CHECK(in_unit(unit, octree.decode(unit.payload, end)));
     if (leads()) lead_->geometry.publish(place, octree.states());
   }
   level_ = octree.level();
@@ -52,18 +54,20 @@ Result<Done> SliceDecoder::decode_octree() {
 Result<Done> SliceDecoder::decode_draco_unit() {
   const PartUnit& unit = units_->front();
   offset = unit.offset;
+  SLF_CHECK(plan_->begin_unit(unit.payload.size()));
   level_ = plan_->grid_bits();
-  SLF_TRY(const auto voxels, decode_draco(unit.payload, level_, points()));
+  SLF_TRY(const auto voxels, in_unit(unit, decode_draco(unit.payload, level_, points())));
   for (const Voxel& v : voxels) codes_.push_back(morton(v));
   std::sort(codes_.begin(), codes_.end());
   if (std::adjacent_find(codes_.begin(), codes_.end()) != codes_.end())
-    return Error{Errc::kOutOfRange, "gu_draco", unit.offset * 8};
+    return in_unit(unit, Error{Errc::kOutOfRange, "gu_draco"});
   return Done{};
 }
 
 Result<Done> SliceDecoder::check_count() const {
   if (level_ == plan_->grid_bits() && codes_.size() != points())
-    return Error{Errc::kOutOfRange, "slice_num_points_minus1", 0};
+    return of_unit(UnitType::kSlices, plan_->table.offset, Errc::kOutOfRange,
+                   "slice_num_points_minus1");
   return Done{};
 }
 
@@ -92,21 +96,18 @@ void SliceDecoder::keep() {
   if (!values) codes_ = {};
 }
 
-/// Of a slice whose geometry is incomplete: every node has the mean of its cell.
-void SliceDecoder::give_cell_means(std::span<std::int32_t> components) const {
-  const std::size_t planes = plan_->planes();
-  const auto& values = base_->components.values;
-  if (values.empty()) return;
-  const int below = 3 * (level_ - plan_->base_levels());
-  std::size_t cell = base_->first[slice_], at = 0;
-  for (std::size_t i = 0; i < codes_.size() && at < positions.size(); ++i) {
-    if (node_voxel(codes_[i], level_, *plan_) != positions[at]) continue;
-    while (base_->cells[cell] != codes_[i] >> below) ++cell;
-    const auto row = components.subspan(at * planes, planes);
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(cell * planes), planes, row.begin());
-    to_node_means(row, plan_->set.base_weight());
-    ++at;
-  }
+/// Of a slice whose geometry is incomplete: the nodes known stand for its points, without
+/// coefficients. Spec 8.9.2.
+Result<Done> SliceDecoder::interpolate_nodes(std::span<std::int32_t> components, int threads) {
+  if (base_->components.values.empty()) return Done{};
+  for (std::uint64_t& code : codes_) code <<= plan_->lowest_split(level_);
+  const int levels = std::min(level_, plan_->levels);
+  const RahtTop top = build_raht_top(codes_, plan_->lowest_split(levels));
+  ComponentDecoder decoder(*plan_, {codes_, top.tree, top.first, plan_->base_levels(), levels});
+  decoder.start_from_base(base_->components, base_->weights(), base_->first[slice_], components);
+  SLF_CHECK(decoder.reconstruct(components, threads));
+  decoder.to_means(components);
+  return Done{};
 }
 
 /// The level of whose rows the units of slice 0 are decoded: others start from the states after a
@@ -121,21 +122,19 @@ int SliceDecoder::levels_ahead() const {
 Result<Done> SliceDecoder::decode_units(ComponentDecoder& decoder,
                                         std::span<std::int32_t> components) {
   if (plan_->has_base())
-    decoder.start_from_base(base_->components, base_->first[slice_], components);
+    decoder.start_from_base(base_->components, base_->weights(), base_->first[slice_], components);
   for (std::size_t place = 0; place < units_->size(); ++place) {
     const PartUnit& unit = (*units_)[place];
-    const std::size_t group = unit.header.group;
-    if (unit.type != UnitType::kCoefficients || group >= plan_->groups.size() ||
-        plan_->begins_below(unit.header.range))
-      continue;
+    if (!plan_->wants_values(unit.type, unit.header)) continue;
     offset = unit.offset;
     if (follows()) {
       const CoefficientStates* states = lead_->coefficients.wait(place);
       if (states == nullptr) return abandoned();
-      decoder.start_from(group, *states);
+      decoder.start_from(unit.header, *states);
     }
+    SLF_CHECK(plan_->begin_unit(unit.payload.size()));
     SLF_CHECK(decoder.decode(unit, components));
-    if (leads()) lead_->coefficients.publish(place, decoder.states(group));
+    if (leads()) lead_->coefficients.publish(place, decoder.states(unit.header));
   }
   return Done{};
 }
@@ -144,7 +143,7 @@ Result<Done> SliceDecoder::decode_units(ComponentDecoder& decoder,
 Result<Done> SliceDecoder::decode_ahead(ComponentDecoder& decoder,
                                         std::span<std::int32_t> components, int levels) {
   const RahtTop top = build_raht_top(codes_, plan_->lowest_split(levels));
-  ComponentDecoder finer(*plan_, {codes_, top.tree, top.first, plan_->base_levels(), levels, 1});
+  ComponentDecoder finer(*plan_, {codes_, top.tree, top.first, plan_->base_levels(), levels});
   std::vector<std::int32_t> all(top.tree.size() * plan_->planes());
   SLF_CHECK(decode_units(finer, all));
   decoder.take_rows(finer, all, components);
@@ -153,7 +152,7 @@ Result<Done> SliceDecoder::decode_ahead(ComponentDecoder& decoder,
 
 Result<Done> SliceDecoder::decode_part(std::span<std::int32_t> components, int threads) {
   ComponentDecoder decoder(*plan_,
-                           {codes_, top_.tree, top_.first, plan_->base_levels(), plan_->levels, 1});
+                           {codes_, top_.tree, top_.first, plan_->base_levels(), plan_->levels});
   const int levels = levels_ahead();
   SLF_CHECK(levels > plan_->levels ? decode_ahead(decoder, components, levels)
                                    : decode_units(decoder, components));
@@ -164,16 +163,8 @@ Result<Done> SliceDecoder::decode_part(std::span<std::int32_t> components, int t
 
 Result<Done> SliceDecoder::decode_components(std::span<std::int32_t> components, int threads) {
   if (plan_->planes() == 0 || codes_.empty()) return Done{};
-  const auto is_last = [&](const PartUnit& unit) {
-    return unit.type == UnitType::kCoefficients &&
-           unit.header.range + 1 == plan_->set.coefficient_ranges() &&
-           unit.header.group + 1 == plan_->set.kept_groups();
-  };
-  if (std::none_of(units_->begin(), units_->end(), is_last)) partial = true;
-  if (top_.tree.size() == 0) {
-    give_cell_means(components);
-    return Done{};
-  }
+  if (units_->size() < PartList(plan_->set, false).size()) partial = true;
+  if (top_.tree.size() == 0) return interpolate_nodes(components, threads);
   return plan_->set.has_texture() ? decode_texture_units(components, threads)
                                   : decode_part(components, threads);
 }
@@ -186,13 +177,17 @@ Result<Done> SliceDecoder::decode_normals(std::span<std::array<std::uint16_t, 2>
     return Done{};
   }
   offset = unit->offset;
-  RangeDecoder decoder(unit->payload);
+  return in_unit(*unit, read_normals(unit->payload, normals));
+}
+
+Result<Done> SliceDecoder::read_normals(std::span<const std::uint8_t> payload,
+                                        std::span<std::array<std::uint16_t, 2>> normals) const {
+  RangeDecoder decoder(payload);
   NormalModel model(static_cast<int>(plan_->set.sps_normal_bits));
   for (std::size_t i = 0, kept = 0; i < top_.first.back(); ++i) {
     std::array<std::uint16_t, 2> normal{};
     if (decoder.exhausted()) break;
-    if (!model.code(decoder, normal))
-      return Error{Errc::kOutOfRange, "nu_magnitude", unit->offset * 8};
+    if (!model.code(decoder, normal)) return decoder.here(Errc::kOutOfRange, "nu_magnitude");
     if (i == top_.first[kept])
       normals[kept++] = normal;  // a coarser node has the normal of its first point
   }
@@ -206,9 +201,9 @@ Result<Done> SliceDecoder::check_digest(std::span<const std::int32_t> components
     offset = unit.offset;
     const auto digest = slice_digest(positions, components, normals);
     if (unit.payload.size() != digest.size())
-      return Error{Errc::kOutOfRange, "digest_sha256", unit.offset * 8};
+      return in_unit(unit, Error{Errc::kOutOfRange, "digest_sha256"});
     if (!std::equal(digest.begin(), digest.end(), unit.payload.begin()))
-      return Error{Errc::kChecksum, "digest_sha256", unit.offset * 8};
+      return in_unit(unit, Error{Errc::kChecksum, "digest_sha256"});
   }
   return Done{};
 }

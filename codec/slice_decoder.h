@@ -62,8 +62,10 @@ class SliceDecoder {
   Result<Done> decode_ahead(ComponentDecoder& decoder, std::span<std::int32_t> components,
                             int levels);
   int levels_ahead() const;
+  Result<Done> read_normals(std::span<const std::uint8_t> payload,
+                            std::span<std::array<std::uint16_t, 2>> normals) const;
   Result<Done> decode_part(std::span<std::int32_t> components, int threads);
-  void give_cell_means(std::span<std::int32_t> components) const;
+  Result<Done> interpolate_nodes(std::span<std::int32_t> components, int threads);
   /// Spec 8.11. In slice_texture_decoder.cpp.
   Result<Done> decode_texture_units(std::span<std::int32_t> components, int threads);
 

@@ -4,8 +4,8 @@
 #include <bit>
 #include <vector>
 
-#include "bitstream/multiversion.h"
-#include "bitstream/sha256.h"
+#include "base/multiversion.h"
+#include "base/sha256.h"
 
 namespace slf {
 namespace {

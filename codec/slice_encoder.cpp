@@ -31,7 +31,7 @@ bool fits_transform(const SliceInput& input, const SceneLayout& layout) {
     largest = std::max(largest, std::abs(std::int64_t{value}));
   std::uint64_t weight = input.morton.size();
   if (layout.base_levels > 0)
-    weight = std::max<std::uint64_t>(weight, layout.cells.size() * layout.weight);
+    weight = std::max<std::uint64_t>(weight, layout.weights().of(0, layout.cells.size()));
   const auto root = static_cast<std::int64_t>(isqrt(weight)) + 1;
   return largest < kCoefficientLimit && largest * root < kCoefficientLimit;
 }
@@ -43,9 +43,12 @@ SliceEncoder::SliceEncoder(const SliceCoding& coding, const SceneLayout& layout,
     : coding_(&coding), layout_(&layout), slice_(slice), input_(input), lead_(lead) {}
 
 void SliceEncoder::add(UnitType type, std::uint32_t range, std::uint32_t group,
-                       std::span<const std::uint8_t> body, std::vector<std::uint32_t> modes) {
-  SliceUnitHeader header{static_cast<std::uint32_t>(slice_), range, group, std::move(modes)};
-  units_.push_back(part_unit(type, std::move(header), body, coding_->set));
+                       std::span<const std::uint8_t> body, std::vector<std::uint32_t> modes,
+                       std::uint32_t layer) {
+  SliceUnitHeader header{static_cast<std::uint32_t>(slice_), range, group, layer, std::move(modes)};
+  units_.push_back(type == UnitType::kCoefficients
+                       ? coefficient_unit(std::move(header), {body.begin(), body.end()}, *coding_)
+                       : part_unit(type, std::move(header), body, coding_->set));
 }
 
 void SliceEncoder::encode_octree(OccupancyStates states) {
@@ -96,7 +99,7 @@ Result<Done, InputError> SliceEncoder::transform(std::span<std::int32_t> base_in
                         layout_->cuts[slice_].first_cell);
   raht_forward(tree_, static_cast<int>(planes), input_.components, threads, cells_.size());
   if (layout_->base_levels > 0)
-    put_into_base(cells_, input_.components, layout_->weight, planes, base_input);
+    put_into_base(cells_, input_.components, layout_->weights(), planes, base_input);
   return Done{};
 }
 
@@ -109,39 +112,63 @@ Result<Done, InputError> SliceEncoder::encode_texture(int threads) {
 
 void SliceEncoder::encode_coefficients(const EncodedBase& base, const Quantised& quantised) {
   const SequenceParameterSet& set = coding_->set;
-  CoefficientModels models(coding_->groups, tree_, input_.morton, first_,
-                           set.sps_coefficient_coder == 0);
+  CoefficientModels models(coding_->groups, tree_, input_.morton, first_, set.has_vectors(), {},
+                           set.num_layers());
   if (!base.models.empty()) models.adopt(base.models.front(), cells_);
-  for (std::size_t g = 0; g < base.states.size(); ++g) models.start_from(g, base.states[g]);
-  const CoefficientRows rows{tree_, input_.components, coding_->planes()};
-  const auto end_of = [&](int level) {
-    return level == 0 ? 0 : order_end(tree_, 3 * (coding_->grid_bits() - level));
+  models.start_from_all(base.states);
+  for (std::uint32_t layer = 0; layer < set.num_layers(); ++layer)
+    encode_layer(layer, quantised, models);
+}
+
+void SliceEncoder::encode_layer(std::uint32_t layer, const Quantised& quantised,
+                                CoefficientModels& models) {
+  const SequenceParameterSet& set = coding_->set;
+  std::vector<std::int32_t> values;  // of a single layer they are those of the input
+  if (set.num_layers() > 1) values = values_of_layer(*coding_, layer, input_.components);
+  const CoefficientRows rows{tree_, values.empty() ? input_.components : std::span(values),
+                             coding_->planes()};
+  for (std::uint32_t r = set.base_coefficient_ranges(); r < set.coefficient_ranges(); ++r)
+    for (std::uint32_t g = 0; g < coding_->groups.size(); ++g)
+      if (layer < set.layers_of(g)) encode_unit(layer, r, g, rows, quantised, models);
+}
+
+void SliceEncoder::encode_unit(std::uint32_t layer, std::uint32_t range, std::uint32_t group,
+                               const CoefficientRows& rows, const Quantised& quantised,
+                               CoefficientModels& models) {
+  const SequenceParameterSet& set = coding_->set;
+  const auto end_of = [&](std::uint32_t level) {
+    return level == 0 ? 0 : order_end(tree_, 3 * (coding_->grid_bits() - static_cast<int>(level)));
   };
-  for (std::uint32_t r = set.base_coefficient_ranges(); r < set.coefficient_ranges(); ++r) {
-    const std::size_t begin = end_of(static_cast<int>(set.coefficient_begin(r))),
-                      end = end_of(static_cast<int>(set.coefficient_end(r)));
-    for (std::uint32_t g = 0; g < coding_->groups.size(); ++g) {
-      const std::size_t place = units_.size();
-      if (follows()) models.start_from(g, known(lead_->coefficients.wait(place)));
-      RangeEncoder encoder;
-      models.code(encoder, rows, g, begin, end);
-      add(UnitType::kCoefficients, r, g, encoder.finish(),
-          modes_of_range(set, r, quantised.modes[g], layout_->base_levels));
-      if (leads()) lead_->coefficients.publish(place, models.states(g));
-    }
+  const std::size_t place = units_.size();
+  if (follows()) models.start_from(group, known(lead_->coefficients.wait(place)), layer);
+  RangeEncoder encoder;
+  models.code(encoder, rows, group, end_of(set.coefficient_begin(range)),
+              end_of(set.coefficient_end(range)), layer);
+  if (layer > 0) {
+    add(UnitType::kRefinement, range, group, encoder.finish(), {}, layer);
+  } else {
+    add(UnitType::kCoefficients, range, group, encoder.finish(),
+        modes_of_range(set, range, quantised.modes[group], layout_->base_levels));
   }
+  if (leads()) lead_->coefficients.publish(place, models.states(group, layer));
 }
 
 Result<Done, InputError> SliceEncoder::encode_components(const EncodedBase& base, int threads) {
   if (coding_->planes() == 0) return Done{};
   if (coding_->set.has_texture()) return encode_texture(threads);
-  const QuantisedBase cells{cells_, layout_->base_levels, layout_->weight, base.coefficients,
+  const QuantisedBase cells{cells_, layout_->base_levels, layout_->weights(), base.coefficients,
                             base.quantised};
-  Quantised quantised =
-      quantise_coefficients({tree_, input_.morton, coding_->grid_bits(), coding_->groups,
-                             coding_->steps, coding_->set.sps_prediction_flag != 0, coding_->rdo, 0,
-                             1, layout_->base_levels > 0 ? &cells : nullptr},
-                            input_.components, threads);
+  Quantised quantised = quantise_coefficients({tree_,
+                                               input_.morton,
+                                               coding_->grid_bits(),
+                                               coding_->groups,
+                                               coding_->steps,
+                                               coding_->set.sps_prediction_flag != 0,
+                                               coding_->rdo,
+                                               0,
+                                               {},
+                                               layout_->base_levels > 0 ? &cells : nullptr},
+                                              input_.components, threads);
   encode_coefficients(base, quantised);
   decoded_ = std::move(quantised.values);
   tree_ = {};

@@ -35,17 +35,23 @@ Result<Done> SliceDecoder::decode_texture_units(std::span<std::int32_t> componen
   offset = wanted.front()->offset;
   const SequencePlan& plan = *plan_;
   SLF_TRY(const Atlas atlas,
-          derive_atlas(codes_, plan.grid_bits(), static_cast<int>(plan.set.sps_texture_cell_log2)));
+          in_unit(*wanted.front(), derive_atlas(codes_, plan.grid_bits(),
+                                                static_cast<int>(plan.set.sps_texture_cell_log2))));
   std::vector<std::optional<Error>> errors(wanted.size());
   parallel_ranges(wanted.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
+      if (const auto go_on = plan.begin_unit(wanted[g]->payload.size()); !go_on) {
+        errors[g] = go_on.error();
+        continue;
+      }
       const std::vector<std::size_t> planes = planes_of(plan.groups[g]);
       std::vector<std::uint32_t> steps;
       for (const std::size_t j : planes) steps.push_back(plan.steps[j]);
       const auto store = [&](std::size_t i, std::span<const std::int32_t> values) {
         store_plane(values, top_.first, planes[i], plan.planes(), components);
       };
-      auto done = decode_texture(wanted[g]->payload, atlas, plan.set.texture_bits(), steps, store);
+      const auto done = in_unit(*wanted[g], decode_texture(wanted[g]->payload, atlas,
+                                                           plan.set.texture_bits(), steps, store));
       if (!done) errors[g] = done.error();
     }
   });

@@ -14,12 +14,22 @@ namespace slf {
 std::vector<std::uint16_t> functions_of_groups(const PlaneGroups& groups, std::size_t first,
                                                std::size_t count);
 
-/// The transforms in stream order. They stand before the first slice unit, over ascending groups.
+/// The columns that stand for the functions of a group. groups: all of the sequence
+ColumnRange columns_of_group(const PlaneTransform& t, const PlaneGroups& groups, std::size_t group);
+
+/// The transforms in stream order, their matrices 0. They stand before the slices unit, over
+/// ascending groups.
 /// @param groups  all of the sequence
-/// @errors kOutOfRange: one is missing, too many, out of order or not a matrix.
+/// @errors kOutOfRange: one is missing, too many, out of order or larger than a matrix may be.
 Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
                                                        const SequenceParameterSet& set,
                                                        const PlaneGroups& groups);
+
+/// The matrices, of the coefficient units of the first `kept` groups that are there; else 0.
+/// @errors kOutOfRange: not a matrix, or columns of a group that has none; those of headers
+Result<Done> read_matrices(const Units& units, const SequenceParameterSet& set,
+                           const PlaneGroups& groups, std::size_t kept,
+                           std::vector<PlaneTransform>& transforms);
 
 /// The functions that components stand in, and the groups as places among them. Spec 8.7.1.
 struct CodedFunctions {

@@ -4,47 +4,12 @@
 #include "codec/assemble.h"
 #include "codec/base_decoder.h"
 #include "codec/scene_units.h"
+#include "codec/selection.h"
 #include "codec/sequence_plan.h"
-#include "geometry/morton.h"
 #include "slf/truncate.h"
 
 namespace slf {
 namespace {
-
-/// Does what was asked for need a unit of a slice, or of the base?
-class Selection {
- public:
-  explicit Selection(const SequencePlan& plan)
-      : plan_(plan), slice_(plan.table.slices.size(), true) {}
-
-  /// Keeps slices that meet the region, and the one they start from.
-  void choose_slices(const Base& base) {
-    for (std::size_t s = 0; s < slice_.size(); ++s) {
-      const auto cells = base.cells_of(plan_.table, s);
-      slice_[s] = std::any_of(cells.begin(), cells.end(), [&](std::uint64_t cell) {
-        return plan_.meets_region(from_morton(cell), base.level);
-      });
-    }
-    if (plan_.table.slices_shared_flag) slice_[0] = true;
-  }
-
-  bool all_slices() const { return std::find(slice_.begin(), slice_.end(), false) == slice_.end(); }
-
-  bool wants(const PartUnit& unit) const {
-    const SliceUnitHeader& h = unit.header;
-    if (!h.of_base() && (plan_.base_alone() || !slice_[h.slice_id])) return false;
-    if (unit.type == UnitType::kGeometry)
-      return plan_.needs_points() ||
-             static_cast<int>(plan_.set.geometry_begin(h.range)) < plan_.levels;
-    if (unit.type == UnitType::kCoefficients)
-      return h.group < plan_.groups.size() && !plan_.begins_below(h.range);
-    return unit.type == UnitType::kNormals;  // a digest is of the whole
-  }
-
- private:
-  const SequencePlan& plan_;
-  std::vector<bool> slice_;  // [slices] kept
-};
 
 /// Is this one of the units that are written anew?
 bool is_frame(UnitType type) {
@@ -66,23 +31,12 @@ Result<std::vector<CodedUnit>> select(const Units& units, const SequenceParamete
     if (is_frame(unit.type)) continue;
     if (has_ids(unit.type)) {
       SLF_TRY(const PartUnit part, read_part_unit(unit, set));
-      if (!selection.wants(part)) continue;
+      if (!selection.wants(part.type, part.header)) continue;
     }
     SLF_TRY(CodedUnit copy, copy_of(unit, set));
     kept.push_back(std::move(copy));
   }
   return kept;
-}
-
-/// What the sequence says of a stream with so much in it.
-SequenceParameterSet cut_sequence(const SequencePlan& plan, bool all_slices) {
-  SequenceParameterSet set = plan.set;
-  const bool all_groups = plan.groups.size() == set.num_groups();
-  set.sps_cut_flag = 1;
-  set.sps_cut_levels = static_cast<std::uint32_t>(plan.levels);
-  set.sps_cut_groups = all_groups ? 0 : static_cast<std::uint32_t>(plan.groups.size());
-  set.sps_cut_slices_flag = set.sps_cut_slices_flag || !all_slices;
-  return set;
 }
 
 /// Only headers and the geometry of the base are decoded, and that only where a region asks for it.
@@ -107,7 +61,7 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
     (assemble(set, units.first(middle), boxes).size() <= max_bytes ? fits : too_many) = middle;
   }
   auto some = assemble(set, units.first(fits), boxes);
-  if (some.size() > max_bytes) return Error{Errc::kLimitExceeded, "max_bytes", 0};
+  if (some.size() > max_bytes) return Error{Errc::kLimitExceeded, "max_bytes"};
   return some;
 }
 
@@ -115,12 +69,12 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
 
 Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
                                            const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes)
-    return Error{Errc::kLimitExceeded, "stream", 0};
+  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   SLF_TRY(const Units units, split_units(stream));
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, set));
   SLF_CHECK(check_index(units, set, scene.slices.size()));
+  SLF_CHECK(collect_metadata(units));
   SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));
   Selection selection(plan);
   SLF_CHECK(choose_by_region(scene, plan, selection));

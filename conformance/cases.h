@@ -21,10 +21,42 @@ struct Case {
   bool unknown_unit = false;        ///< a unit of type 99 is inserted
   std::vector<VoxelBox> regions{};  ///< decodes of parts of space to pin as well
   bool slice_by_slice = false;      ///< units of slice 0 come first, then those of slice 1, ...
-  std::optional<DecodeOptions> truncated{};  ///< the stream is cut to these levels, groups, region
+  std::optional<DecodeOptions>
+      truncated{};  ///< the stream is cut to these levels, groups, layers, region
+  std::vector<std::uint8_t> stream{};    ///< not empty: this one, whatever the field
+  std::vector<DecodeOptions> decodes{};  ///< to pin as well
+  std::vector<int> layers{};             ///< reduced decodes to pin as well
 };
+
+/// A light field and how it is coded, decoded whole.
+inline Case case_of(std::string id, std::string purpose, std::vector<std::string> clauses,
+                    LightField field, CodingParameters parameters = {}) {
+  return {std::move(id),
+          std::move(purpose),
+          std::move(clauses),
+          std::move(field),
+          std::move(parameters),
+          {},
+          {}};
+}
+
+/// A stream that was made otherwise.
+inline Case case_of_stream(std::string id, std::string purpose, std::vector<std::string> clauses,
+                           std::vector<std::uint8_t> stream) {
+  Case c = case_of(std::move(id), std::move(purpose), std::move(clauses), {});
+  c.stream = std::move(stream);
+  return c;
+}
+
 std::vector<Case> valid_cases();
-std::vector<Case> scene_cases();  ///< among them
+std::vector<Case> component_cases();  ///< among them: what values there are
+std::vector<Case> header_cases();     ///< among them: slices, normals, what headers say
+std::vector<Case> scene_cases();      ///< among them
+std::vector<Case> small_cases();      ///< among them
+std::vector<Case> edited_cases();     ///< among them: units that no encoder writes
+std::vector<Case> transform_cases();  ///< among them: matrices that no encoder writes
+std::vector<Case> layer_cases();      ///< among them
+std::vector<Case> texture_cases();    ///< among them: planes as pictures
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -35,5 +67,7 @@ struct RefusedCase {
 };
 std::vector<RefusedCase> refused_cases();
 std::vector<RefusedCase> refused_scenes();  ///< among them
+std::vector<RefusedCase> refused_units();   ///< among them
+std::vector<RefusedCase> refused_layers();  ///< among them
 
 }  // namespace slf::conformance

@@ -1,8 +1,10 @@
 #include "conformance/edit_units.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "bitstream/bit_writer.h"
+#include "codec/scene_units.h"
 #include "conformance/fields.h"
 
 namespace slf::conformance {
@@ -46,6 +48,37 @@ Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUni
 
 Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
   return edited(base_stream(false), edit);
+}
+
+void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
+                const SequenceParameterSet& after, const Bytes& matrix,
+                std::optional<std::uint32_t> bytes) {
+  PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, before);
+  part.header.cu_matrix_bytes = bytes.value_or(static_cast<std::uint32_t>(matrix.size()));
+  BitWriter out;
+  WriteSyntax write{out};
+  slice_unit_header(write, part.header, unit.type, after);
+  out.append(matrix);
+  out.append(part.payload);
+  unit.payload = out.take();
+}
+
+Bytes packed_bare(const LightField& field, CodingParameters parameters) {
+  parameters.index = parameters.digest = false;
+  auto stream = pack(field, parameters);
+  if (!stream) std::fprintf(stderr, "%s\n", stream.error().message.c_str());
+  return *std::move(stream);
+}
+
+Bytes stream_of(const std::vector<EditableUnit>& units) {
+  return edited(base_stream(false), [&](std::vector<EditableUnit>& all) { all = units; });
+}
+
+void edit_sequence(std::vector<EditableUnit>& units,
+                   const std::function<void(SequenceParameterSet&)>& edit) {
+  SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
+  edit(set);
+  units[0].payload = write_sequence_parameter_set(set);
 }
 
 EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type) {

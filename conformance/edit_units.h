@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
+#include "slf/encoder.h"
 
 namespace slf::conformance {
 
@@ -22,6 +25,21 @@ Bytes base_stream(bool index);
 /// A stream without an index, its units changed.
 Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUnit>&)>& edit);
 Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit);
+
+/// A coefficient unit with the columns of its group, coded, in place of those it had.
+/// before: the sequence it was written for; after: the one it is to be of
+/// bytes: what cu_matrix_bytes says; the matrix' own unless given
+void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
+                const SequenceParameterSet& after, const Bytes& matrix,
+                std::optional<std::uint32_t> bytes = {});
+/// Without index and digests.
+Bytes packed_bare(const LightField& field, CodingParameters parameters);
+
+/// A stream of these units.
+Bytes stream_of(const std::vector<EditableUnit>& units);
+
+void edit_sequence(std::vector<EditableUnit>& units,
+                   const std::function<void(SequenceParameterSet&)>& edit);
 
 EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type);
 

@@ -33,6 +33,15 @@ inline std::vector<Voxel> sorted(std::vector<Voxel> voxels) {
   return voxels;
 }
 
+/// A box of voxels at the origin.
+inline std::vector<Voxel> lattice(std::int32_t nx, std::int32_t ny, std::int32_t nz) {
+  std::vector<Voxel> voxels;
+  for (std::int32_t z = 0; z < nz; ++z)
+    for (std::int32_t y = 0; y < ny; ++y)
+      for (std::int32_t x = 0; x < nx; ++x) voxels.push_back({x, y, z});
+  return sorted(voxels);
+}
+
 /// Surface voxels of a sphere; every `thin`-th dropped at random.
 inline std::vector<Voxel> sphere(int bits, std::uint32_t thin = 0) {
   Random random(11);
@@ -57,6 +66,32 @@ inline std::vector<Voxel> scattered(std::size_t count, int bits, std::uint64_t s
     voxels.push_back(v);
   }
   return sorted(voxels);
+}
+
+/// A stair of voxels, and voxels later in order whose nodes at `level` have the entries of a
+/// history table of 2^18 that nodes of the stair have, if entries are hashed (spec 8.4.3).
+inline std::vector<Voxel> colliding_voxels(int level) {
+  const std::uint32_t side = 1u << level;
+  const auto entry = [](std::uint32_t a, std::uint32_t b) {
+    return (a * 2654435761u ^ b * 2246822519u) >> 14;
+  };
+  std::vector<Voxel> voxels;
+  const auto add = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t child) {
+    voxels.push_back({static_cast<std::int32_t>(2 * x + child % 2),
+                      static_cast<std::int32_t>(2 * y + child / 2 % 2),
+                      static_cast<std::int32_t>(2 * z + child / 4)});
+  };
+  std::vector<std::uint32_t> of_stair(1u << 18);  // 1 + step
+  const std::uint32_t steps = side / 4, most = 60;
+  for (std::uint32_t i = 0; i < steps; ++i) of_stair[entry(i, i)] = i + 1;
+  for (std::uint32_t b = side / 2, found = 0; b < side && found < most; ++b)
+    for (std::uint32_t a = side / 2; a < side && found < most; ++a)
+      if (const std::uint32_t step = of_stair[entry(a, b)]; step > 0) {
+        for (std::uint32_t child = 0; child < 3; ++child) add(step - 1, step - 1, step - 1, child);
+        add(a, b, side - 1 - found, 7);
+        ++found;
+      }
+  return sorted(std::move(voxels));
 }
 
 /// A mean that varies over the surface, functions that fade, and some noise.

@@ -3,13 +3,14 @@
 // The same bytes for every compiler and optimisation level; conformance/compilers.sh proves it.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "base/sha256.h"
 #include "bitstream/bit_writer.h"
 #include "bitstream/index.h"
-#include "bitstream/sha256.h"
 #include "bitstream/units.h"
 #include "conformance/cases.h"
 #include "slf/decoder.h"
@@ -67,6 +68,7 @@ std::string region_text(const VoxelBox& box) {
 std::string expectation(const LightField& field, const DecodeOptions& options) {
   std::string text = "    {\"levels\": " + std::to_string(options.levels) +
                      ", \"groups\": " + std::to_string(options.groups) +
+                     (options.layers > 0 ? ", \"layers\": " + std::to_string(options.layers) : "") +
                      (options.region ? region_text(*options.region) : "") +
                      ", \"partial\": " + (field.partial ? "true" : "false") +
                      ", \"points\": " + std::to_string(field.num_points()) +
@@ -155,18 +157,28 @@ bool leave_out(const char* part, const std::string& id, bool lacks_component) {
   return lacks_component;
 }
 
-bool write_case(const fs::path& root, const Case& c) {
+/// The stream of a case; nothing where it needs a component this build lacks.
+std::optional<std::vector<std::uint8_t>> stream_of(const Case& c) {
+  if (!c.stream.empty()) return c.stream;
   const auto packed = pack(c.field, c.parameters);
   if (!packed) {
     std::fprintf(stderr, "%s: %s\n", c.id.c_str(), packed.error().message.c_str());
-    return leave_out("streams", c.id, packed.error().code == Errc::kUnsupported);
+    if (packed.error().code != Errc::kUnsupported) std::exit(1);
+    return std::nullopt;
   }
   auto stream = altered(sorted(*packed, c), c);
-  if (c.truncated) stream = *truncate(stream, *c.truncated);
+  return c.truncated ? *truncate(stream, *c.truncated) : stream;
+}
+
+bool write_case(const fs::path& root, const Case& c) {
+  const auto made = stream_of(c);
+  if (!made) return leave_out("streams", c.id, true);
+  const std::vector<std::uint8_t>& stream = *made;
   std::string text = description(c.id, c.clauses, c.purpose, stream) + "  \"expect\": [\n";
   std::vector<DecodeOptions> decodes(1);
-  const auto add = [&](int levels, int groups, std::optional<VoxelBox> region) {
+  const auto add = [&](int levels, int groups, std::optional<VoxelBox> region, int layers = 0) {
     decodes.emplace_back();
+    decodes.back().layers = layers;
     decodes.back().levels = levels;
     decodes.back().groups = groups;
     decodes.back().region = region;
@@ -176,6 +188,11 @@ bool write_case(const fs::path& root, const Case& c) {
   for (const VoxelBox& region : c.regions) {
     add(0, 0, region);
     for (const int levels : c.levels) add(levels, 0, region);
+  }
+  decodes.insert(decodes.end(), c.decodes.begin(), c.decodes.end());
+  for (const int layers : c.layers) {
+    add(0, 0, {}, layers);
+    for (const int levels : c.levels) add(levels, 0, {}, layers);
   }
   for (std::size_t i = 0; i < decodes.size(); ++i) {
     const auto field = decode(stream, decodes[i]);
@@ -198,24 +215,17 @@ bool write_case(const fs::path& root, const Case& c) {
 bool write_refused(const fs::path& root, const RefusedCase& c) {
   if (c.stream.empty()) return leave_out("refused", c.id, true);
   const auto field = decode(c.stream);
-  if (field) {
-    // Metadata is read by read_info alone.
-    const auto info = read_info(c.stream);
-    if (info) {
-      std::fprintf(stderr, "%s: was not refused\n", c.id.c_str());
-      return false;
-    }
-    const std::string text =
-        description(c.id, c.clauses, c.purpose, c.stream) +
-        "  \"refuse\": {\"by\": \"info\", \"code\": " + quoted(to_string(info.error().code)) +
-        ", \"element\": " + quoted(info.error().element) + "}\n}\n";
-    write(root / "refused" / c.id, c.stream, text);
-    return true;
+  const auto info = read_info(c.stream);  // what decode() does not look at
+  if (field && info) {
+    std::fprintf(stderr, "%s: was not refused\n", c.id.c_str());
+    return false;
   }
-  const std::string text =
-      description(c.id, c.clauses, c.purpose, c.stream) +
-      "  \"refuse\": {\"by\": \"decode\", \"code\": " + quoted(to_string(field.error().code)) +
-      ", \"element\": " + quoted(field.error().element) + "}\n}\n";
+  const Error& error = field ? info.error() : field.error();
+  const std::string text = description(c.id, c.clauses, c.purpose, c.stream) +
+                           "  \"refuse\": {\"by\": " + quoted(field ? "info" : "decode") +
+                           ", \"code\": " + quoted(to_string(error.code)) +
+                           ", \"element\": " + quoted(error.element) +
+                           ", \"unit\": " + quoted(error.unit) + "}\n}\n";
   write(root / "refused" / c.id, c.stream, text);
   return true;
 }

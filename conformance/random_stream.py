@@ -3,88 +3,11 @@ arithmetic decoder that chooses decisions, at random by their probabilities or b
 down the codeword they make. So a stream may have any order of units, level ranges, groups, base and runs of
 cells that the syntax allows, whether an encoder would write them or not. For random_streams.py.
 """
-import pathlib
+import math
 import random
-import sys
-import zlib
 
 import numpy as np
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "spec"))
-import decoder as text  # noqa: E402
-
-SIGNATURE = bytes.fromhex("8B534C460D0A1A0A")
-
-
-class BitWriter:
-    """3.3: the inverse of text.BitReader."""
-
-    def __init__(self):
-        self.bits = ""
-
-    def u(self, value, count):
-        """3.3: u(n)."""
-        self.bits += format(value, f"0{count}b") if count else ""
-        return self
-
-    def ue(self, *values):
-        """3.3: ue(v)."""
-        for value in values:
-            self.bits += "0" * ((value + 1).bit_length() - 1) + format(value + 1, "b")
-        return self
-
-    def payload(self):
-        """3.3: zero bits up to the next byte."""
-        padded = self.bits + "0" * (-len(self.bits) % 8)
-        return int("1" + padded, 2).to_bytes(len(padded) // 8 + 1, "big")[1:]
-
-
-class Chooser(text.ArithmeticDecoder):
-    """8.3.1 turned round: chooses bits and keeps the codeword that would have given them."""
-
-    random, queue, bias, empty = random.Random(0), None, 0, False     # of the unit at work
-    last = None
-
-    def __init__(self, _codeword):
-        self.low, self.range, self.bytes = 0, (1 << 32) - 1, 0
-        self.codeword = b"" if Chooser.empty else b"?"
-        Chooser.last = self
-
-    def decide(self, p):
-        """8.3.1: a bit of the queue, or by chance; with a bias it is 1 more often."""
-        if Chooser.queue is not None:
-            bit = Chooser.queue.pop(0)
-        else:
-            bit = int(Chooser.random.random() * 65536 < min(p * (1 + Chooser.bias), 60000))
-        bound = (self.range >> 16) * p
-        if bit:
-            self.range = bound
-        else:
-            self.low, self.range = self.low + bound, self.range - bound
-        while self.range < 1 << 24:
-            self.low, self.range, self.bytes = self.low << 8, self.range << 8, self.bytes + 1
-        return bit
-
-    def finish(self, _element):
-        """8.3.1: the codeword."""
-        self.codeword = self.codeword and self.low.to_bytes(self.bytes + 4, "big")
-
-
-def unit(unit_type, payload):
-    """7.1: a unit."""
-    length, left = b"", len(payload)
-    while left > 127 or not length:
-        length += bytes([left & 127 | (128 if left > 127 else 0)])
-        left >>= 7
-    length += bytes([left]) if left else b""
-    body = bytes([unit_type]) + length + payload
-    return body + zlib.crc32(body).to_bytes(4, "big")
-
-
-def stream_of(units):
-    """7.1: a stream, with an end unit that counts the others."""
-    units = units + [(text.END, BitWriter().ue(len(units)).payload())]
-    return SIGNATURE + b"".join(unit(*each) for each in units)
+from stream_writer import SIGNATURE, BitWriter, Chooser, stream_of, text, unit
 
 
 def random_cloud(rng, bits):
@@ -129,7 +52,7 @@ class RandomStream:
             self.coded_units()
         finally:
             text.ArithmeticDecoder = keep
-        text.decode(stream_of(self.units), 0, 0, [])        # refused where a coefficient is too great
+        text.decode(stream_of(self.units), 0, 0, 0, [])        # refused where a coefficient is too great
 
     def runs(self):
         """8.2: base cells, and runs of them."""
@@ -142,14 +65,11 @@ class RandomStream:
         self.shared = self.rng.randrange(2)
 
     def sequence_unit(self):
-        """7.2: the header in two pieces, between which sps_cut_flag stands."""
-        rng, cells = self.rng, len(self.first)
+        """7.2: the header in three pieces, between which sps_cut_flag and sps_cut_layers stand."""
+        rng = self.rng
         self.normal_bits = rng.choice([0, 0, 4, 7])
         head = BitWriter().u(0, 8).u(4, 8).u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
         head.u(self.base, 5)
-        if self.base:
-            weight = rng.choice([1, round(len(self.codes) / cells), 100, 1 << 20])
-            head.ue(max(1, min(weight, (1 << 24) // cells)) - 1)
         self.geometry = range_ends(rng, self.bits, self.base, 3)
         tail = BitWriter().ue(len(self.geometry))
         for end in self.geometry:
@@ -159,9 +79,16 @@ class RandomStream:
         self.prediction = rng.randrange(2)
         self.transform = rng.randrange(3) == 0 and functions > 0
         tail.ue(functions)
+        self.layers, self.body, coder = [1] * self.groups, "", rng.choice([0, 0, 3, 3, 1])
         if functions:
-            tail.u(0, 1).u(rng.choice([0, 0, 0, 1]), 2).u(self.prediction, 1).u(self.groups - 1, 4).u(self.transform, 1)
-            tail.u(0, 4 if self.transform else 0)
+            tail.u(0, 1).u(coder, 2).u(self.prediction, 1).u(self.groups - 1, 4)
+            if coder == 3:
+                self.layers = [rng.choice([1, 2, 2, 3, 4]) for _ in self.layers]
+                for layers in self.layers:
+                    tail.u(layers - 1, 2)
+            self.cut_layers_bits = 2 * (coder == 3)
+            self.body, tail = tail.bits, BitWriter()
+            tail.u(self.transform, 1).u(0, 4 if self.transform else 0)
             self.coefficients = range_ends(rng, self.bits, self.base, 4)
             tail.ue(len(self.coefficients))
             for end in self.coefficients:
@@ -172,10 +99,13 @@ class RandomStream:
                 tail.ue(0, group).u(0, 4).u(1, 1).ue(step)
         self.head, self.tail = head.bits, tail.bits
 
-    def sequence_payload(self, cut):
-        """7.2: the sequence unit, with the bits behind sps_cut_flag, "" without it."""
+    def sequence_payload(self, cut, layers=0):
+        """7.2: the sequence unit, with the bits behind sps_cut_flag, "" without it, and sps_cut_layers."""
         writer = BitWriter()
-        writer.bits = self.head + ("1" + cut if cut else "0") + self.tail
+        writer.bits = self.head + ("1" + cut if cut else "0") + self.body
+        if cut and self.groups:
+            writer.u(layers, self.cut_layers_bits)
+        writer.bits += self.tail
         return writer.payload()
 
     def coded_units(self):
@@ -201,31 +131,41 @@ class RandomStream:
                 done.add(kind)
 
     def transform_unit(self):
-        """7.11: a transform with a matrix by chance."""
+        """7.11: a transform; its columns come with its groups."""
         first = self.rng.randrange(self.groups)
         count = self.rng.randrange(1, self.groups - first + 1)
         functions = sum(len(group) for group in self.sequence.groups[first:first + count])
         joint = self.rng.randrange(2)
         header = BitWriter().ue(first, count - 1).u(joint, 1).ue(self.rng.randrange(functions))
         header = header.u(0, 1 - joint).payload()
-        Chooser.queue, Chooser.empty = None, False
         self.sequence.transforms.append(text.Transform(self.sequence, header))
-        self.units.append((text.TRANSFORM, header + Chooser.last.codeword))
+        self.units.append((text.TRANSFORM, header))
 
     def unit_of(self, number, kind):
         """7.4 - 7.6: a unit of the base (None) or a slice."""
         numbers = [*kind[1:2], *([] if number is None else [number]), *kind[2:]]
         header = BitWriter().ue(*numbers)
-        Chooser.queue, Chooser.empty = None, False
+        Chooser.queue, Chooser.empty, Chooser.made = None, False, []
         if kind[0] == text.GEOMETRY:
-            Chooser.queue = self.occupancy(number, *([0] + self.geometry + [self.bits])[kind[1]:kind[1] + 2])
+            begin, end = ([0] + self.geometry + [self.bits])[kind[1]:kind[1] + 2]
+            Chooser.queue = self.occupancy(number, begin, end)
+            if number is None and end == self.base:
+                Chooser.queue += self.classes()
         elif kind[0] == text.COEFFICIENTS:
             begin, end = ([0] + self.coefficients + [self.bits])[kind[1]:kind[1] + 2]
             for _ in range(end - begin if self.prediction else 0):
                 header.u(self.rng.randrange(4), 2)
             Chooser.empty = self.rng.random() < 0.12
-        self.field.read_unit(kind[0], text.BitReader(header.payload()))
-        self.units.append((kind[0], header.payload() + Chooser.last.codeword))
+        elif kind[0] == text.REFINEMENT:
+            Chooser.empty = self.rng.random() < 0.12
+        with_matrix = kind[0] == text.COEFFICIENTS and kind[1] == 0 and self.transform
+        bits = header.bits                          # the matrix is as long as it turns out
+        self.field.read_unit(kind[0], text.BitReader((header.ue(0) if with_matrix else header).payload()))
+        *matrix, body = [chooser.codeword for chooser in Chooser.made]
+        if with_matrix:
+            header.bits = bits
+            header.ue(len(b"".join(matrix)))
+        self.units.append((kind[0], header.payload() + b"".join(matrix) + body))
 
     def occupancy(self, number, begin, end):
         """8.4.1: the decisions of the levels of a unit."""
@@ -240,17 +180,29 @@ class RandomStream:
                 decisions += [int(c in children) for c in range(8)][:7 if children == {7} else 8]
         return decisions
 
-    def cut(self, levels, groups, kept, slices_flag, lost):
+    def classes(self):
+        """8.4.5: the decisions of classes: of the cells' points, or by chance, rarely too heavy together."""
+        cells, kind = len(self.first), self.rng.randrange(3)
+        most = max(k for k in range(23) if cells << k <= (1 << 24) + (self.rng.random() < 0.05) * (1 << 23))
+        decisions = []
+        for begin, end in zip(self.first, self.first[1:] + [len(self.codes)]):
+            k = [round(math.log2(end - begin)), self.rng.randrange(most + 1), most][kind]
+            decisions += [1] * k + [0] * (k < 22)
+        return decisions
+
+    def cut(self, levels, groups, layers, kept, slices_flag, lost):
         """7.1: the stream without units on purpose, and without the last ones."""
         cut = BitWriter().u(levels, 5).ue(groups).u(slices_flag, 1).bits
-        units = [(text.SEQUENCE, self.sequence_payload(cut))]
+        units = [(text.SEQUENCE, self.sequence_payload(cut, layers))]
         for unit_type, payload in self.units[1:]:
-            if unit_type in (text.GEOMETRY, text.NORMALS, text.COEFFICIENTS):
+            if unit_type in (text.GEOMETRY, text.NORMALS, text.COEFFICIENTS, text.REFINEMENT):
                 number, kind = self.sequence.unit_kind(unit_type, text.BitReader(payload))
                 if number is not None and (number not in kept or levels <= self.base):
                     continue
-                if unit_type == text.COEFFICIENTS and (
+                if unit_type in (text.COEFFICIENTS, text.REFINEMENT) and (
                         groups and kind[2] >= groups or self.sequence.coefficient_bounds[kind[1]] >= levels):
+                    continue
+                if unit_type == text.REFINEMENT and layers and kind[3] >= layers:
                     continue
             units.append((unit_type, payload))
         return stream_of(units[:max(len(units) - lost, 2)])
@@ -273,22 +225,27 @@ class RandomStream:
         return stream_of(units)
 
     def requests(self):
-        """Streams and what is asked of them: levels, groups, region."""
+        """Streams and what is asked of them: levels, groups, layers, region."""
         rng, data, side = self.rng, stream_of(self.units), 1 << self.bits
         groups = rng.randrange(self.groups) + 1 if self.groups else 0
         low = [rng.randrange(side) for _ in range(3)]
         region = low + [min(side - 1, v + rng.randrange(side // 2 + 1)) for v in low]
-        yield data, 0, 0, []
-        yield data, rng.randrange(1, self.bits + 1), 0, []
-        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), groups, []
-        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, region
+        most = max(self.layers, default=1)
+        layers = rng.randrange(1, most + 1)
+        yield data, 0, 0, 0, []
+        yield data, rng.randrange(1, self.bits + 1), 0, 0, []
+        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), groups, 0, []
+        yield data, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, 0, region
+        if most > 1:
+            yield data, 0, 0, layers, []
+            yield data, rng.randrange(1, self.bits + 1), groups, layers, []
         prefix = SIGNATURE + b"".join(unit(*each) for each in self.units[:rng.randrange(1, len(self.units))])
-        yield prefix, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, []
+        yield prefix, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, 0, []
         kept = {s for s in range(len(self.spans)) if rng.randrange(2)}
         kept |= {0} if self.shared or not self.base else set()
         levels = rng.choice([self.bits, rng.randrange(1, self.bits + 1)])
         slices_flag, lost = rng.randrange(2) if self.base else 0, rng.choice([0, 2, 5])
-        cut = self.cut(levels, rng.choice([0, groups]), kept, slices_flag, lost)
-        yield cut, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, []
+        cut = self.cut(levels, rng.choice([0, groups]), rng.choice([0, layers % most]), kept, slices_flag, lost)
+        yield cut, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, 0, []
         for _ in range(3):
-            yield self.damaged(), 0, 0, []
+            yield self.damaged(), 0, 0, 0, []

@@ -3,7 +3,7 @@
 
     random_streams.py --decoder "slf decode {in} --dump {out} {options}" [--seeds FIRST LAST] [--keep DIRECTORY]
 
-The streams of random_stream.py, each whole, in fewer levels and groups, in a region, as a prefix, cut on purpose
+The streams of random_stream.py, each whole, in fewer levels, groups and layers, in a region, as a prefix, cut on purpose
 (7.2), and damaged: both decoders have to give the same arrays, or both refuse.
 Needs numpy. Exit code: 0 all agree, 1 some differ (those streams are kept), 2 usage.
 """
@@ -30,11 +30,12 @@ def decoded_by_text(request):
 
 def decoded_by(command, folder, request):
     """The arrays of the other decoder, None where it refuses; its exit code."""
-    data, levels, groups, region = request
+    data, levels, groups, layers, region = request
     (folder / "stream.slf").write_bytes(data)
     for old in folder.glob("*.npy"):
         old.unlink()
     options = ["--levels", str(levels)] * bool(levels) + ["--groups", str(groups)] * bool(groups)
+    options += ["--layers", str(layers)] * bool(layers)
     options += ["--region", ",".join(map(str, region))] * bool(region)
     words = []
     for word in shlex.split(command):
@@ -77,7 +78,7 @@ def main():
                     differ += 1
                     name = arguments.keep / f"random-{seed}-{number}.slf"
                     name.write_bytes(request[0])
-                    print(f"{name}: levels, groups, region {request[1:]}, exit code {code}", file=sys.stderr)
+                    print(f"{name}: levels, groups, layers, region {request[1:]}, exit code {code}", file=sys.stderr)
     print(f"random streams: {tried} decoded, {refused} of them refused, {differ} differ")
     return 1 if differ or not tried else 0
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "bitstream/parameter_sets.h"
+#include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
 #include "conformance/fields.h"
@@ -107,10 +108,6 @@ void add_headers(std::vector<RefusedCase>& cases) {
       [](auto& s) { s.sps_coefficient_range_end[0] = s.sps_base_levels + 1; });
   add("base-of-draco", "a base in the Draco profile",
       [](auto& s) { s.sps_profile = kDracoProfile, s.sps_geometry_coder = 1; });
-  add("base-weight", "cells that weigh more than 2^22",
-      [](auto& s) { s.sps_base_weight_minus1 = 1u << 22; });
-  add("base-weight-of-all", "cells that together weigh more than 2^24",
-      [](auto& s) { s.sps_base_weight_minus1 = (1u << 22) - 1; });
   add("cut-levels-zero", "a cut to no levels",
       [](auto& s) { s.sps_cut_flag = 1, s.sps_cut_levels = 0; });
   add("cut-groups-more", "a cut to more groups than there are",
@@ -127,6 +124,29 @@ void add_headers(std::vector<RefusedCase>& cases) {
                    "a byte after the sequence header",
                    {"3.3"},
                    edited([](auto& units) { units[0].payload.push_back(0); })});
+}
+
+/// A cube full of points, and many functions of which no unit says anything.
+void add_level(std::vector<RefusedCase>& cases) {
+  constexpr int kSide = 16, kFunctions = 256;
+  LightField cube;
+  cube.header.grid.bits = 4;
+  cube.header.has_basis = false;
+  cube.header.num_functions = kFunctions;
+  for (int i = 0; i < kSide * kSide * kSide; ++i)
+    cube.positions.push_back({i % kSide, i / kSide % kSide, i / kSide / kSide});
+  cube.components.resize(cube.num_points() * 3 * kFunctions);
+  CodingParameters parameters;
+  parameters.base_levels = 0;
+  parameters.index = parameters.digest = false;
+  cases.push_back({"values-beyond-level",
+                   "points times functions out of proportion to the bytes",
+                   {"9"},
+                   edited(*pack(cube, parameters), [](auto& units) {
+                     std::erase_if(units, [](const EditableUnit& unit) {
+                       return unit.type == UnitType::kFiller;
+                     });
+                   })});
 }
 
 void add_textures(std::vector<RefusedCase>& cases) {
@@ -189,8 +209,26 @@ void add_transforms(std::vector<RefusedCase>& cases) {
     transform_header(write, header, 1);
     units[1].payload = out.take();
   });
-  add("transform-shorter", "a matrix without its last bytes", "8.3.1",
-      [](auto& units) { units[1].payload.resize(units[1].payload.size() / 2); });
+  const auto with_matrix = [&](const char* id, const char* purpose, const char* clause,
+                               const std::function<void(Bytes&, std::uint32_t&)>& edit) {
+    add(id, purpose, clause, [&](auto& units) {
+      const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
+      EditableUnit& unit = first_of(units, UnitType::kCoefficients);
+      const PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, set);
+      Bytes matrix(part.matrix.begin(), part.matrix.end());
+      auto bytes = static_cast<std::uint32_t>(matrix.size());
+      edit(matrix, bytes);
+      set_matrix(unit, set, set, matrix, bytes);
+    });
+  };
+  with_matrix("matrix-shorter", "a matrix without its last bytes", "8.3.1",
+              [](Bytes& matrix, std::uint32_t& bytes) { matrix.resize(bytes /= 2); });
+  with_matrix("matrix-longer", "five bytes more behind a matrix", "8.3.1",
+              [](Bytes& matrix, std::uint32_t& bytes) { matrix.resize(bytes += 5); });
+  with_matrix("matrix-bytes", "a matrix longer than its unit", "7.6",
+              [](Bytes&, std::uint32_t& bytes) { bytes = 1 << 20; });
+  with_matrix("matrix-missing", "no matrix where the group has columns", "7.11",
+              [](Bytes& matrix, std::uint32_t& bytes) { matrix.clear(), bytes = 0; });
   add("transform-and-texture", "a texture with a transform", "7.2", [](auto& units) {
     auto set = *parse_sequence_parameter_set(units[0].payload);
     set.sps_profile = kTextureProfile;
@@ -205,7 +243,10 @@ std::vector<RefusedCase> refused_cases() {
   std::vector<RefusedCase> cases;
   add_framing(cases);
   add_headers(cases);
+  add_level(cases);
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
+  for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
+  for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));
   add_textures(cases);
   add_transforms(cases);
   return cases;

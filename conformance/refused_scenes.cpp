@@ -1,12 +1,16 @@
 // What is wrong with slices, their units and the index of them.
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "bitstream/index.h"
 #include "codec/coded_unit.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
+#include "geometry/morton.h"
+#include "geometry/octree_encoder.h"
+#include "geometry/weight_classes.h"
 
 namespace slf::conformance {
 namespace {
@@ -35,22 +39,18 @@ EditableUnit& unit_of_slice(std::vector<EditableUnit>& units, UnitType type, std
 
 bool is_digest(const EditableUnit& unit) { return unit.type == UnitType::kDigest; }
 
-void add_slices(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
-    cases.push_back({id, purpose, {clause}, edited(edit)});
-  };
-  add("slices-repeated", "the slices unit twice", "7.3", [](auto& units) {
-    const EditableUnit table = first_of(units, UnitType::kSlices);
-    units.insert(units.begin() + 2, table);
-  });
-  add("slices-late", "geometry before the slices unit", "7.1", [](auto& units) {
-    auto& table = first_of(units, UnitType::kSlices);
-    std::swap(table, *(&table + 1));
-  });
+using Edit = std::function<void(std::vector<EditableUnit>&)>;
+
+/// What breaks one clause in the stream of edit_units.h.
+void add(std::vector<RefusedCase>& cases, const char* id, const char* purpose, const char* clause,
+         const Edit& edit) {
+  cases.push_back({id, purpose, {clause}, edited(edit)});
+}
+
+void add_slice_table(std::vector<RefusedCase>& cases) {
   const auto add_table = [&](const char* id, const char* purpose,
                              const std::function<void(SliceTable&)>& edit) {
-    add(id, purpose, "7.3", [&](auto& units) {
+    add(cases, id, purpose, "7.3", [&](auto& units) {
       const auto set = *parse_sequence_parameter_set(units[0].payload);
       auto& payload = first_of(units, UnitType::kSlices).payload;
       SliceTable table = *parse_slice_table(payload, set);
@@ -69,56 +69,117 @@ void add_slices(std::vector<RefusedCase>& cases) {
             [](auto& t) { --t.slices[0].slice_num_cells_minus1; });
   add_table("points-one-more", "a point that the slice has not",
             [](auto& t) { ++t.slices[0].slice_num_points_minus1; });
-  add("slices-too-many", "more slices than the unit has bits for", "7.3", [](auto& units) {
+}
+
+void add_order(std::vector<RefusedCase>& cases) {
+  add(cases, "slices-repeated", "the slices unit twice", "7.3", [](auto& units) {
+    const EditableUnit table = first_of(units, UnitType::kSlices);
+    units.insert(units.begin() + 2, table);
+  });
+  add(cases, "slices-late", "geometry before the slices unit", "7.1", [](auto& units) {
+    auto& table = first_of(units, UnitType::kSlices);
+    std::swap(table, *(&table + 1));
+  });
+  add(cases, "slice-before-the-first", "a slice before the states it starts from", "7.1",
+      [](auto& units) {
+        auto& first = unit_of_slice(units, UnitType::kGeometry, 0);
+        std::swap(first, unit_of_slice(units, UnitType::kGeometry, 1));
+      });
+  add(cases, "coefficients-before-the-first", "coefficients before the states they start from",
+      "7.1", [](auto& units) {
+        auto& first = unit_of_slice(units, UnitType::kCoefficients, 0);
+        std::swap(first, unit_of_slice(units, UnitType::kCoefficients, 1));
+      });
+  add(cases, "base-late", "a unit of the base after one of a slice", "7.1", [](auto& units) {
+    auto& slice = unit_of_slice(units, UnitType::kGeometry, 0);
+    std::swap(slice, *(&slice - 1));
+  });
+  add(cases, "geometry-range-skipped", "the second of two geometry ranges first", "7.1",
+      [](auto& units) {
+        auto& base = first_of(units, UnitType::kGeometry);
+        std::swap(base, *(&base + 1));
+      });
+  add(cases, "units-missing", "an end unit before the last units of the slices", "7.1",
+      [](auto& units) {
+        units.erase(std::remove_if(units.begin(), units.end(), is_digest), units.end());
+        units.erase(units.end() - 3);
+      });
+  add(cases, "coefficients-out-of-order", "group 1 before group 0", "7.1", [](auto& units) {
+    auto& first = first_of(units, UnitType::kCoefficients);
+    std::swap(first, *(&first + 1));
+  });
+}
+
+void add_payloads(std::vector<RefusedCase>& cases) {
+  add(cases, "slices-too-many", "more slices than the unit has bits for", "7.3", [](auto& units) {
     BitWriter out;
     out.ue(kMaxSlices - 1);
     out.u(1, 0);
     first_of(units, UnitType::kSlices).payload = out.take();
   });
-  add("slice-id", "a unit of a slice that there is not", "7.4", [](auto& units) {
+  add(cases, "slice-id", "a unit of a slice that there is not", "7.4", [](auto& units) {
     edit_ids(units, UnitType::kGeometry, 2, [](auto& ids) { ids.slice_id = 100; });
   });
-  add("slice-before-the-first", "a slice before the states it starts from", "7.1", [](auto& units) {
-    auto& first = unit_of_slice(units, UnitType::kGeometry, 0);
-    std::swap(first, unit_of_slice(units, UnitType::kGeometry, 1));
-  });
-  add("coefficients-before-the-first", "coefficients before the states they start from", "7.1",
-      [](auto& units) {
-        auto& first = unit_of_slice(units, UnitType::kCoefficients, 0);
-        std::swap(first, unit_of_slice(units, UnitType::kCoefficients, 1));
-      });
-  add("base-late", "a unit of the base after one of a slice", "7.1", [](auto& units) {
-    auto& slice = unit_of_slice(units, UnitType::kGeometry, 0);
-    std::swap(slice, *(&slice - 1));
-  });
-  add("geometry-range-skipped", "the second of two geometry ranges first", "7.1", [](auto& units) {
-    auto& base = first_of(units, UnitType::kGeometry);
-    std::swap(base, *(&base + 1));
-  });
-  add("units-missing", "an end unit before the last units of the slices", "7.1", [](auto& units) {
-    units.erase(std::remove_if(units.begin(), units.end(), is_digest), units.end());
-    units.erase(units.end() - 3);
-  });
-  add("geometry-longer", "a codeword with bytes to spare", "8.3.1", [](auto& units) {
+  add(cases, "geometry-longer", "a codeword with bytes to spare", "8.3.1", [](auto& units) {
     auto& payload = first_of(units, UnitType::kGeometry).payload;
     payload.insert(payload.end(), 5, 0x55);  // four could be the decoder's register
   });
-  add("geometry-shorter", "a codeword without its last bytes", "8.3.1", [](auto& units) {
+  add(cases, "geometry-shorter", "a codeword without its last bytes", "8.3.1", [](auto& units) {
     auto& payload = unit_of_slice(units, UnitType::kGeometry, 0).payload;
     payload.resize(payload.size() / 2);
   });
-  add("coefficients-shorter", "coefficients without their last bytes", "8.3.1", [](auto& units) {
-    auto& payload = first_of(units, UnitType::kCoefficients).payload;
-    payload.resize(payload.size() / 2);
-  });
-  add("coefficients-out-of-order", "group 1 before group 0", "7.1", [](auto& units) {
-    auto& first = first_of(units, UnitType::kCoefficients);
-    std::swap(first, *(&first + 1));
-  });
-  add("digest", "another digest", "7.9",
+  add(cases, "coefficients-shorter", "coefficients without their last bytes", "8.3.1",
+      [](auto& units) {
+        auto& payload = first_of(units, UnitType::kCoefficients).payload;
+        payload.resize(payload.size() / 2);
+      });
+  add(cases, "digest", "another digest", "7.9",
       [](auto& units) { first_of(units, UnitType::kDigest).payload.back() ^= 1; });
-  add("metadata-garbage", "metadata that does not inflate", "7.8",
+  add(cases, "metadata-garbage", "metadata that does not inflate", "7.8",
       [](auto& units) { first_of(units, UnitType::kMetadata).payload.back() ^= 1; });
+}
+
+/// The unit with the weight classes of base_stream, its cells and two levels coded with others;
+/// none: occupancies alone.
+void recode_classes(std::vector<EditableUnit>& units, std::optional<std::uint8_t> k) {
+  const auto set = *parse_sequence_parameter_set(units[0].payload);
+  DecodeOptions options;
+  options.levels = static_cast<int>(set.sps_base_levels);
+  std::vector<std::uint64_t> cells;
+  const LightField base = *decode(base_stream(false), options);
+  for (const Voxel& cell : base.positions) cells.push_back(morton(cell));
+  const auto table = parse_slice_table(first_of(units, UnitType::kSlices).payload, set);
+  OctreeEncoder octree(cells, options.levels, OccupancyStates(table->num_points()));
+  octree.encode(static_cast<int>(set.geometry_end(0)));
+  std::vector<std::uint8_t> classes;
+  if (k) classes.assign(cells.size(), *k);
+  EditableUnit& last = *(&first_of(units, UnitType::kGeometry) + 1);
+  SliceUnitHeader header;
+  header.range = 1;
+  last.payload =
+      part_unit(UnitType::kGeometry, header, octree.encode(options.levels, classes), set).payload;
+}
+
+void add_weight_classes(std::vector<RefusedCase>& cases) {
+  const auto add = [&](const char* id, const char* purpose,
+                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+    cases.push_back({id, purpose, {"8.4.5"}, edited(edit)});
+  };
+  add("weight-of-all", "cells that together weigh more than 2^24",
+      [](auto& units) { recode_classes(units, kMostWeightClass); });
+  add("weight-classes-missing", "a codeword that ends with the occupancies",
+      [](auto& units) { recode_classes(units, {}); });
+  const auto with_classes = [](auto& units) -> Bytes& {
+    return (&first_of(units, UnitType::kGeometry) + 1)->payload;
+  };
+  add("weight-classes-shorter", "classes without their last bytes", [&](auto& units) {
+    Bytes& payload = with_classes(units);
+    payload.resize(payload.size() - 6);
+  });
+  add("weight-classes-longer", "bytes behind the classes", [&](auto& units) {
+    Bytes& payload = with_classes(units);
+    payload.insert(payload.end(), 5, 0x55);  // four could be the decoder's register
+  });
 }
 
 /// The index changed; the units it is about stay.
@@ -155,7 +216,10 @@ void add_index(std::vector<RefusedCase>& cases) {
 
 std::vector<RefusedCase> refused_scenes() {
   std::vector<RefusedCase> cases;
-  add_slices(cases);
+  add_slice_table(cases);
+  add_order(cases);
+  add_payloads(cases);
+  add_weight_classes(cases);
   add_index(cases);
   return cases;
 }

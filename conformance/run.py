@@ -3,13 +3,20 @@
 
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]
 
-The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--region=X0,Y0,Z0,X1,Y1,Z1",
+The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--layers N", "--region=X0,Y0,Z0,X1,Y1,Z1",
 "--planes" or nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
-(int32 [P, K, 3]) and, where the stream has normals, octahedral.npy (uint16 [P, 2]) in {out}. It must exit with 0 on streams/, and with another code,
-not by a signal and not after the time limit, on refused/. With --messages the name of the refused syntax
-element must be in what it prints. Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
+(int32 [P, K, 3]), where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
+{out}: an object with points, partial and the keys and values of "header" in meaning.json, others beside them; numbers to 1e-6 of
+themselves. It must exit with 0 on streams/, and with another code,
+not by a signal and not after the time limit, on refused/. With --messages the names of the refused syntax
+element and of its unit must be in what it prints. With --radiance "CMD {in} {out} {point} {x} {y} {z}" a command that prints, as the last three
+numbers, R, G, B of a point towards (x, y, z), from the stream or from what the decoder left in {out}: within 1/16 (spec 6.7).
+Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
 """
-import argparse, hashlib, json, pathlib, re, shlex, shutil, struct, subprocess, sys, tempfile
+import argparse, hashlib, json, math, pathlib, re, shlex, shutil, struct, subprocess, sys, tempfile
+import xml.etree.ElementTree as xml
+
+GREY_LEVELS = 1 / 16                        # of a colour, spec 6.7
 
 
 def npy(path):
@@ -42,11 +49,52 @@ def run(command, values, timeout):
         if word == "{options}":
             words += values["options"]
         else:
-            words.append(word.replace("{in}", values["in"]).replace("{out}", values["out"]))
+            for name, value in values.items():
+                word = word.replace("{" + name + "}", str(value))
+            words.append(word)
     return subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, timeout=timeout)
 
 
-def check_stream(folder, decoder, timeout):
+def differences(wanted, got, place=""):
+    """Where an object lacks what another has, or has it otherwise."""
+    if isinstance(wanted, dict) and isinstance(got, dict):
+        for key, value in wanted.items():
+            name = f"{place}.{key}" if place else key
+            yield from differences(value, got[key], name) if key in got else [f"{name} is missing"]
+    elif isinstance(wanted, list) and isinstance(got, list) and len(wanted) == len(got):
+        for i, pair in enumerate(zip(wanted, got)):
+            yield from differences(*pair, f"{place}[{i}]")
+    elif isinstance(wanted, float) and not isinstance(got, bool) and isinstance(got, (int, float)):
+        if not math.isclose(wanted, got, rel_tol=1e-6, abs_tol=1e-300):
+            yield f"{place}: {got} instead of {wanted}"
+    elif wanted != got or isinstance(wanted, bool) != isinstance(got, bool):
+        yield f"{place}: {got} instead of {wanted}"
+
+
+def check_header(out, expect, header):
+    """light_field.json; the header is that of the whole light field."""
+    got = json.loads((out / "light_field.json").read_text(encoding="utf-8"))
+    wanted = {"partial": expect["partial"], "points": expect["points"]}
+    whole = not expect["levels"] and not expect["groups"] and "region" not in expect
+    return [f"light_field.json: {each}" for each in differences({**wanted, **(header if whole else {})}, got)]
+
+
+def check_radiance(command, values, colours, timeout):
+    """Colours of points along directions."""
+    problems = []
+    for colour in colours:
+        x, y, z = colour["direction"]
+        done = run(command, {**values, "point": colour["point"], "x": x, "y": y, "z": z}, timeout)
+        numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|nan", done.stdout.decode(errors="replace"))
+        got = [float(number) for number in numbers[-3:]]
+        if done.returncode or len(got) < 3:
+            problems.append(f"radiance: exit code {done.returncode}, {len(numbers)} numbers")
+        elif not all(abs(a - b) <= GREY_LEVELS for a, b in zip(got, colour["rgb"])):
+            problems.append(f"radiance of point {colour['point']} towards {x} {y} {z}: {got} instead of {colour['rgb']}")
+    return problems
+
+
+def check_stream(folder, decoder, timeout, meaning, radiance):
     case = json.loads((folder / "case.json").read_text(encoding="utf-8"))
     stream = folder / case["stream"]["file"]
     if hashlib.sha256(stream.read_bytes()).hexdigest() != case["stream"]["sha256"]:
@@ -54,7 +102,7 @@ def check_stream(folder, decoder, timeout):
     problems = []
     for expect in case["expect"]:
         out = pathlib.Path(tempfile.mkdtemp())
-        options = [w for name in ("levels", "groups") if expect[name] for w in ("--" + name, str(expect[name]))]
+        options = [w for name in ("levels", "groups", "layers") if expect.get(name) for w in ("--" + name, str(expect[name]))]
         options += ["--region=" + ",".join(map(str, expect["region"]))] if "region" in expect else []
         options += ["--planes"] if "planes_sha256" in expect else []
         where = " ".join(options) or "whole"
@@ -74,6 +122,12 @@ def check_stream(folder, decoder, timeout):
                 problem = check_array(path, descr, shape, digest)
                 if problem:
                     problems.append(f"{where}: {problem}")
+            if meaning is not None:
+                found = meaning.get(folder.name, {})
+                problems += [f"{where}: {each}" for each in check_header(out, expect, found.get("header", {}))]
+                if radiance and where == "whole":
+                    values = {"in": str(stream), "out": str(out), "options": []}
+                    problems += check_radiance(radiance, values, found.get("radiance", []), timeout)
         except (OSError, ValueError, AttributeError, struct.error, subprocess.TimeoutExpired) as error:
             problems.append(f"{where}: {error}")
         finally:
@@ -95,8 +149,9 @@ def check_refused(folder, decoder, info, messages, timeout):
             return ["was decoded without an error"]
         if done.returncode < 0:
             return [f"died of signal {-done.returncode}"]
-        if messages and refuse["element"] not in printed:
-            return [f"the message does not name {refuse['element']}: {printed.strip()}"]
+        for name in (refuse["element"], f"{refuse['unit']} unit" if refuse["unit"] else "") if messages else ():
+            if name not in printed:
+                return [f"the message does not name {name}: {printed.strip()}"]
         if any(out.iterdir()):
             return ["left output behind"]
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -104,6 +159,21 @@ def check_refused(folder, decoder, info, messages, timeout):
     finally:
         shutil.rmtree(out, ignore_errors=True)
     return []
+
+
+def write_junit(path, report):
+    """The report as JUnit's XML, which continuous integration shows."""
+    suite = xml.Element("testsuite", name="conformance", tests=str(len(report)))
+    for name in ("failed", "skipped"):
+        suite.set("failures" if name == "failed" else name, str(sum(r["verdict"] == name for r in report)))
+    for entry in report:
+        part, name = entry["case"].split("/")
+        case = xml.SubElement(suite, "testcase", classname=f"conformance.{part}", name=name)
+        if entry["verdict"] == "failed":
+            xml.SubElement(case, "failure", message=entry["problems"][0]).text = "\n".join(entry["problems"])
+        elif entry["verdict"] == "skipped":
+            xml.SubElement(case, "skipped")
+    xml.ElementTree(suite).write(path, encoding="utf-8", xml_declaration=True)
 
 
 def main():
@@ -115,14 +185,22 @@ def main():
     parser.add_argument("--skip", action="append", default=[], metavar="CASE", help='e.g. "streams/draco"; repeatable')
     parser.add_argument("--timeout", type=float, default=60, metavar="SECONDS", help="for one run [60]")
     parser.add_argument("--json", action="store_true", help="a report on standard output")
+    parser.add_argument("--junit", metavar="FILE", help="a report for continuous integration")
+    parser.add_argument("--radiance", metavar="CMD", help="prints the colour of a point; without it colours are not compared")
+    parser.add_argument("--without-header", action="store_true", help="the decoder leaves no light_field.json")
+    parser.add_argument("--only", action="append", default=[], metavar="CASE", help="these cases alone; repeatable")
     arguments = parser.parse_args()
-    report = []
+    report, meaning = [], None
+    if not arguments.without_header:
+        meaning = json.loads((arguments.suite / "meaning.json").read_text(encoding="utf-8"))
     for part in ("streams", "refused"):
         for folder in sorted(p for p in (arguments.suite / part).iterdir() if p.is_dir()):
+            if arguments.only and f"{part}/{folder.name}" not in arguments.only:
+                continue
             if f"{part}/{folder.name}" in arguments.skip:
                 problems = None
             elif part == "streams":
-                problems = check_stream(folder, arguments.decoder, arguments.timeout)
+                problems = check_stream(folder, arguments.decoder, arguments.timeout, meaning, arguments.radiance)
             else:
                 problems = check_refused(folder, arguments.decoder, arguments.info, arguments.messages, arguments.timeout)
             verdict = "skipped" if problems is None else "failed" if problems else "passed"
@@ -130,6 +208,8 @@ def main():
             for problem in problems or []:
                 print(f"{part}/{folder.name}: {problem}", file=sys.stderr)
     count = {v: sum(r["verdict"] == v for r in report) for v in ("passed", "failed", "skipped")}
+    if arguments.junit:
+        write_junit(arguments.junit, report)
     if arguments.json:
         print(json.dumps({"cases": report, **count}, indent=1))
     else:

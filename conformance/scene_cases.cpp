@@ -1,9 +1,17 @@
 // A base and slices; what was cut; parts of space.
 #include "conformance/cases.h"
 #include "conformance/fields.h"
+#include "geometry/weight_classes.h"
 
 namespace slf::conformance {
 namespace {
+
+/// Four of the eight children of the root.
+std::vector<Voxel> half_sphere(int bits) {
+  std::vector<Voxel> voxels = sphere(bits);
+  std::erase_if(voxels, [bits](const Voxel& v) { return v[2] >= 1 << (bits - 1); });
+  return voxels;
+}
 
 /// Three groups and level ranges above and below the base.
 Case scene(const char* id, const char* purpose, int base_levels, std::uint32_t slice_points) {
@@ -49,10 +57,16 @@ void add_scenes(std::vector<Case>& cases) {
   cases.push_back(order);
   for (const bool most : {false, true}) {
     Case weight = scene(most ? "base-weight-most" : "base-weight-least",
-                        "cells of a weight at the end of its range", most ? 1 : 4, 1500);
+                        "cells that weigh as much, or as little, as they may", most ? 1 : 4, 1500);
+    weight.clauses = {"8.4.5", "8.6.2"};
     weight.parameters.base_weight = most ? 1u << 21 : 1;
     cases.push_back(weight);
   }
+  Case heaviest = scene("base-class-most", "four cells of the highest class", 1, 700);
+  heaviest.clauses = {"8.4.5", "8.6.4"};
+  heaviest.field = field(half_sphere(6), 6, 6);
+  heaviest.parameters.base_weight = 1u << kMostWeightClass;
+  cases.push_back(heaviest);
   Case geometry = scene("scene-geometry", "slices without components", 3, 1500);
   geometry.field = field(sphere(6), 6, 0);
   geometry.parameters.step.clear();
@@ -91,6 +105,11 @@ void add_prefixes(std::vector<Case>& cases) {
     c.keep_units = units;
     cases.push_back(c);
   }
+  Case unpredicted =
+      scene("scene-prefix-unpredicted", "the same, its cells of one colour", 3, 2500);
+  unpredicted.parameters.predict = false;
+  unpredicted.keep_units = 11;
+  cases.push_back(unpredicted);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The decoder written from the text alone, spec/decoder.py, against the conformance streams.
 
-    text_agrees.py [NAME ...]
+    text_agrees.py [--part I N] [NAME ...]
 
 The same checks as run.py makes of a program, but every stream is read once for all that its manifest asks of it, which takes
-a tenth of the time. Draco's payloads are left out: no part of them is in the text. Needs numpy.
+a tenth of the time. --part: each N-th of them from the I-th on. Draco's payloads are left out: no part of them is in the text. Needs numpy.
 """
+import argparse
 import hashlib
 import json
 import multiprocessing
@@ -24,7 +25,7 @@ def digest(array, kind):
 
 def differences(sequence, light_field, expect):
     """What is not as the manifest has it, of one request."""
-    wanted = decoder.Wanted(sequence, expect['levels'], expect['groups'])
+    wanted = decoder.Wanted(sequence, expect['levels'], expect['groups'], expect.get('layers', 0))
     positions, components, normals = decoder.given_out(sequence, light_field, wanted, expect.get('region'))
     if len(positions) != expect['points'] or components.shape[1] != expect['components']:
         yield f'{components.shape} points and components'
@@ -50,17 +51,23 @@ def check(folder):
         light_field = decoder.LightField(sequence)
         light_field.read(units)
         if 'refuse' in case:
-            decoder.given_out(sequence, light_field, decoder.Wanted(sequence, 0, 0), None)
+            decoder.given_out(sequence, light_field, decoder.Wanted(sequence, 0, 0, 0), None)
             return name, ['is not refused']
-        return name, [f'{expect["levels"]} levels, {expect["groups"]} groups: {problem}' for expect in case['expect']
+        return name, [f'{expect["levels"]} levels, {expect["groups"]} groups, {expect.get("layers", 0)} layers: {problem}'
+                      for expect in case['expect']
                       for problem in differences(sequence, light_field, expect)]
     except decoder.Refused as problem:
         return name, [] if 'refuse' in case else [f'is refused: {problem}']
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--part', type=int, nargs=2, default=(0, 1), metavar=('I', 'N'))
+    parser.add_argument('name', nargs='*')
+    given = parser.parse_args()
     folders = [f for part in ('streams', 'refused') for f in sorted((HERE / part).iterdir())
-               if (f / 'case.json').exists() and f.name != 'draco' and (not sys.argv[1:] or f.name in sys.argv[1:])]
+               if (f / 'case.json').exists() and f.name != 'draco' and (not given.name or f.name in given.name)]
+    folders = folders[given.part[0]::given.part[1]]
     failed = 0
     with multiprocessing.Pool() as pool:
         for name, problems in pool.imap_unordered(check, folders):

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "entropy/table.h"
+
 namespace slf {
 
 inline constexpr int kProbabilityBits = 16;  ///< probabilities handed to the range coder
@@ -34,7 +36,8 @@ class AdaptiveBit {
 
  private:
   /// round(65536 / (n + 1.5)). Spec table 8-1.
-  static constexpr std::array<std::uint32_t, 1024> kReciprocal = [] {
+  SLF_TABLE_MEMBER std::array<std::uint32_t, 1024> kReciprocal = [] {
+    SLF_TABLE_BEGINS;
     std::array<std::uint32_t, 1024> table{};
     for (std::uint32_t n = 0; n < 1024; ++n) table[n] = (131072 + (2 * n + 3) / 2) / (2 * n + 3);
     return table;

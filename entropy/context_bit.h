@@ -41,7 +41,8 @@ class ContextBit {
   static constexpr std::array<std::int32_t, 16> kSeen = {1, 1, 1, 1, 1, 1, 1, 1,
                                                          1, 1, 1, 1, 1, 1, 1, 0};
   /// stretch of the probability; 0 of one half, which is what a context never seen has.
-  static constexpr std::array<std::int16_t, 4096> kInput = [] {
+  SLF_TABLE_MEMBER std::array<std::int16_t, 4096> kInput = [] {
+    SLF_TABLE_BEGINS;
     std::array<std::int16_t, 4096> table = kStretch;
     table[2048] = 0;
     return table;

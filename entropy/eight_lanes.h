@@ -7,6 +7,8 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 namespace slf {
@@ -50,6 +52,42 @@ class EightLanes {
  private:
   explicit EightLanes(__m128i v) : v_(v) {}
   __m128i v_;
+#elif defined(__wasm_simd128__)
+  EightLanes() : v_(wasm_i16x8_const_splat(0)) {}
+  explicit EightLanes(std::int16_t every) : v_(wasm_i16x8_splat(every)) {}
+  explicit EightLanes(const std::array<std::int16_t, kCount>& x)
+      : v_(wasm_i16x8_make(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7])) {}
+
+  EightLanes saturating_plus(EightLanes o) const {
+    return EightLanes(wasm_i16x8_add_sat(v_, o.v_));
+  }
+
+  std::int32_t dot(EightLanes o) const {
+    v128_t sum = wasm_i32x4_dot_i16x8(v_, o.v_);
+    sum = wasm_i32x4_add(sum, wasm_i32x4_shuffle(sum, sum, 2, 3, 0, 1));
+    sum = wasm_i32x4_add(sum, wasm_i32x4_shuffle(sum, sum, 1, 0, 3, 2));
+    return wasm_i32x4_extract_lane(sum, 0);
+  }
+
+  EightLanes times(std::int32_t factor) const {
+    const v128_t by = wasm_i16x8_splat(static_cast<std::int16_t>(factor));
+    const v128_t half = wasm_i32x4_const_splat(1 << 15);
+    const v128_t low = wasm_i32x4_add(wasm_i32x4_extmul_low_i16x8(v_, by), half);
+    const v128_t high = wasm_i32x4_add(wasm_i32x4_extmul_high_i16x8(v_, by), half);
+    return EightLanes(wasm_i16x8_narrow_i32x4(wasm_i32x4_shr(low, 16), wasm_i32x4_shr(high, 16)));
+  }
+
+  v128_t vector() const { return v_; }
+
+  std::array<std::int16_t, kCount> values() const {
+    std::array<std::int16_t, kCount> x;
+    wasm_v128_store(x.data(), v_);
+    return x;
+  }
+
+ private:
+  explicit EightLanes(v128_t v) : v_(v) {}
+  v128_t v_;
 #else
   EightLanes() : v_{} {}
   explicit EightLanes(std::int16_t every) { v_.fill(every); }

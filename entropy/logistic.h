@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "entropy/table.h"
+
 namespace slf {
 
 /// Logistic values are ln(p / (1 - p)) in 1/256, within -2815 .. 2815.
@@ -20,7 +22,8 @@ inline constexpr std::array<int, 45> kSquashQuarters = {
 
 /// Probability of 65536 of a logistic value, by value + kLogisticLimit: linear between the entries
 /// of table 8-2.
-inline constexpr std::array<std::uint16_t, 2 * kLogisticLimit + 1> kSquash = [] {
+SLF_TABLE std::array<std::uint16_t, 2 * kLogisticLimit + 1> kSquash = [] {
+  SLF_TABLE_BEGINS;
   std::array<std::uint16_t, 2 * kLogisticLimit + 1> table{};
   for (int a = 0; a <= kLogisticLimit; ++a) {
     const std::size_t i = static_cast<std::size_t>(a) / 64;
@@ -32,14 +35,15 @@ inline constexpr std::array<std::uint16_t, 2 * kLogisticLimit + 1> kSquash = [] 
   return table;
 }();
 
-constexpr int squash(int logistic) {
+SLF_TABLE_FUNCTION int squash(int logistic) {
   const int x = std::clamp(logistic, -kLogisticLimit, kLogisticLimit);
   return kSquash[static_cast<std::size_t>(x + kLogisticLimit)];
 }
 
 /// The inverse of squash on the upper 12 bits of a probability: the smallest logistic value whose
 /// probability is at least the middle of the interval.
-inline constexpr std::array<std::int16_t, 4096> kStretch = [] {
+SLF_TABLE std::array<std::int16_t, 4096> kStretch = [] {
+  SLF_TABLE_BEGINS;
   std::array<std::int16_t, 4096> table{};
   int x = -kLogisticLimit;
   for (int i = 0; i < 4096; ++i) {

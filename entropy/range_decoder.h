@@ -1,6 +1,7 @@
 // Binary arithmetic decoder. Spec 8.3.1.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -53,11 +54,15 @@ class RangeDecoder {
   /// More was read than a sound codeword needs: what is decoded from here on is of no meaning.
   bool exhausted() const { return pos_ > bytes_.size() + 4; }
 
+  /// An error of what was decoded last: at the byte of the codeword that would be read next.
+  Error here(Errc code, const char* element) const {
+    return {code, element, 8 * std::uint64_t{std::min(pos_, bytes_.size())}};
+  }
+
   /// Ends the codeword: all bytes were used and none beyond the four of the register.
   Result<Done> finish(const char* element) const {
-    const Error here{pos_ < bytes_.size() ? Errc::kOutOfRange : Errc::kTruncated, element,
-                     static_cast<std::uint64_t>(pos_) * 8};
-    if (pos_ < bytes_.size() || exhausted()) return here;
+    if (pos_ < bytes_.size()) return here(Errc::kOutOfRange, element);
+    if (exhausted()) return here(Errc::kTruncated, element);
     return Done{};
   }
 

@@ -40,7 +40,8 @@ int main(int argc, char** argv) {
       slf::direction_of({std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5])});
   const auto rgb = maps.radiance(point, theta, gamma);
   const slf::Vec3 at = field->header.grid.world(field->positions[point]);
-  std::printf("%.10g %.10g %.10g  %.3f %.3f %.3f\n", at[0], at[1], at[2], static_cast<double>(rgb[0]),
-              static_cast<double>(rgb[1]), static_cast<double>(rgb[2]));
+  std::printf("%.10g %.10g %.10g  %.3f %.3f %.3f\n", at[0], at[1], at[2],
+              static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
+              static_cast<double>(rgb[2]));
   return 0;
 }

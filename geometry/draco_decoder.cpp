@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "bitstream/units.h"
+
 #if SLF_WITH_DRACO
 #include <draco/compression/decode.h>
 #include <draco/point_cloud/point_cloud.h>
@@ -34,7 +36,7 @@ bool is_cloud_of_positions(std::span<const std::uint8_t> payload, std::uint64_t 
 
 Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, int bits,
                                         std::uint64_t max_points) {
-  const Error damaged{Errc::kOutOfRange, "gu_draco", 0};
+  const Error damaged{Errc::kOutOfRange, "gu_draco"};
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(payload.data()), payload.size());
   if (!is_cloud_of_positions(payload, max_points)) return damaged;
@@ -64,7 +66,7 @@ Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, i
 }
 #else
 Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t>, int, std::uint64_t) {
-  return Error{Errc::kUnsupported, "sps_geometry_coder", 0};
+  return of_sequence(Errc::kUnsupported, "sps_geometry_coder");
 }
 #endif
 

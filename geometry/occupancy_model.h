@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "bitstream/multiversion.h"
-#include "bitstream/prefetch.h"
+#include "base/multiversion.h"
+#include "base/prefetch.h"
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
 #include "geometry/occupancy_history.h"

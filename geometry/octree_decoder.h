@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "entropy/range_decoder.h"
 #include "geometry/occupancy_model.h"
 #include "geometry/octree_levels.h"
 #include "slf/error.h"
@@ -27,6 +28,10 @@ class OctreeDecoder {
   /// Decodes the occupancies of levels level() .. end - 1.
   /// @errors kOutOfRange: more nodes than max_nodes; the codeword does not end where the unit does.
   Result<Done> decode(std::span<const std::uint8_t> payload, int end);
+  /// The same of the last levels of a base whose cells have classes (8.4.5): [cells].
+  /// @errors kOutOfRange also: the cells weigh more than 2^24 together.
+  Result<std::vector<std::uint8_t>> decode_with_classes(std::span<const std::uint8_t> payload,
+                                                        int end);
 
   int level() const { return level_; }  ///< of the nodes known so far
   const std::vector<std::uint64_t>& morton() const { return nodes_.morton; }
@@ -35,6 +40,8 @@ class OctreeDecoder {
   void start_from(const OccupancyStates& states) { model_.start_from(states); }
 
  private:
+  Result<Done> decode_levels(RangeDecoder& given, int end, bool all_neighbours);
+
   int depth_;
   std::uint64_t max_nodes_;
   int level_;

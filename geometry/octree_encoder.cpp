@@ -1,7 +1,8 @@
 #include "geometry/octree_encoder.h"
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "entropy/range_encoder.h"
+#include "geometry/weight_classes.h"
 
 namespace slf {
 namespace {
@@ -38,7 +39,7 @@ OctreeEncoder::OctreeEncoder(std::span<const std::uint64_t> morton, int depth,
       model_(std::move(states)) {}
 
 SLF_MULTIVERSION_ALL
-std::vector<std::uint8_t> OctreeEncoder::encode(int end) {
+std::vector<std::uint8_t> OctreeEncoder::encode(int end, std::span<const std::uint8_t> classes) {
   RangeEncoder encoder;
   for (; level_ < end; ++level_) {
     model_.start_level(level_);
@@ -46,7 +47,11 @@ std::vector<std::uint8_t> OctreeEncoder::encode(int end) {
     for (std::size_t n = 0; n < nodes_.size(); ++n)
       nodes_.occupancy[n] = model_.code(encoder, nodes_, n, occupancy[n]);
     model_.finish_level(nodes_);
-    nodes_ = octree_children(nodes_, level_ + 1 < depth_);
+    nodes_ = octree_children(nodes_, !classes.empty() || level_ + 1 < depth_);
+  }
+  if (!classes.empty()) {
+    WeightClassModel model(nodes_);
+    for (const std::uint8_t k : classes) model.code(encoder, k);
   }
   return encoder.finish();
 }

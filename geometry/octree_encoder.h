@@ -19,7 +19,8 @@ class OctreeEncoder {
                 int level = 0);
 
   /// The occupancies of the levels from the last end up to this one.
-  std::vector<std::uint8_t> encode(int end);
+  /// @param classes  of the cells at `end`, where they are those of a base: 8.4.5; empty: none
+  std::vector<std::uint8_t> encode(int end, std::span<const std::uint8_t> classes = {});
 
   const OccupancyStates& states() const { return model_.states(); }  ///< after the last unit
   void start_from(const OccupancyStates& states) { model_.start_from(states); }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "geometry/occupancy_window.h"
 
 namespace slf {

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "capture/nearest.h"
-#include "codec/encode_metadata.h"
-#include "codec/fit_capture.h"
-#include "codec/stopwatch.h"
+#include "encoder/encode_metadata.h"
+#include "encoder/fit_capture.h"
 #include "igc/igc_file.h"
 #include "igc/igc_parameters.h"
 #include "igc/ycbcr.h"
@@ -60,7 +60,7 @@ Result<Done, InputError> decode_images(Bytes section, const IgcParameters& param
       video_format(parameters.width, parameters.height, settings.chroma, order.size());
   const auto pixels =
       static_cast<std::uint64_t>(format.width) * static_cast<std::uint64_t>(format.height);
-  if (pixels * 3 > limits.max_output_bytes / order.size())
+  if (pixels * 3 > limits.max_memory / order.size())
     return InputError{Errc::kLimitExceeded, "IGC file: images larger than the limit"};
   capture.images.resize(capture.cameras.size());
   const auto sink = [&](std::size_t i, const Picture& picture) {
@@ -129,7 +129,7 @@ Result<Done, InputError> check_size(const IgcParameters& parameters, std::size_t
   const double scale = s.observe.occlusion_resolution;
   const double view_maps = static_cast<double>(points) * (12 + 12 * functions);
   const double depths = 4 * scale * scale * parameters.width * parameters.height;
-  if (std::max(view_maps, depths) <= static_cast<double>(limits.max_output_bytes)) return Done{};
+  if (std::max(view_maps, depths) <= static_cast<double>(limits.max_memory)) return Done{};
   return InputError{Errc::kLimitExceeded, "IGC file: view maps or depth buffers beyond the limit"};
 }
 

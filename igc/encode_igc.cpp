@@ -3,9 +3,9 @@
 #include <charconv>
 #include <optional>
 
-#include "codec/encode_metadata.h"
-#include "codec/fit_capture.h"
-#include "codec/stopwatch.h"
+#include "base/stopwatch.h"
+#include "encoder/encode_metadata.h"
+#include "encoder/fit_capture.h"
 #include "igc/camera_walk.h"
 #include "igc/igc_file.h"
 #include "igc/igc_parameters.h"

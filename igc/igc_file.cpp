@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bitstream/zlib_adapter.h"
+#include "bitstream/crc32.h"
 
 namespace slf {
 namespace {

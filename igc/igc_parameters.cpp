@@ -6,9 +6,10 @@
 #include <limits>
 #include <string_view>
 
-#include "bitstream/zlib_adapter.h"
-#include "codec/fit_capture.h"
-#include "lightfield/environment.h"
+#include "bitstream/deflate.h"
+#include "bitstream/inflate.h"
+#include "encoder/fit_capture.h"
+#include "fit/environment.h"
 
 namespace slf {
 namespace {

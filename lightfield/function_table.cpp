@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "lightfield/frame.h"
 #include "lightfield/nodes.h"
 #include "slf/parallel.h"

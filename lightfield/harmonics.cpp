@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 
 namespace slf {
 

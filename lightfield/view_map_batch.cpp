@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bitstream/multiversion.h"
+#include "base/multiversion.h"
 #include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "slf/view_map.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/observe_camera.h"
 #include "lightfield/frame.h"
-#include "lightfield/observe_camera.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 
@@ -56,6 +56,65 @@ struct Equations {
   }
 };
 
+ObservedPoints every_nth(const SurfacePoints& points, std::size_t every) {
+  ObservedPoints some;
+  for (std::size_t p = 0; p < points.size(); p += every) {
+    some.positions.push_back(points.positions[p]);
+    some.normals.push_back(points.normals[p]);
+  }
+  return some;
+}
+
+/// An observation's terms, and the cosine between normal and view.
+struct View {
+  Row row{};
+  double cosine = 0;
+};
+
+View view_of(const std::array<float, 2>& direction, const Float3& normal) {
+  const Vec3 d = vector_of(direction);
+  View view;
+  view.row[0] = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    view.cosine += d[a] * double(normal[a]);
+    // Relative to the normal, whose direction is about the middle of all.
+    view.row[1 + a] = d[a] - double(normal[a]);
+  }
+  view.cosine = std::max(view.cosine, 0.0);
+  return view;
+}
+
+struct PointError {
+  float squares = 0, views = 0;
+};
+
+/// @param held  by camera, whether it is predicted from the others
+PointError error_of(const Observations& seen, std::size_t p, const Float3& normal,
+                    const std::vector<std::uint8_t>& held) {
+  PointError sum;
+  Equations equations;
+  for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i)
+    if (held[seen.camera[i]] == 0) {
+      const View view = view_of(seen.direction[i], normal);
+      equations.add(view.row, seen.colour[i], view.cosine);
+    }
+  if (equations.count < 2) return sum;
+  equations.solve();
+  for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i) {
+    if (held[seen.camera[i]] == 0) continue;
+    const View view = view_of(seen.direction[i], normal);
+    double squares = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double error = -double(seen.colour[i][c]);
+      for (std::size_t k = 0; k < kTerms; ++k) error += view.row[k] * equations.right[k][c];
+      squares += error * error;
+    }
+    sum.squares += float(view.cosine * squares / 3);
+    sum.views += float(view.cosine);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double HeldOutErrors::squares_sum() const {
@@ -80,53 +139,29 @@ CameraParts split_for_mending(std::span<const int> cameras) {
 Result<HeldOutErrors, InputError> held_out_errors(const Capture& capture,
                                                   std::span<const int> cameras,
                                                   const SurfacePoints& points, double spacing,
-                                                  int threads) {
+                                                  int threads, std::size_t every) {
   ObserveSettings settings;
   settings.delta_degrees = 10;
   settings.threads = threads;
-  const ObservedPoints observed{points.positions, points.normals};
+  const ObservedPoints looked_at = every_nth(points, every);
   SLF_TRY(const Observations seen,
-          observe(capture, cameras, observed, points.positions, spacing, settings));
+          observe(capture, cameras, looked_at, points.positions, spacing, settings));
   std::vector<std::uint8_t> held(capture.cameras.size(), 0);
   for (const int camera : split_for_mending(cameras).held_out) held[std::size_t(camera)] = 1;
   HeldOutErrors errors;
   errors.squares.assign(points.size(), 0);
   errors.views.assign(points.size(), 0);
   errors.seen.assign(points.size(), 0);
-  parallel_ranges(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      errors.seen[p] = seen.first[p] < seen.first[p + 1];
-      Equations equations;
-      const auto row_of = [&](std::uint64_t i, double& cosine) {
-        const Vec3 d = vector_of(seen.direction[i]);
-        cosine = 0;
-        for (std::size_t a = 0; a < 3; ++a) cosine += d[a] * double(points.normals[p][a]);
-        // Relative to the normal, whose direction is about the middle of all.
-        return Row{1, d[0] - double(points.normals[p][0]), d[1] - double(points.normals[p][1]),
-                   d[2] - double(points.normals[p][2])};
-      };
-      double cosine = 0;
-      for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i)
-        if (held[seen.camera[i]] == 0) {
-          const Row row = row_of(i, cosine);
-          equations.add(row, seen.colour[i], std::max(cosine, 0.0));
-        }
-      if (equations.count < 2) continue;
-      equations.solve();
-      for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i) {
-        if (held[seen.camera[i]] == 0) continue;
-        const Row row = row_of(i, cosine);
-        double squares = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-          double error = -double(seen.colour[i][c]);
-          for (std::size_t k = 0; k < kTerms; ++k) error += row[k] * equations.right[k][c];
-          squares += error * error;
-        }
-        errors.squares[p] += float(std::max(cosine, 0.0) * squares / 3);
-        errors.views[p] += float(std::max(cosine, 0.0));
-      }
-    }
-  });
+  const auto weight = float(every);
+  parallel_ranges(looked_at.positions.size(), 1024, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                      const PointError error = error_of(seen, i, looked_at.normals[i], held);
+                      errors.squares[i * every] = weight * error.squares;
+                      errors.views[i * every] = weight * error.views;
+                      errors.seen[i * every] = seen.first[i] < seen.first[i + 1];
+                    }
+                  });
   return errors;
 }
 

@@ -33,9 +33,10 @@ CameraParts split_for_mending(std::span<const int> cameras);
 
 /// Every held-out camera is predicted from the others at every point that it sees: their mean and
 /// what is linear in direction, as light that moves makes it.
+/// @param every  of so many points one is looked at and stands for the others, which have zeros
 Result<HeldOutErrors, InputError> held_out_errors(const Capture& capture,
                                                   std::span<const int> cameras,
                                                   const SurfacePoints& points, double spacing,
-                                                  int threads);
+                                                  int threads, std::size_t every = 1);
 
 }  // namespace slf

@@ -12,7 +12,7 @@ constexpr std::size_t kGrain = 2048;
 
 /// A point's costs with those of its neighbours, as a larger patch would have them.
 std::vector<float> aggregated(const std::vector<float>& costs, std::size_t labels,
-                              const Neighbours& neighbours, int threads) {
+                              const SurfaceNeighbours& neighbours, int threads) {
   std::vector<float> sums(costs.size());
   const std::size_t points = costs.size() / labels;
   parallel_ranges(points, kGrain, threads, [&](std::size_t begin, std::size_t end) {
@@ -72,7 +72,8 @@ std::vector<OffsetLimits> in_labels(std::span<const OffsetLimits> limits, const 
 }  // namespace
 
 std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetRange& range,
-                                  const Neighbours& neighbours, const OffsetSettings& settings,
+                                  const SurfaceNeighbours& neighbours,
+                                  const OffsetSettings& settings,
                                   std::span<const OffsetLimits> limits) {
   const std::size_t labels = range.count, points = costs.size() / labels;
   const std::vector<float> sums = aggregated(costs, labels, neighbours, settings.threads);

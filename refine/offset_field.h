@@ -25,7 +25,8 @@ struct OffsetSettings {
 /// @param limits  [P], none is beyond; or empty
 /// @return [P] world units
 std::vector<float> choose_offsets(const std::vector<float>& costs, const OffsetRange& range,
-                                  const Neighbours& neighbours, const OffsetSettings& settings,
+                                  const SurfaceNeighbours& neighbours,
+                                  const OffsetSettings& settings,
                                   std::span<const OffsetLimits> limits = {});
 
 }  // namespace slf

@@ -2,53 +2,75 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "lightfield/observe_camera.h"
-#include "lightfield/observe_depth.h"
+#include "fit/observe_camera.h"
+#include "fit/observe_depth.h"
+#include "refine/patches.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-constexpr std::size_t kLeastCameras = 3;  // fewer say nothing
-constexpr std::size_t kMostSamples = 49;
-
-/// The views that may compare a point, best facing first.
+/// A view that may compare a point.
 struct Facing {
   std::uint16_t view;
   float cosine;
 };
 
-std::vector<std::vector<Facing>> facing_views(std::span<const PhotoView> views,
-                                              const SurfacePoints& points, double spacing,
-                                              const ConsistencySettings& settings) {
-  std::vector<std::vector<Facing>> facing(points.size());
-  DepthSettings depth{0.5, spacing, settings.tolerance / spacing};
-  std::vector<std::vector<std::pair<std::uint32_t, float>>> each(views.size());
+/// Of every so many-th point, views ascending.
+struct FacingViews {
+  std::vector<std::uint64_t> first;  ///< [chosen + 1]
+  std::vector<Facing> facing;
+
+  std::span<const Facing> of(std::size_t chosen) const {
+    const auto from = std::size_t(first[chosen]);
+    return std::span(facing).subspan(from, std::size_t(first[chosen + 1]) - from);
+  }
+};
+
+struct Chosen {
+  std::uint32_t point;  ///< among those that are chosen
+  float cosine;
+};
+
+std::vector<Chosen> seen_by(const PhotoView& view, const SurfacePoints& points, double spacing,
+                            const ConsistencySettings& settings, std::size_t every) {
+  std::vector<Chosen> seen;
+  const Camera& camera = *view.camera;
+  const DepthBuffer buffer(camera, points.positions, {0.5, spacing, settings.tolerance / spacing});
+  for (std::size_t p = 0; p < points.size(); p += every) {
+    const double cosine = view_cosine(points.positions[p], points.normals[p], view.centre);
+    if (!(cosine >= settings.least_cosine)) continue;
+    double z = 0;
+    const Float3& at = points.positions[p];
+    const auto image = camera.project({at[0], at[1], at[2]}, &z);
+    if (!image || !((*image)[0] >= 0 && (*image)[0] < camera.width && (*image)[1] >= 0 &&
+                    (*image)[1] < camera.height))
+      continue;
+    if (!buffer.hides(*image, z, 1)) seen.push_back({std::uint32_t(p / every), float(cosine)});
+  }
+  return seen;
+}
+
+FacingViews facing_views(std::span<const PhotoView> views, const SurfacePoints& points,
+                         double spacing, const ConsistencySettings& settings, std::size_t every) {
+  std::vector<std::vector<Chosen>> each(views.size());
   parallel_ranges(views.size(), 1, settings.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const PhotoView& view = views[v];
-      const DepthBuffer buffer(*view.camera, points.positions, depth);
-      for (std::size_t p = 0; p < points.size(); ++p) {
-        const double cosine = view_cosine(points.positions[p], points.normals[p], view.centre);
-        if (!(cosine >= settings.least_cosine)) continue;
-        double z = 0;
-        const Float3& at = points.positions[p];
-        const auto image = view.camera->project({at[0], at[1], at[2]}, &z);
-        if (!image || !((*image)[0] >= 0 && (*image)[0] < view.camera->width && (*image)[1] >= 0 &&
-                        (*image)[1] < view.camera->height))
-          continue;
-        if (buffer.hides(*image, z, 1)) continue;
-        each[v].push_back({std::uint32_t(p), float(cosine)});
-      }
-    }
+    for (std::size_t v = begin; v < end; ++v)
+      each[v] = seen_by(views[v], points, spacing, settings, every);
   });
+  FacingViews all;
+  all.first.assign((points.size() + every - 1) / every + 1, 0);
+  for (const auto& list : each)
+    for (const Chosen& seen : list) ++all.first[seen.point + 1];
+  for (std::size_t p = 1; p < all.first.size(); ++p) all.first[p] += all.first[p - 1];
+  all.facing.resize(std::size_t(all.first.back()));
+  std::vector<std::uint64_t> next(all.first.begin(), all.first.end() - 1);
   for (std::size_t v = 0; v < views.size(); ++v)
-    for (const auto& [p, cosine] : each[v]) facing[p].push_back({std::uint16_t(v), cosine});
-  for (auto& list : facing)
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Facing& a, const Facing& b) { return a.cosine > b.cosine; });
-  return facing;
+    for (const Chosen& seen : each[v])
+      all.facing[std::size_t(next[seen.point]++)] = {std::uint16_t(v), seen.cosine};
+  return all;
 }
 
 void tangents(const Float3& n, Float3& a, Float3& b) {
@@ -60,52 +82,36 @@ void tangents(const Float3& n, Float3& a, Float3& b) {
   b = {n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]};
 }
 
-struct Patch {
-  std::array<float, kMostSamples> value;
-};
-
-/// Samples of a patch, without mean, of length at most 1 (less where noise drowns them).
-bool take_patch(const PhotoView& view, const PatchPath& path, float offset, int radius,
-                float spacing, float noise, Patch& patch) {
-  const double w = path.at[2] + double(offset) * path.step[2];
-  if (!(w > 0)) return false;
-  const auto u = float((path.at[0] + double(offset) * path.step[0]) / w);
-  const auto v = float((path.at[1] + double(offset) * path.step[1]) / w);
-  std::size_t n = 0;
-  float sum = 0;
-  for (int i = -radius; i <= radius; ++i)
-    for (int j = -radius; j <= radius; ++j, ++n) {
-      const float a = spacing * float(i), b = spacing * float(j);
-      patch.value[n] = view.sample(u + a * path.tangent[0] + b * path.tangent[2],
-                                   v + a * path.tangent[1] + b * path.tangent[3]);
-      sum += patch.value[n];
-    }
-  if (!std::isfinite(sum)) return false;
-  const float mean = sum / float(n);
-  float squares = float(n) * noise * noise;
-  for (std::size_t i = 0; i < n; ++i) {
-    patch.value[i] -= mean;
-    squares += patch.value[i] * patch.value[i];
+/// Some of the views that face a point, from the best facing to the least.
+std::vector<PatchSampler> samplers_of(std::span<const PhotoView> views,
+                                      std::span<const Facing> seen, const Float3& position,
+                                      const Float3& normal, const ConsistencySettings& settings) {
+  std::vector<Facing> facing(seen.begin(), seen.end());
+  std::stable_sort(facing.begin(), facing.end(),
+                   [](const Facing& a, const Facing& b) { return a.cosine > b.cosine; });
+  Float3 a, b;
+  tangents(normal, a, b);
+  std::vector<PatchSampler> samplers;
+  const std::size_t taken = std::min(facing.size(), settings.cameras);
+  for (std::size_t i = 0; i < taken; ++i) {
+    const PhotoView& view = views[facing[i * facing.size() / taken].view];
+    if (const auto path = patch_path(view, position, normal, a, b, settings.spacing))
+      samplers.emplace_back(view, *path, float(settings.spacing), float(settings.noise));
   }
-  const float scale = 1 / std::sqrt(squares);
-  for (std::size_t i = 0; i < n; ++i) patch.value[i] *= scale;
-  return true;
+  return samplers;
 }
 
-/// 1 - mean correlation of all pairs of patches, by the length of their sum.
-float disagreement(std::span<const Patch> patches, std::size_t samples) {
-  const std::size_t count = patches.size();
-  if (count < kLeastCameras) return 1;
-  float all = 0, own = 0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    float sum = 0;
-    for (const Patch& patch : patches) {
-      sum += patch.value[i];
-      own += patch.value[i] * patch.value[i];
+/// How much what the photographs show at an offset differs.
+float cost_at(std::span<const PatchSampler> samplers, float offset) {
+  PatchValues sum{};
+  float own = 0;
+  std::size_t good = 0;
+  for (const PatchSampler& sampler : samplers)
+    if (const auto squared = sampler.add(offset, sum)) {
+      own += *squared;
+      ++good;
     }
-    all += sum * sum;
-  }
-  return 1 - (all - own) / float(count * (count - 1));
+  return disagreement(sum, own, good);
 }
 
 }  // namespace
@@ -113,34 +119,15 @@ float disagreement(std::span<const Patch> patches, std::size_t samples) {
 std::vector<float> photo_costs(std::span<const PhotoView> views, const SurfacePoints& points,
                                double spacing, const OffsetRange& range,
                                const ConsistencySettings& settings, std::size_t every) {
-  const auto facing = facing_views(views, points, spacing, settings);
-  const std::size_t most = settings.cameras;
-  const auto samples = std::size_t((2 * settings.radius + 1) * (2 * settings.radius + 1));
-  const std::size_t chosen = (points.size() + every - 1) / every;
-  std::vector<float> costs(chosen * range.count, 1);
+  const FacingViews facing = facing_views(views, points, spacing, settings, every);
+  const std::size_t chosen = facing.first.size() - 1;
+  std::vector<float> costs(chosen * range.count);
   parallel_ranges(chosen, 64, settings.threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Patch> patches;
-    std::vector<std::pair<const PhotoView*, PatchPath>> paths;
-    for (std::size_t i_chosen = begin; i_chosen < end; ++i_chosen) {
-      const std::size_t p = i_chosen * every;
-      Float3 a, b;
-      tangents(points.normals[p], a, b);
-      paths.clear();
-      const std::size_t seen = facing[p].size(), taken = std::min(seen, most);
-      for (std::size_t i = 0; i < taken; ++i) {
-        const PhotoView& view = views[facing[p][i * seen / taken].view];
-        if (const auto path =
-                patch_path(view, points.positions[p], points.normals[p], a, b, settings.spacing))
-          paths.push_back({&view, *path});
-      }
-      for (std::size_t l = 0; l < range.count; ++l) {
-        patches.resize(paths.size());
-        std::size_t good = 0;
-        for (const auto& [view, path] : paths)
-          good += take_patch(*view, path, range.at(l), settings.radius, float(settings.spacing),
-                             float(settings.noise), patches[good]);
-        costs[i_chosen * range.count + l] = disagreement({patches.data(), good}, samples);
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto samplers = samplers_of(views, facing.of(i), points.positions[i * every],
+                                        points.normals[i * every], settings);
+      for (std::size_t l = 0; l < range.count; ++l)
+        costs[i * range.count + l] = cost_at(samplers, range.at(l));
     }
   });
   return costs;

@@ -14,8 +14,7 @@ struct OffsetRange {
 };
 
 struct ConsistencySettings {
-  int radius = 2;           ///< a patch has (2 radius + 1)^2 samples
-  double spacing = 0;       ///< of its samples, world units
+  double spacing = 0;       ///< of a patch's samples, world units
   std::size_t cameras = 8;  ///< most that are compared
   double least_cosine = 0.35;
   double noise = 1;      ///< grey levels: texture weaker than this says little

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "lightfield/observe_camera.h"
-#include "lightfield/observe_depth.h"
+#include "fit/observe_camera.h"
+#include "fit/observe_depth.h"
 #include "slf/parallel.h"
 
 namespace slf {

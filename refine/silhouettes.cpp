@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "lightfield/observe_camera.h"
-#include "lightfield/observe_depth.h"
-#include "lightfield/picture_background.h"
+#include "fit/observe_camera.h"
+#include "fit/observe_depth.h"
+#include "measure/picture_background.h"
 #include "slf/parallel.h"
 
 namespace slf {

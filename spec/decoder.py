@@ -6,7 +6,7 @@ specification and as a second opinion in the conformance tests.
 
 Decodes to the integer conformance point and leaves positions.npy (int32 [P, 3]), components.npy (int32
 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]) and, where the stream has normals, octahedral.npy
-(uint16 [P, 2]) in DIRECTORY. --levels keeps the
+(uint16 [P, 2]) in DIRECTORY, and light_field.json with the header. --levels keeps the
 first N levels of the grid, --groups the first N groups of functions, --region x0,y0,z0,x1,y1,z1 what meets a
 box of the world (clause 8.9). Exit code: 0 decoded, 1 refused, with the syntax element in question on
 standard error.
@@ -17,6 +17,8 @@ component values in a stream it refuses too (clause 9). Numbers in docstrings ar
 """
 import argparse
 import hashlib
+import itertools
+import json
 import math
 import os
 import struct
@@ -28,7 +30,7 @@ import numpy as np
 import hevc
 
 SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
-INDEX, METADATA, DIGEST, TRANSFORM, END = 6, 7, 8, 9, 15
+INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, END = 6, 7, 8, 9, 10, 15
 MAX_VALUES = 1 << 28
 
 
@@ -51,6 +53,7 @@ class BitReader:
         """3.3: starts at the first bit of the payload."""
         self.data = data
         self.position = 0
+        self.elements = {}                  # the last value of each by name
 
     def u(self, bits, element):
         """3.3: u(n), unsigned."""
@@ -58,12 +61,17 @@ class BitReader:
         require(end <= 8 * len(self.data), element + " (truncated)")
         window = int.from_bytes(self.data[self.position // 8:(end + 7) // 8], "big")
         self.position = end
-        return (window >> (-end % 8)) & ((1 << bits) - 1)
+        return self.noted(element, (window >> (-end % 8)) & ((1 << bits) - 1))
+
+    def noted(self, element, value):
+        """3.3: the value of an element, which is kept."""
+        self.elements[element] = value
+        return value
 
     def s8(self, element):
         """3.3: s(8), two's complement."""
         value = self.u(8, element)
-        return value - 256 if value >= 128 else value
+        return self.noted(element, value - 256 if value >= 128 else value)
 
     def ue(self, element):
         """3.3: ue(v), Exp-Golomb of order 0."""
@@ -71,7 +79,7 @@ class BitReader:
         while self.u(1, element) == 0:
             zeros += 1
             require(zeros <= 31, element)
-        return (1 << zeros) - 1 + self.u(zeros, element)
+        return self.noted(element, (1 << zeros) - 1 + self.u(zeros, element))
 
     def se(self, element):
         """3.3: se(v), 0, 1, 2, 3, 4 for 0, 1, -1, 2, -2."""
@@ -82,7 +90,7 @@ class BitReader:
         """3.3: f(64), a finite double."""
         value = struct.unpack(">d", self.u(64, element).to_bytes(8, "big"))[0]
         require(math.isfinite(value), element)
-        return value
+        return self.noted(element, value)
 
     def align(self, element):
         """3.3: zero bits to the next byte."""
@@ -182,7 +190,9 @@ class Sequence:
         self.texture = profile == 2
         self.prediction = False
         self.groups = []                    # functions of each group
+        self.layers = []                    # quality layers of each group
         self.steps = []                     # three steps of each function
+        self.shifts = []                    # of each function
         self.num_transforms, self.transforms = 0, []
         if self.functions:
             if reader.u(1, "sps_basis_flag"):
@@ -202,14 +212,19 @@ class Sequence:
                 require(gamma_max >= gamma_min, "sps_gamma_max")
                 if frame == 1:
                     checked(5, lambda v: v < self.grid_bits, "sps_normal_cell_log2")
-            coder = checked(2, lambda v: v == 2 if profile == 2 else v <= 1, "sps_coefficient_coder")
-            self.coder = (VectorCoder, IndependentCoder, None)[coder]
+            coder = checked(2, lambda v: (v == 2) == (profile == 2), "sps_coefficient_coder")
+            self.coder = (VectorCoder, IndependentCoder, None, VectorCoder)[coder]
             if coder == 2:
                 self.texture_bits = 8 + 2 * checked(2, lambda v: v <= 2, "sps_texture_bits")
                 self.texture_cell_log2 = reader.u(3, "sps_texture_cell_log2")
             else:
                 self.prediction = bool(reader.u(1, "sps_prediction_flag"))
             self.groups = [[] for _ in range(reader.u(4, "sps_num_groups_minus1") + 1)]
+            self.layers = [1] * len(self.groups)
+            if coder == 3:
+                self.layers = [reader.u(2, "sps_num_layers_minus1") + 1 for _ in self.groups]
+                if self.cut:
+                    self.cut_layers = checked(2, lambda v: v < max(self.layers), "sps_cut_layers")
             if checked(1, lambda v: coder != 2 or v == 0, "sps_transform_flag"):
                 self.num_transforms = 1
             if self.num_transforms:
@@ -218,6 +233,7 @@ class Sequence:
             require(coder != 2 or len(self.coefficient_bounds) == 2, "sps_num_coefficient_ranges_minus1")
             while len(self.steps) < self.functions:
                 self.plane_run(reader)
+        self.elements = reader.elements
         reader.trailing_bits("sps_trailing_bits")
         require(all(self.groups), "sps_num_groups_minus1")
         require(self.cut_groups <= len(self.groups), "sps_cut_groups")
@@ -244,10 +260,8 @@ class Sequence:
         """7.2: the base, and what was left out."""
         most = 0 if profile else self.grid_bits - 1
         self.base_levels = checked(5, lambda v: v <= most, "sps_base_levels")
-        self.base_weight = reader.ue("sps_base_weight_minus1") + 1 if self.base_levels else 1
-        require(self.base_weight <= 1 << 22, "sps_base_weight_minus1")
         self.cut = reader.u(1, "sps_cut_flag")
-        self.cut_levels, self.cut_groups, self.cut_slices = self.grid_bits, 0, 0
+        self.cut_levels, self.cut_groups, self.cut_layers, self.cut_slices = self.grid_bits, 0, 0, 0
         if self.cut:
             self.cut_levels = checked(5, lambda v: 1 <= v <= self.grid_bits, "sps_cut_levels")
             self.cut_groups = reader.ue("sps_cut_groups")
@@ -255,17 +269,20 @@ class Sequence:
             self.cut_slices = reader.u(1, "sps_cut_slices_flag")
 
     def unit_kind(self, unit_type, reader, prefix=""):
-        """7.4 - 7.6, 7.9: the numbers a unit begins with: slice (None: the base), (type, level_range, plane_group)."""
+        """7.4 - 7.6, 7.9: the numbers a unit begins with: slice (None: the base), (type, level_range, plane_group, layer)."""
         kind, base = [unit_type], False
-        if unit_type in (GEOMETRY, COEFFICIENTS):
+        if unit_type in (GEOMETRY, COEFFICIENTS, REFINEMENT):
             bounds = self.geometry_bounds if unit_type == GEOMETRY else self.coefficient_bounds
             kind.append(reader.ue(prefix + "level_range"))
             require(kind[1] < len(bounds) - 1, prefix + "level_range")
             base = bounds[kind[1] + 1] <= self.base_levels
         part = None if base else reader.ue(prefix + "slice_id")
-        if unit_type == COEFFICIENTS:
+        if unit_type in (COEFFICIENTS, REFINEMENT):
             kind.append(reader.ue(prefix + "plane_group"))
             require(kind[2] < len(self.groups), prefix + "plane_group")
+        if unit_type == REFINEMENT:
+            kind.append(reader.ue(prefix + "refinement_layer"))
+            require(1 <= kind[3] <= 3, prefix + "refinement_layer")
         return part, tuple(kind)
 
     def unit_order(self, base):
@@ -276,8 +293,11 @@ class Sequence:
             """2: the ranges of the base, or the others."""
             return [r for r in range(len(bounds) - 1) if (bounds[r + 1] <= self.base_levels) == base]
         normals = [(NORMALS,)] if self.normal_bits and not base else []
-        coefficients = [(COEFFICIENTS, r, group) for r in ranges(self.coefficient_bounds) for group in groups]
-        return [(GEOMETRY, r) for r in ranges(self.geometry_bounds)] + normals + coefficients
+        kept = [r for r in ranges(self.coefficient_bounds) if self.coefficient_bounds[r] < self.cut_levels]
+        coefficients = [(COEFFICIENTS, r, group) for r in kept for group in groups]
+        refinements = [(REFINEMENT, r, group, layer) for layer in range(1, self.cut_layers or max(self.layers, default=1))
+                       for r in kept for group in groups if self.layers[group] > layer]
+        return [(GEOMETRY, r) for r in ranges(self.geometry_bounds)] + normals + coefficients + refinements
 
     def plane_run(self, reader):
         """7.2: plane_run( ), functions of one group, shift and steps."""
@@ -285,20 +305,48 @@ class Sequence:
         require(length <= self.functions - len(self.steps), "sps_run_length_minus1")
         group = reader.ue("sps_plane_group")
         require(group < len(self.groups), "sps_plane_group")
-        reader.u(4, "sps_plane_shift")
+        shift = reader.u(4, "sps_plane_shift")
         equal = reader.u(1, "sps_equal_steps_flag")
         steps = [reader.ue("sps_plane_step") for _ in range(1 if equal else 3)]
         require(all(1 <= step < 1 << 27 for step in steps), "sps_plane_step")
         for _ in range(length):
             self.groups[group].append(len(self.steps))
             self.steps.append(steps * 3 if equal else steps)
+            self.shifts.append(shift)
+
+
+def header_of(sequence, shift):
+    """6, 8.9.2: what the sequence unit says, in words; the grid is that of what is given out, 2^shift coarser."""
+    e = sequence.elements
+    half = sequence.step * ((1 << shift) - 1) / 2
+    header = {"grid": {"origin": [v + half for v in sequence.origin], "step": sequence.step * (1 << shift),
+                       "bits": sequence.grid_bits - shift},
+              "up": ("+x", "-x", "+y", "-y", "+z", "-z", "unknown")[e["sps_up_axis"]],
+              "right_handed": not e["sps_left_handed_flag"],
+              "metres_per_unit": e.get("sps_metres_per_unit", 0.0),
+              "num_functions": sequence.functions, "shift": sequence.shifts,
+              "has_basis": bool(e.get("sps_basis_flag"))}
+    if not header["has_basis"]:
+        return header
+    if e["sps_basis_idc"] == 0:
+        header["basis"] = {"id": "bspline", "order": e["sps_order_minus1"] + 1,
+                           "scales_theta": e["sps_scales_theta"], "scales_gamma": e["sps_scales_gamma"]}
+    else:
+        header["basis"] = {"id": "harmonics", "degree": e["sps_degree"]}
+    header["frame"] = ("global", "reflected")[e["sps_frame_idc"]]
+    if e["sps_frame_idc"] == 1:
+        header["normal_cell"] = 1 << e["sps_normal_cell_log2"]
+    header["colour"] = {"transform": ("none", "opponent")[e["sps_colour_idc"]]}
+    header["transfer"] = ("display", "linear")[e["sps_transfer_idc"]]
+    header["gamma_range"] = [e["sps_gamma_min"] / 127, e["sps_gamma_max"] / 127]
+    return header
 
 
 class Transform:
     """7.11: a transform across planes."""
 
     def __init__(self, sequence, payload):
-        """7.11: parses the unit, and takes the functions behind the rank from those coded."""
+        """7.11: parses the unit, and takes the functions behind the rank from those coded. The matrix is 0 as yet."""
         reader = BitReader(payload)
         self.first = reader.ue("tr_first_group")
         before = sequence.transforms[-1].end if sequence.transforms else 0
@@ -315,29 +363,36 @@ class Transform:
         lanes = 1 if self.joint else 3
         rows, columns = len(functions) * 3 // lanes, rank * 3 // lanes
         require(rank <= len(functions) and rows * columns <= 1 << 20, "tr_rank_minus1")
-        self.functions, self.rank = functions, rank
-        self.matrix = self.read_matrix(ArithmeticDecoder(reader.rest("tr_matrix")), rows, columns)
+        reader.trailing_bits("tr_trailing_bits")
+        self.functions, self.rank, self.columns = functions, rank, {}
+        self.matrix = np.zeros((rows, columns), np.int64)
         for g in range(self.first, self.end):
+            begin = self.rank - rank
             sequence.coded[g], rank = sequence.groups[g][:rank], max(rank - len(sequence.groups[g]), 0)
+            self.columns[g] = range(begin * 3 // lanes, (begin + len(sequence.coded[g])) * 3 // lanes)
+
+    def read_columns(self, decoder, group):
+        """7.11: the columns of the functions of a group."""
+        self.matrix[:, self.columns[group]] = self.read_matrix(decoder, len(self.matrix), len(self.columns[group]))
 
     @staticmethod
     def read_matrix(decoder, rows, columns):
-        """7.11: the entries, [rows, columns], with 14 fractional bits."""
+        """7.11: so many columns, [rows, columns], with 14 fractional bits."""
         nonzero, magnitudes = Contexts(16), [MagnitudeContexts() for _ in range(16)]
         matrix = np.zeros((rows, columns), np.int64)
         for column in range(columns):
             precision = decoder.raw(4)
-            require(precision <= 14, "tr_matrix")
+            require(precision <= 14, "cu_matrix")
             expected = (16 << precision) // math.isqrt(rows)
             for row in range(rows):
                 context, value = min(expected.bit_length(), 15), 0
                 if decoder.adaptive(nonzero, context, 255):
                     value = decoder.magnitude(magnitudes[context], 255)
                     entry = value << 14 - precision
-                    require(entry <= 1 << 20, "tr_matrix")
+                    require(entry <= 1 << 20, "cu_matrix")
                     matrix[row, column] = -entry if decoder.raw(1) else entry
                 expected = (3 * expected + 16 * value) // 4
-        decoder.finish("tr_matrix")
+        decoder.finish("cu_matrix")
         return matrix
 
     def expand(self, components, place):
@@ -383,8 +438,7 @@ class Slices:
             require(self.cells[-1] <= 1 << 22, "slice_num_cells_minus1")
             require(self.cells[-1] <= self.points[-1] <= 1 << 22, "slice_num_points_minus1")
         reader.trailing_bits("slices_trailing_bits")
-        total = sum(self.cells)
-        require(total <= 1 << 22 and sequence.base_weight * total <= 1 << 24, "slice_num_cells_minus1")
+        require(sum(self.cells) <= 1 << 22, "slice_num_cells_minus1")
         self.first_cell = [sum(self.cells[:s]) for s in range(count)]
         require(sum(self.points) * 3 * sequence.functions <= MAX_VALUES,
                 "slice_num_points_minus1 (beyond this decoder's limit)")
@@ -398,7 +452,7 @@ def check_index(sequence, payload, following):
     require(count == len(following) if whole else count >= len(following), "index_num_units")
     for i in range(count):
         unit_type, size = reader.u(8, "index_unit_type"), reader.ue("index_unit_bytes")
-        named = unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST)
+        named = unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT)
         numbers = sequence.unit_kind(unit_type, reader, "index_") if named else None
         if i < len(following):
             require(unit_type == following[i][0], "index_unit_type")
@@ -432,12 +486,15 @@ def check_metadata(payload):
     inflater = zlib.decompressobj()
     try:
         text = inflater.decompress(reader.rest("metadata_alignment"), size + 1)
-        text.decode("utf-8")
-    except (zlib.error, UnicodeDecodeError):
+    except zlib.error:
         raise Refused("metadata_deflated") from None
     require(inflater.eof and not inflater.unused_data and len(text) == size, "metadata_deflated")
+    try:
+        text.decode("utf-8")
+    except UnicodeDecodeError:
+        raise Refused("metadata_text") from None
     fields = text.split(b"\0")
-    require(fields.pop() == b"" and len(fields) % 2 == 0 and all(fields[::2]), "metadata_deflated")
+    require(fields.pop() == b"" and len(fields) % 2 == 0 and all(fields[::2]), "metadata_text")
 
 
 def check_digest(digest, positions, components, normals):
@@ -858,15 +915,39 @@ class Octree:
         return 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
 
 
+FACES = [4, 10, 12, 14, 16, 22]             # directions of 8.4.1; the first three come before
+
+
+def decode_classes(decoder, cells):
+    """8.4.5: the classes of base cells."""
+    more = MixedDecision([4 * 67 * 22, 64 * 22, 256 * 22])
+    families = {}
+    for x, y, z in cells:
+        parent = x >> 1, y >> 1, z >> 1
+        families[parent] = families.get(parent, 0) | 1 << (x & 1) + 2 * (y & 1) + 4 * (z & 1)
+    occupied, classes = set(cells), {}
+    for x, y, z in cells:
+        places = [(x + dx, y + dy, z + dz) for dx, dy, dz in (DIRECTIONS[d] for d in FACES)]
+        beside = [classes[place] for place in places[:3] if place in classes]
+        contexts = [67 * len(beside) + sum(beside), sum((place in occupied) << i for i, place in enumerate(places)),
+                    families[x >> 1, y >> 1, z >> 1]]
+        k = 0
+        while k < 22 and more.decode(decoder, [22 * context + k for context in contexts], k):
+            k += 1
+        classes[x, y, z] = k
+    require(sum(1 << k for k in classes.values()) <= 1 << 24, "gu_weight_class")
+    return list(classes.values())
+
+
 # ---- 8.6 The transform tree
 
 class TransformTree:
     """8.6: the merges of a part."""
 
-    def __init__(self, codes, weight):
-        """8.6.1: split, left, end and parent of every row, which weighs `weight`; 8.6.3: coding order."""
+    def __init__(self, codes, weights):
+        """8.6.1: split, left, end and parent of every row; 8.6.3: coding order."""
         count = len(codes)
-        self.codes, self.weight = codes, weight
+        self.codes, self.before = codes, [0, *itertools.accumulate(weights)]
         self.split = [3 * 21] + [(codes[r] ^ codes[r - 1]).bit_length() - 1 for r in range(1, count)]
         self.left = [0] * count
         self.end = [count] * count
@@ -888,9 +969,14 @@ class TransformTree:
         self.row_of_cell = {(self.split[r], codes[r] >> self.split[r] + 1): r for r in range(1, count)}
         self.scale = [256] + [self.scale_of(r) for r in range(1, count)]
 
+    def joined(self, r):
+        """8.6.2: wl and wr of the merge of row r."""
+        at, before = self.before[r], self.before
+        return at - before[self.left[r]], before[self.end[r]] - at
+
     def scale_of(self, r):
         """8.7.2: the scale of the merge of row r."""
-        left, right = (r - self.left[r]) * self.weight, (self.end[r] - r) * self.weight
+        left, right = self.joined(r)
         return math.isqrt(left * right * 2**16 // (left + right))
 
     def faces(self, r):
@@ -905,7 +991,7 @@ class TransformTree:
 
     def rotation(self, r):
         """8.6.2: c and s of the merge of row r."""
-        left, right = (r - self.left[r]) * self.weight, (self.end[r] - r) * self.weight
+        left, right = self.joined(r)
         cosine, sine = [math.isqrt(weight * 2**40 // (left + right) * 2**20) for weight in (left, right)]
         return cosine, sine
 
@@ -929,9 +1015,9 @@ def round30(x):
     return round_off(x, 30)
 
 
-def cell_values(base_values, points, weight):
-    """8.6.4: the values of cell rows, [cells, planes], of those of the base, the points of the cells, and W."""
-    roots = np.array([math.isqrt((w << 40) // weight) for w in points], np.int64)
+def cell_values(base_values, points, weights):
+    """8.6.4: the values of cell rows, [cells, planes], of those of the base, their points and weights there."""
+    roots = np.array([math.isqrt((w << 40) // weight) for w, weight in zip(points, weights)], np.int64)
     return np.clip(round_off(base_values * roots[:, None], 20), -2**29, 2**29)
 
 
@@ -960,12 +1046,13 @@ class VectorState:
 
 
 class VectorCoder:
-    """8.7.2: the vector coder of one group of a part."""
+    """8.7.2: the vector coder of one group of a part; 8.7.7: of one of its layers."""
 
     new_state = VectorState
 
-    def __init__(self, functions, tree, group_before):
-        """8.7.2: vectors kept for contexts."""
+    def __init__(self, functions, tree, group_before, coarser=None):
+        """8.7.2: vectors kept for contexts; coarser is the layer before, if any."""
+        self.coarser = coarser
         self.planes, self.tree, self.group_before, self.state = 3 * functions, tree, group_before, None
         self.sums = [0] * len(tree.split)
         self.runs = [0] * len(tree.split)
@@ -986,8 +1073,16 @@ class VectorCoder:
             last = r
             self.weigh(r, above, beside)
             self.axis = self.tree.split[r] % 3 if r else 2
-            if self.decode_node(decoder, r, split):
-                self.decode_row(decoder, r, split, same_axis)
+            known = self.coarser.quantised.get(r) if self.coarser else None
+            if known or self.decode_node(decoder, r, split):
+                self.decode_row(decoder, r, split, same_axis, known or [0] * self.planes)
+
+    def double(self, rows):
+        """8.7.7: a refinement whose codeword is empty."""
+        for r in rows:
+            if r in self.coarser.quantised:
+                require(max(map(abs, self.coarser.quantised[r])) < 1 << 26, "cu_magnitude")
+                self.quantised[r] = [2 * v for v in self.coarser.quantised[r]]
 
     def around(self, r, last):
         """8.7.2: A0 - A2, A3 - A6, and the nearest of the first three that has the same axis."""
@@ -1031,8 +1126,9 @@ class VectorCoder:
             (((z[0] * 5 + z[1]) * 5 + z[2]) * 5 + z[6]) * 3 + self.axis,
             (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
 
-    def decode_row(self, decoder, r, split, same_axis):
-        """8.7.2, 2: the values of a row."""
+    def decode_row(self, decoder, r, split, same_axis, known):
+        """8.7.2, 2: the values of a row; 8.7.7: what is known of them."""
+        known_end = max((j // 3 + 1 for j, v in enumerate(known) if v), default=0)
         values, kept = [0] * self.planes, [0] * self.planes
         around = [self.kept.get(row, self.kept[0]) for row in self.rows + [same_axis]]
         means = [self.expected([abs(row[j]) for row in around[:7]]) for j in range(self.planes)]
@@ -1041,14 +1137,15 @@ class VectorCoder:
         split = min(split, 24)
         for f in range(functions):
             planes = range(3 * f, 3 * f + 3)
-            if f and f % 4 == 0 and total:
-                if not self.decode_rest(decoder, f, sum(ahead[3 * f:]), total, recent):
+            if f % 4 == 0:
+                run_before, recent = recent, 0
+            if f and f % 4 == 0 and total and f >= known_end:
+                if not self.decode_rest(decoder, f, sum(ahead[3 * f:]), total, run_before):
                     for j in range(3 * f, self.planes):
                         self.state.activity[j] += -self.state.activity[j] >> 6
                     break
-                recent = 0
             before = self.functions_before(kept, f)
-            if functions > 1 and (total or f < functions - 1):
+            if functions > 1 and (total or f < functions - 1) and not any(known[j] for j in planes):
                 evidence = [sum(part) for part in zip(*[means[j] for j in planes])]
                 activity = sum(self.state.activity[j] for j in planes)
                 if not self.decode_any(decoder, split, before, evidence, activity, total, activity_total):
@@ -1063,9 +1160,9 @@ class VectorCoder:
                 expected.append((up + side) // 2 + (activity >> 5))
                 ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
                 contexts = self.magnitude_contexts(kept, j, split, means[j], expected, ratio)
-                magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total, kept)
+                magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total, kept, known[j])
                 if magnitude:
-                    negative = self.decode_sign(decoder, kept, j, around)
+                    negative = known[j] < 0 if known[j] else self.decode_sign(decoder, kept, j, around)
                     values[j] = -magnitude if negative else magnitude
                     kept[j] = min(max(values[j], -4095), 4095)
                 total += abs(kept[j])
@@ -1126,10 +1223,17 @@ class VectorCoder:
                     channels, ratio // 3 * 16 + level // 3]
         return [(context * 3 + channel) * 16 for context in contexts]
 
-    def decode_magnitude(self, decoder, contexts, j, expected, total, kept):
-        """8.7.2, 5: a magnitude."""
+    def decode_magnitude(self, decoder, contexts, j, expected, total, kept, known):
+        """8.7.2, 5: a magnitude; 8.7.7: its last bit."""
         chosen = (j % 3 if total else 3 + j % 3) * 16
         implied = j % 3 == 2 and not kept[j - 1] and not kept[j - 2]
+        if self.coarser:
+            least = 2 * abs(known)
+            require(least < 1 << 27, "cu_magnitude")
+            if implied and not least:
+                return 1
+            i = min(least, 14)
+            return least + self.state.more.decode(decoder, [c + i for c in contexts], chosen + i)
         for magnitude in range(1 if implied else 0, 15):
             if not self.state.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
                 return magnitude
@@ -1200,15 +1304,24 @@ class IndependentCoder:
 
 
 def reconstruct(sequence, coders, points, coded):
-    """8.7.4: coefficients by row and plane; those of groups without a coder are 0 (8.9)."""
+    """8.7.4: coefficients by row and plane, of the last layer of each; those of groups without a coder are 0 (8.9)."""
     coefficients = np.zeros((points, 3 * len(coded)), np.int64)
-    for functions, coder in zip(sequence.coded, coders):
+    for functions, layers, number in zip(sequence.coded, coders, sequence.layers):
         planes = [(3 * coded.index(k) + c, sequence.steps[k][c]) for k in functions for c in range(3)]
-        for r, values in coder.quantised.items():
+        last = {r: (layer, values) for layer, coder in enumerate(layers) for r, values in coder.quantised.items()}
+        for r, (layer, values) in last.items():
+            missing = number - 1 - layer
             for (plane, step), value in zip(planes, values):
-                require(abs(value * step) < 1 << 27, "cu_coefficients")
-                coefficients[r, plane] = value * step
+                coefficients[r, plane] = dequantised(value, step, missing)
     return coefficients
+
+
+def dequantised(value, step, missing):
+    """8.7.4: a coefficient, of whose layers some are missing."""
+    whole = (abs(value) << missing) * step
+    require(whole < 1 << 27, "cu_coefficients")
+    magnitude = min(whole + 3 * ((1 << missing) - 1) * step // 8, (1 << 27) - 1) if value else 0
+    return -magnitude if value < 0 else magnitude
 
 
 class Prediction:
@@ -1216,7 +1329,7 @@ class Prediction:
 
     def __init__(self, tree, grid_bits, level, mode):
         """8.7.6: the nodes of the level and of the one below, by their cells."""
-        self.codes, self.weight, self.mode = tree.codes, tree.weight, mode
+        self.codes, self.before, self.mode = tree.codes, tree.before, mode
         self.side = 1 << (grid_bits - 1 - level)
         self.sums = [(0, 0, 0)]             # of the positions before a row
         for code in self.codes:
@@ -1237,9 +1350,13 @@ class Prediction:
         square = 51 + sum((x - y) ** 2 for x, y in zip(*centres))
         return (1 << 24) // square if self.mode == 1 else (1 << 30) // square ** 2
 
+    def weight(self, node):
+        """8.6.2: the weight of a node."""
+        return self.before[node[1]] - self.before[node[0]]
+
     def mean(self, values, node):
         """8.7.6: the mean of a node."""
-        value = round30(values[node[0]] * math.isqrt(2**60 // ((node[1] - node[0]) * self.weight)))
+        value = round30(values[node[0]] * math.isqrt(2**60 // self.weight(node)))
         return np.clip(value, 1 - 2**17, 2**17 - 1)
 
     def difference(self, cell, child, values, before):
@@ -1268,7 +1385,7 @@ class Prediction:
                 continue
             d = [self.difference(cell, child, values, before) for child in children]
             rows = [self.children[child] for child in children]
-            weights = [(end - r) * self.weight for r, end in rows]
+            weights = [self.weight(row) for row in rows]
             common = round30(sum((w << 30) // sum(weights) * x for w, x in zip(weights, d)))
             for (r, _), w, x in zip(rows, weights, d):
                 root = math.isqrt(w << 38)
@@ -1318,23 +1435,25 @@ class Part:
         self.sequence, self.number, self.base = sequence, number, base
         self.is_base = number is None
         self.first, self.last = sequence.base_levels, sequence.grid_bits        # its levels
-        self.points, self.weight = sum(slices.cells), sequence.base_weight
+        self.points = sum(slices.cells)
+        self.classes = [0] * self.points    # 8.4.5; of no meaning where K = 0
         if self.is_base:
             self.first, self.last = 0, sequence.base_levels
         else:
-            self.points, self.weight = slices.points[number], 1
+            self.points = slices.points[number]
             self.first_cell, self.num_cells = slices.first_cell[number], slices.cells[number]
         self.octree = self.tree = self.digest = self.normals = self.atlas = None
         self.known = 0                      # geometry units
         self.modes = {}                     # cu_prediction by (group, level of the grid)
         self.coders = []                    # of each group; arrays [P, planes] of components for textures
+        self.refiners = {}                  # 8.7.7: coders by (layer, group)
         self.states = {}                    # 8.1: by type of unit and group
         self.expected = sequence.unit_order(self.is_base)
 
     def take(self, kind):
         """7.1: the kind of a unit is the next one of the part."""
         require(self.expected and self.expected[0][0] == kind[0], "unit_type")
-        element = {GEOMETRY: "level_range", COEFFICIENTS: "plane_group"}.get(kind[0])
+        element = {GEOMETRY: "level_range", COEFFICIENTS: "plane_group", REFINEMENT: "refinement_layer"}.get(kind[0])
         require(self.expected.pop(0) == kind, element)
 
     def begin_geometry(self):
@@ -1355,12 +1474,15 @@ class Part:
         self.known += 1
         if end == self.last:
             require(len(self.octree.nodes) == self.points, "gu_occupancy")
+            if self.is_base and self.sequence.functions:
+                self.classes = decode_classes(decoder, self.octree.nodes)
             self.make_tree()
 
     def make_tree(self):
         """8.6.1: rows and merges; 8.6.4, 8.7.2: cell rows, which have the scale of the base's."""
         shift = 3 * (self.sequence.grid_bits - self.last)
-        self.tree = TransformTree([morton(*node) << shift for node in self.octree.nodes], self.weight)
+        weights = [1 << k for k in self.classes] if self.is_base else [1] * self.points
+        self.tree = TransformTree([morton(*node) << shift for node in self.octree.nodes], weights)
         self.cell_rows = []
         if self.base:
             self.cell_rows = self.tree.nodes(3 * (self.sequence.grid_bits - self.first))
@@ -1380,6 +1502,32 @@ class Part:
         self.coders[group].state = state
         if sequence.coded[group] and decoder.codeword:
             self.coders[group].decode(decoder, self.tree.rows(begin, end, sequence.grid_bits))
+
+    def decode_refinement(self, decoder, level_range, group, layer, state):
+        """8.7.7: one bit more of the values of a unit."""
+        sequence, number = self.sequence, (layer, group)
+        if number not in self.refiners:
+            coarser = self.refiners[layer - 1, group] if layer > 1 else self.coders[group]
+            before = self.refiners.get((layer, group - 1))
+            self.refiners[number] = VectorCoder(len(sequence.coded[group]), self.tree, before, coarser)
+            for cell, r in enumerate(self.cell_rows, self.first_cell if self.base else 0):
+                if r:
+                    self.refiners[number].adopt(self.base.refiners[number], r, cell)
+        begin, end = sequence.coefficient_bounds[level_range:level_range + 2]
+        rows = self.tree.rows(begin, end, sequence.grid_bits)
+        self.refiners[number].state = state
+        if not sequence.coded[group]:
+            return
+        if decoder.codeword:
+            self.refiners[number].decode(decoder, rows)
+        else:
+            self.refiners[number].double(rows)
+
+    def layers(self, wanted):
+        """8.9: of every group wanted the coders of the layers that are there and wanted."""
+        return [[coder] + [self.refiners[layer, group] for layer in range(1, wanted.layers)
+                           if (layer, group) in self.refiners]
+                for group, coder in enumerate(self.coders[:wanted.groups])]
 
     def decode_textures(self, reader, group):
         """7.6: flags, offsets and pictures of the planes of a group; 8.11.6: the components."""
@@ -1409,14 +1557,12 @@ class Part:
     def values(self, wanted, base_values):
         """8.8: rows by planes, when the merges of the levels asked for are undone, with their corrections."""
         sequence = self.sequence
-        coders = self.coders[:wanted.groups]
         if sequence.texture:
-            return texture_components(sequence, coders, self.points, wanted.coded)
-        values = reconstruct(sequence, coders, self.points, wanted.coded)
+            return texture_components(sequence, self.coders[:wanted.groups], self.points, wanted.coded)
+        values = reconstruct(sequence, self.layers(wanted), self.points, wanted.coded)
         if self.base:
-            weights = np.diff(self.cell_rows + [self.points]).tolist()
-            cells = base_values[self.first_cell:self.first_cell + self.num_cells]
-            values[self.cell_rows] = cell_values(cells, weights, self.base.weight)
+            points, run = np.diff(self.cell_rows + [self.points]).tolist(), slice(self.first_cell, self.first_cell + self.num_cells)
+            values[self.cell_rows] = cell_values(base_values[run], points, [1 << k for k in self.base.classes[run]])
         for level in range(self.first, min(self.last, wanted.levels)):
             modes = [0] * values.shape[1]
             for group, functions in enumerate(sequence.coded[:wanted.groups]):
@@ -1429,7 +1575,7 @@ class Part:
         """8.9.3, 8.8: points, or nodes of a level."""
         rows = self.tree.nodes(3 * wanted.shift)
         values = self.values(wanted, base_values)
-        weights = np.diff(rows + [self.points]) * self.weight
+        weights = np.diff([self.tree.before[r] for r in rows + [self.points]])
         if self.sequence.texture:
             values = mean(values, rows, weights)
         elif self.is_base or wanted.shift:
@@ -1450,26 +1596,29 @@ class Part:
         self.begin_geometry()
         nodes = np.array(self.octree.nodes, np.int64)
         side = 1 << sequence.grid_bits - self.octree.level
-        components = np.zeros((len(nodes), len(wanted.coded), 3), np.int64)
-        if self.base:
-            number = {cell: i for i, cell in enumerate(self.base.octree.nodes)}
-            own = [number[tuple(cell)] for cell in (nodes >> self.octree.level - self.first).tolist()]
-            components = round30(base_values[own] * math.isqrt(2**60 // self.base.weight)).reshape(components.shape)
-        return nodes * side + side // 2 >> wanted.shift, components, np.zeros((len(nodes), 2), np.int64)
+        positions = nodes * side + side // 2 >> wanted.shift
+        if not self.base:
+            return positions, np.zeros((len(nodes), len(wanted.coded), 3), np.int64), np.zeros((len(nodes), 2), np.int64)
+        known = copied(self, points=len(nodes), last=self.octree.level, coders=[], digest=None, normals=None)
+        known.make_tree()
+        _, components, normals = known.nodes(wanted, base_values)
+        return positions[known.tree.nodes(3 * wanted.shift)], components, normals
 
 
 # ---- 8.9 Partial and coarser light fields
 
 class Wanted:
-    """8.9: the levels and groups that are given out."""
+    """8.9: the levels, groups and layers that are given out."""
 
-    def __init__(self, sequence, levels, groups):
+    def __init__(self, sequence, levels, groups, layers):
         """8.9: what is asked for, 0: all; less if the stream was cut."""
         self.levels = min(levels or sequence.grid_bits, sequence.cut_levels)
         self.groups = min(groups or 16, sequence.cut_groups or 16, len(sequence.groups))
         self.shift = sequence.grid_bits - self.levels
         self.coded = sequence.coded_functions(self.groups) if self.groups else []
-        self.all = self.shift == 0 and self.groups == len(sequence.groups)
+        most = max(sequence.layers, default=1)
+        self.layers = min(layers or most, sequence.cut_layers or most)
+        self.all = self.shift == 0 and self.groups == len(sequence.groups) and self.layers == most
 
 
 def nothing(wanted):
@@ -1711,7 +1860,9 @@ class LightField:
             require(unit_type != SEQUENCE, "unit_type")
             if unit_type == SLICES:
                 self.read_slices(payload)
-            elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST):
+                if units[-1][0] == END and not self.sequence.cut:
+                    self.check_level(8 + sum(size for _, _, size in units))
+            elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT):
                 require(self.slices, "unit_type (before the slices unit)")
                 self.read_unit(unit_type, BitReader(payload))
             elif unit_type == TRANSFORM:
@@ -1739,6 +1890,12 @@ class LightField:
         self.base = Part(sequence, self.slices, None, None) if sequence.base_levels else None
         self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
         self.fresh_octree = OctreeState(sum(self.slices.points))
+
+    def check_level(self, stream_bytes):
+        """9: values in proportion to bytes, of a stream that is all there."""
+        cells = sum(self.slices.cells) if self.base else 0
+        values = (sum(self.slices.points) + cells) * max(3 * sum(map(len, self.sequence.coded)), 1)
+        require(values <= (1 << 19) + (stream_bytes << 12), "sps_level")
 
     def check_whole(self):
         """7.1: before the end unit nothing is missing that was not left out."""
@@ -1773,6 +1930,8 @@ class LightField:
             decoder = ArithmeticDecoder(reader.rest("gu_alignment"))
             part.decode_geometry(decoder, kind[1], self.start_state(part, kind, self.fresh_octree.copy))
             decoder.finish("gu_occupancy")
+        elif unit_type == REFINEMENT:
+            self.read_refinement(part, kind, reader)
         elif sequence.texture:
             part.decode_textures(reader, kind[2])
         else:
@@ -1786,9 +1945,33 @@ class LightField:
             for level in range(*sequence.coefficient_bounds[level_range:level_range + 2]):
                 part.modes[group, level] = reader.u(2, "cu_prediction")
         functions = len(sequence.coded[group])
+        codeword = self.read_matrix(kind, reader)
         state = self.start_state(part, kind, lambda: sequence.coder.new_state(functions))
-        decoder = ArithmeticDecoder(reader.rest("cu_alignment"))
+        decoder = ArithmeticDecoder(codeword)
         part.decode_coefficients(decoder, level_range, group, state)
+        decoder.finish("cu_coefficients")
+
+    def read_matrix(self, kind, reader):
+        """7.6, 7.11: the columns of a group, before its first coefficients; what is behind them."""
+        size, (_, level_range, group) = 0, kind
+        if self.sequence.num_transforms and level_range == 0:
+            size = reader.ue("cu_matrix_bytes")
+        rest = reader.rest("cu_alignment")
+        require(size <= len(rest), "cu_matrix_bytes")
+        transforms = [t for t in self.sequence.transforms if t.columns.get(group)]
+        require(transforms or not size, "cu_matrix_bytes")
+        if level_range == 0:
+            for transform in transforms:
+                transform.read_columns(ArithmeticDecoder(rest[:size]), group)
+        return rest[size:]
+
+    def read_refinement(self, part, kind, reader):
+        """7.12: the codeword of a refinement unit."""
+        _, level_range, group, layer = kind
+        functions = len(self.sequence.coded[group])
+        state = self.start_state(part, kind, lambda: VectorState(functions))
+        decoder = ArithmeticDecoder(reader.rest("ru_alignment"))
+        part.decode_refinement(decoder, level_range, group, layer, state)
         decoder.finish("cu_coefficients")
 
     def start_state(self, part, kind, new):
@@ -1832,18 +2015,26 @@ def given_out(sequence, light_field, wanted, region):
     return positions[keep], components[keep], normals[keep]
 
 
-def decode(data, levels, groups, region):
+def decode(data, levels, groups, layers, region):
     """8.1: units in; sequence, coded functions, positions, components, normals out."""
     units = read_units(data)
     sequence = Sequence(units[0][1])
     light_field = LightField(sequence)
     light_field.read(units)
-    wanted = Wanted(sequence, levels, groups)
+    wanted = Wanted(sequence, levels, groups, layers)
     return sequence, wanted.coded, *given_out(sequence, light_field, wanted, region)
 
 
+def description(data, sequence, coded, points, levels, groups, layers, region):
+    """6, 8.9: light_field.json: the header, and whether the light field is all there is."""
+    wanted = Wanted(sequence, levels, groups, layers)
+    whole = wanted.all and not region and not sequence.cut and read_units(data)[-1][0] == END
+    return {**header_of(sequence, wanted.shift), "component_function": coded, "points": points,
+            "normal_bits": sequence.normal_bits, "partial": not whole}
+
+
 def main():
-    """8.9: decodes a file, with --levels, --groups and --region."""
+    """8.9: decodes a file, with --levels, --groups, --layers and --region."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=["decode"])
@@ -1851,6 +2042,7 @@ def main():
     parser.add_argument("--dump", metavar="DIRECTORY")
     parser.add_argument("--levels", type=int, default=0)
     parser.add_argument("--groups", type=int, default=0)
+    parser.add_argument("--layers", type=int, default=0)
     parser.add_argument("--region", type=lambda text: [float(word) for word in text.split(",")], default=[])
     parser.add_argument("--planes", action="store_true")
     arguments = parser.parse_args()
@@ -1858,8 +2050,9 @@ def main():
         parser.error("--region takes x0,y0,z0,x1,y1,z1")
     try:
         with open(arguments.stream, "rb") as file:
-            sequence, coded, positions, components, normals = decode(
-                file.read(), arguments.levels, arguments.groups, arguments.region)
+            data = file.read()
+        request = arguments.levels, arguments.groups, arguments.layers, arguments.region
+        sequence, coded, positions, components, normals = decode(data, *request)
     except (Refused, OSError) as problem:
         print("refused:", problem, file=sys.stderr)
         return 1
@@ -1872,6 +2065,8 @@ def main():
             np.save(os.path.join(arguments.dump, "planes.npy"), planes.astype("<i4"))
         if sequence.normal_bits:
             np.save(os.path.join(arguments.dump, "octahedral.npy"), normals.astype("<u2"))
+        with open(os.path.join(arguments.dump, "light_field.json"), "w", encoding="utf-8") as file:
+            json.dump(description(data, sequence, coded, len(positions), *request), file, indent=2)
     print("points", len(positions), "functions", sequence.functions)
     return 0
 

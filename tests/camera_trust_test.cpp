@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "codec/fit_capture.h"
+#include "encoder/fit_capture.h"
 #include "lightfield/colour.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
@@ -146,6 +146,7 @@ struct Disturbance {
   CameraVerdict verdict;
   std::function<void(Capture&, int camera)> apply;
 };
+void PrintTo(const Disturbance& disturbance, std::ostream* out) { *out << disturbance.name; }
 
 class DisturbedCapture : public CameraTrustTest, public testing::WithParamInterface<Disturbance> {};
 

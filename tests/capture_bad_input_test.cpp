@@ -16,6 +16,7 @@ struct Bad {
   std::function<void(const fs::path&)> write;
   const char* error;  // code and part of the message
 };
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.name; }
 class BadCapture : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadCapture, IsRefusedWithFileAndCause) {

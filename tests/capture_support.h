@@ -82,6 +82,16 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text;
 }
 
+/// Looks along +z from (0, 0, -z).
+inline Camera camera_at(double z, double focal) {
+  Camera camera;
+  camera.width = camera.height = 64;
+  camera.fx = camera.fy = focal;
+  camera.cx = camera.cy = 32;
+  camera.translation = {0, 0, z};
+  return camera;
+}
+
 /// Where the shared captures are, or nothing.
 inline std::filesystem::path shared_data() {
   if (const char* given = std::getenv("SLF_DATA")) return given;

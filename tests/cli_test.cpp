@@ -3,30 +3,9 @@
 #include <map>
 
 #include "cli_support.h"
-#include "slf/capture.h"
-#include "tools/npy.h"
 
 namespace slf {
 namespace {
-
-using tools::npy_file;
-
-std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
-
-/// positions.npy with four points and components.npy with two functions of them.
-class PackTest : public CliTest {
- protected:
-  void SetUp() override {
-    CliTest::SetUp();
-    write("positions.npy", text_of(npy_file({4, 3}, std::span<const std::int32_t>(positions_))));
-    write("components.npy",
-          text_of(npy_file({4, 2, 3}, std::span<const std::int32_t>(components_))));
-  }
-  // In Morton order (x least significant), so that decoding gives the same arrays.
-  std::vector<std::int32_t> positions_{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 6, 7};
-  std::vector<std::int32_t> components_{10, -20, 30, 1, 2, 3, 11, -21, 31, 4,  5, 6,
-                                        12, -22, 32, 7, 8, 9, 13, -23, 33, 10, 0, -12};
-};
 
 TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
   const Ran version = slf("--version");
@@ -50,6 +29,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   expect_failure(slf("frobnicate"), 2, "frobnicate", "not a verb");
   expect_failure(slf("info"), 2, "", "FILE is required");
   expect_failure(slf("encode a -o b --grid-bits 22"), 2, "--grid-bits", "1 to 21");
+  expect_failure(slf("encode a -o b --effort 9"), 2, "--effort", "1 to 8");
   expect_failure(slf("encode a -o b --lambda nan"), 2, "--lambda", "nan");
   expect_failure(slf("encode a -o b --delta inf"), 2, "--delta", "inf");
   expect_failure(slf("encode a -o b --functions 100"), 2, "--functions", "power of two");
@@ -79,78 +59,6 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   expect_failure(slf("render a -o b.png --background 1,2,256"), 2, "--background", "0 to 255");
   expect_failure(slf("render a -o b.png --orbit 3"), 2, "b.png", "%d");
   expect_failure(slf("decode a"), 2, "--output", "missing");
-}
-
-TEST_F(PackTest, IntegersComeBackAsTheyWere) {
-  const Ran packed = slf("pack positions.npy components.npy -o a.slf --step 1 --json");
-  ASSERT_EQ(packed.code, 0) << packed.err;
-  EXPECT_EQ(parsed(packed.out)["points"], 4);
-  EXPECT_EQ(parsed(packed.out)["bytes"], read("a.slf").size());
-  EXPECT_EQ(parsed(packed.out)["grid_bits"], 3) << "what the coordinate 7 needs";
-  const Ran decoded = slf("decode a.slf --dump dump -o a.ply");
-  ASSERT_EQ(decoded.code, 0) << decoded.err;
-  EXPECT_EQ(read("dump/positions.npy"), read("positions.npy"));
-  const std::string bytes = read("dump/components.npy");
-  const auto components = tools::parse_npy({bytes.begin(), bytes.end()});
-  ASSERT_TRUE(components);
-  const auto values = tools::int32_values(*components);
-  ASSERT_EQ(values->size(), components_.size());
-  // The transform rounds; a step of 1 keeps every integer within 1 of what it was.
-  for (std::size_t i = 0; i < components_.size(); ++i)
-    EXPECT_NEAR((*values)[i], components_[i], 1) << i;
-  EXPECT_EQ(parsed(read("dump/light_field.json"))["has_basis"], false);
-}
-
-TEST_F(PackTest, DashIsStandardInputAndOutput) {
-  ASSERT_EQ(slf("pack positions.npy -o a.slf").code, 0);
-  const Ran piped = slf("pack - -o - <positions.npy");
-  EXPECT_EQ(piped.code, 0);
-  EXPECT_EQ(piped.out, read("a.slf"));
-  const Ran ply = slf("decode - -o - <a.slf");
-  EXPECT_EQ(ply.code, 0);
-  EXPECT_EQ(ply.out.rfind("ply\n", 0), 0u);
-  EXPECT_EQ(slf("info - <a.slf").code, 0);
-}
-
-TEST_F(PackTest, StepsAndGroupsAreThoseOfTheFiles) {
-  const std::vector<std::int32_t> steps{2, 3, 4, 5, 6, 7}, groups{0, 1};
-  write("steps.npy", text_of(npy_file({2, 3}, std::span<const std::int32_t>(steps))));
-  write("groups.npy", text_of(npy_file({2}, std::span<const std::int32_t>(groups))));
-  ASSERT_EQ(slf("pack positions.npy components.npy -o a.slf --steps steps.npy --groups groups.npy "
-                "--levels 2,3 --grid-bits 3")
-                .code,
-            0);
-  const auto info = parsed(slf("info a.slf --json").out);
-  EXPECT_EQ(info["step"], nlohmann::json::parse("[[2,3,4],[5,6,7]]"));
-  EXPECT_EQ(info["group"], nlohmann::json::parse("[0,1]"));
-  EXPECT_EQ(info["bytes_by_type"].contains("index"), true);
-  const auto plain = slf("pack positions.npy components.npy -o b.slf --no-index --no-digest");
-  ASSERT_EQ(plain.code, 0);
-  const auto types = parsed(slf("info b.slf --json").out)["bytes_by_type"];
-  EXPECT_FALSE(types.contains("index"));
-  EXPECT_FALSE(types.contains("digest"));
-}
-
-TEST_F(PackTest, RefusesArraysThatDoNotFitTogether) {
-  const std::vector<std::int32_t> twice{1, 1, 1, 1, 1, 1}, outside{0, 0, -1};
-  write("twice.npy", text_of(npy_file({2, 3}, std::span<const std::int32_t>(twice))));
-  write("outside.npy", text_of(npy_file({1, 3}, std::span<const std::int32_t>(outside))));
-  write("bad.npy", "\x93NUMPY");
-  write("real.ply",
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-        "property float z\nend_header\n0.5 1 2\n");
-  expect_failure(slf("pack twice.npy -o a.slf"), 4, "twice.npy", "stands where another does");
-  expect_failure(slf("pack outside.npy -o a.slf"), 4, "outside.npy", "grid");
-  expect_failure(slf("pack positions.npy -o a.slf --grid-bits 2"), 4, "positions.npy", "grid");
-  expect_failure(slf("pack components.npy -o a.slf"), 4, "components.npy", "[points, 3]");
-  expect_failure(slf("pack positions.npy positions.npy -o a.slf"), 4, "positions.npy",
-                 "components");
-  expect_failure(slf("pack bad.npy -o a.slf"), 4, "bad.npy", ".npy");
-  expect_failure(slf("pack real.ply -o a.slf"), 4, "real.ply", "whole numbers");
-  expect_failure(slf("pack missing.npy -o a.slf"), 3, "missing.npy", "No such file");
-  expect_failure(slf("pack positions.npy components.npy -o a.slf --steps positions.npy"), 4,
-                 "positions.npy", "steps");
-  EXPECT_FALSE(exists("a.slf"));
 }
 
 TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
@@ -202,92 +110,6 @@ TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   EXPECT_EQ(slf("eval a.slf tiny --no-images --min-psnr 10").code, 0);
 }
 
-TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
-  const std::string how = " --grid-bits 6 --fit paper --functions 8";
-  ASSERT_EQ(slf("encode tiny -o a.slf -q 64" + how).code, 0);
-  ASSERT_EQ(slf("encode tiny -o fine.slf -q 0.05" + how).code, 0);
-  const auto quality =
-      parsed(slf("eval a.slf tiny --unquantised fine.slf --error-map maps --json").out);
-  for (const char* cameras : {"input", "held_out"}) {
-    const auto& gap = quality[cameras]["gap"];
-    EXPECT_GT(gap["points_unquantised"], gap["points_quantised"]) << cameras;
-    EXPECT_GT(gap["pictures_unquantised"], gap["pictures_quantised"]) << cameras;
-    EXPECT_EQ(gap["points_quantised"], quality[cameras]["points"][0]["psnr"]);
-    EXPECT_EQ(gap["pictures_quantised"], quality[cameras]["image"]["psnr"]);
-    double sum = 0;
-    for (const auto& [step, share] : gap["error_share"].items()) sum += share.get<double>();
-    EXPECT_NEAR(sum, 1, 1e-9);
-    EXPECT_GT(quality[cameras]["image"]["all"]["ms_ssim"], 0.3);
-    EXPECT_EQ(quality[cameras]["image"]["regions"].size(), 3u);
-  }
-  const std::size_t cameras = quality["input"]["cameras"].get<std::size_t>() +
-                              quality["held_out"]["cameras"].get<std::size_t>();
-  std::size_t maps = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(path("maps")))
-    maps += entry.path().extension() == ".png";
-  EXPECT_EQ(maps, cameras) << "one of every camera, and nothing half written beside them";
-  const std::string said = slf("eval a.slf tiny --unquantised fine.slf").out;
-  EXPECT_NE(said.find("splatting"), std::string::npos) << said;
-  expect_failure(slf("eval a.slf tiny --min-image-psnr 200 >/dev/null"), 8, "a.slf", "image PSNR");
-  EXPECT_EQ(slf("eval a.slf tiny --min-image-psnr 5").code, 0);
-  EXPECT_EQ(slf("eval a.slf tiny --no-images --min-image-psnr 5").code, 2);
-  expect_failure(slf("eval a.slf tiny --unquantised nowhere.slf"), 3, "nowhere.slf", "");
-}
-
-TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
-  const std::string how = "encode tiny -o a.slf --grid-bits 5 --effort 1 --json";
-  EXPECT_TRUE(parsed(slf(how).out)["camera_check"].empty());
-  const auto cameras = parsed(read("tiny/cameras.json"));
-  const std::string darker = cameras["splits"]["dense"][6];
-  auto image = read_image(path("tiny/" + darker));
-  ASSERT_TRUE(image) << image.error().message;
-  for (std::uint8_t& value : image->data) value /= 2;
-  ASSERT_TRUE(write_png(path("tiny/" + darker), *image));
-  const Ran ran = slf(how);
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto report = parsed(ran.out);
-  ASSERT_EQ(report["camera_check"].size(), 1u) << report["camera_check"];
-  EXPECT_EQ(report["camera_check"][0]["image"], darker);
-  EXPECT_EQ(report["camera_check"][0]["verdict"], "gain");
-  for (const double gain : report["camera_check"][0]["gain"]) EXPECT_NEAR(gain, 2, 0.1);
-  EXPECT_NE(ran.err.find("slf: warning: " + darker + ": another exposure"), std::string::npos)
-      << ran.err;
-  EXPECT_TRUE(report["settings"].contains("cameras_gain_corrected"));
-  const auto off = parsed(slf(how + " --check-cameras off").out);
-  EXPECT_TRUE(off["camera_check"].empty());
-  EXPECT_FALSE(off["settings"].contains("cameras_gain_corrected"));
-}
-
-TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
-  const auto report = parsed(slf("encode tiny -o a.slf --effort 1 --json").out);
-  EXPECT_EQ(report["settings"]["grid"], "auto");
-  EXPECT_EQ(report["grid"]["bits"], report["settings"]["grid_bits"]);
-  EXPECT_NEAR(report["grid"]["voxel_pixels"].get<double>(),
-              std::stod(report["settings"]["voxel_pixels"].get<std::string>()), 0.006);
-  ASSERT_EQ(slf("encode tiny -o b.slf --effort 1 --grid-bits auto").code, 0);
-  EXPECT_EQ(read("a.slf"), read("b.slf"));
-  const auto given = parsed(slf("encode tiny -o a.slf --effort 1 --grid-bits 4 --json").out);
-  EXPECT_EQ(given["settings"]["grid"], "given");
-  EXPECT_EQ(given["grid"]["bits"], 4);
-  expect_failure(slf("encode tiny -o a.slf --grid-bits 0"), 2, "--grid-bits", "1 to 21");
-}
-
-TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
-  const auto coded =
-      slf("igc tiny -o a.igc --grid-bits 6 --functions 8 --qp 22 --speed fast --json");
-  if (coded.code == 6) GTEST_SKIP() << "SLF_X265 is not part of this build";
-  ASSERT_EQ(coded.code, 0) << coded.err;
-  const auto report = parsed(coded.out);
-  const auto quality = parsed(slf("eval a.igc tiny --json --no-images").out);
-  EXPECT_EQ(quality["bytes"], report["bytes"]);
-  EXPECT_EQ(quality["bytes_by_type"], report["bytes_by_type"]);
-  EXPECT_EQ(quality["points"], report["points"]);
-  EXPECT_GT(quality["held_out"]["points"][0]["psnr"], 15);
-  for (const char* stage : {"geometry", "images", "observe", "fit", "total"})
-    EXPECT_GT(quality["decode"][stage], 0) << stage;
-  expect_failure(slf("eval a.igc nowhere"), 3, "nowhere", "");
-}
-
 TEST_F(TinyCaptureTest, RendersOrbitsCamerasPairsAndSheets) {
   ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6 --functions 8").code, 0);
   const auto size_of = [&](const std::string& name) {  // IHDR: width and height, big endian
@@ -323,34 +145,6 @@ TEST_F(TinyCaptureTest, RendersOrbitsCamerasPairsAndSheets) {
                  "no camera none");
 }
 
-TEST_F(TinyCaptureTest, SameBytesForAnyNumberOfThreads) {
-  for (const char* threads : {"1", "2", "7"})
-    ASSERT_EQ(
-        slf(std::string("encode tiny --grid-bits 6 -o ") + threads + ".slf -j " + threads).code, 0);
-  EXPECT_EQ(read("1.slf"), read("2.slf"));
-  EXPECT_EQ(read("1.slf"), read("7.slf"));
-}
-
-TEST_F(TinyCaptureTest, OptionsOverrideThePresetWhateverTheirOrder) {
-  const auto settings = [&](const std::string& options) {
-    EXPECT_EQ(slf("encode tiny --grid-bits 5 -o a.slf " + options).code, 0) << options;
-    std::map<std::string, std::string> metadata;
-    const auto info = parsed(slf("info a.slf --json").out);
-    for (const auto& pair : info["metadata"]) metadata[pair["key"]] = pair["value"];
-    metadata["coder"] = info["coefficient_coder"];
-    return metadata;
-  };
-  const auto paper = settings("--preset paper");
-  EXPECT_EQ(paper.at("steps"), "uniform");
-  EXPECT_EQ(paper.at("penalise_dc"), "yes");
-  EXPECT_EQ(paper.at("coder"), "independent");
-  const auto changed = settings("--steps by-norm --free-dc -q 8 --preset paper");
-  EXPECT_EQ(changed.at("steps"), "by-norm");
-  EXPECT_EQ(changed.at("penalise_dc"), "no");
-  EXPECT_EQ(changed.at("q"), "8");
-  EXPECT_EQ(changed.at("coder"), "independent");
-}
-
 TEST_F(TinyCaptureTest, PartsOfAFileDecode) {
   ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6").code, 0);
   const auto points = [&](const std::string& options) {
@@ -367,18 +161,24 @@ TEST_F(TinyCaptureTest, PartsOfAFileDecode) {
   EXPECT_FALSE(exists("b.ply"));
 }
 
-TEST_F(CliTest, ACloudWithColoursNeedsNoCameras) {
-  write("cloud.ply",
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "end_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 0 1 0 0 255\n");
-  ASSERT_EQ(slf("encode cloud.ply -o a.slf --grid-bits 1 -q 0.05").code, 0);
-  ASSERT_EQ(slf("decode a.slf --dump dump -o back.ply").code, 0);
-  EXPECT_EQ(parsed(read("dump/light_field.json"))["num_functions"], 1);
-  const std::string back = read("back.ply");
-  const std::string body = back.substr(back.find("end_header\n") + 11);
-  ASSERT_EQ(body.size(), 3u * (3 * 4 + 3));
-  EXPECT_EQ(body.substr(12, 3), std::string("\xff\0\0", 3)) << "the first in Morton order";
+TEST_F(TinyCaptureTest, ExportsSplatsAndPointsAndSaysWhatIsLost) {
+  ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6").code, 0);
+  for (const char* file : {"a.ply", "a.glb", "a.spz"}) {
+    const Ran ran = slf(std::string("export a.slf --json --degree 2 -o ") + file);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto report = parsed(ran.out);
+    EXPECT_EQ(report["bytes"], read(file).size());
+    EXPECT_EQ(report["degree"], 2);
+    EXPECT_GT(report["psnr"], report["psnr_one_colour"]);
+  }
+  ASSERT_EQ(slf("export a.slf --quiet --mean -o mean.ply").code, 0);
+  ASSERT_EQ(slf("decode a.slf --quiet -o decoded.ply").code, 0);
+  EXPECT_EQ(read("mean.ply"), read("decoded.ply"));
+  EXPECT_EQ(slf("export a.slf --quiet --format spz --degree 2 -o -").out, read("a.spz"));
+  expect_failure(slf("export a.slf -o a.obj"), 2, "a.obj", "--format");
+  expect_failure(slf("export a.slf --mean -o b.spz"), 2, "export", "--mean");
+  expect_failure(slf("export tiny/cameras.json -o b.spz"), 4, "cameras.json", "not an .slf");
+  EXPECT_FALSE(exists("b.spz"));
 }
 
 }  // namespace

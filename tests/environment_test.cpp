@@ -1,5 +1,5 @@
 // What is reflected: its model, how it is found, and what it is worth between cameras.
-#include "lightfield/environment.h"
+#include "fit/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "lightfield/camera_folds.h"
-#include "lightfield/environment_fit.h"
-#include "lightfield/environment_projection.h"
+#include "fit/camera_folds.h"
+#include "fit/environment_fit.h"
+#include "fit/environment_projection.h"
 #include "lightfield/frame.h"
 #include "lightfield/harmonics.h"
 #include "slf/fit.h"

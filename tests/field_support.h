@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -51,12 +53,34 @@ inline std::vector<Voxel> sphere_cloud(int bits) {
   return sorted_distinct(voxels);
 }
 
+/// Sums of weights as CodeWeights takes them: of codes that weigh alike.
+inline std::vector<std::uint32_t> weights_alike(std::size_t codes, std::uint32_t weight) {
+  std::vector<std::uint32_t> before;
+  for (std::size_t i = 0; i <= codes; ++i) before.push_back(static_cast<std::uint32_t>(i) * weight);
+  return before;
+}
+
+/// The same of powers of two by chance.
+inline std::vector<std::uint32_t> weights_by_chance(std::size_t codes, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint32_t> before{0};
+  for (std::size_t i = 0; i < codes; ++i) before.push_back(before.back() + (1u << random() % 8));
+  return before;
+}
+
 /// Distinct codes of the cells that hold the points, 3 * below bits shorter.
 inline std::vector<std::uint64_t> cells_of(const std::vector<std::uint64_t>& points, int below) {
   std::vector<std::uint64_t> cells;
   for (const std::uint64_t code : points)
     if (cells.empty() || cells.back() != code >> (3 * below)) cells.push_back(code >> (3 * below));
   return cells;
+}
+
+/// First points of the rows of a tree, and their end: rows that are points.
+inline std::vector<std::uint32_t> one_row_a_point(std::size_t points) {
+  std::vector<std::uint32_t> first(points + 1);
+  std::iota(first.begin(), first.end(), 0u);
+  return first;
 }
 
 /// A part of a scene: its points and the number of the first of its cells.
@@ -85,6 +109,9 @@ struct NamedCloud {
   int bits;
   std::vector<Voxel> voxels;
 };
+
+/// In the output of parameterised tests.
+inline void PrintTo(const NamedCloud& cloud, std::ostream* out) { *out << cloud.name; }
 
 inline std::vector<NamedCloud> clouds_of_every_shape() {
   std::vector<NamedCloud> clouds = {

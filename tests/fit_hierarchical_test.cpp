@@ -89,6 +89,7 @@ struct Case {
   Basis basis;
   std::vector<int> fineness;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class HierarchicalFit : public testing::TestWithParam<Case> {};
 

@@ -1,6 +1,6 @@
-// The fit to pictures against a dense solve of its definition (lightfield/picture_system.h).
+// The fit to pictures against a dense solve of its definition (fit/picture_system.h).
 #define EIGEN_MPL2_ONLY
-#include "lightfield/fit_pictures.h"
+#include "fit/fit_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <random>
 
-#include "lightfield/direction_kernel.h"
+#include "fit/direction_kernel.h"
 #include "lightfield/frame.h"
-#include "lightfield/splat_weights.h"
-#include "lightfield/surfel_cloud.h"
+#include "render/splat_weights.h"
+#include "render/surfel_cloud.h"
 #include "slf/view_map.h"
 #include "tests/field_support.h"
 
@@ -139,6 +139,7 @@ struct Case {
   FrameId frame;
   std::vector<int> fineness;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class PictureFitTest : public testing::TestWithParam<Case> {};
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "codec/fit_capture.h"
-#include "lightfield/camera_folds.h"
-#include "lightfield/environment_fit.h"
+#include "encoder/fit_capture.h"
+#include "fit/camera_folds.h"
+#include "fit/environment_fit.h"
 #include "lightfield/frame.h"
 #include "slf/encoder.h"
 #include "slf/fit.h"

@@ -7,41 +7,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <random>
-#include <thread>
 
-#include "lightfield/fit_neighbours.h"
+#include "fit/fit_neighbours.h"
 #include "slf/view_map.h"
+#include "tests/random_sightings.h"
 
 namespace slf {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-
-/// Voxels on a line with growing gaps (no ties but one), `counts[p]` random observations each.
-struct Scene {
-  std::vector<Voxel> positions;
-  Observations seen;
-};
-
-Scene random_scene(const std::vector<int>& counts, unsigned seed = 1) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> theta(-3.14f, 3.14f), gamma(-0.99f, 0.99f), grey(0, 255);
-  Scene scene;
-  scene.seen.first.push_back(0);
-  for (std::size_t p = 0; p < counts.size(); ++p) {
-    const auto at = static_cast<std::int32_t>(p * (p + 3));
-    scene.positions.push_back({at, 0, 0});
-    for (int n = 0; n < counts[p]; ++n) {
-      scene.seen.direction.push_back({theta(random), gamma(random)});
-      scene.seen.colour.push_back({grey(random), grey(random), 200});
-      scene.seen.camera.push_back(static_cast<std::uint16_t>(n));
-    }
-    scene.seen.first.push_back(scene.seen.direction.size());
-  }
-  return scene;
-}
 
 Matrix design(const Basis& basis, const Observations& seen, std::size_t p) {
   const auto rows = static_cast<Eigen::Index>(seen.first[p + 1] - seen.first[p]);
@@ -90,7 +64,7 @@ std::vector<std::size_t> nearest(const std::vector<Voxel>& positions, std::size_
   return found;
 }
 
-std::vector<Matrix> reference_fit(const Scene& scene, const FitSettings& settings) {
+std::vector<Matrix> reference_fit(const RandomSightings& scene, const FitSettings& settings) {
   const std::size_t points = scene.positions.size();
   const auto k = static_cast<std::size_t>(settings.neighbours);
   const Matrix zero = Matrix::Zero(settings.basis.num_functions(), 3);
@@ -155,19 +129,13 @@ struct Case {
   std::vector<int> counts;  // observations of each point
   double tolerance = 1e-3;  // grey levels: what 8-bit colour and steps >= 0.05 cannot see
 };
-
-FitSettings paper_fit(const Basis& basis, int threads) {
-  FitSettings settings;
-  settings.basis = basis;
-  settings.threads = threads;
-  return settings;
-}
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class FitTest : public testing::TestWithParam<Case> {};
 
 TEST_P(FitTest, AgreesWithTheDenseSolveOfTheEquations) {
   const Case& test = GetParam();
-  const Scene scene = random_scene(test.counts);
+  const RandomSightings scene = random_sightings(test.counts);
   FitSettings settings = paper_fit(test.basis, 2);
   settings.lambda = test.lambda;
   settings.beta = test.beta;
@@ -222,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
 class LeastNormTest : public testing::TestWithParam<bool> {};  // penalise_dc
 
 TEST_P(LeastNormTest, LambdaZeroInterpolatesWithTheSmallestCoefficients) {
-  const Scene scene = random_scene({10});
+  const RandomSightings scene = random_sightings({10});
   FitSettings settings;
   settings.lambda = settings.beta = 0;
   settings.penalise_dc = GetParam();
@@ -235,7 +203,7 @@ TEST_P(LeastNormTest, LambdaZeroInterpolatesWithTheSmallestCoefficients) {
 }
 
 TEST_P(LeastNormTest, LambdaZeroWithManyObservationsIsLeastSquares) {
-  const Scene scene = random_scene({60});
+  const RandomSightings scene = random_sightings({60});
   FitSettings settings = paper_fit(kSmall, 1);
   settings.lambda = settings.beta = 0;
   settings.penalise_dc = GetParam();
@@ -247,104 +215,6 @@ TEST_P(LeastNormTest, LambdaZeroWithManyObservationsIsLeastSquares) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PenaliseDc, LeastNormTest, testing::Bool());
-
-TEST(FitViewMaps, AConstantColourIsKeptExactlyWhereTheDcIsFreeAndShrunkWhereItIsNot) {
-  const Scene scene = random_scene({40, 3});
-  FitSettings settings;
-  settings.penalise_dc = false;
-  const auto free = fit_view_maps(scene.seen, scene.positions, settings);
-  settings.penalise_dc = true;
-  const auto paper = fit_view_maps(scene.seen, scene.positions, settings);
-  ASSERT_TRUE(free && paper);
-  // The third channel of the scene is 200 everywhere.
-  EXPECT_NEAR((*free)[2], 200, 1e-3);
-  EXPECT_NEAR((*free)[3 * 128 + 2], 200, 1e-3);
-  for (std::size_t k = 1; k < 128; ++k) EXPECT_NEAR((*free)[3 * k + 2], 0, 1e-3);
-  EXPECT_LT((*paper)[3 * 128 + 2], 190);
-}
-
-TEST(FitViewMaps, DoesNotDependOnTheNumberOfThreads) {
-  std::vector<int> counts(700, 0);
-  for (std::size_t p = 0; p < counts.size(); ++p) counts[p] = static_cast<int>(p * 7 % 23);
-  const Scene scene = random_scene(counts);
-  FitSettings settings = paper_fit({BasisId::kBspline, 2, 2, 2}, 1);
-  const auto one = fit_view_maps(scene.seen, scene.positions, settings);
-  ASSERT_TRUE(one);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    const auto many = fit_view_maps(scene.seen, scene.positions, settings);
-    ASSERT_TRUE(many);
-    EXPECT_EQ(*one, *many) << threads << " threads";
-  }
-}
-
-TEST(FitViewMaps, ReportsProgressOnTheCallingThreadUpToOne) {
-  const Scene scene = random_scene(std::vector<int>(600, 3));
-  const auto caller = std::this_thread::get_id();
-  double last = 0;
-  const auto fitted =
-      fit_view_maps(scene.seen, scene.positions, {}, [&](const char* stage, double f) {
-        EXPECT_STREQ(stage, "fit");
-        EXPECT_EQ(std::this_thread::get_id(), caller);
-        EXPECT_GE(f, last);
-        EXPECT_LE(f, 1);
-        last = f;
-      });
-  ASSERT_TRUE(fitted);
-  EXPECT_GT(last, 0.5);
-}
-
-TEST(FitViewMaps, RefusesSettingsAndObservationsThatCannotBe) {
-  const Scene scene = random_scene({3, 0});
-  const auto code = [&](const FitSettings& settings) {
-    const auto fitted = fit_view_maps(scene.seen, scene.positions, settings);
-    return fitted ? Errc::kNotSlf : fitted.error().code;
-  };
-  FitSettings good;
-  for (const auto& change : std::vector<std::function<void(FitSettings&)>>{
-           [](FitSettings& s) { s.lambda = -1; }, [](FitSettings& s) { s.lambda = NAN; },
-           [](FitSettings& s) { s.beta = INFINITY; }, [](FitSettings& s) { s.iterations = -1; },
-           [](FitSettings& s) { s.neighbours = 0; }, [](FitSettings& s) { s.neighbours = 65; },
-           [](FitSettings& s) { s.basis.order = 5; },
-           [](FitSettings& s) { s.basis.scales_theta = 7; }}) {
-    FitSettings bad = good;
-    change(bad);
-    EXPECT_EQ(code(bad), Errc::kInvalidArgument);
-  }
-  Scene wrong = scene;
-  wrong.positions.pop_back();
-  EXPECT_EQ(fit_view_maps(wrong.seen, wrong.positions, good).error().code, Errc::kInvalidArgument);
-  const Scene dark = random_scene({0, 0});
-  EXPECT_EQ(fit_view_maps(dark.seen, dark.positions, good).error().code, Errc::kInvalidInput);
-}
-
-TEST(NearestNeighbours, BreakTiesByIndexAndLeaveOutThePointItself) {
-  std::vector<Voxel> grid;
-  for (std::int32_t z = 0; z < 6; ++z)
-    for (std::int32_t y = 0; y < 6; ++y)
-      for (std::int32_t x = 0; x < 6; ++x) grid.push_back({x, y, z});
-  const Neighbours found = nearest_neighbours(grid, 8, 2);
-  ASSERT_EQ(found.count, 8u);
-  for (std::uint32_t p = 0; p < grid.size(); ++p) {
-    std::vector<std::pair<int, std::uint32_t>> order;
-    for (std::uint32_t q = 0; q < grid.size(); ++q) {
-      int squared = 0;
-      for (std::size_t a = 0; a < 3; ++a)
-        squared += (grid[p][a] - grid[q][a]) * (grid[p][a] - grid[q][a]);
-      if (q != p) order.push_back({squared, q});
-    }
-    std::sort(order.begin(), order.end());
-    for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(found.of(p)[n], order[n].second) << p;
-  }
-}
-
-TEST(NearestNeighbours, AreFewerWhereThereAreFewerPoints) {
-  const std::vector<Voxel> three{{0, 0, 0}, {1, 0, 0}, {2097151, 2097151, 2097151}};
-  const Neighbours found = nearest_neighbours(three, 8, 1);
-  ASSERT_EQ(found.count, 2u);
-  EXPECT_EQ(found.of(2)[0], 1u);
-  EXPECT_EQ(nearest_neighbours(std::span(three).first(1), 8, 1).count, 0u);
-}
 
 }  // namespace
 }  // namespace slf

@@ -1,91 +1,14 @@
 // Image-plus-geometry coding on a small synthetic capture. Paper IV-F.
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <numeric>
 
 #include "igc/camera_walk.h"
-#include "igc/igc_file.h"
-#include "igc/ycbcr.h"
-#include "slf/decoder.h"
-#include "slf/evaluate.h"
-#include "slf/igc.h"
-#include "slf/view_map.h"
-#include "tests/video_support.h"
-#include "tools/synth/synth.h"
+#include "tests/igc_support.h"
 
 namespace slf {
 namespace {
 
-class Igc : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    root_ = std::filesystem::path(testing::TempDir()) / ("slf_igc_" + std::to_string(::getpid()));
-    std::filesystem::remove_all(root_);
-    synth::SynthSettings settings;
-    settings.scene = "can";
-    settings.width = 75;  // odd: 4:2:0 has to add a column
-    settings.height = 66;
-    settings.points = 4000;
-    settings.circles = 4;
-    settings.per_circle = 10;
-    const auto made = synth::synthesise(settings, root_, {});
-    ASSERT_TRUE(made) << made.error().message;
-    auto capture = load_capture(root_);
-    ASSERT_TRUE(capture) << capture.error().message;
-    capture_ = *std::move(capture);
-    capture_.cloud.normals.clear();  // as the decoder has it
-    cameras_ = *split_cameras(capture_, "dense");
-  }
-  static void TearDownTestSuite() { std::filesystem::remove_all(root_); }
-
-  static IgcSettings settings(int qp, IgcChroma chroma = IgcChroma::k420) {
-    IgcSettings s;
-    s.slf.grid_bits = 6;
-    s.slf.refine_geometry = RefineGeometry::kOff;
-    s.slf.fit = {};  // the quickest
-    s.slf.search = FitSearch::none();
-    s.slf.metadata = {{"split", "dense"}};
-    s.qp = qp;
-    s.chroma = chroma;
-    s.speed = "fast";
-    return s;
-  }
-
-  static IgcEncoded encoded(const IgcSettings& s) {
-    auto result = encode_igc(capture_, cameras_, s);
-    EXPECT_TRUE(result) << result.error().message;
-    return result ? *std::move(result) : IgcEncoded{};
-  }
-
-  static double psnr(const LightField& field) {
-    const ViewMaps maps(field);
-    EvaluateSettings s;
-    s.images = false;
-    return evaluate(maps, capture_, cameras_, s)->points[0].psnr;
-  }
-
-  static double decoded_psnr(const IgcEncoded& e) {
-    const auto decoded = decode_igc(e.stream, capture_);
-    EXPECT_TRUE(decoded) << decoded.error().message;
-    return decoded ? psnr(decoded->light_field) : 0;
-  }
-
-  /// What a decoder has: calibration. Files that do not exist, no points.
-  static Capture calibration() {
-    Capture bare;
-    bare.cameras = capture_.cameras;
-    bare.image_files.assign(bare.cameras.size(), "/nowhere/image.png");
-    bare.mask_files.assign(bare.cameras.size(), "/nowhere/mask.png");
-    return bare;
-  }
-
-  static inline std::filesystem::path root_;
-  static inline Capture capture_;
-  static inline std::vector<int> cameras_;
-};
+using test::Igc;
 
 TEST_F(Igc, ACaptureFarFromZeroHasTheSameFieldFarFromZero) {
   SLF_NEEDS_HEVC();
@@ -217,71 +140,6 @@ TEST_F(Igc, ResultsDoNotDependOnThreads) {
             a->light_field.components);
 }
 
-TEST_F(Igc, DamageIsAnError) {
-  SLF_NEEDS_HEVC();
-  const std::vector<std::uint8_t> whole = encoded(settings(40)).stream;
-  const Capture bare = calibration();
-  EXPECT_TRUE(is_igc(whole));
-  for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 331)
-    EXPECT_FALSE(decode_igc(std::span(whole).first(size), bare)) << size << " bytes";
-  for (std::size_t at = 0; at < whole.size(); at += at < 64 ? 1 : 331) {
-    std::vector<std::uint8_t> damaged = whole;
-    damaged[at] ^= 0x20;
-    EXPECT_FALSE(decode_igc(damaged, bare)) << "byte " << at;
-  }
-  std::vector<std::uint8_t> longer = whole;
-  longer.push_back(0);
-  EXPECT_EQ(decode_igc(longer, bare).error().code, Errc::kOutOfRange);
-  EXPECT_EQ(decode_igc({}, bare).error().code, Errc::kNotSlf);
-}
-
-TEST_F(Igc, SectionsThatDoNotFitTogetherAreRefused) {
-  SLF_NEEDS_HEVC();
-  const auto a = encoded(settings(40)).stream, b = encoded(settings(40, IgcChroma::k444)).stream;
-  const IgcSections one = *read_igc_file(a), other = *read_igc_file(b);
-  const auto refused = [](IgcSections sections) {
-    return !decode_igc(write_igc_file(sections), calibration());
-  };
-  EXPECT_FALSE(refused(one));
-  EXPECT_TRUE(refused({one.parameters, one.geometry, other.images}));  // other chroma
-  EXPECT_TRUE(refused({one.parameters, one.images, one.geometry}));    // swapped
-  EXPECT_TRUE(refused({{}, one.geometry, one.images}));
-  EXPECT_TRUE(refused({one.parameters, one.geometry, {}}));
-}
-
-TEST_F(Igc, TheCamerasOfTheFileMustBeTheCaptures) {
-  SLF_NEEDS_HEVC();
-  const auto stream = encoded(settings(40)).stream;
-  Capture renamed = calibration(), resized = calibration(), none;
-  renamed.cameras[static_cast<std::size_t>(cameras_[0])].name = "another";
-  resized.cameras[static_cast<std::size_t>(cameras_[0])].width += 1;
-  for (const Capture& capture : {renamed, resized, none})
-    EXPECT_EQ(decode_igc(stream, capture).error().code, Errc::kInvalidInput);
-  IgcDecodeOptions options;
-  options.limits.max_output_bytes = 100000;
-  EXPECT_EQ(decode_igc(stream, capture_, options).error().code, Errc::kLimitExceeded);
-}
-
-TEST_F(Igc, WhatCannotBeEncodedIsRefused) {
-  Capture uneven = capture_;
-  uneven.cameras[static_cast<std::size_t>(cameras_[3])].width = 80;
-  const auto mixed = encode_igc(uneven, cameras_, settings(30));
-  ASSERT_FALSE(mixed);
-  EXPECT_NE(
-      mixed.error().message.find(capture_.cameras[static_cast<std::size_t>(cameras_[3])].name),
-      std::string::npos);
-  EXPECT_FALSE(encode_igc(capture_, {}, settings(30)));
-  EXPECT_FALSE(encode_igc(capture_, std::vector{9999}, settings(30)));
-  SLF_NEEDS_HEVC();
-  EXPECT_FALSE(encode_igc(capture_, cameras_, settings(60)));
-  Capture missing = capture_;
-  missing.image_files[static_cast<std::size_t>(cameras_[2])] = "/nowhere/image.png";
-  EXPECT_EQ(encode_igc(missing, cameras_, settings(30)).error().code, Errc::kUnreadable);
-  Capture names = capture_;
-  names.cameras[static_cast<std::size_t>(cameras_[0])].name = "two\nlines";
-  EXPECT_EQ(encode_igc(names, cameras_, settings(30)).error().code, Errc::kInvalidArgument);
-}
-
 TEST_F(Igc, TheWalkVisitsEveryCameraOnceAndIsNoLongerThanTheGivenOrder) {
   std::vector<int> shuffled;  // a fixed, bad order
   for (std::size_t i = 0; i < cameras_.size(); ++i)
@@ -299,38 +157,6 @@ TEST_F(Igc, TheWalkVisitsEveryCameraOnceAndIsNoLongerThanTheGivenOrder) {
     if (given != shuffled) continue;
     EXPECT_LT(1.5 * walk_length(distance, walk), walk_length(distance, places));
   }
-}
-
-TEST(Ycbcr, BackAndForthStaysWithinTheRounding) {
-  Image image{7, 5, 3, {}};
-  for (int i = 0; i < 7 * 5 * 3; ++i) image.data.push_back(static_cast<std::uint8_t>(i * 37 % 256));
-  const Image back = to_rgb(to_ycbcr(image, IgcChroma::k444), 7, 5);
-  ASSERT_EQ(back.data.size(), image.data.size());
-  for (std::size_t i = 0; i < image.data.size(); ++i)
-    EXPECT_NEAR(back.data[i], image.data[i], 3) << "sample " << i;
-}
-
-TEST(Ycbcr, AnEvenColourSurvivesHalvedChromaOfAnOddSize) {
-  Image image{7, 5, 4, {}};
-  for (int i = 0; i < 7 * 5; ++i) image.data.insert(image.data.end(), {200, 40, 90, 255});
-  const Picture picture = to_ycbcr(image, IgcChroma::k420);
-  EXPECT_EQ(picture.width, 8);
-  EXPECT_EQ(picture.planes[1].size(), 4u * 3);
-  const Image back = to_rgb(picture, 7, 5);
-  for (std::size_t i = 0; i < back.data.size(); ++i)
-    EXPECT_NEAR(back.data[i], image.data[i % 3], 2) << "sample " << i;
-}
-
-TEST(Ycbcr, ChromaIsInterpolatedAtTheRightPlaces) {
-  // A ramp of blue differences: bilinear interpolation of the means of pairs gives it back inside.
-  Image image{16, 2, 3, {}};
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 16; ++x)
-      for (const int value : {100, 100, 100 + 4 * x})
-        image.data.push_back(static_cast<std::uint8_t>(value));
-  const Image back = to_rgb(to_ycbcr(image, IgcChroma::k420), 16, 2);
-  for (std::size_t x = 1; x < 15; ++x)
-    EXPECT_NEAR(back.data[3 * x + 2], 100 + 4 * static_cast<double>(x), 2) << "pixel " << x;
 }
 
 }  // namespace

@@ -103,4 +103,21 @@ inline std::string cube_glb(const std::string& json = kCubeGltf) {
   return glb_of(json, cube_glb_binary());
 }
 
+inline Result<Mesh, InputError> mesh_in(const std::string& name, const std::string& bytes) {
+  const TemporaryDirectory directory;
+  write_text(directory / name, bytes);
+  return read_mesh(directory / name);
+}
+
+inline double signed_volume(const Mesh& mesh) {
+  double six = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto &a = mesh.vertices.positions[t[0]], &b = mesh.vertices.positions[t[1]],
+               &c = mesh.vertices.positions[t[2]];
+    six += double{a[0]} * (b[1] * c[2] - b[2] * c[1]) + double{a[1]} * (b[2] * c[0] - b[0] * c[2]) +
+           double{a[2]} * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return six / 6;
+}
+
 }  // namespace slf::test

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <span>
 
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
+#include "codec/scene_units.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
 #include "slf/decoder.h"
@@ -17,6 +19,11 @@
 #include "tests/field_support.h"
 
 namespace slf {
+
+static void PrintTo(TransformMode mode, std::ostream* out) {
+  *out << (mode == TransformMode::kJoint ? "joint" : "functions");
+}
+
 namespace {
 
 PlaneTransform random_transform(std::size_t functions, std::size_t rank, std::size_t lanes,
@@ -42,17 +49,18 @@ TEST(Spec_7_11_Matrix, IsLosslessAndNoTruncationGivesIt) {
     std::vector<std::uint8_t> precision;
     PlaneTransform t = random_transform(9, 4, lanes, precision);
     RangeEncoder encoder;
-    ASSERT_TRUE(code_matrix(encoder, t, precision));
+    ASSERT_TRUE(code_columns(encoder, t, {0, t.columns()}, precision));
     const auto bytes = encoder.finish();
     PlaneTransform decoded = t;
-    decoded.matrix.clear();
+    decoded.matrix.assign(t.matrix.size(), 0);
     RangeDecoder decoder(bytes);
-    ASSERT_TRUE(code_matrix(decoder, decoded, {}));
-    EXPECT_TRUE(decoder.finish("tr_matrix"));
+    ASSERT_TRUE(code_columns(decoder, decoded, {0, t.columns()}, {}));
+    EXPECT_TRUE(decoder.finish("cu_matrix"));
     EXPECT_EQ(decoded.matrix, t.matrix);
     for (std::size_t size = 0; size + 4 < bytes.size(); ++size) {
       RangeDecoder cut(std::span<const std::uint8_t>(bytes).first(size));
-      const bool sound = code_matrix(cut, decoded, {}) && cut.finish("tr_matrix");
+      const bool sound =
+          code_columns(cut, decoded, {0, t.columns()}, {}) && cut.finish("cu_matrix");
       EXPECT_FALSE(sound && decoded.matrix == t.matrix) << size;
     }
   }
@@ -203,9 +211,7 @@ TEST_P(TransformModes, EveryShapeOfCloudGoesThrough) {
 
 INSTANTIATE_TEST_SUITE_P(Spec_8_7_5, TransformModes,
                          testing::Values(TransformMode::kFunctions, TransformMode::kJoint),
-                         [](const auto& mode) {
-                           return mode.param == TransformMode::kJoint ? "joint" : "functions";
-                         });
+                         testing::PrintToStringParamName());
 
 /// A stream with one transform, without its end unit and the index.
 std::vector<Unit> units_with_transform(std::vector<std::uint8_t>& stream) {
@@ -241,12 +247,18 @@ TEST(Spec_7_11_Hazards, NoDamagedByteGivesAnotherLightField) {
   auto units = units_with_transform(stream);
   const auto sound = decode(stream);
   ASSERT_TRUE(sound);
-  const std::vector<std::uint8_t> whole(units[1].payload.begin(), units[1].payload.end());
-  for (std::size_t at = 0; at < whole.size(); ++at)
+  const auto set = *parse_sequence_parameter_set(units[0].payload);
+  const auto first = std::find_if(units.begin(), units.end(), [](const Unit& unit) {
+    return unit.type == UnitType::kCoefficients;
+  });
+  const std::vector<std::uint8_t> whole(first->payload.begin(), first->payload.end());
+  const PartUnit part = *read_part_unit(*first, set);
+  ASSERT_GT(part.matrix.size(), 4u);
+  for (std::size_t at = 0; at < whole.size() - part.payload.size(); ++at)
     for (const unsigned flip : {0x01u, 0x80u, 0xFFu}) {
       auto damaged = whole;
       damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ flip);
-      units[1].payload = damaged;
+      first->payload = damaged;
       // Refused, at the latest by the digest; or what changed was a factor of zeros.
       const auto field = decode(stream_of(units));
       EXPECT_TRUE(!field || field->components == sound->components) << at;

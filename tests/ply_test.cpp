@@ -99,6 +99,7 @@ struct Refused {
   std::string text;
   const char* cause;
 };
+void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.name; }
 class PlyRefused : public testing::TestWithParam<Refused> {};
 
 TEST_P(PlyRefused, WithFileAndCause) {

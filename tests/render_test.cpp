@@ -11,9 +11,7 @@
 
 #include "geometry/morton.h"
 #include "lightfield/octahedral.h"
-#include "lightfield/render_surfels.h"
-#include "lightfield/splat_weights.h"
-#include "lightfield/surfel_cloud.h"
+#include "render/render_surfels.h"
 #include "tests/render_support.h"
 
 namespace slf {
@@ -29,83 +27,6 @@ std::size_t pixel(const Rendering& rendering, int x, int y) {
 std::array<int, 3> colour(const Rendering& rendering, int x, int y) {
   const std::uint8_t* p = &rendering.image.data[3 * pixel(rendering, x, y)];
   return {p[0], p[1], p[2]};
-}
-
-TEST(OctahedralTest, LevelsOfEveryBitDepthGiveUnitVectorsThatQuantiseBackToThemselves) {
-  for (const int bits : {4, 8, 12}) {
-    const int levels = 1 << bits, stride = bits == 12 ? 61 : 1;
-    for (int a = 0; a < levels; a += stride)
-      for (int b = 0; b < levels; b += stride) {
-        const std::array<std::uint16_t, 2> q{std::uint16_t(a), std::uint16_t(b)};
-        const auto v = dequantise_normal(q, bits);
-        ASSERT_NEAR(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], 1, 1e-12);
-        const auto back = dequantise_normal(quantise_normal(v, bits), bits);
-        // On the border of the square two levels stand for one vector, so vectors are compared.
-        for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(back[k], v[k], 1e-9) << a << ' ' << b;
-      }
-  }
-}
-
-TEST(OctahedralTest, HandComputedValues) {
-  const auto up =
-      quantise_normal({0, 0, 1}, 8);  // the middle of the square lies between two levels
-  EXPECT_EQ(up, (std::array<std::uint16_t, 2>{128, 128}));
-  EXPECT_EQ(quantise_normal({1, 0, 0}, 8)[0], 255);
-  EXPECT_EQ(quantise_normal({0, -1, 0}, 8)[1], 0);
-  const auto folded = octahedral_from_vector({1, 1, -2});  // x + y + |z| = 4: (1/4, 1/4) -> 3/4
-  EXPECT_DOUBLE_EQ(folded[0], 0.75);
-  EXPECT_DOUBLE_EQ(folded[1], 0.75);
-}
-
-TEST(SurfelTest, NormalsOfAVoxelisedSphereAreRadial) {
-  const auto voxels = test::sphere(64, 40);
-  const Surfels surfels = estimate_surfels(voxels, 2);
-  double worst = 1;
-  for (std::size_t p = 0; p < voxels.size(); ++p) {
-    double along = 0, length = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      along += (voxels[p][k] - 64) * double{surfels.normals[p][k]};
-      length += (voxels[p][k] - 64.0) * (voxels[p][k] - 64.0);
-    }
-    worst = std::min(worst, std::abs(along) / std::sqrt(length));
-    ASSERT_GE(surfels.radii[p], 0.9f);
-    ASSERT_LT(surfels.radii[p], 2.0f);  // neighbours are one voxel apart
-  }
-  EXPECT_GT(worst, std::cos(15 * 3.14159265 / 180));  // quantisation tilts a patch of 5 voxels
-}
-
-TEST(SurfelTest, RadiusFollowsTheSpacingOfASparseCloud) {
-  std::vector<Voxel> voxels;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) voxels.push_back({x * 8, y * 8, 100});
-  const Surfels surfels = estimate_surfels(voxels, 1);
-  for (std::size_t p = 0; p < voxels.size(); ++p) {
-    ASSERT_NEAR(std::abs(surfels.normals[p][2]), 1, 1e-5);
-    ASSERT_GT(surfels.radii[p], 8 / std::sqrt(2.0f));  // half the diagonal: no hole
-    ASSERT_LT(surfels.radii[p], 24);
-  }
-}
-
-TEST(SurfelTest, ADenseClusterBesideScatteredPointsHasItsOwnScale) {
-  // As many points in a solid cube as in a lattice 1,000 times coarser: with one cell size for both
-  // every point of the cube would look at the whole cube, 10^11 pairs, which no test outlasts.
-  std::vector<Voxel> voxels;
-  for (int z = 0; z < 64; ++z)
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) {
-        voxels.push_back({x, y, z});
-        if (x + y + z > 0) voxels.push_back({1000 * x, 1000 * y, 1000 * z});
-      }
-  const Surfels surfels = estimate_surfels(voxels, 2);
-  for (std::size_t p = 0; p < voxels.size(); ++p) {
-    const Voxel& v = voxels[p];
-    const int nearest = std::min({v[0], v[1], v[2]}), farthest = std::max({v[0], v[1], v[2]});
-    if (nearest > 8 && farthest < 56) {
-      ASSERT_LT(surfels.radii[p], 3);
-    } else if (nearest >= 1000) {
-      ASSERT_GT(surfels.radii[p], 500);
-    }
-  }
 }
 
 TEST(RenderTest, APlaneSampledAtThePixelRateHasNoHoleAndItsColour) {
@@ -224,106 +145,6 @@ TEST(RenderTest, TheResultDoesNotDependOnThreads) {
     EXPECT_EQ(other.image.data, renderings[0].image.data);
     EXPECT_EQ(other.coverage, renderings[0].coverage);
     EXPECT_EQ(other.depth, renderings[0].depth);
-  }
-}
-
-TEST(SplatWeightsTest, WeightedColoursAreTheRenderedPicture) {
-  std::vector<std::array<int, 3>> colours;
-  for (int i = 0; i < 97; ++i) colours.push_back({(i * 37) % 256, (i * 91) % 256, (i * 53) % 256});
-  const LightField field = constant_light_field(test::sphere(64, 40), colours, 7);
-  const ViewMaps maps(field);
-  const Renderer renderer(maps);
-  const Camera camera = renderer.orbit(0.3, 20, 61, 53);
-  const Rendering rendering = renderer.render(camera);
-  const SurfelCloud cloud = surfel_cloud(field.header.grid, field.positions, field.normals, 0, 2);
-  const SplatWeights weights =
-      splat_weights(project_surfels(cloud, camera, 2), camera.width, camera.height, 2);
-  ASSERT_EQ(weights.first.size(), rendering.coverage.size() + 1);
-  ASSERT_EQ(weights.first.back(), weights.point.size());
-  EXPECT_EQ(weights.depth, rendering.depth);
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < rendering.coverage.size(); ++i) {
-    float sum = 0;
-    std::array<float, 3> blend{};
-    for (std::uint32_t e = weights.first[i]; e < weights.first[i + 1]; ++e) {
-      ASSERT_GT(weights.weight[e], 0);
-      sum += weights.weight[e];
-      const auto own = maps.mean(weights.point[e]);
-      for (std::size_t k = 0; k < 3; ++k) blend[k] += weights.weight[e] * own[k];
-    }
-    if (weights.first[i] < weights.first[i + 1]) {
-      ASSERT_NEAR(sum, 1, 1e-5);  // a few roundings of float
-      ++shown;
-    }
-    const float cover = weights.coverage[i];
-    for (std::size_t k = 0; k < 3; ++k)
-      ASSERT_NEAR(rendering.image.data[3 * i + k], cover * blend[k] + (1 - cover) * 128, 0.51);
-  }
-  EXPECT_GT(shown, 1000u);
-}
-
-// Spec E.4 and E.5 written out pixel by pixel, from the splats.
-TEST(SplatWeightsTest, TheyAreThoseOfAnnexEAtEveryPixel) {
-  const LightField field = constant_light_field(test::sphere(64, 40), {{90, 90, 90}}, 7);
-  const ViewMaps maps(field);
-  const Camera camera = Renderer(maps).orbit(0.3, 20, 61, 53);  // no multiple of any block
-  const SurfelCloud cloud = surfel_cloud(field.header.grid, field.positions, field.normals, 0, 1);
-  const auto splats = project_surfels(cloud, camera, 1);
-  const SplatWeights weights = splat_weights(splats, camera.width, camera.height, 1);
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) {
-      struct Here {
-        double r2, inverse, gradient, square;
-      };
-      std::vector<std::pair<const Splat*, Here>> discs;
-      double nearest = 0;
-      for (const Splat& s : splats) {
-        const double du = x + 0.5 - s.u, dv = y + 0.5 - s.v;
-        const double gu = s.a * du + s.b * dv, gv = s.b * du + s.c * dv;
-        const Here here{du * gu + dv * gv,
-                        s.inverse_depth + s.inverse_depth_du * du + s.inverse_depth_dv * dv,
-                        std::hypot(gu, gv), du * du + dv * dv};
-        if (here.r2 >= 1) continue;
-        discs.push_back({&s, here});
-        if (here.r2 < 0.4) nearest = std::max(nearest, here.inverse);
-      }
-      double sum = 0, cover = 0;
-      for (const auto& [s, here] : discs) {
-        const double near = 1 - std::max(0.0, (nearest - here.inverse) * s->fade);
-        if (near > 0) sum += s->weight * std::pow(1 - here.r2, 4) * near * near;
-        const double distance = std::sqrt(here.square);
-        if (!(distance > 0.01)) {
-          cover = 1;
-          continue;
-        }
-        const double reach = std::sqrt(std::max(0.0, here.square / here.r2 - 1));
-        cover =
-            std::max(cover, 0.5 + (0.85 * reach - distance) * here.r2 / (distance * here.gradient));
-      }
-      const std::size_t i = std::size_t(y) * std::size_t(camera.width) + std::size_t(x);
-      cover = std::clamp(std::max(cover, 2 * 5 / std::numbers::pi * sum - 0.5), 0.0, 1.0);
-      ASSERT_NEAR(weights.coverage[i], sum > 1e-6 ? cover : 0, 2e-3) << x << ' ' << y;
-      ASSERT_EQ(weights.first[i + 1] > weights.first[i], sum > 1e-12) << x << ' ' << y;
-    }
-}
-
-TEST(SplatWeightsTest, TheResultDoesNotDependOnThreads) {
-  const LightField field = constant_light_field(test::sphere(64, 40), {{90, 90, 90}}, 7);
-  const ViewMaps maps(field);
-  const Camera camera = Renderer(maps).orbit(0.3, 20, 61, 53);
-  std::vector<SplatWeights> each;
-  for (const int threads : {1, 2, 7}) {
-    const SurfelCloud cloud =
-        surfel_cloud(field.header.grid, field.positions, field.normals, 0, threads);
-    each.push_back(splat_weights(project_surfels(cloud, camera, threads), camera.width,
-                                 camera.height, threads));
-  }
-  for (const SplatWeights& other : each) {
-    EXPECT_EQ(other.first, each[0].first);
-    EXPECT_EQ(other.point, each[0].point);
-    EXPECT_EQ(other.weight, each[0].weight);
-    EXPECT_EQ(other.coverage, each[0].coverage);
-    EXPECT_EQ(other.depth, each[0].depth);
   }
 }
 

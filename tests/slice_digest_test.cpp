@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bitstream/sha256.h"
+#include "base/sha256.h"
 
 namespace slf {
 namespace {

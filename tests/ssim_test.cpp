@@ -1,4 +1,4 @@
-#include "lightfield/ssim.h"
+#include "measure/ssim.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
-#include "bitstream/zlib_adapter.h"
+#include "fuzz/fuzz.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "tests/field_support.h"
@@ -31,28 +31,10 @@ std::vector<std::uint8_t> small_stream(bool index = true) {
   return *pack(field, parameters);
 }
 
-/// The same stream with every CRC made right again, so that damage reaches the parsers.
-std::vector<std::uint8_t> with_sound_crcs(std::vector<std::uint8_t> stream) {
-  std::size_t at = 8;
-  while (at + 6 <= stream.size()) {
-    std::size_t length = 0, p = at + 1;
-    for (int shift = 0; p < stream.size(); shift += 7) {
-      length |= std::size_t{stream[p] & 0x7Fu} << std::min(shift, 56);
-      if (!(stream[p++] & 0x80)) break;
-    }
-    if (length > stream.size() || p + length + 4 > stream.size()) return stream;
-    const std::uint32_t crc = crc32(std::span(stream).subspan(at, p + length - at));
-    for (std::size_t i = 0; i < 4; ++i)
-      stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
-    at = p + length + 4;
-  }
-  return stream;
-}
-
 DecodeOptions small_limits() {
   DecodeOptions options;
   options.limits.max_points = 5000;
-  options.limits.max_output_bytes = 1 << 20;
+  options.limits.max_memory = 1 << 25;
   return options;
 }
 
@@ -90,7 +72,7 @@ TEST(Spec_7_1_Hazards, EveryFlippedByteBehindASoundCrcIsAnErrorOrALightField) {
     for (int bit = 0; bit < 8; ++bit) {
       auto damaged = whole;
       damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ 1 << bit);
-      damaged = with_sound_crcs(damaged);
+      damaged = fuzz::with_sound_crcs(damaged);
       const auto decoded = decode(damaged, small_limits());
       if (!decoded) {
         EXPECT_STRNE(decoded.error().element, "") << at;
@@ -113,7 +95,7 @@ TEST(Spec_7_2_Versions, NewerOnesAreUnsupportedNotDamaged) {
   for (const std::size_t byte : {0u, 1u}) {  // major, minor
     auto stream = small_stream();
     stream[8 + 2 + byte] = 9;  // signature, type, length
-    const auto decoded = decode(with_sound_crcs(stream));
+    const auto decoded = decode(fuzz::with_sound_crcs(stream));
     ASSERT_FALSE(decoded);
     EXPECT_EQ(decoded.error().code, Errc::kUnsupported);
   }
@@ -178,8 +160,92 @@ TEST(Spec_9_Limits, AreCheckedBeforeAnythingIsDecoded) {
   };
   EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_points = 10; }), Errc::kLimitExceeded);
   EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_planes = 11; }), Errc::kLimitExceeded);
-  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_output_bytes = 100; }), Errc::kLimitExceeded);
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_memory = 100000; }), Errc::kLimitExceeded);
+  EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_work = 1000; }), Errc::kLimitExceeded);
   EXPECT_EQ(code_with([](DecodeLimits& l) { l.max_stream_bytes = 100; }), Errc::kLimitExceeded);
+}
+
+/// A cube of 64^3 points with one value everywhere: some 200 bytes.
+std::vector<std::uint8_t> cube_stream() {
+  LightField field;
+  field.header.grid = {{0, 0, 0}, 1, 6};
+  field.header.has_basis = false;
+  field.header.num_functions = 2;
+  for (std::int32_t z = 0; z < 64; ++z)
+    for (std::int32_t y = 0; y < 64; ++y)
+      for (std::int32_t x = 0; x < 64; ++x) field.positions.push_back({x, y, z});
+  field.components.assign(field.num_points() * 6, 7);
+  CodingParameters parameters;
+  parameters.base_levels = 0;
+  parameters.max_slice_points = kMostSlicePoints;
+  parameters.index = parameters.digest = false;
+  return *pack(field, parameters);
+}
+
+TEST(Spec_9_Level, EncodersFillUpWhatHasMoreValuesThanBytesAllow) {
+  const auto stream = cube_stream();
+  const auto units = split_units(stream);
+  ASSERT_TRUE(units);
+  EXPECT_TRUE(decode(stream));
+  // Without the filler it is refused, whole and cut before its end unit.
+  std::vector<std::uint8_t> bare(kSignature.begin(), kSignature.end());
+  std::uint64_t count = 0;
+  std::size_t before_end = 0;
+  for (const Unit& unit : units->units) {
+    if (unit.type == UnitType::kFiller) continue;
+    before_end = bare.size();
+    BitWriter end;
+    end.ue(count);
+    const std::vector<std::uint8_t> ends = end.take();
+    append_unit(bare, unit.type, unit.type == UnitType::kEnd ? std::span(ends) : unit.payload);
+    ++count;
+  }
+  ASSERT_EQ(count + 1, units->units.size()) << "one filler";
+  for (const std::size_t size : {bare.size(), before_end}) {
+    const auto refused = decode(std::span(bare).first(size));
+    ASSERT_FALSE(refused);
+    EXPECT_STREQ(refused.error().element, "sps_level");
+  }
+}
+
+TEST(Spec_9_Level, BoundsWhatAPartOfAStreamTakes) {
+  const auto stream = cube_stream();
+  DecodeOptions options;
+  options.levels = 3;
+  const auto coarse = decode(stream, options);
+  ASSERT_TRUE(coarse) << to_string(coarse.error());
+  EXPECT_EQ(coarse->num_points(), 512u);
+  const auto info = read_info(stream);
+  ASSERT_TRUE(info);
+  for (const int threads : {1, 2, 0}) {
+    const DecodeCost cost = decode_cost(*info, threads);
+    EXPECT_LE(cost.memory, cost.memory_most);
+    options = {};
+    options.threads = threads;
+    options.limits.max_memory = cost.memory_most;
+    options.limits.max_work = cost.work;
+    EXPECT_TRUE(decode(stream, options));
+    --options.limits.max_memory;
+    EXPECT_FALSE(decode(stream, options));
+    options.limits.max_memory = cost.memory_most;
+    --options.limits.max_work;
+    EXPECT_FALSE(decode(stream, options));
+  }
+}
+
+TEST(Spec_7_8_Metadata, ThatIsDamagedIsAnErrorOfDecodeToo) {
+  const auto whole = small_stream(false);
+  const auto units = split_units(whole);
+  ASSERT_TRUE(units);
+  std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
+  for (const Unit& unit : units->units) {
+    std::vector<std::uint8_t> payload(unit.payload.begin(), unit.payload.end());
+    if (unit.type == UnitType::kMetadata) payload.resize(payload.size() / 2);
+    append_unit(stream, unit.type, payload);
+  }
+  const auto decoded = decode(stream);
+  ASSERT_FALSE(decoded);
+  EXPECT_STREQ(decoded.error().element, "metadata_deflated");
 }
 
 TEST(Spec_7_8_Metadata, ComesBack) {

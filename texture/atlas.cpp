@@ -103,7 +103,7 @@ Result<Atlas> derive_atlas(std::span<const std::uint64_t> morton, int depth, int
                     in_row = static_cast<std::size_t>(atlas.width / kTile);
   const std::int64_t height =
       below + static_cast<std::int64_t>((tiles + in_row - 1) / in_row) * kTile;
-  if (height > kMostSize) return Error{Errc::kLimitExceeded, "texture_size", 0};
+  if (height > kMostSize) return Error{Errc::kLimitExceeded, "texture_size"};
   atlas.height = std::max(kLeastSize, static_cast<std::int32_t>(height));
 
   std::vector<Box> boxes(packed.size());  // by chart

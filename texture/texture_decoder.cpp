@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/error_place.h"
 #include "texture/texture_header.h"
 #include "video/hevc_decoder.h"
 
@@ -18,13 +19,14 @@ Result<Done> decode_texture(
   const auto stream = in.align_and_rest("alignment_zero_bits");
   if (!in.ok()) return in.error();
 
+  const std::uint64_t begin = 8 * (payload.size() - stream.size());
   const std::int64_t most = (std::int64_t{1} << bits) - 1;
   std::vector<std::size_t> pictures;  // planes that have one
   std::vector<std::int32_t> values(atlas.pixel.size());
   for (std::size_t j = 0; j < planes.size(); ++j) {
     if (planes[j].tx_picture_flag) {
       if (planes[j].tx_offset + most * steps[j] >= kTextureLimit)
-        return Error{Errc::kOutOfRange, "tx_offset", 0};
+        return Error{Errc::kOutOfRange, "tx_offset"};
       pictures.push_back(j);
     } else {
       values.assign(values.size(), planes[j].tx_offset);
@@ -32,17 +34,18 @@ Result<Done> decode_texture(
     }
   }
   if (pictures.empty()) {
-    if (!stream.empty()) return Error{Errc::kOutOfRange, "tx_pictures", 0};
+    if (!stream.empty()) return Error{Errc::kOutOfRange, "tx_pictures", begin};
     return Done{};
   }
   const HevcFormat format{atlas.width, atlas.height, bits, ChromaFormat::k400, pictures.size()};
-  return decode_hevc(stream, format, [&](std::size_t i, const Picture& picture) {
+  const auto store = [&](std::size_t i, const Picture& picture) {
     const std::size_t j = pictures[i];
     const auto step = static_cast<std::int32_t>(steps[j]);
     for (std::size_t p = 0; p < values.size(); ++p)
       values[p] = planes[j].tx_offset + picture.planes[0][atlas.pixel[p]] * step;
     sink(j, values);
-  });
+  };
+  return counted_from(begin, decode_hevc(stream, format, store));
 }
 
 }  // namespace slf

@@ -170,12 +170,6 @@ double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
   return points == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
 }
 
-std::string printable(std::string foreign) {
-  std::replace_if(
-      foreign.begin(), foreign.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return foreign;
-}
-
 namespace {
 
 const char* outcome_word(RefineReport::Outcome outcome) {

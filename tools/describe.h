@@ -31,9 +31,6 @@ std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes)
 
 double bits_per_point(std::uint64_t bytes, std::uint64_t points);
 
-/// Control characters of a foreign text replaced, so that it cannot steer a terminal.
-std::string printable(std::string text);
-
 /// What became of the points before they were coded.
 nlohmann::ordered_json refined_json(const RefineReport& report);
 std::string refined_text(const RefineReport& report);  ///< a line; empty where nothing was asked

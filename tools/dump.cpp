@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "slf/given_planes.h"
@@ -10,6 +11,7 @@
 #include "tools/describe.h"
 #include "tools/npy.h"
 #include "tools/output.h"
+#include "tools/output_directory.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -47,6 +49,76 @@ Outcome save_array(const std::string& directory, const char* name,
   return save(inside(directory, name), file.data(), file.size());
 }
 
+/// Names of matrices: there are at most as many as groups.
+constexpr std::size_t kMostMatrices = 16;
+
+std::string matrix_name(std::size_t i) { return "matrix" + std::to_string(i) + ".npy"; }
+
+/// Of all files, the one that says that the others are whole last.
+std::vector<std::string> dump_names() {
+  std::vector<std::string> names = {"positions.npy", "components.npy", "planes.npy",
+                                    "octahedral.npy"};
+  for (std::size_t i = 0; i < kMostMatrices; ++i) names.push_back(matrix_name(i));
+  names.push_back("light_field.json");
+  return names;
+}
+
+std::size_t size_of(int count) { return static_cast<std::size_t>(count); }
+
+Outcome save_points(const LightField& field, bool planes, const std::string& directory) {
+  const std::size_t points = field.num_points();
+  const std::span<const std::int32_t> positions(points == 0 ? nullptr : field.positions[0].data(),
+                                                3 * points);
+  SLF_CHECK(save_array(directory, "positions.npy", npy_file({points, 3}, positions)));
+  SLF_CHECK(save_array(
+      directory, "components.npy",
+      npy_file({points, size_of(field.header.num_components()), 3}, std::span(field.components))));
+  if (planes) {
+    const std::vector<std::int32_t> given = given_planes(field);
+    SLF_CHECK(
+        save_array(directory, "planes.npy",
+                   npy_file({points, size_of(field.header.num_functions), 3}, std::span(given))));
+  }
+  if (field.normals.bits == 0) return Done{};
+  const auto& coded = field.normals.octahedral;
+  const std::span<const std::uint16_t> normals(coded.empty() ? nullptr : coded[0].data(),
+                                               2 * coded.size());
+  return save_array(directory, "octahedral.npy", npy_file({coded.size(), 2}, normals));
+}
+
+/// Saves their matrices.
+Result<nlohmann::ordered_json, Failure> save_transforms(const LightField& field,
+                                                        const std::string& directory) {
+  auto list = nlohmann::ordered_json::array();
+  for (const PlaneTransform& t : field.header.transforms) {
+    const std::string name = matrix_name(list.size());
+    const std::size_t columns = t.components.size() * 3 / t.lanes;
+    list.push_back({{"functions", t.functions},
+                    {"components", t.components},
+                    {"joint", t.lanes == 1},
+                    {"colour", t.colour},
+                    {"matrix", name}});
+    SLF_CHECK(
+        save_array(directory, name.c_str(),
+                   npy_file({columns, t.rows()}, std::span(t.matrix.data(), columns * t.rows()))));
+  }
+  return list;
+}
+
+Outcome write_dump(const LightField& field, bool planes, const std::string& directory) {
+  SLF_CHECK(save_points(field, planes, directory));
+  nlohmann::ordered_json json = header_json(field.header);
+  std::vector<int> coded(size_of(field.header.num_components()));
+  for (std::size_t r = 0; r < coded.size(); ++r)
+    coded[r] = field.header.coded.empty() ? static_cast<int>(r) : field.header.coded[r];
+  json["component_function"] = coded;
+  SLF_TRY(json["transforms"], save_transforms(field, directory));
+  json["points"] = field.num_points();
+  json["normal_bits"] = field.normals.bits;
+  json["partial"] = field.partial;
+  return save(inside(directory, "light_field.json"), to_text(json));
+}
+
 }  // namespace
 
 PointCloud mean_cloud(const LightField& field, int threads) {
@@ -69,47 +141,16 @@ PointCloud mean_cloud(const LightField& field, int threads) {
   return cloud;
 }
 
+bool fits_a_cloud(const Grid& grid) {
+  const double extent = grid.step * double(1 << grid.bits);
+  return extent <= double{std::numeric_limits<float>::max()} &&
+         std::all_of(grid.origin.begin(), grid.origin.end(),
+                     [&](double x) { return std::isfinite(x + extent); });
+}
+
 Outcome dump(const LightField& field, bool planes, const std::string& directory) {
-  SLF_CHECK(make_directory(directory));
-  const std::size_t points = field.num_points();
-  const auto functions = static_cast<std::size_t>(field.header.num_functions),
-             components = static_cast<std::size_t>(field.header.num_components());
-  const std::span<const std::int32_t> positions(points == 0 ? nullptr : field.positions[0].data(),
-                                                3 * points);
-  SLF_CHECK(save_array(directory, "positions.npy", npy_file({points, 3}, positions)));
-  SLF_CHECK(save_array(directory, "components.npy",
-                       npy_file({points, components, 3}, std::span(field.components))));
-  if (planes) {
-    const std::vector<std::int32_t> given = given_planes(field);
-    SLF_CHECK(
-        save_array(directory, "planes.npy", npy_file({points, functions, 3}, std::span(given))));
-  }
-  if (field.normals.bits > 0) {
-    const std::span<const std::uint16_t> normals(field.normals.octahedral[0].data(), 2 * points);
-    SLF_CHECK(save_array(directory, "octahedral.npy", npy_file({points, 2}, normals)));
-  }
-  nlohmann::ordered_json json = header_json(field.header);
-  std::vector<int> coded(components);
-  for (std::size_t r = 0; r < components; ++r)
-    coded[r] = field.header.coded.empty() ? static_cast<int>(r) : field.header.coded[r];
-  json["component_function"] = coded;
-  json["transforms"] = nlohmann::ordered_json::array();
-  for (const PlaneTransform& t : field.header.transforms) {
-    const std::string name = "matrix" + std::to_string(json["transforms"].size()) + ".npy";
-    const std::size_t columns = t.components.size() * 3 / t.lanes;
-    json["transforms"].push_back({{"functions", t.functions},
-                                  {"components", t.components},
-                                  {"joint", t.lanes == 1},
-                                  {"colour", t.colour},
-                                  {"matrix", name}});
-    SLF_CHECK(
-        save_array(directory, name.c_str(),
-                   npy_file({columns, t.rows()}, std::span(t.matrix.data(), columns * t.rows()))));
-  }
-  json["points"] = points;
-  json["normal_bits"] = field.normals.bits;
-  json["partial"] = field.partial;
-  return save(inside(directory, "light_field.json"), to_text(json));
+  return save_directory(directory, dump_names(),
+                        [&](const std::string& made) { return write_dump(field, planes, made); });
 }
 
 }  // namespace slf::tools

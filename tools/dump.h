@@ -13,8 +13,12 @@ namespace slf::tools {
 /// basis.
 PointCloud mean_cloud(const LightField& field, int threads);
 
-/// Writes positions.npy, components.npy, octahedral.npy where normals are coded, light_field.json.
-/// light_field.json comes last: a dump cut short has none.
+/// Can floats, from a double's origin, hold the world coordinates of every voxel? A grid may lie
+/// anywhere that a double reaches.
+bool fits_a_cloud(const Grid& grid);
+
+/// Writes positions.npy, components.npy, octahedral.npy where normals are coded, light_field.json:
+/// all of them or none (save_directory).
 Outcome dump(const LightField& field, bool planes, const std::string& directory);
 
 }  // namespace slf::tools

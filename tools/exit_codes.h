@@ -43,6 +43,8 @@ inline ExitCode exit_code_of(Errc code) {
       return kInputUnreadable;
     case Errc::kUnwritable:
       return kWriteFailed;
+    case Errc::kCancelled:
+      return kCancelled;
   }
   return kInternal;
 }

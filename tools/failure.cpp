@@ -1,7 +1,5 @@
 #include "tools/failure.h"
 
-#include <algorithm>
-
 namespace slf::tools {
 namespace {
 
@@ -23,16 +21,11 @@ const char* cause_of(Errc code) {
       return "larger than the decoder's limits";
     case Errc::kInvalidArgument:
       return "the file does not have that many";
+    case Errc::kCancelled:
+      return "cancelled";
     default:
       return "cannot be used";
   }
-}
-
-/// One line whatever a file name or a third-party message holds.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return text;
 }
 
 }  // namespace
@@ -40,14 +33,11 @@ std::string one_line(std::string text) {
 Failure failure_of(const InputError& error, const std::string& file) {
   const bool names_itself = file.empty() || error.code == Errc::kInvalidArgument ||
                             error.message.find(file) != std::string::npos;
-  return {exit_code_of(error.code),
-          one_line(names_itself ? error.message : file + ": " + error.message)};
+  return {exit_code_of(error.code), names_itself ? error.message : file + ": " + error.message};
 }
 
 Failure failure_of(const Error& error, const std::string& file) {
-  return {exit_code_of(error.code),
-          one_line(file + ": " + cause_of(error.code) + " (" + error.element + ", bit " +
-                   std::to_string(error.bit_offset) + ")")};
+  return {exit_code_of(error.code), file + ": " + cause_of(error.code) + " (" + where(error) + ")"};
 }
 
 std::string input_name(const std::string& file) { return file == "-" ? "standard input" : file; }

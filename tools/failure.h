@@ -11,7 +11,8 @@ namespace slf::tools {
 
 struct Failure {
   ExitCode code = kInternal;
-  std::string message;  ///< one line: file (or option) and cause; without "slf: ", no full stop
+  std::string message;  ///< file (or option) and cause; without "slf: ", no full stop. main()
+                        ///< shows it as one line that cannot steer a terminal
 };
 
 using Outcome = Result<Done, Failure>;

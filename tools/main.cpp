@@ -7,6 +7,7 @@
 #include <new>
 
 #include "tools/interrupt.h"
+#include "tools/text.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
@@ -15,7 +16,7 @@ namespace {
 constexpr const char* kNoMemory = "slf: not enough memory\n";
 
 int report(const Failure& failure) {
-  std::fprintf(stderr, "slf: %s\n", failure.message.c_str());
+  std::fprintf(stderr, "slf: %s\n", printable(failure.message).c_str());
   return failure.code;
 }
 
@@ -66,9 +67,12 @@ int run(int argc, char** argv) {
   add_decode(program, verb);
   add_render(program, verb);
   add_eval(program, verb);
+  add_export(program, verb);
   add_info(program, verb);
   add_truncate(program, verb);
+  add_html(program, verb);
   add_igc(program, verb);
+  add_settings_verb(program, verb);
   for (CLI::App* each : program.get_subcommands({})) each->footer("Exit codes: slf --help");
   try {
     program.parse(argc, argv);
@@ -93,7 +97,7 @@ int main(int argc, char** argv) {
     std::fputs(slf::tools::kNoMemory, stderr);
     return slf::tools::kLimitExceeded;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "slf: internal error: %s\n", error.what());
+    std::fprintf(stderr, "slf: internal error: %s\n", slf::tools::printable(error.what()).c_str());
     return slf::tools::kInternal;
   }
 }

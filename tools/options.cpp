@@ -1,11 +1,6 @@
 #include "tools/options.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-
-#include "slf/capture.h"
-#include "tools/text.h"
 
 namespace slf::tools {
 namespace {
@@ -70,6 +65,11 @@ void add_part(CLI::App& verb, PartOptions& options) {
           "Plane groups to decode, 1 to what the file has; 0 is all. Fewer: smoother colour")
       ->capture_default_str()
       ->check(whole_range(0, 16));
+  verb.add_option(
+          "--layers", options.layers,
+          "Quality layers to decode, 1 to what the file has; 0 is all. Fewer: a coarser quantiser")
+      ->capture_default_str()
+      ->check(whole_range(0, 4));
   verb.add_option("--max-bytes", options.max_bytes,
                   "Use only the units that end within the first BYTES; 0 is all")
       ->capture_default_str()
@@ -82,61 +82,11 @@ void add_part(CLI::App& verb, PartOptions& options) {
       ->check(range(-1e300, 1e300));
 }
 
-namespace {
-
-/// The voxel whose cell holds a coordinate; any beyond the grid for one beyond it.
-std::int32_t voxel_at(double coordinate, double origin, double step) {
-  const double voxel = std::floor((coordinate - origin) / step + 0.5);
-  return static_cast<std::int32_t>(std::clamp(voxel, -1.0, double{1 << 22}));
-}
-
-VoxelBox voxel_box(const Grid& grid, const std::vector<double>& corners) {
-  VoxelBox box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax(corners[axis], corners[axis + 3]);
-    box.low[axis] = voxel_at(low, grid.origin[axis], grid.step);
-    box.high[axis] = voxel_at(high, grid.origin[axis], grid.step);
-  }
-  return box;
-}
-
-}  // namespace
-
-Result<DecodeOptions, Failure> decode_options(const std::string& file,
-                                              const std::vector<std::uint8_t>& stream,
-                                              const PartOptions& part) {
-  DecodeOptions options;
-  options.levels = part.levels;
-  options.groups = part.groups;
-  options.max_bytes = part.max_bytes;
-  if (part.region.empty()) return options;
-  SLF_TRY(const StreamInfo info, from(input_name(file), read_info(stream)));
-  options.region = voxel_box(info.header.grid, part.region);
-  return options;
-}
-
-Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
-                                         int threads) {
-  SLF_TRY(const auto stream, from(input_name(file), read_file(file)));
-  SLF_TRY(DecodeOptions options, decode_options(file, stream, part));
-  options.threads = threads;
-  Stopwatch watch;
-  SLF_TRY(auto field, from(input_name(file), decode(stream, options)));
-  return DecodedFile{std::move(field), stream.size(), watch.lap()};
-}
-
 double Stopwatch::lap() {
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> taken = now - last_;
   last_ = now;
   return taken.count();
-}
-
-Outcome require_view_maps(const LightField& field, const std::string& file) {
-  if (field.header.has_basis && field.header.num_functions > 0) return Done{};
-  return Failure{kInputInvalid, input_name(file) +
-                                    ": holds integer planes without a basis, so it has no colours "
-                                    "(slf decode reads it)"};
 }
 
 bool parse_size(const std::string& given, int& width, int& height) {

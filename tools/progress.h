@@ -8,7 +8,12 @@
 
 namespace slf::tools {
 
-/// Draws "fit  42 %" on standard error, over itself, at most ten times a second, and wipes it when
+/// "fit 42 %", and what is left of the stage once it has run long enough to tell: "fit 42 %, 1:05
+/// left".
+/// @param seconds  since the stage began
+std::string progress_text(const std::string& stage, double fraction, double seconds);
+
+/// Draws that on standard error, over itself, at most ten times a second, and wipes it when
 /// it goes out of scope. Silent if standard error is no terminal, or if told to be.
 class ProgressLine {
  public:
@@ -28,7 +33,7 @@ class ProgressLine {
   bool active_;
   bool drawn_ = false;
   std::string stage_;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point began_{}, last_{};  // the stage; drawing
 };
 
 }  // namespace slf::tools

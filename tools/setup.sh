@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building needs; with the argument `lab` also those of the tests
-# and of the RD laboratory (tools/rd). Quick when all are there; safe to repeat. As root, or through
+# Installs the Debian packages that building needs; with the argument `web` also those that
+# web/build_wasm.sh and its tests need, with `lab` these and those of all tests and of the RD
+# laboratory (tools/rd). Quick when all are there; safe to repeat. As root, or through
 # sudo.
 set -euo pipefail
 
@@ -11,8 +12,16 @@ packages=(
   libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcli11-dev
   python3 python3-numpy
 )
+if [[ "${1:-}" == web || "${1:-}" == lab ]]; then
+  packages+=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc binaryen brotli)
+  # Any node from 18 on will do, wherever it came from.
+  command -v node >/dev/null || packages+=(nodejs)
+  command -v npm >/dev/null || packages+=(npm)
+fi
 if [[ "${1:-}" == lab ]]; then
-  packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib)
+  packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib
+    pybind11-dev python3-venv mypy doxygen dpkg-dev man-db  # python/, packages, reference, man pages
+    chromium)  # web/test/browser
 fi
 
 missing=()

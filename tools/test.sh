@@ -6,6 +6,19 @@ cd "$(dirname "$0")/.."
 
 tools/setup.sh lab
 build=${BUILD_DIR:-build}
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLF_TESTS=ON -DSLF_X265=ON -DSLF_AV1=ON "$@"
+# First the page that the program takes in for `slf html`; without it the tests of that say so.
+BUILD_DIR=$PWD/$build/wasm web/build.sh || [[ $? -eq 77 ]]
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLF_TESTS=ON -DSLF_X265=ON -DSLF_AV1=ON \
+  -DSLF_PYTHON=ON "$@"
 cmake --build "$build"
-ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+# Readers of exported files that are not ours; without them their test is skipped.
+if command -v npm >/dev/null && [[ ! -d tests/readers/node_modules ]]; then
+  npm ci --silent --no-audit --no-fund --prefix tests/readers || echo "test.sh: three.js is not there" >&2
+fi
+# A test that hangs ends after ten minutes, if it has no time of its own; none takes more than four.
+code=0
+rm -f "$build/tests.xml"
+ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" --output-junit tests.xml \
+  --test-output-size-passed 100000 || code=$?
+python3 tools/test_summary.py "$build/tests.xml"  # one line: how many passed, what was skipped and why
+exit "$code"

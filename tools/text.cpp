@@ -36,14 +36,10 @@ Outcome print(const std::string& out) {
   return Done{};
 }
 
-std::string to_text(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
 Outcome print(const nlohmann::ordered_json& json) { return print(to_text(json)); }
 
 void warn(const std::string& message, bool quiet) {
-  if (!quiet) std::fprintf(stderr, "slf: warning: %s\n", message.c_str());
+  if (!quiet) std::fprintf(stderr, "slf: warning: %s\n", printable(message).c_str());
 }
 
 void warn(const std::vector<std::string>& messages, bool quiet) {

@@ -17,9 +17,14 @@ namespace slf::tools {
 /// 1234567 -> "1,234,567".
 std::string grouped(std::uint64_t number);
 
+/// A foreign text that cannot steer a terminal: control characters (C0, DEL, C1), those that turn
+/// the direction of writing, and what is not UTF-8 become '?'.
+std::string printable(const std::string& foreign);
+
 /// To standard output, flushed; a full disk or a closed pipe is a failure.
 Outcome print(const std::string& text);
-/// Indented, with a line end. Strings that are not UTF-8 are shown with replacement characters.
+/// Indented, with a line end. Strings that are not UTF-8 are shown with replacement characters;
+/// what printable() replaces is escaped.
 Outcome print(const nlohmann::ordered_json& json);
 std::string to_text(const nlohmann::ordered_json& json);
 

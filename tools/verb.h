@@ -15,11 +15,14 @@ using Run = std::function<Outcome()>;
 
 void add_synth(CLI::App& program, Run& run);
 void add_encode(CLI::App& program, Run& run);
+void add_html(CLI::App& program, Run& run);
 void add_igc(CLI::App& program, Run& run);
+void add_settings_verb(CLI::App& program, Run& run);
 void add_pack(CLI::App& program, Run& run);
 void add_decode(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
 void add_eval(CLI::App& program, Run& run);
+void add_export(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_truncate(CLI::App& program, Run& run);
 

@@ -5,6 +5,7 @@
 #include "tools/dump.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -15,16 +16,18 @@ struct DecodeVerbOptions {
   std::string input, output, dump;
   bool planes = false;
   PartOptions part;
+  LimitOptions limits;
   CommonOptions common;
 };
 
-nlohmann::ordered_json report_json(const DecodedFile& decoded) {
+nlohmann::ordered_json report_json(const DecodedFile& decoded, std::uint64_t peak) {
   return {{"bytes", decoded.bytes},
           {"points", decoded.field.num_points()},
           {"functions", decoded.field.header.num_functions},
           {"components", decoded.field.header.num_components()},
           {"grid_bits", decoded.field.header.grid.bits},
           {"partial", decoded.field.partial},
+          {"peak_memory", peak},
           {"seconds", decoded.seconds}};
 }
 
@@ -36,11 +39,17 @@ Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "decode: --json and --output - both want standard output"};
   if (!given.output.empty()) SLF_CHECK(check_output(given.output));
-  SLF_TRY(const DecodedFile decoded, decode_file(given.input, given.part, given.common.threads));
+  SLF_TRY(const DecodedFile decoded,
+          decode_file(given.input, given.part, given.limits, given.common));
+  const auto peak = static_cast<std::uint64_t>(peak_memory_mib() * (1 << 20));
+  if (!given.output.empty() && !fits_a_cloud(decoded.field.header.grid))
+    return Failure{kInputInvalid, input_name(given.input) +
+                                      ": its points lie beyond what a PLY can hold (--dump "
+                                      "writes them)"};
   if (!given.output.empty())
     SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
   if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.planes, given.dump));
-  if (given.common.json) return print(report_json(decoded));
+  if (given.common.json) return print(report_json(decoded, peak));
   if (!given.common.quiet)
     std::fprintf(stderr, "%s points, %d functions%s, decoded in %.3f s\n",
                  grouped(decoded.field.num_points()).c_str(), decoded.field.header.num_functions,
@@ -71,6 +80,7 @@ void add_decode(CLI::App& program, Run& run) {
       "--planes", o->planes,
       "With --dump, planes.npy [P,K,3] too: those given to pack, made of the components");
   add_part(*verb, o->part);
+  add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);

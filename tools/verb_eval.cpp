@@ -11,9 +11,11 @@
 #include "slf/evaluate.h"
 #include "slf/igc.h"
 #include "tools/describe.h"
+#include "tools/eval_report.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -25,24 +27,8 @@ struct EvalOptions {
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
   std::optional<double> min_psnr, min_image_psnr;
+  LimitOptions limits;
   CommonOptions common;
-};
-
-/// One set of cameras and what was measured on it.
-struct Measured {
-  std::string name;  ///< "input", "held out"
-  std::size_t cameras = 0;
-  Quality quality;
-  std::optional<Quality> unquantised;  ///< of the light field that --unquantised names
-};
-
-/// What is judged: a decoded file and what is said about it.
-struct Subject {
-  LightField field;
-  std::uint64_t bytes = 0;
-  Metadata metadata;
-  nlohmann::ordered_json bytes_by_type, settings, decode_seconds;
-  std::string bytes_text;
 };
 
 std::string metadata_value(const Metadata& metadata, const std::string& key) {
@@ -51,126 +37,11 @@ std::string metadata_value(const Metadata& metadata, const std::string& key) {
   return {};
 }
 
-nlohmann::ordered_json picture_json(const PictureQuality& q) {
-  return {{"psnr", q.psnr}, {"ssim", q.ssim}, {"ms_ssim", q.ms_ssim}};
-}
-
-nlohmann::ordered_json region_json(const PictureRegion& r) {
-  return {{"psnr", r.psnr}, {"pixel_share", r.pixel_share}, {"error_share", r.error_share}};
-}
-
-nlohmann::ordered_json image_json(const ImageQuality& image) {
-  nlohmann::ordered_json json = picture_json(image);
-  json["coverage"] = image.coverage;
-  json["uncovered_error_share"] = image.uncovered_error_share;
-  json["outside_error_share"] = image.outside_error_share;
-  json["all"] = picture_json(image.all);
-  json["regions"] = {{"grazing", region_json(image.grazing)},
-                     {"rim", region_json(image.rim)},
-                     {"rest", region_json(image.rest)}};
-  json["psnr_each"] = image.psnr_each;
-  return json;
-}
-
-nlohmann::ordered_json gap_json(const Measured& m, bool images) {
-  const Quality &before = *m.unquantised, &after = m.quality;
-  nlohmann::ordered_json json = {{"points_unquantised", before.points[0].psnr},
-                                 {"points_quantised", after.points[0].psnr}};
-  if (!images) return json;
-  const QualityGap gap = quality_gap(before, after);
-  json["pictures_unquantised"] = before.image.psnr;
-  json["pictures_quantised"] = after.image.psnr;
-  json["error_share"] = {{"points", gap.points},
-                         {"splatting", gap.splatting},
-                         {"quantisation", gap.quantisation},
-                         {"coverage", gap.coverage}};
-  return json;
-}
-
-nlohmann::ordered_json quality_json(const Measured& m, bool images) {
-  nlohmann::ordered_json json = {{"cameras", m.cameras}};
-  for (const PointQuality& p : m.quality.points)
-    json["points"].push_back({{"delta", p.delta_degrees},
-                              {"psnr", p.psnr},
-                              {"luma_psnr", p.luma_psnr},
-                              {"channel_psnr", p.channel_psnr},
-                              {"observations", p.observations}});
-  json["image"] = nullptr;
-  if (images) json["image"] = image_json(m.quality.image);
-  json["gap"] = nullptr;
-  if (m.unquantised) json["gap"] = gap_json(m, images);
-  return json;
-}
-
-std::string image_text(const ImageQuality& image) {
-  std::string out =
-      text("  images             %6.2f dB   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
-           image.psnr, image.ssim, image.ms_ssim, 100 * image.coverage);
-  out += text("  all their pixels   %6.2f dB   SSIM %.4f, MS-SSIM %.4f\n", image.all.psnr,
-              image.all.ssim, image.all.ms_ssim);
-  const std::array<std::pair<const char*, const PictureRegion*>, 3> regions = {
-      {{"grazing", &image.grazing}, {"rim", &image.rim}, {"rest", &image.rest}}};
-  for (const auto& [name, r] : regions)
-    out += text("    %-16s %6.2f dB   %5.1f %% of the pixels, %5.1f %% of the squared error\n",
-                name, r->psnr, 100 * r->pixel_share, 100 * r->error_share);
-  out += text("    not covered                  %5.1f %% of the squared error on the object\n",
-              100 * image.uncovered_error_share);
-  return out;
-}
-
-std::string gap_text(const Measured& m, bool images) {
-  const Quality &before = *m.unquantised, &after = m.quality;
-  std::string out = "  gap            unquantised    coded\n";
-  out +=
-      text("    points          %6.2f dB %6.2f dB\n", before.points[0].psnr, after.points[0].psnr);
-  if (!images) return out;
-  const QualityGap gap = quality_gap(before, after);
-  out += text("    images          %6.2f dB %6.2f dB\n", before.image.psnr, after.image.psnr);
-  out += text(
-      "    squared error on the object: points %.1f %%, splatting %.1f %%, quantisation "
-      "%.1f %%, coverage %.1f %%\n",
-      100 * gap.points, 100 * gap.splatting, 100 * gap.quantisation, 100 * gap.coverage);
-  return out;
-}
-
-std::string quality_text(const Measured& m, bool images) {
-  std::string out = text("%s, %zu cameras\n", m.name.c_str(), m.cameras);
-  for (const PointQuality& p : m.quality.points)
-    out +=
-        text("  points, delta %-4g %6.2f dB   luma %.2f, R %.2f, G %.2f, B %.2f\n", p.delta_degrees,
-             p.psnr, p.luma_psnr, p.channel_psnr[0], p.channel_psnr[1], p.channel_psnr[2]);
-  if (images) out += image_text(m.quality.image);
-  if (m.unquantised) out += gap_text(m, images);
-  return out;
-}
-
-nlohmann::ordered_json report_json(const EvalOptions& given, const Subject& subject,
-                                   const std::vector<Measured>& measured, double seconds) {
-  const bool images = given.settings.images;
-  nlohmann::ordered_json json;
-  json["bytes"] = subject.bytes;
-  json["points"] = subject.field.num_points();
-  json["bits_per_point"] = bits_per_point(subject.bytes, subject.field.num_points());
-  json["bytes_by_type"] = subject.bytes_by_type;
-  json["settings"] = subject.settings;
-  json["decode"] = subject.decode_seconds;
-  json["render"] = nullptr;
-  if (images) json["render"] = {{"seconds_per_image", measured[0].quality.render_seconds}};
-  for (const Measured& m : measured)
-    json[m.name == "input" ? "input" : "held_out"] = quality_json(m, images);
-  json["seconds"] = seconds;
-  return json;
-}
-
 Outcome report(const EvalOptions& given, const Subject& subject,
                const std::vector<Measured>& measured, double seconds) {
-  if (given.common.json) return print(report_json(given, subject, measured, seconds));
-  const std::size_t points = subject.field.num_points();
-  std::string out = text("%s: %s bytes, %s points, %.2f bits per point\n\n",
-                         input_name(given.input).c_str(), grouped(subject.bytes).c_str(),
-                         grouped(points).c_str(), bits_per_point(subject.bytes, points));
-  for (const Measured& m : measured) out += quality_text(m, given.settings.images);
-  return print(out + "\n" + subject.bytes_text);
+  const bool images = given.settings.images;
+  if (given.common.json) return print(eval_json(subject, measured, images, seconds));
+  return print(eval_text(input_name(given.input), subject, measured, images));
 }
 
 /// The floors of --min-psnr and --min-image-psnr, on the held-out cameras, else on the input.
@@ -197,32 +68,34 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
 }
 
 Result<Subject, Failure> decode_slf(const EvalOptions& given, const std::string& input,
-                                    std::span<const std::uint8_t> stream) {
-  const std::string name = input_name(input);
-  SLF_TRY(StreamInfo info, from(name, read_info(stream)));
+                                    std::vector<std::uint8_t> bytes) {
+  SLF_TRY(const StreamFile stream,
+          open_stream(input, std::move(bytes), given.limits, given.common));
+  const StreamInfo& info = stream.info;
   DecodeSeconds seconds;
-  DecodeOptions options;
-  options.threads = given.common.threads;
+  DecodeOptions options = decode_options(info, {}, given.limits, given.common);
   options.seconds = &seconds;
   Stopwatch watch;
-  SLF_TRY(LightField field, from(name, decode(stream, options)));
+  auto field = decode(stream.bytes, options);
+  if (!field) return decode_failure(input, field.error(), info, options);
   const nlohmann::ordered_json decode_seconds = {{"threads", given.common.threads},
                                                  {"geometry", seconds.geometry},
                                                  {"coefficients", seconds.coefficients},
                                                  {"total", watch.lap()}};
-  return Subject{std::move(field),
-                 stream.size(),
+  return Subject{*std::move(field),
+                 stream.bytes.size(),
                  info.metadata,
                  bytes_by_type_json(info),
                  settings_json(info),
                  decode_seconds,
-                 bytes_by_type_text(info, stream.size())};
+                 bytes_by_type_text(info, stream.bytes.size())};
 }
 
 Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const std::string& input,
                                          const Capture& capture,
                                          std::span<const std::uint8_t> stream) {
   IgcDecodeOptions options;
+  options.limits = given.limits.limits;
   options.estimate_normals = given.estimate_normals;
   options.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
@@ -253,9 +126,9 @@ Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const std::st
 /// Either kind of file, with view maps.
 Result<Subject, Failure> decode_subject(const EvalOptions& given, const std::string& input,
                                         const Capture& capture) {
-  SLF_TRY(const auto stream, from(input_name(input), read_file(input)));
+  SLF_TRY(auto stream, read_input(input, given.limits));
   SLF_TRY(Subject subject, is_igc(stream) ? decode_igc_file(given, input, capture, stream)
-                                          : decode_slf(given, input, stream));
+                                          : decode_slf(given, input, std::move(stream)));
   SLF_CHECK(require_view_maps(subject.field, input));
   return subject;
 }
@@ -376,6 +249,7 @@ void add_eval(CLI::App& program, Run& run) {
                    "The same of the image PSNR, where both show the object; dB")
       ->check(range(0, 1000))
       ->excludes(no_images);
+  add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);

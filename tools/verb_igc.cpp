@@ -99,7 +99,7 @@ void add_igc(CLI::App& program, Run& run) {
       "igc", "Image-plus-geometry coding, to compare with: photographs by a video codec");
   auto o = std::make_shared<IgcOptions>();
   o->encode.verb = "igc";
-  add_view_map_options(*verb, o->encode, ".igc");
+  add_igc_options(*verb, o->encode);
   const auto images = [](CLI::Option* option) { option->group("Images (paper IV-F)"); };
   images(add_igc_codec_choice(*verb, o->igc.codec));
   images(verb->add_option("--qp", o->igc.qp, "HEVC: QP, 0 to 51; AV1: quality level, 0 to 63")

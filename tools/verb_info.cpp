@@ -2,9 +2,9 @@
 #include <map>
 #include <memory>
 
-#include "slf/capture.h"
 #include "tools/describe.h"
-#include "tools/options.h"
+#include "tools/info_syntax.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -13,7 +13,8 @@ namespace {
 
 struct InfoOptions {
   std::string input;
-  bool units = false;
+  bool units = false, syntax = false;
+  LimitOptions limits;
   CommonOptions common;
 };
 
@@ -25,6 +26,7 @@ nlohmann::ordered_json units_json(const StreamInfo& info) {
     if (unit.base) entry["base"] = true;
     if (unit.slice >= 0) entry["slice"] = unit.slice;
     if (unit.group >= 0) entry["group"] = unit.group;
+    if (unit.layer > 0) entry["layer"] = unit.layer;
     if (unit.level_first >= 0) entry["levels"] = {unit.level_first, unit.level_last};
     if (!unit.prediction.empty()) entry["prediction"] = unit.prediction;
     list.push_back(std::move(entry));
@@ -47,10 +49,8 @@ nlohmann::ordered_json base_json(const StreamInfo& info) {
   std::uint64_t cells = 0, bytes = 0;
   for (const SliceInfo& slice : info.slices) cells += slice.cells;
   for (const UnitInfo& unit : info.units) bytes += unit.base ? unit.bytes : 0;
-  return {{"levels", info.base_levels},
-          {"cells", info.base_levels > 0 ? cells : 0},
-          {"weight", info.base_weight},
-          {"bytes", bytes}};
+  return {
+      {"levels", info.base_levels}, {"cells", info.base_levels > 0 ? cells : 0}, {"bytes", bytes}};
 }
 
 nlohmann::ordered_json transforms_json(const StreamInfo& info) {
@@ -64,27 +64,50 @@ nlohmann::ordered_json transforms_json(const StreamInfo& info) {
   return list;
 }
 
-nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes) {
+/// What decoding the whole file takes, the file itself included.
+DecodeCost cost_with_file(const StreamInfo& info, std::uint64_t bytes, int threads) {
+  DecodeCost cost = decode_cost(info, threads);
+  cost.memory += bytes;
+  cost.memory_most += bytes;
+  return cost;
+}
+
+nlohmann::ordered_json cost_json(const DecodeCost& cost) {
+  return {{"memory", cost.memory}, {"memory_most", cost.memory_most}, {"work", cost.work}};
+}
+
+std::string cost_text(const DecodeCost& cost) {
+  return text("  decoding      takes %s MiB of memory, %s at most; %s steps at most\n",
+              grouped(cost.memory >> 20).c_str(), grouped(cost.memory_most >> 20).c_str(),
+              grouped(cost.work).c_str());
+}
+
+nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes, int threads) {
   nlohmann::ordered_json json;
   json["bytes"] = bytes;
   json["version"] = {info.version_major, info.version_minor};
   json["profile"] = info.profile;
   json["level"] = info.level;
   json["complete"] = info.complete;
+  json["partial"] = is_partial(info);
+  json["decode"] = cost_json(cost_with_file(info, bytes, threads));
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["shared_states"] = info.shared_states;
   json["base"] = base_json(info);
   json["slice"] = slices_json(info);
   if (info.cut)
-    json["cut"] = {
-        {"levels", info.cut->levels}, {"groups", info.cut->groups}, {"slices", info.cut->slices}};
+    json["cut"] = {{"levels", info.cut->levels},
+                   {"groups", info.cut->groups},
+                   {"layers", info.cut->layers},
+                   {"slices", info.cut->slices}};
   json["bits_per_point"] = bits_per_point(bytes, info.num_points);
   json["geometry_coder"] = info.geometry_coder;
   json["coefficient_coder"] = info.coefficient_coder;
   json["header"] = header_json(info.header);
   json["groups"] = info.num_groups;
   json["group"] = info.group;
+  json["layers"] = info.layers;
   json["step"] = info.step;
   json["transforms"] = transforms_json(info);
   json["bytes_by_type"] = bytes_by_type_json(info);
@@ -101,6 +124,7 @@ std::string units_text(const StreamInfo& info) {
     if (unit.base) out += "  base";
     if (unit.slice >= 0) out += text("  slice %d", unit.slice);
     if (unit.group >= 0) out += text("  group %d", unit.group);
+    if (unit.layer > 0) out += text("  layer %d", unit.layer);
     if (unit.level_first >= 0) out += text("  levels %d to %d", unit.level_first, unit.level_last);
     for (std::size_t i = 0; i < unit.prediction.size(); ++i)
       out += text(i == 0 ? "  prediction %d" : " %d", unit.prediction[i]);
@@ -127,23 +151,26 @@ std::string groups_text(const StreamInfo& info) {
     std::uint64_t bytes = 0;
     for (const UnitInfo& unit : info.units)
       if (unit.group == g) bytes += unit.bytes;
-    out += text("  group %-3d %5d functions, steps %u to %u, %s bytes\n", g,
-                static_cast<int>(members), low, high, grouped(bytes).c_str());
+    const int layers = info.layers[static_cast<std::size_t>(g)];
+    out += text("  group %-3d %5d functions, steps %u to %u, %s%s bytes\n", g,
+                static_cast<int>(members), low, high,
+                layers > 1 ? text("%d layers, ", layers).c_str() : "", grouped(bytes).c_str());
   }
   return out;
 }
 
 std::string cut_text(const CutInfo& cut) {
-  return text("  cut           to %d levels, %s groups%s\n", cut.levels,
+  return text("  cut           to %d levels, %s groups%s%s\n", cut.levels,
               cut.groups > 0 ? std::to_string(cut.groups).c_str() : "all",
+              cut.layers > 0 ? text(", %d layers", cut.layers).c_str() : "",
               cut.slices ? ", some of the slices" : "");
 }
 
 std::string base_text(const StreamInfo& info) {
   const auto base = base_json(info);
-  return text("  base          %d levels, %s cells of weight %u, %s bytes; slices %s\n",
-              info.base_levels, grouped(base["cells"].get<std::uint64_t>()).c_str(),
-              info.base_weight, grouped(base["bytes"].get<std::uint64_t>()).c_str(),
+  return text("  base          %d levels, %s cells, %s bytes; slices %s\n", info.base_levels,
+              grouped(base["cells"].get<std::uint64_t>()).c_str(),
+              grouped(base["bytes"].get<std::uint64_t>()).c_str(),
               info.shared_states ? "after the first" : "each alone");
 }
 
@@ -162,8 +189,8 @@ std::string slices_text(const StreamInfo& info) {
 }
 
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t bytes,
-                      bool units) {
-  std::string out = input_name(file) + ": " + grouped(bytes) + " bytes, .slf version " +
+                      bool units, int threads) {
+  std::string out = printable(input_name(file)) + ": " + grouped(bytes) + " bytes, .slf version " +
                     text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
                          info.profile, info.level) +
                     (info.complete ? "\n" : ", CUT SHORT (no end unit)\n");
@@ -172,6 +199,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
               info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
   if (info.base_levels > 0) out += base_text(info);
   if (info.cut) out += cut_text(*info.cut);
+  out += cost_text(cost_with_file(info, bytes, threads));
   out += header_text(info.header);
   out += text("  coders        %s geometry", info.geometry_coder.c_str());
   out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";
@@ -188,15 +216,16 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
   if (units) out += units_text(info);
   if (!info.metadata.empty()) out += "\nmetadata\n";
   for (const auto& [key, value] : info.metadata)
-    out += text("  %-20s %s\n", key.c_str(), printable(value).c_str());
+    out += text("  %-20s %s\n", printable(key).c_str(), printable(value).c_str());
   return out;
 }
 
 Outcome run_info(const InfoOptions& given) {
-  SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
-  SLF_TRY(const StreamInfo info, from(input_name(given.input), read_info(stream)));
-  if (given.common.json) return print(info_json(info, stream.size()));
-  return print(info_text(info, given.input, stream.size(), given.units));
+  SLF_TRY(const StreamFile file, read_stream(given.input, given.limits, given.common));
+  if (given.syntax) return print_syntax(file.bytes, given.input, given.common.json);
+  const int threads = given.common.threads;
+  if (given.common.json) return print(info_json(file.info, file.bytes.size(), threads));
+  return print(info_text(file.info, given.input, file.bytes.size(), given.units, threads));
 }
 
 }  // namespace
@@ -209,6 +238,13 @@ void add_info(CLI::App& program, Run& run) {
       ->type_name("")
       ->required();
   verb->add_flag("--units", o->units, "List every unit (JSON always does)");
+  verb->add_flag("--syntax", o->syntax,
+                 "Print every element of the headers with its byte and bit, coding and value");
+  add_limits(*verb, o->limits);
+  add_threads(*verb, o->common);
+  verb->get_option("--threads")->description("Threads of the decoding whose memory is told");
+  add_quiet(*verb, o->common);
+  verb->get_option("--quiet")->description("No warnings");
   add_json(*verb, o->common);
   verb->callback([&run, o] { run = [o] { return run_info(*o); }; });
 }

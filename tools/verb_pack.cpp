@@ -4,32 +4,31 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <set>
 
 #include "slf/encoder.h"
-#include "tools/choices.h"
 #include "tools/describe.h"
 #include "tools/npy.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/setting_options.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
 namespace {
 
+/// The settings of slf encode that code given integers.
+const std::set<std::string> kCoding = {"geometry", "coefficients",   "klt",         "predict",
+                                       "rdo",      "quality-layers", "base-levels", "slice-points"};
+
 struct PackOptions {
   std::string positions, components, output, steps, groups;
   int grid_bits = 0;
-  std::uint32_t step = 1, slice_points = kDefaultSlicePoints;
-  int base_levels = kAutomaticBase;
+  std::uint32_t step = 1;
   bool independent_slices = false;
-  GeometryCoder geometry = GeometryCoder::kOctree;
-  CoefficientCoder coefficients = CoefficientCoder::kVector;
-  TextureSettings texture;
-  TransformMode klt = TransformMode::kNone;
+  GivenSettings coding;  ///< those of slf encode that code given integers
   std::vector<int> levels;
-  bool predict = CodingParameters{}.predict;
-  double rdo = CodingParameters{}.rdo;
   bool index = false, no_index = false, no_digest = false;
   CommonOptions common;
 };
@@ -128,23 +127,35 @@ int bits_of(const std::vector<Voxel>& positions) {
   return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(largest)));
 }
 
+/// Without a transform, unless one is asked for.
+Result<EncoderSettings, Failure> coding_settings(const PackOptions& given) {
+  GivenSettings all = given.coding;
+  if (std::none_of(all.begin(), all.end(), [](const auto& s) { return s.first == "klt"; }))
+    all.emplace_back("klt", "off");
+  auto settings = settings_from(all);
+  if (!settings) return Failure{kUsage, "pack: " + settings.error().message};
+  return *std::move(settings);
+}
+
 Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
                                                     const LightField& field) {
   const auto functions = static_cast<std::size_t>(field.header.num_functions);
   CodingParameters parameters;
-  parameters.geometry = given.geometry;
-  parameters.coefficients = given.coefficients;
-  parameters.texture = given.texture;
-  parameters.predict = given.predict;
-  parameters.rdo = given.rdo;
-  parameters.transform = given.klt;
+  SLF_TRY(const EncoderSettings coding, coding_settings(given));
+  parameters.geometry = coding.geometry;
+  parameters.coefficients = coding.coefficients;
+  parameters.texture = coding.texture;
+  parameters.predict = coding.predict;
+  parameters.rdo = coding.rdo;
+  parameters.quality_layers = coding.quality_layers;
+  parameters.transform = coding.transform;
+  parameters.base_levels = coding.base_levels;
+  parameters.max_slice_points = coding.max_slice_points;
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
-  if (given.coefficients != CoefficientCoder::kTexture)
+  if (coding.coefficients != CoefficientCoder::kTexture)
     parameters.coefficient_level_ends = given.levels;
-  if (given.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
-  parameters.base_levels = given.base_levels;
-  parameters.max_slice_points = given.slice_points;
+  if (coding.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
   parameters.share_states = !given.independent_slices;
   parameters.digest = !given.no_digest;
   parameters.index = given.index || (functions > 0 && !given.no_index);
@@ -226,19 +237,15 @@ void add_pack(CLI::App& program, Run& run) {
   verb->add_option("--groups", o->groups,
                    "Plane group of each function, .npy [K], 0 to 15, none empty")
       ->type_name("FILE");
-  add_geometry_choice(*verb, o->geometry);
-  add_coefficients_choice(*verb, o->coefficients);
-  add_klt_choice(*verb, o->klt);
-  add_texture_options(*verb, o->texture);
-  add_predict_choice(*verb, o->predict);
-  add_rdo(*verb, o->rdo);
+  add_settings(*verb, o->coding, [](const SettingInfo& setting) {
+    return setting.group.starts_with("Texture") || kCoding.contains(setting.name);
+  });
+  verb->get_option("--klt")->default_str("off");
   verb->add_option(
           "--levels", o->levels,
           "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")
       ->delimiter(',')
       ->check(whole_range(1, 21));
-  add_base_levels(*verb, o->base_levels);
-  add_slice_points(*verb, o->slice_points);
   verb->add_flag("--independent-slices", o->independent_slices,
                  "Slices do not start from what the first has learnt: larger, each decodes alone");
   auto* index =

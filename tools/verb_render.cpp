@@ -10,6 +10,7 @@
 #include "tools/mosaic.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -22,6 +23,7 @@ struct RenderOptions {
   double azimuth = 0, elevation = 20, fov = 30, radius = 0;
   bool sheet = false, pair = false, transparent = false, diffuse_only = false;
   PartOptions part;
+  LimitOptions limits;
   CommonOptions common;
 };
 
@@ -152,7 +154,7 @@ Rendered render_views(const RenderOptions& given, const Renderer& renderer,
 }
 
 Outcome report(const RenderOptions& given, const std::vector<View>& views, const Rendered& rendered,
-               double prepare) {
+               double prepare, bool partial) {
   auto list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
@@ -162,11 +164,12 @@ Outcome report(const RenderOptions& given, const std::vector<View>& views, const
                     {"seconds", rendered.seconds[i]}});
     if (!given.common.quiet && !given.common.json)
       std::fprintf(stderr, "%s: %s, %d x %d, %.3f s\n", output_name(view.file).c_str(),
-                   view.camera.name.c_str(), view.camera.width, view.camera.height,
+                   printable(view.camera.name).c_str(), view.camera.width, view.camera.height,
                    rendered.seconds[i]);
   }
   if (!given.common.json) return Done{};
-  return print(nlohmann::ordered_json{{"seconds_prepare", prepare}, {"images", list}});
+  return print(
+      nlohmann::ordered_json{{"seconds_prepare", prepare}, {"partial", partial}, {"images", list}});
 }
 
 /// The photograph of the view, on the background and of the view's size.
@@ -196,7 +199,8 @@ Outcome run_render(const RenderOptions& given) {
     SLF_TRY(Camera camera, read_camera(given.camera));
     views.push_back(camera_view(given, std::move(camera)));
   }
-  SLF_TRY(const DecodedFile decoded, decode_file(given.input, given.part, given.common.threads));
+  SLF_TRY(const DecodedFile decoded,
+          decode_file(given.input, given.part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
   Stopwatch watch;
   const ViewMaps maps(decoded.field, given.common.threads);
@@ -217,7 +221,7 @@ Outcome run_render(const RenderOptions& given) {
     for (std::size_t i = 0; i < views.size(); ++i)
       SLF_CHECK(save(views[i].file, rendered.images[i]));
   }
-  return report(given, views, rendered, prepare);
+  return report(given, views, rendered, prepare, decoded.field.partial);
 }
 
 void add_view_options(CLI::App& verb, RenderOptions& o) {
@@ -277,6 +281,7 @@ void add_render(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 1000));
   add_part(*verb, o->part);
+  add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);

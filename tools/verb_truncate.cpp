@@ -1,10 +1,10 @@
 // slf truncate: a file with less in it, its units kept or left out as they are.
 #include <memory>
 
-#include "slf/capture.h"
 #include "slf/truncate.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -14,6 +14,7 @@ namespace {
 struct TruncateOptions {
   std::string input, output;
   PartOptions part;
+  LimitOptions limits;
   CommonOptions common;
 };
 
@@ -21,15 +22,18 @@ Outcome run_truncate(const TruncateOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "truncate: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output));
-  SLF_TRY(const auto stream, from(input_name(given.input), read_file(given.input)));
-  SLF_TRY(const DecodeOptions options, decode_options(given.input, stream, given.part));
-  SLF_TRY(const auto cut, from(input_name(given.input), truncate(stream, options)));
-  SLF_CHECK(save(given.output, cut.data(), cut.size()));
+  SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
+  const DecodeOptions options = decode_options(stream.info, given.part, given.limits, given.common);
+  const auto cut = truncate(stream.bytes, options);
+  if (!cut) return decode_failure(given.input, cut.error(), stream.info, options);
+  SLF_CHECK(save(given.output, cut->data(), cut->size()));
   if (given.common.json)
-    return print(nlohmann::ordered_json{{"bytes_before", stream.size()}, {"bytes", cut.size()}});
+    return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},
+                                        {"bytes", cut->size()},
+                                        {"partial", is_partial(stream.info)}});
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s of %s bytes\n", grouped(cut.size()).c_str(),
-                 grouped(stream.size()).c_str());
+    std::fprintf(stderr, "%s of %s bytes\n", grouped(cut->size()).c_str(),
+                 grouped(stream.bytes.size()).c_str());
   return Done{};
 }
 
@@ -37,7 +41,8 @@ Outcome run_truncate(const TruncateOptions& given) {
 
 void add_truncate(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand(
-      "truncate", "Leave out levels, groups, slices or the end of a file, without coding it again");
+      "truncate",
+      "Leave out levels, groups, layers, slices or the end of a file, without coding it again");
   auto o = std::make_shared<TruncateOptions>();
   verb->add_option("FILE", o->input, "The .slf file; - is standard input")
       ->type_name("")
@@ -48,11 +53,13 @@ void add_truncate(CLI::App& program, Run& run) {
   add_part(*verb, o->part);
   verb->get_option("--levels")->description("Octree levels to keep; 0 is all");
   verb->get_option("--groups")->description("Plane groups to keep; 0 is all");
+  verb->get_option("--layers")->description("Quality layers to keep; 0 is all");
   verb->get_option("--max-bytes")
       ->description("Bytes of the new file at most: units are dropped from the end; 0 is any");
   verb->get_option("--region")
       ->description(
           "Keep only slices that meet a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world units");
+  add_limits(*verb, o->limits);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
   verb->callback([&run, o] { run = [o] { return run_truncate(*o); }; });

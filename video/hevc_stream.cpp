@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/error_place.h"
 #include "bitstream/bit_reader.h"
 
 namespace slf {
@@ -57,15 +58,15 @@ std::vector<std::uint8_t> raw_payload(Bytes unit) {
 void skip_profile_tier_level(BitReader& in, int sub_layers_minus1) {
   constexpr int kProfileBits = 88, kLevelBits = 8;
   const auto skip = [&in](int bits) {
-    for (; bits > 0; bits -= 8) in.u(8, "hevc_profile_tier_level");
+    for (; bits > 0; bits -= 8) in.u(8, "profile_tier_level");
   };
   skip(kProfileBits + kLevelBits);
   std::array<int, 8> present{};  // bits of each sub-layer
   for (std::size_t i = 0; i < static_cast<std::size_t>(sub_layers_minus1); ++i) {
-    if (in.u(1, "hevc_profile_tier_level") != 0) present[i] += kProfileBits;
-    if (in.u(1, "hevc_profile_tier_level") != 0) present[i] += kLevelBits;
+    if (in.u(1, "profile_tier_level") != 0) present[i] += kProfileBits;
+    if (in.u(1, "profile_tier_level") != 0) present[i] += kLevelBits;
   }
-  if (sub_layers_minus1 > 0) in.u((8 - sub_layers_minus1) * 2, "hevc_profile_tier_level");
+  if (sub_layers_minus1 > 0) in.u((8 - sub_layers_minus1) * 2, "profile_tier_level");
   for (const int bits : present) skip(bits);
 }
 
@@ -141,7 +142,8 @@ Result<Done> check_sps(Bytes unit, const HevcFormat& expected) {
   in.u(1, "amp_enabled_flag");
   in.u(1, "sample_adaptive_offset_enabled_flag");
   expect(in, in.u(1, "pcm_enabled_flag"), 0, "pcm_enabled_flag");
-  if (!in.ok()) return in.error();
+  // Of the NAL unit as a whole: bytes left out of it would have to be counted.
+  if (!in.ok()) return Error{in.error().code, in.error().element};
   return Done{};
 }
 
@@ -189,9 +191,7 @@ Result<std::vector<Bytes>> split_hevc(Bytes stream, const HevcFormat& expected) 
     at = start_code(stream, begin);
     Bytes unit = stream.subspan(begin, at - begin);
     while (!unit.empty() && unit.back() == 0) unit = unit.first(unit.size() - 1);  // B.1
-    if (const auto checked = check_unit(unit, expected, counts); !checked)
-      return Error{checked.error().code, checked.error().element,
-                   begin * 8 + checked.error().bit_offset};
+    SLF_CHECK(counted_from(8 * begin, check_unit(unit, expected, counts)));
     if (!is_skipped(unit_type(unit))) units.push_back(unit);
   }
   return units;

@@ -79,10 +79,16 @@ struct Capture {
   std::vector<std::string> warnings;  ///< one line each, for the person to read
 };
 
+/// Two corners of a box, in world units.
+struct WorldBox {
+  Vec3 low{0, 0, 0}, high{0, 0, 0};
+};
+
 /// What load_capture looks for, all optional.
 struct CaptureOptions {
   std::filesystem::path points;  ///< the cloud or mesh, where it is not the capture's own
   bool check_images = true;      ///< open every image and compare its size with the calibration
+  std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,10 +30,15 @@ struct DecodeOptions {
   int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
                    ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
+  int layers = 0;  ///< quality layers to decode, 1 .. those of the group that has most; 0: all.
+                   ///< Values that are not refined to the end stand for what they may be
   std::uint64_t max_bytes = 0;       ///< use only units that end within the first max_bytes; 0: all
   std::optional<VoxelBox> region;    ///< only points whose voxel, of the levels asked for, meets it
   int threads = 1;                   ///< 0: all cores. The result does not depend on it
   DecodeSeconds* seconds = nullptr;  ///< filled where given
+  /// Called before every unit, by one thread at a time, which need not be the caller's: 0 .. 1 of
+  /// the bytes to decode. False ends the decode with kCancelled.
+  std::function<bool(double fraction)> progress = {};
 };
 
 /// Decodes one SLF sequence held in memory.
@@ -42,7 +48,8 @@ struct DecodeOptions {
 ///         light field marked partial; any other damage gives nothing.
 /// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kReserved: damaged or foreign.
 ///         kUnsupported: newer major version, unknown profile. kLimitExceeded: larger than the
-///         limits. kInvalidArgument: levels or groups beyond what the stream has.
+///         limits, by its headers. kInvalidArgument: levels, groups or layers beyond what it has.
+///         kCancelled.
 /// @throws std::bad_alloc only. Thread-safe: no shared state. O(P * K) time and memory.
 /// Source: spec clause 8.
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options = {});
@@ -53,6 +60,7 @@ struct UnitInfo {
   std::uint64_t offset = 0;  ///< of its first byte in the stream
   std::uint64_t bytes = 0;   ///< with its header and CRC
   int slice = -1, group = -1, level_first = -1, level_last = -1;  ///< -1: does not apply
+  int layer = -1;               ///< 0: coefficients, 1 .. 3: refinements
   bool base = false;            ///< geometry and coefficients of all slices together
   std::vector<int> prediction;  ///< coefficients: of each level, 0 .. 3; empty: the stream has none
 };
@@ -74,8 +82,8 @@ struct SliceInfo {
 
 /// What was left out of a stream on purpose (slf truncate).
 struct CutInfo {
-  int levels = 0, groups = 0;  ///< that are left; groups 0: all
-  bool slices = false;         ///< slices were left out
+  int levels = 0, groups = 0, layers = 0;  ///< that are left; groups, layers 0: all
+  bool slices = false;                     ///< slices were left out
 };
 
 struct StreamInfo {
@@ -83,19 +91,21 @@ struct StreamInfo {
   LightFieldHeader header;
   std::uint64_t num_points = 0;  ///< as the slices unit says
   std::uint64_t num_slices = 0;
-  int base_levels = 0;            ///< the coarsest levels, coded once for all slices; 0: one slice
-  std::uint32_t base_weight = 0;  ///< points that a cell counts as, where there is a base
-  bool shared_states = false;     ///< slices are coded after the first, not alone
+  int base_levels = 0;         ///< the coarsest levels, coded once for all slices; 0: one slice
+  bool shared_states = false;  ///< slices are coded after the first, not alone
   std::vector<SliceInfo> slices;
   std::optional<CutInfo> cut;
   int num_groups = 0;
   std::vector<int> group;  ///< [K]
   std::vector<std::array<std::uint32_t, 3>>
-      step;  ///< [K][3] quantiser steps, integer component units
+      step;                 ///< [K][3] quantiser steps, integer component units
+  std::vector<int> layers;  ///< [groups] 1 .. 4
   std::vector<TransformInfo> transforms;
   std::string geometry_coder;     ///< "octree" or "draco"
   std::string coefficient_coder;  ///< "vector", "independent" or "texture"
   int texture_bits = 0;           ///< of a sample; 0: no texture
+  bool prediction = false;        ///< levels may be predicted (8.7.6)
+  int normal_bits = 0;            ///< of a coordinate of coded normals; 0: none
   Metadata metadata;
   std::vector<UnitInfo> units;
   bool complete = false;  ///< the end unit is there
@@ -103,5 +113,21 @@ struct StreamInfo {
 
 /// Reads headers and walks the units without decoding geometry or coefficients. Errors as decode.
 Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeLimits& limits = {});
+
+/// What decode() of a whole stream takes, as its headers tell: before any of it is allocated.
+struct DecodeCost {
+  /// Bytes at a time, the light field included, the stream itself not. Of scenes like those of
+  /// docs/limits.md within 10 %; a hostile stream may need up to memory_most.
+  std::uint64_t memory = 0;
+  std::uint64_t memory_most = 0;  ///< what no stream with these headers exceeds
+  std::uint64_t work = 0;         ///< steps as DecodeLimits::max_work counts them, at most
+};
+
+/// @param threads  as in DecodeOptions: more slices are in flight on more of them; 0: all cores
+/// O(slices).
+DecodeCost decode_cost(const StreamInfo& info, int threads = 1);
+
+/// DecodeCost::memory: what `slf info` calls memory.
+std::uint64_t decode_memory(const StreamInfo& info, int threads = 1);
 
 }  // namespace slf

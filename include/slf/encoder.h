@@ -44,7 +44,7 @@ struct TextureSettings {
   bool lossless = false;             ///< the pictures, not the rounding to samples; qp is not used
 };
 
-/// CodingParameters::base_levels: about 24 points in a cell, no base for a few points.
+/// CodingParameters::base_levels: 24 points or more in a cell, no base for a few points.
 inline constexpr int kAutomaticBase = -1;
 inline constexpr std::uint32_t kDefaultSlicePoints = 1u << 17;
 inline constexpr std::uint32_t kMostSlicePoints = 1u << 22;
@@ -64,14 +64,18 @@ struct CodingParameters {
       coefficient_level_ends;  ///< ascending octree levels at which coefficient units end;
                                ///< the last is the grid's bits. Empty: one unit per group
   std::vector<int> geometry_level_ends;  ///< the same for geometry units
-  bool predict = true;      ///< coarser levels predict finer ones where that pays. Spec 8.7.6
-  double rdo = 0;           ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
-  TextureSettings texture;  ///< where coefficients is kTexture
+  bool predict = true;  ///< coarser levels predict finer ones where that pays. Spec 8.7.6
+  double rdo = 0;       ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
+  /// 1 .. 4, of the vector coder alone where above 1: values come bit by bit, each layer at half of
+  /// the step of the one before, the last at `step`. So quality is a cut of the file, too
+  int quality_layers = 1;
+  std::vector<int> group_layers;  ///< [groups] in place of quality_layers; empty: all alike
+  TextureSettings texture;        ///< where coefficients is kTexture
   /// Octree levels that are coded once for all slices; 0: none, and one slice. They end a unit of
   /// either kind, whatever the level ends above
   int base_levels = kAutomaticBase;
-  std::uint32_t base_weight =
-      0;  ///< points that a cell of the base counts as; 0: their mean number
+  std::uint32_t base_weight = 0;  ///< points that each cell of the base counts as, to a power of
+                                  ///< two; 0: those that it has
   /// There are as many slices as give this many points each, about. One with Draco or a texture
   std::uint32_t max_slice_points = kDefaultSlicePoints;
   bool share_states = true;  ///< slices start from what the first has learnt: smaller, and the
@@ -116,6 +120,7 @@ struct EncoderSettings {
   TextureSettings texture;  ///< where coefficients is kTexture: its qp takes the place of q
   bool predict = true;      ///< CodingParameters
   double rdo = 0;           ///< CodingParameters
+  int quality_layers = 1;   ///< CodingParameters
   int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
   int base_levels = kAutomaticBase;                      ///< CodingParameters
   std::uint32_t max_slice_points = kDefaultSlicePoints;  ///< CodingParameters
@@ -123,11 +128,11 @@ struct EncoderSettings {
   int threads = 0;
 };
 
-inline constexpr int kDefaultEffort = 7;
+inline constexpr int kDefaultEffort = 7, kMostEffort = 8;
 
 /// The settings of a preset. kPaper is the configuration of the paper as written (spec annex C).
-/// @param effort  1 .. 9, of kDefault alone: time of the encoder for bytes at equal quality. 7 is
-///                what the members above start with. Measured: docs/rate.md
+/// @param effort  1 .. kMostEffort, of kDefault alone: time of the encoder for bytes at equal
+///                quality. 7 is what the members above start with. Measured: docs/rate.md
 EncoderSettings settings_of(Preset preset, int effort = kDefaultEffort);
 
 struct Encoded {

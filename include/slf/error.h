@@ -22,18 +22,21 @@ enum class Errc : std::uint8_t {
   kUnreadable,       ///< a file is missing or cannot be read
   kInvalidInput,     ///< a file was read and its content cannot be used
   kUnwritable,       ///< an output could not be written; what was there before is untouched
+  kCancelled,        ///< the caller's progress function said so
 };
 
 /// The spelling of the code, as conformance manifests have it ("kOutOfRange").
 const char* to_string(Errc code);
 
-/// An error of a bitstream. `element` is the name in the specification's syntax table; it always
-/// points at a literal, so an Error copies freely and never allocates.
+/// An error of a bitstream, by the names of the specification (clause 7, annex F). They always
+/// point at literals, so an Error copies freely and never allocates.
 struct Error {
   Errc code{};
-  const char* element = "";
-  std::uint64_t bit_offset =
-      0;  ///< from the first byte of the stream (units), or of the unit (syntax)
+  const char* element = "";  ///< of a syntax table; of limits and arguments their own name
+  /// From the first byte of the stream: of the element, or of what holds it (annex F). 0 where no
+  /// place of the stream is to blame. What reads a part of a stream counts from that part.
+  std::uint64_t bit_offset = 0;
+  const char* unit = "";  ///< type of the unit it is in: "sequence", "geometry"; "": in none
 };
 
 /// An error of anything else a person hands in: a file, a capture, a setting.
@@ -42,7 +45,15 @@ struct InputError {
   std::string message;  ///< one line, names the file (or the setting) and the cause, no full stop
 };
 
-/// "kOutOfRange: sps_grid_bits, bit 37"
+/// Is a place in the stream to blame? Not of arguments and limits.
+inline bool has_place(const Error& error) {
+  return *error.unit != 0 || error.code <= Errc::kUnsupported;
+}
+
+/// "sps_step in the sequence unit, bit 237"; "max_points" where there is no place.
+std::string where(const Error& error);
+
+/// "kOutOfRange: sps_step in the sequence unit, bit 237"
 std::string to_string(const Error& error);
 
 /// A value or an error. Reading the value of a failed Result is a mistake of the caller.

@@ -63,7 +63,7 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
                                           const Progress& progress = {});
 
 struct IgcDecodeOptions {
-  DecodeLimits limits;  ///< max_output_bytes: of the images, of the view maps, of depth buffers
+  DecodeLimits limits;  ///< max_memory: each, of the images, of the view maps, of depth buffers
   bool estimate_normals = false;  ///< from the decoded points; else those of the capture's nearest
                                   ///< points, where it has any, which no byte of the file pays for
   int threads = 0;

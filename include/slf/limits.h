@@ -4,15 +4,23 @@
 
 namespace slf {
 
-/// Textures (spec 8.11) take, beside what these bound, up to 17 pictures of fewer than 16 samples a
-/// point for each thread.
-///
-/// A decoder refuses (kLimitExceeded) what is larger, before it allocates anything that large.
+/// What a decoder refuses (kLimitExceeded) is refused by its headers, before anything that large is
+/// allocated. The defaults fit a laptop. Spec 9.
 struct DecodeLimits {
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
   std::uint64_t max_stream_bytes = std::uint64_t{1} << 32;
   std::uint64_t max_points = std::uint64_t{1} << 26;
   std::uint64_t max_planes = 3 * 4096;
-  std::uint64_t max_output_bytes = std::uint64_t{8} << 30;  ///< positions and components together
+  /// Bytes that a decode may need at a time, all counted: the light field, trees, coder states,
+  /// slices in flight on all threads. DecodeCost::memory_most is held against it.
+  std::uint64_t max_memory = std::uint64_t{1} << 30;
+  /// Steps: decisions of octree nodes (8 each) and values of components, whatever the bytes say.
+  /// DecodeCost::work is held against it; a core takes some 10^8 of them a second.
+  std::uint64_t max_work = std::uint64_t{1} << 35;
+
+  /// For streams that the caller has just made.
+  static DecodeLimits none() { return {kNone, kNone, kNone, kNone, kNone}; }
 };
 
 }  // namespace slf

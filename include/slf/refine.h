@@ -9,7 +9,7 @@ namespace slf {
 enum class RefineGeometry : std::uint8_t {
   kOff,   ///< points stay where the capture has them: scans, exact models
   kOn,    ///< mended wherever held-out photographs gain
-  kAuto,  ///< the same, if all in all they gain by 5 % or more of their squared error
+  kAuto,  ///< the same, if all in all they gain by 15 % or more of their squared error
 };
 
 /// What was moved. Errors are those of predicting every fourth input photograph from the others at

@@ -10,10 +10,10 @@
 
 namespace slf {
 
-/// Leaves out units that options.levels, groups and region do not need, marks the stream as cut and
-/// writes its index anew. decode() of the result, with the same options, gives what decode() of the
-/// stream gives with them; without options the same for levels and groups, and of a region all of
-/// the slices that meet it.
+/// Leaves out units that options.levels, groups, layers and region do not need, marks the stream as
+/// cut and writes its index anew. decode() of the result, with the same options, gives what
+/// decode() of the stream gives with them; without options the same for levels, groups and layers,
+/// and of a region all of the slices that meet it.
 /// @param options  max_bytes > 0: as many of the units that remain as fit into a file of so many
 ///                 bytes; they come coarse first. threads, seconds: not used
 /// @errors those of headers as decode; kLimitExceeded also where not even the headers fit

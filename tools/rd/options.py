@@ -1,7 +1,7 @@
 """The codecs, their rate options and every option a manifest may set, with ranges.
 
-Ranges are those of `slf VERB --help` (docs/cli.md), kept here so that an impossible manifest is
-refused before anything runs.
+Ranges are those of `slf settings`, kept here so that an impossible manifest is refused before anything
+runs; tests/settings_table_test.py compares them.
 """
 
 SLF = ("raht", "tmc", "tmc3")
@@ -75,7 +75,7 @@ OPTIONS = {
     "frame": (Choice("global", "reflected", "auto"), CODECS),
     "cross-validate": (Choice("on", "off"), CODECS),
     "check-cameras": (Choice("on", "off"), ("raht", "tmc")),
-    "effort": (Number(1, 9, whole=True), CODECS),
+    "effort": (Number(1, 8, whole=True), CODECS),
     "degree": (Number(0, 10, whole=True), CODECS),
     "block-log2": (Number(0, 21, whole=True), CODECS),
     "block-strength": (Number(1e-6, 1e6), CODECS),
@@ -83,7 +83,7 @@ OPTIONS = {
     "point-penalty": (Number(1e-6, 1e9), CODECS),
     "point-growth": (Number(1, 10), CODECS),
     "environment-degree": (Number(0, 16, whole=True), CODECS),
-    "environment-radius": (Number(0, 1e6), CODECS),
+    "environment-radius": (Either(Number(2, 1e6), Choice(0)), CODECS),
     "predict": (Choice("on", "off"), ("raht",)),
     "klt": (Choice("off", "functions", "joint"), ("raht",)),
     "rdo": (Number(0, 1), ("raht",)),

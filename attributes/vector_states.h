@@ -1,0 +1,61 @@
+// What the decisions about the vectors of a group have learnt, and what selects their contexts.
+// Spec 8.7.2.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "attributes/coefficient_magnitude_model.h"
+#include "attributes/coefficient_sign_model.h"
+#include "entropy/context_shape.h"
+#include "entropy/mixed_bit.h"
+
+namespace slf {
+
+/// What the decisions of a group leave to those of its next unit: a value, so that several slices
+/// may start from the same.
+struct VectorStates {
+  /// functions: of the group.
+  explicit VectorStates(std::size_t functions)
+      : activity(3 * functions, functions > 1 ? kFirstActivity : 0) {}
+
+  static constexpr std::int32_t kFirstActivity = 16;
+  static constexpr std::uint32_t kTopSplit = 44;
+
+  /// Is a vector other than 0?
+  struct Node {
+    using Expected = ContextShape<48, 16>;          // magnitude; of the group below
+    using Split = ContextShape<kTopSplit + 1, 24>;  // and scale
+    using Above = ContextShape<5, 5, 5, 5, 3>;      // sizes of three parents, the previous; axis
+    using Beside = ContextShape<5, 5, 5, 3, 4>;     // sizes at three faces; axis; below
+  };
+  /// Has it a value other than 0 from a run of functions on?
+  struct Rest {
+    using Expected = ContextShape<32, 48>;      // run; magnitude
+    using Ahead = ContextShape<4, 4, 4, 4, 4>;  // how far on the vectors around go
+    using Before = ContextShape<24, 5, 12>;     // sum so far; functions of the run; magnitude
+    using Run = ContextShape<32, 5, 4, 4>;      // run; its functions; parent, previous ahead
+  };
+  /// Has a function of it a value other than 0?
+  struct Any {
+    using Activity = ContextShape<25, 48>;  // split; activity
+    using Expected = ContextShape<48, 17>;  // magnitude; functions before
+    using Sides = ContextShape<20, 20>;     // above; beside
+    using Ratio = ContextShape<56, 24>;     // of the vector so far to its activity; magnitude
+    using Scale = ContextShape<48, 24>;     // activity; scale
+    using Set = ContextShape<2, 17>;        // first of the vector; functions before
+  };
+
+  std::vector<std::int32_t> activity;  ///< [planes] running mean of min(magnitude, 7), in 1/4096
+  MixedBit<4, kTopSplit + 1> node{
+      {Node::Expected::kCount, Node::Split::kCount, Node::Above::kCount, Node::Beside::kCount}};
+  MixedBit<4, 32> rest{
+      {Rest::Expected::kCount, Rest::Ahead::kCount, Rest::Before::kCount, Rest::Run::kCount}};
+  MixedBit<5, Any::Set::kCount> any{{Any::Activity::kCount, Any::Expected::kCount,
+                                     Any::Sides::kCount, Any::Ratio::kCount, Any::Scale::kCount}};
+  CoefficientMagnitudeModel magnitude;
+  CoefficientSignModel sign;
+};
+
+}  // namespace slf

@@ -1,0 +1,16 @@
+# Man pages and bash completion, made of what the program itself says with --help.
+find_package(Python3 COMPONENTS Interpreter)
+if(TARGET slf_program AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
+  set(manual ${PROJECT_BINARY_DIR}/manual)
+  add_custom_command(
+    OUTPUT ${manual}/slf.1 ${manual}/slf.bash
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual.py $<TARGET_FILE:slf_program>
+            ${manual}
+    DEPENDS slf_program ${PROJECT_SOURCE_DIR}/tools/manual.py
+    COMMENT "Man pages and bash completion")
+  add_custom_target(slf_manual ALL DEPENDS ${manual}/slf.1 ${manual}/slf.bash)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
+          FILES_MATCHING PATTERN "*.1")
+  install(FILES ${manual}/slf.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME slf COMPONENT program)
+endif()

@@ -1,0 +1,298 @@
+#include "codec/decode_cost.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "codec/scene_decoder.h"
+#include "geometry/occupancy_model.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+/// What is usual, and what nothing exceeds. Bytes, unless said.
+struct Bytes {
+  double usual = 0, most = 0;
+
+  static Bytes both(double bytes) { return {bytes, bytes}; }
+  Bytes operator+(const Bytes& other) const { return {usual + other.usual, most + other.most}; }
+  Bytes operator*(double factor) const { return {usual * factor, most * factor}; }
+  Bytes at_least(const Bytes& other) const {
+    return {std::max(usual, other.usual), std::max(most, other.most)};
+  }
+};
+
+// Bytes of a point, of what the arrays named hold. Where a figure depends on the scene, the usual
+// one is what scenes of docs/limits.md have: surfaces, of a third as many nodes a level up, with
+// ten neighbours each; 26 and as many nodes are the most.
+constexpr double kVoxel = 12, kCode = 8;
+constexpr double kTop = 16 + 1 + 4 + 4 + 4;  // RahtTop: merges, split, parent, order, first
+constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop};  // SliceDecoder
+/// Of memory that slices gave back, what an allocator finds no use for grows with every batch
+/// beyond the first three, by measurement, against what waits.
+constexpr double kUnused = 0.1, kMostUnused = 0.6;
+constexpr double kNode = 8 + 1 + 4 + 8;  // OctreeLevel without neighbours
+constexpr Bytes kOctree{(kNode + 4 * 10) / 3 + kCode + 1, 2 * (kNode + 4 * 26) + kCode + 1};
+constexpr Bytes kDraco{90, 160};            // inside the library: by measurement
+constexpr double kNeighbours = 24 + 4 + 4;  // CoefficientNeighbours, weights beside
+constexpr double kOfGroup = 2 + 4 + 1;      // VectorCoefficients: sum_, vector_of_, runs_
+constexpr double kFlags = 2;                // ComponentDecoder: nonzero_, of_unit_
+/// TransformLevels: codes, first, sums; rows of all levels; places; nodes; which means.
+constexpr Bytes kLevels{36 + 6 + 22 + 20 + 6, 2 * 36 + 22 * 4 + 32 + 2 * (kNode + 4 * 26) + 24};
+constexpr double kKept = 2;           // bytes of a value in a vector that is kept
+constexpr double kBitsOfHalf = 16;    // bits of a point with which half of the vectors are not zero
+constexpr double kUsualOthers = 0.6;  // of slices beside one at its peak, on other threads
+constexpr double kUsualMeans = 0.02;  // of all rows, whose means are needed at a time
+constexpr double kSample = 2, kPicturesMost = 17, kPictures = 4, kSamplesMost = 16, kSamples = 2;
+constexpr double kCellOfAtlas = 60;
+
+/// Contexts of a group of vectors: five mixed decisions, nearly all of it magnitudes.
+constexpr double kCoefficientStates = 350e3;
+constexpr double kIndependentStates = 300;  // a plane
+constexpr double kHistory = 3 << 18;        // of columns, while an octree is decoded
+
+double octree_states(std::uint64_t points) {
+  const int bits = std::min(OccupancyStates::kMostHashedBits,
+                            std::max(static_cast<int>(std::bit_width(points)) + 4, 10));
+  constexpr double kWeights = 8 * 2 * (256 * 8 + 27 * 22 + 27 * 8);
+  return 2.0 * (1 << OccupancyStates::kFacesBits) + 2.0 * (1 << OccupancyStates::kCornerBits) +
+         2.0 * OccupancyStates::kHashed * (1 << bits) + kWeights;
+}
+
+class Model {
+ public:
+  Model(const DecodeShape& shape, std::uint64_t threads)
+      : shape_(shape), planes_(static_cast<double>(shape.planes)) {
+    for (const std::uint64_t points : shape.slices) {
+      points_ += points;
+      largest_ = std::max(largest_, points);
+    }
+    active_ = static_cast<double>(std::min<std::uint64_t>(threads, shape.slices.size()));
+  }
+
+  DecodeCost cost() const {
+    DecodeCost cost;
+    const Bytes slices = shape_.base_alone ? Bytes{} : output() + in_flight();
+    const Bytes bytes = base() + slices;
+    cost.memory = static_cast<std::uint64_t>(bytes.usual);
+    cost.memory_most = static_cast<std::uint64_t>(bytes.most);
+    cost.work = work();
+    return cost;
+  }
+
+ private:
+  /// Of a row, while its components are decoded.
+  Bytes values() const {
+    if (planes_ == 0) return {};
+    if (shape_.texture) return texture();
+    Bytes row = Bytes::both(kFlags);
+    if (shape_.vector)
+      row = row +
+            Bytes::both(kNeighbours + kOfGroup * layers() * static_cast<double>(shape_.groups)) +
+            Bytes{usual_vectors(), 1} * (kKept * layers() * planes_);
+    if (shape_.ahead) row = row + Bytes::both(4 * planes_);
+    if (shape_.prediction) row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
+    return row;
+  }
+
+  double layers() const { return static_cast<double>(shape_.layers); }
+
+  /// Share of rows with a vector that is not zero: contexts keep these alone.
+  double usual_vectors() const {
+    if (shape_.coefficient_bits < 0) return 1;
+    return shape_.coefficient_bits / (shape_.coefficient_bits + kBitsOfHalf);
+  }
+
+  /// Pictures that a video decoder keeps, and the map of points to pixels.
+  Bytes texture() const {
+    return Bytes{kPictures * kSamples, kPicturesMost * kSamplesMost} * kSample +
+           Bytes::both(kCellOfAtlas + 8);
+  }
+
+  Bytes geometry() const { return shape_.draco ? kDraco : kOctree; }
+
+  double row_of_output() const { return kVoxel + 4 * planes_ + (shape_.normals ? 4 : 0); }
+
+  Bytes output() const { return Bytes::both(static_cast<double>(points_) * row_of_output()); }
+
+  /// Values of a batch beside the geometry of the next; of each as many at work as there are
+  /// threads.
+  Bytes in_flight() const {
+    const auto batch = static_cast<double>(
+        std::min(points_, std::max<std::uint64_t>(kBatchPoints + largest_,
+                                                  static_cast<std::uint64_t>(active_) * largest_)));
+    const double waiting = std::min(static_cast<double>(points_), 2 * batch);
+    const Bytes octrees = at_work(geometry(), batch) + Bytes::both(states_of_octrees(active_));
+    const Bytes rows =
+        at_work(values(), batch) + Bytes::both(states_of_octrees(0) + states_of_values());
+    const double batches = static_cast<double>(points_) / std::max(batch, 1.0);
+    const double unused = 1 + std::clamp(kUnused * (batches - 3), 0.0, kMostUnused);
+    return kWaiting * (waiting * unused) + octrees.at_least(rows);
+  }
+
+  double coefficient_states() const {
+    return shape_.vector ? kCoefficientStates * layers() * static_cast<double>(shape_.groups)
+                         : kIndependentStates * planes_;
+  }
+
+  /// As many slices as there are threads. All at their peak at once is not what happens.
+  Bytes at_work(const Bytes& row, double batch) const {
+    const auto largest = static_cast<double>(largest_);
+    return {row.usual * std::min((1 + kUsualOthers * (active_ - 1)) * largest, batch),
+            row.most * std::min(active_ * largest, batch)};
+  }
+
+  /// Those of the base, those that slice 0 hands on, and those of octrees at work.
+  double states_of_octrees(double at_work) const {
+    if (shape_.draco) return 0;
+    const double handed = shape_.shared_states ? static_cast<double>(shape_.geometry_units) : 0;
+    return (1 + handed + at_work) * octree_states(points_) + at_work * kHistory;
+  }
+
+  /// The same of coefficients.
+  double states_of_values() const {
+    if (planes_ == 0 || shape_.texture) return 0;
+    const double handed = shape_.shared_states ? static_cast<double>(shape_.coefficient_units) : 0;
+    const double of_base = shape_.cells > 0 ? 1 : 0;
+    return (active_ + of_base) * coefficient_states() + handed * kCoefficientStates;
+  }
+
+  /// Cells, their values and contexts stay until the last slice is done.
+  Bytes base() const {
+    if (shape_.cells == 0 && !shape_.base_alone) return {};
+    const auto cells = static_cast<double>(shape_.cells);
+    Bytes row = Bytes::both(2 * kCode + kTop + 8 + 4 * planes_) + values().at_least(kOctree);
+    if (shape_.base_alone) row = row + Bytes::both(kVoxel);
+    return row * cells;
+  }
+
+  std::uint64_t work() const {
+    const std::uint64_t slices = shape_.base_alone ? 0 : points_;
+    const std::uint64_t nodes = slices * (shape_.draco ? 1 : shape_.levels - shape_.base_levels) +
+                                shape_.cells * shape_.base_levels;
+    return 8 * nodes + (slices + shape_.cells) * std::max<std::uint64_t>(shape_.planes, 1);
+  }
+
+  const DecodeShape& shape_;
+  double planes_;
+  std::uint64_t points_ = 0, largest_ = 0;
+  double active_ = 1;
+};
+
+}  // namespace
+
+DecodeCost cost_of(const DecodeShape& shape, std::uint64_t threads) {
+  return Model(shape, threads).cost();
+}
+
+namespace {
+
+std::uint64_t cells_of(const SequencePlan& plan) {
+  return plan.has_base() ? plan.table.num_cells() : 0;
+}
+
+}  // namespace
+
+DecodeShape shape_of(const SequencePlan& plan) {
+  const SequenceParameterSet& set = plan.set;
+  DecodeShape shape;
+  for (const SliceEntry& slice : plan.table.slices) shape.slices.push_back(slice.points());
+  shape.cells = cells_of(plan);
+  shape.planes = plan.planes();
+  shape.groups = plan.groups.size();
+  shape.levels = set.grid_bits();
+  shape.base_levels = set.sps_base_levels;
+  shape.geometry_units = set.geometry_ranges() - set.base_geometry_ranges();
+  shape.layers = static_cast<std::uint64_t>(plan.layers);
+  shape.coefficient_units =
+      std::uint64_t{set.coefficient_ranges() - set.base_coefficient_ranges()} * shape.groups *
+      shape.layers;
+  shape.base_alone = plan.base_alone();
+  shape.vector = set.has_vectors();
+  shape.prediction = set.sps_prediction_flag != 0;
+  shape.draco = set.sps_geometry_coder == 1;
+  shape.texture = set.has_texture();
+  shape.normals = set.sps_normal_bits > 0;
+  shape.shared_states = plan.table.slices_shared_flag != 0;
+  shape.ahead = shape.shared_states && plan.kept_levels_only();
+  return shape;
+}
+
+DecodeCost decode_cost(const SequencePlan& plan, int threads) {
+  const std::size_t slices = std::max<std::size_t>(plan.table.slices.size(), 1);
+  return cost_of(shape_of(plan), static_cast<std::uint64_t>(thread_count(threads, slices)));
+}
+
+Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows) {
+  const std::uint64_t most = kLevelValues + kLevelValuesOfByte * plan.stream_bytes;
+  if (rows > most / std::max<std::uint64_t>(plan.planes(), 1))
+    return of_sequence(Errc::kOutOfRange, "sps_level");
+  return Done{};
+}
+
+Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
+  const DecodeLimits& limits = options.limits;
+  const std::uint64_t points = plan.base_alone() ? plan.table.num_cells() : plan.table.num_points();
+  if (points > limits.max_points) return Error{Errc::kLimitExceeded, "max_points"};
+  const DecodeCost cost = decode_cost(plan, options.threads);
+  if (cost.memory_most > limits.max_memory) return Error{Errc::kLimitExceeded, "max_memory"};
+  if (cost.work > limits.max_work) return Error{Errc::kLimitExceeded, "max_work"};
+  // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
+  const bool told = plan.complete && plan.whole && !plan.region;
+  if (told || plan.set.sps_geometry_coder == 1)
+    return check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan)));
+  return Done{};
+}
+
+namespace {
+
+DecodeShape shape_of(const StreamInfo& info) {
+  DecodeShape shape;
+  for (const SliceInfo& slice : info.slices) {
+    shape.slices.push_back(slice.points);
+    if (info.base_levels > 0) shape.cells += slice.cells;
+  }
+  auto functions = static_cast<std::uint64_t>(info.header.num_functions);
+  for (const TransformInfo& t : info.transforms)
+    functions -= static_cast<std::uint64_t>(t.functions - t.coded_functions);
+  shape.planes = 3 * functions;
+  shape.groups = static_cast<std::uint64_t>(info.num_groups);
+  shape.levels = static_cast<std::uint64_t>(info.header.grid.bits);
+  shape.base_levels = static_cast<std::uint64_t>(info.base_levels);
+  const auto of_slice_0 = [&](const char* type) {
+    return static_cast<std::uint64_t>(
+        std::count_if(info.units.begin(), info.units.end(),
+                      [&](const UnitInfo& unit) { return unit.slice == 0 && unit.type == type; }));
+  };
+  shape.geometry_units = of_slice_0("geometry");
+  shape.coefficient_units = of_slice_0("coefficients") + of_slice_0("refinement");
+  for (const int layers : info.layers)
+    shape.layers = std::max(shape.layers, static_cast<std::uint64_t>(layers));
+  std::uint64_t bytes = 0;
+  for (const UnitInfo& unit : info.units)
+    if (unit.type == "coefficients" || unit.type == "refinement") bytes += unit.bytes;
+  if (info.num_points > 0)
+    shape.coefficient_bits =
+        8.0 * static_cast<double>(bytes) / static_cast<double>(info.num_points);
+  shape.vector = info.coefficient_coder == "vector";
+  shape.prediction = info.prediction;
+  shape.draco = info.geometry_coder == "draco";
+  shape.texture = info.texture_bits > 0;
+  shape.normals = std::any_of(info.units.begin(), info.units.end(),
+                              [](const UnitInfo& unit) { return unit.type == "normals"; });
+  shape.shared_states = info.shared_states;
+  return shape;
+}
+
+}  // namespace
+
+DecodeCost decode_cost(const StreamInfo& info, int threads) {
+  return cost_of(shape_of(info), static_cast<std::uint64_t>(thread_count(
+                                     threads, std::max<std::size_t>(info.slices.size(), 1))));
+}
+
+std::uint64_t decode_memory(const StreamInfo& info, int threads) {
+  return decode_cost(info, threads).memory;
+}
+
+}  // namespace slf

@@ -1,0 +1,52 @@
+// What a decode will take, from headers alone: bytes at a time, and steps. Spec 9.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/sequence_plan.h"
+#include "slf/decoder.h"
+
+namespace slf {
+
+/// Spec 9: components of all rows are at most so many, and so many for every byte of the stream.
+inline constexpr std::uint64_t kLevelValues = std::uint64_t{1} << 19;
+inline constexpr std::uint64_t kLevelValuesOfByte = std::uint64_t{1} << 12;
+
+/// All that decides what a decode takes.
+struct DecodeShape {
+  static constexpr double kUnknown = -1;
+
+  std::vector<std::uint64_t> slices;  ///< points of each
+  std::uint64_t cells = 0;            ///< of the base; 0: none
+  std::uint64_t planes = 0;           ///< 3 R, of the groups that are decoded
+  std::uint64_t groups = 0;
+  std::uint64_t layers = 1;                                 ///< of a group, at most
+  std::uint64_t levels = 0, base_levels = 0;                ///< of the grid, of the base
+  std::uint64_t geometry_units = 1, coefficient_units = 1;  ///< of a slice
+  double coefficient_bits = kUnknown;                       ///< of a point, in all units
+  bool base_alone = false;                                  ///< no slice is opened
+  bool vector = true;                                       ///< coefficients: contexts keep vectors
+  bool prediction = false, draco = false, texture = false, normals = false;
+  bool shared_states = false;
+  bool ahead = false;  ///< of slice 0 more levels are decoded than are kept
+};
+
+/// @param threads  1 or more
+DecodeCost cost_of(const DecodeShape& shape, std::uint64_t threads);
+
+/// That of what was asked for, which may be less than the whole.
+DecodeShape shape_of(const SequencePlan& plan);
+
+/// What decoding that takes. @param threads  as in DecodeOptions
+DecodeCost decode_cost(const SequencePlan& plan, int threads);
+
+/// Spec 9: are so many rows, of the base and of slices, in proportion to the bytes?
+/// @errors kOutOfRange: sps_level
+Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows);
+
+/// What the slices say they hold, before any of it is decoded.
+/// @errors kLimitExceeded, with the limit as element.
+Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options);
+
+}  // namespace slf

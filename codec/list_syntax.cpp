@@ -1,0 +1,120 @@
+// slf info --syntax: the same descriptions that parse the headers, with every element noted.
+#include "slf/syntax_listing.h"
+
+#include <charconv>
+
+#include "bitstream/index.h"
+#include "codec/scene_units.h"
+#include "codec/sequence.h"
+#include "texture/texture_header.h"
+
+namespace slf {
+namespace {
+
+/// The shortest form that reads back as the same number.
+template <class Number>
+std::string text(Number number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+}
+
+/// Visits what a unit holds before its codeword.
+class UnitVisitor {
+ public:
+  UnitVisitor(BitReader& in, SyntaxLog& log) : in_(in), parse_{in, &log} {}
+
+  Result<Done> visit(const Unit& unit, SequenceParameterSet& set) {
+    switch (unit.type) {
+      case UnitType::kSequence:
+        sequence_parameter_set(parse_, set);
+        break;
+      case UnitType::kSlices: {
+        SliceTable table;
+        slice_table(parse_, table, set.sps_base_levels);
+        break;
+      }
+      case UnitType::kIndex:
+        return index(unit, set);
+      case UnitType::kTransform: {
+        TransformHeader header;
+        transform_header(parse_, header, set.num_groups());
+        break;
+      }
+      case UnitType::kMetadata: {
+        std::uint64_t bytes = 0;
+        parse_.ue("metadata_bytes", bytes, Range{0, 0xFFFFFFFE});
+        break;
+      }
+      case UnitType::kEnd: {
+        std::uint64_t units = 0;
+        parse_.ue("end_num_units", units, Range{0, 0xFFFFFFFE});
+        break;
+      }
+      default:
+        if (has_ids(unit.type)) part(unit, set);
+    }
+    if (!in_.ok()) return in_.error();
+    return Done{};
+  }
+
+ private:
+  Result<Done> index(const Unit& unit, const SequenceParameterSet& set) {
+    SLF_TRY(const Index all, parse_index(unit.payload, set, parse_.log));
+    in_.skip_all();
+    return Done{};
+  }
+
+  void part(const Unit& unit, const SequenceParameterSet& set) {
+    SliceUnitHeader header;
+    slice_unit_header(parse_, header, unit.type, set);
+    if (unit.type != UnitType::kCoefficients || !set.has_texture() || !in_.ok()) return;
+    const auto groups = plane_groups(set);
+    std::vector<TexturePlane> planes(3 * groups[header.group].size());
+    texture_header(parse_, planes);
+  }
+
+  BitReader& in_;
+  ParseSyntax parse_;
+};
+
+/// What follows the header as one element: a codeword, deflated metadata, a digest.
+void add_body(const Unit& unit, const BitReader& in, std::vector<ListedElement>& elements,
+              std::uint64_t payload_bit) {
+  const std::uint64_t at = (in.bit_position() + 7) / 8 * 8;
+  if (at >= unit.payload.size() * 8) return;
+  const char* name = unit.type == UnitType::kMetadata ? "metadata_deflated"
+                     : unit.type == UnitType::kDigest ? "digest_sha256"
+                                                      : "codeword";
+  elements.push_back({name, "bytes", payload_bit + at, unit.payload.size() * 8 - at, ""});
+}
+
+Result<ListedUnit> list_unit(const Unit& unit, SequenceParameterSet& set) {
+  const std::uint64_t payload_bit = unit.payload_offset * 8;
+  BitReader in(unit.payload);
+  SyntaxLog log;
+  SLF_CHECK(in_unit(unit, UnitVisitor(in, log).visit(unit, set)));
+  ListedUnit listed{unit_name(unit.type), unit.offset, unit.bytes, {}};
+  for (const SyntaxEntry& entry : log)
+    listed.elements.push_back({entry.element, entry.kind, payload_bit + entry.bit, entry.bits,
+                               std::visit([](auto value) { return text(value); }, entry.value)});
+  add_body(unit, in, listed.elements, payload_bit);
+  return listed;
+}
+
+}  // namespace
+
+Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream,
+                                            const DecodeLimits& limits) {
+  if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
+  SLF_TRY(const Units units, split_units(stream));
+  SLF_CHECK(find_sequence(units));  // the unit that all others need
+  SequenceParameterSet set;
+  std::vector<ListedUnit> listed;
+  for (const Unit& unit : units.units) {
+    SLF_TRY(ListedUnit one, list_unit(unit, set));
+    listed.push_back(std::move(one));
+  }
+  return listed;
+}
+
+}  // namespace slf

@@ -1,0 +1,10 @@
+// Twin of codec/slice_texture_decoder.cpp for builds without textures (SLF_TEXTURE=OFF).
+#include "codec/slice_decoder.h"
+
+namespace slf {
+
+Result<Done> SliceDecoder::decode_texture_units(std::span<std::int32_t>, int) {
+  return of_sequence(Errc::kUnsupported, "sps_coefficient_coder");
+}
+
+}  // namespace slf

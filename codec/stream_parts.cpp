@@ -1,0 +1,141 @@
+#include "codec/stream_parts.h"
+
+#include <algorithm>
+
+#include "base/error_place.h"
+#include "codec/decode_cost.h"
+#include "codec/decode_units.h"
+#include "codec/scene_units.h"
+#include "codec/selection.h"
+
+namespace slf {
+namespace {
+
+/// The whole units among the first bytes of a stream.
+Result<Units> units_of_beginning(std::span<const std::uint8_t> begin) {
+  return split_units(begin, std::max<std::size_t>(begin.size(), 1) - 1);
+}
+
+/// The stream ends inside a unit that the index lists.
+Error cut_short(const IndexEntry& entry, std::uint64_t offset) {
+  return of_unit(entry.type, offset, Errc::kTruncated, "unit_payload");
+}
+
+/// The unit that the index lists, in the part where it lies.
+/// @param disagrees  the error where it is another
+Result<Unit> take_unit(const ReadPlan::Wanted& wanted, std::span<const StreamPart> parts,
+                       const SequenceParameterSet& set, const Error& disagrees) {
+  const auto after = std::upper_bound(
+      parts.begin(), parts.end(), wanted.offset,
+      [](std::uint64_t offset, const StreamPart& part) { return offset < part.offset; });
+  if (after == parts.begin()) return disagrees;
+  const StreamPart& part = *std::prev(after);
+  const std::uint64_t at = wanted.offset - part.offset;
+  if (at >= part.bytes.size()) return cut_short(wanted.entry, wanted.offset);
+  SLF_TRY(Unit unit,
+          counted_from(8 * part.offset, read_unit(part.bytes, static_cast<std::size_t>(at))));
+  unit.offset += part.offset;
+  unit.payload_offset += part.offset;
+  if (unit.type != wanted.entry.type || unit.bytes != wanted.entry.bytes) return disagrees;
+  SLF_TRY(const SliceUnitHeader ids, read_ids(unit, set));
+  if (!same_ids(ids, wanted.entry.ids)) return disagrees;
+  return unit;
+}
+
+/// Of the units behind the head those that are wanted. A stream may have been cut between two.
+/// @param begin  of the first unit of the index
+Result<Done> choose_units(const Index& index, std::uint64_t begin, const ByteRange& behind,
+                          const Selection& selection, std::uint64_t max_bytes, ReadPlan& plan) {
+  for (const IndexEntry& entry : index.entries) {
+    const ByteRange range{begin, entry.bytes};
+    begin = range.end();
+    if (range.offset >= behind.end() || (max_bytes > 0 && range.end() > max_bytes)) break;
+    if (range.end() > behind.end()) return cut_short(entry, range.offset);
+    if (range.offset < behind.offset || !has_ids(entry.type) ||
+        !selection.wants(entry.type, entry.ids))
+      continue;
+    plan.units.push_back({range.offset, entry});
+    if (!plan.ranges.empty() && plan.ranges.back().end() == range.offset) {
+      plan.ranges.back().bytes += range.bytes;
+    } else {
+      plan.ranges.push_back(range);
+    }
+  }
+  return Done{};
+}
+
+/// Is nothing left out, digests included?
+bool wants_all(const SequencePlan& plan, const DecodeOptions& options) {
+  return plan.whole && !plan.region && options.max_bytes == 0;
+}
+
+}  // namespace
+
+std::uint64_t ReadPlan::bytes() const {
+  std::uint64_t sum = 0;
+  for (const ByteRange& range : ranges) sum += range.bytes;
+  return sum;
+}
+
+Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
+                                            std::uint64_t stream_bytes) {
+  SLF_TRY(const Units units, units_of_beginning(begin));
+  if (units.units.empty()) return std::optional<StreamHead>();
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));
+  for (const Unit& unit : units.units) {
+    if (has_ids(unit.type)) return std::optional(StreamHead{stream_bytes, false});
+    if (unit.type != UnitType::kIndex) continue;
+    SLF_TRY(const Index index, read_index(unit, set));
+    std::uint64_t end = unit.offset + unit.bytes, head = 0;
+    for (const IndexEntry& entry : index.entries) {
+      if (head == 0 && has_ids(entry.type)) head = end;
+      end += entry.bytes;
+    }
+    if (head == 0) head = end;
+    return std::optional(StreamHead{std::min(head, stream_bytes), end == stream_bytes});
+  }
+  return std::optional<StreamHead>();
+}
+
+Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t stream_bytes,
+                           const DecodeOptions& options) {
+  const bool is_all = head.size() == stream_bytes;
+  SLF_TRY(const Units units, split_units(head, is_all ? options.max_bytes : 0));
+  ReadPlan plan;
+  SLF_TRY(plan.set, find_sequence(units));
+  SLF_TRY(const SceneUnits scene, collect_units(units, plan.set));
+  SLF_TRY(const SequencePlan sequence, plan_sequence(units, plan.set, scene.table, options));
+  SLF_CHECK(check_limits(sequence, options));
+  plan.cost = decode_cost(sequence, options.threads);
+  plan.components = sequence.coded.size();
+  plan.points = sequence.base_alone() ? scene.table.num_cells() : scene.table.num_points();
+  const Unit* unit = units.first(UnitType::kIndex);
+  plan.whole = is_all || unit == nullptr || wants_all(sequence, options);
+  if (plan.whole) return plan;
+  SLF_TRY(const Index index, read_index(*unit, plan.set));
+  Selection selection(sequence);
+  selection.choose_slices(index.boxes);
+  SLF_CHECK(choose_units(index, unit->offset + unit->bytes,
+                         {head.size(), stream_bytes - head.size()}, selection, options.max_bytes,
+                         plan));
+  plan.set = cut_sequence(sequence, selection.all_slices());
+  return plan;
+}
+
+Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPlan& plan,
+                                std::span<const StreamPart> parts, const DecodeOptions& options) {
+  SLF_TRY(Units units, split_units(head));
+  const Unit* lists = units.first(UnitType::kIndex);
+  Error disagrees{Errc::kOutOfRange, "index_unit_bytes"};
+  if (lists != nullptr) disagrees = in_unit(*lists, disagrees);
+  // An index lists what follows it, which is not all there.
+  std::erase_if(units.units, [](const Unit& unit) { return unit.type == UnitType::kIndex; });
+  for (const ReadPlan::Wanted& wanted : plan.units) {
+    SLF_TRY(const Unit unit, take_unit(wanted, parts, plan.set, disagrees));
+    units.units.push_back(unit);
+  }
+  units.complete = false;
+  return decode_units(units, plan.set, options);
+}
+
+}  // namespace slf

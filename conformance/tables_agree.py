@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
+
+Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
+slice_headers.h; unit types; table A-1; sizes of table 8-3; limits of clause 9; first weights; names of errors of annex F.
+Needs Python 3 alone. Exit code: 0 all agree, 1 not.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SPEC = (ROOT / "spec" / "slf-bitstream.md").read_text(encoding="utf-8")
+DECODER = (ROOT / "spec" / "decoder.py").read_text(encoding="utf-8")
+PROBLEMS = []
+
+
+def code(name):
+    """A source file, without comments."""
+    return re.sub(r"//.*", "", (ROOT / name).read_text(encoding="utf-8"))
+
+
+def section(begin, end):
+    """The text from one heading to another."""
+    return SPEC[SPEC.index(begin):SPEC.index(end)]
+
+
+def agree(what, text, others):
+    """Notes where two things differ that should not, and where there is nothing to compare."""
+    if text != others or not text:
+        if isinstance(text, list) and isinstance(others, list) and text != others[::-1]:
+            text, others = [t for t in text if t not in others] or text, [o for o in others if o not in text] or others
+        PROBLEMS.append(f"{what}: {text} in the text, {others} elsewhere")
+
+
+def elements(table, prefix):
+    """The elements of a syntax table with the kinds of their descriptors, in order."""
+    found = []
+    for row in re.findall(r"^\|(.*)\|$", table, re.M):
+        cells = [cell.strip() for cell in row.replace("\\|", "/").split("|")]
+        names = re.findall(rf"\b{prefix}\w+", re.sub(r"^if \(.*?\)(?= \w| \{)|, c < .*", "", cells[0]))
+        kinds = re.findall(r"\b(ue|se|u|s|f)\(", cells[1]) if len(cells) > 1 else []
+        if names and kinds:
+            found += [(name, kinds[min(i, len(kinds) - 1)]) for i, name in enumerate(names)]
+    return found
+
+
+def visited(source, function, prefix):
+    """The same of a visited function; what it calls stands in for itself in the caller of this."""
+    body = re.search(rf"void {function}\(.*?\n\}}\n", source, re.S).group(0)
+    calls = re.findall(rf"v\.(u|ue|se|s8|f64)\([^\"]*?\"({prefix}\w+)\"", body)
+    return [(name, {"s8": "s", "f64": "f"}.get(kind, kind)) for kind, name in calls]
+
+
+def check_sequence():
+    """7.2."""
+    sets = code("bitstream/parameter_sets.h")
+    table = section("**7.2 Sequence**", "**7.3 Slices**")
+    text = dict(elements(table, "sps_"))
+    coded = {}
+    for function in ("sequence_parameter_set", "base_and_cut", "basis", "group_layers", "plane_run"):
+        coded.update(visited(sets, function, "sps_"))
+    for kind in ("geometry", "coefficient"):                # level_ranges, which is given their names
+        coded[f"sps_num_{kind}_ranges_minus1"], coded[f"sps_{kind}_range_end"] = "ue", "u"
+    agree("elements of 7.2", sorted(text.items()), sorted(coded.items()))
+    order = [name for name, _ in elements(table, "sps_")]
+    for function in ("sequence_parameter_set", "basis"):
+        names = list(dict(visited(sets, function, "sps_")))
+        agree(f"order of 7.2, {function}", [name for name in order if name in names], names)
+
+
+def check_slices():
+    """7.3, 7.11."""
+    text = [pair for pair in elements(section("**7.3 Slices**", "**7.4 Geometry**"), "slice") if pair[0] != "slice_id"]
+    agree("elements of 7.3", text, visited(code("bitstream/slice_headers.h"), "slice_table", "slice"))
+    text = elements(section("**7.11 Transform**", "## 8 Decoding"), "tr_")
+    agree("elements of 7.11", text, visited(code("bitstream/parameter_sets.h"), "transform_header", "tr_"))
+
+
+def check_units():
+    """7.1."""
+    numbers, names = [re.findall(r"[^| ]+", row) for row in re.findall(
+        r"^\| unit_type (\|.*)\|\n\|[-|]+\|\n\| (\|.*)\|$", SPEC, re.M)[0]]
+    text = {name: int(number) for number, name in zip(numbers, names)}
+    coded = {name.lower(): int(number)
+             for name, number in re.findall(r"  k(\w+) = (\d+),", code("bitstream/units.h"))}
+    agree("unit types", text, coded)
+    third = dict(zip(("sequence", "slices", "geometry", "normals", "coefficients"), range(1, 6)))
+    third.update(zip(("index", "metadata", "digest", "transform", "refinement"), range(6, 11)), filler=14, end=15)
+    agree("unit types of the text decoder", text, third if "INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, END = 6, 7, 8, 9, 10, 15"
+          in DECODER and "SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5" in DECODER else None)
+
+
+def check_tables():
+    """Tables A-1 and 8-3."""
+    text = [int(n) for n in re.findall(r"\d+", SPEC[SPEC.index("A-1: ") + 4:SPEC.index("## Annex B")])]
+    agree("A-1 of the text decoder", text,
+          [int(n) for n in re.search(r'TABLE_A1 = .*?"""(.*?)"""', DECODER, re.S).group(1).split()])
+    logistic = code("entropy/logistic.h")
+    coded = [int(n) for n in re.findall(r"\b\d{5}\b", logistic)]
+    agree("A-1 of the code", text, coded[coded.index(32768):][:len(text)])
+    sizes = [w for w in re.findall(r"^\| [0-4] \| (\w+) \|", section("Table 8-3", "**8.4.3"), re.M)]
+    agree("table 8-3 of the text decoder", sizes, re.sub(r"self\.hash_bits", "hash", re.search(
+        r"widths = \((.*?)\)", DECODER).group(1)).split(", "))
+
+
+def check_limits():
+    """7.2, 7.3, 9 and first weights."""
+    sets = code("bitstream/parameter_sets.h")
+    shifts = {name: int(power) for name, power in re.findall(r"kMax(\w+) = 1u << (\d+)", sets)}
+    shifts["BasePoints"] = int(re.search(r"kMostBaseWeight = std::uint64_t\{1\} << (\d+)", code("geometry/weight_classes.h"))[1])
+    points, slices, cells, weight = map(int, re.search(
+        r"Level 0: 2\^(\d+) points a slice, 2\^(\d+) slices, 2\^(\d+) base cells that weigh 2\^(\d+) together", SPEC).groups())
+    agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)
+    version = re.search(r"Version \*\*(\d+)\.(\d+)\*\*", SPEC).groups()
+    agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
+    agree("version of the text decoder", version, re.search(
+        r'v == (\d+), "sps_version_major"\)\s+checked\(8, lambda v: v == (\d+)', DECODER).groups())
+    first = re.search(r"all weights \(those of 256 and 0 too\) ⌊(\d+) / N⌋", SPEC).group(1)
+    agree("first weights of 8.3.5", first, re.search(r"Mixer\((\d+) // len", DECODER).group(1))
+    agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
+    first = re.search(r"Three families of sets, all weights (\d+) at first", SPEC).group(1)
+    agree("first weights of 8.4.2", first, re.search(r"\[Mixer\((\d+)\)", DECODER).group(1))
+    constants = [re.search(rf"{letter} = (0x\w{{16}})", section("**8.4.4", "**8.5")).group(1) for letter in "AB"]
+    agree("constants of 8.4.4", constants, re.findall(r"0x\w{16}", re.search("HASH_A, HASH_B = .*", DECODER).group(0)))
+    coded = code("geometry/occupancy_model.cpp") + code("geometry/occupancy_model.h")
+    agree("constants of 8.4.4 in the code", [c.lower() for c in constants],
+          [c.lower() for c in constants if c.lower() in coded.lower()])
+
+
+def check_words():
+    """No sentence names a file of the code or an option of a command."""
+    found = re.findall(r"\b[\w/]+\.(?:cpp|h|py|json)\b|(?<!\w)--[a-z]\w+", re.sub(r"<!--.*?-->", "", SPEC))
+    if found:
+        PROBLEMS.append(f"the text names {found}")
+
+
+def check_errors():
+    """Elements that errors of streams name are in the text; those of H.265 alone need not be."""
+    damage = "NotSlf|Truncated|Checksum|OutOfRange|Reserved|Unsupported"
+    named = set()
+    for folder in ("bitstream", "entropy", "geometry", "attributes", "texture", "video", "codec"):
+        for path in sorted((ROOT / folder).glob("*.*")):
+            if path.name.startswith("av1_") or path.suffix not in (".h", ".cpp"):  # pictures of .igc files
+                continue
+            source = code(path.relative_to(ROOT))
+            found = re.findall(rf'Errc::k(?:{damage}),\s*"(\w+)"|(?:finish|trailing_bits|align_and_rest)\("(\w+)"', source)
+            names = {name for pair in found for name in pair if name}
+            named |= {name for name in names if folder != "video" or name.startswith("hevc_")}
+    text = section("## 7 Syntax", "## 8 Decoding") + section("## Annex F", "## Annex G")
+    agree("names of errors", sorted(named), sorted(name for name in named if re.search(rf"\b{name}\b", text)))
+
+
+for check in (check_sequence, check_slices, check_units, check_tables, check_limits, check_errors, check_words):
+    check()
+for problem in PROBLEMS:
+    print(problem, file=sys.stderr)
+print("text, text decoder and code agree" if not PROBLEMS else f"{len(PROBLEMS)} disagree")
+sys.exit(1 if PROBLEMS else 0)

@@ -1,0 +1,143 @@
+// The encoder's main path: photographs and points to bytes. The last step is codec/pack.cpp.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "capture/density.h"
+#include "codec/texture_parameters.h"
+#include "encoder/component_planes.h"
+#include "encoder/encode_metadata.h"
+#include "encoder/encode_to_target.h"
+#include "encoder/fit_capture.h"
+#include "slf/encoder.h"
+
+namespace slf {
+namespace {
+
+/// A coloured cloud without cameras: the colour is the one component.
+Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
+  if (cloud.colours.empty())
+    return InputError{Errc::kInvalidInput,
+                      "the capture has no cameras and its points have no colours"};
+  CaptureFit fit;
+  for (const auto& rgb : cloud.colours)
+    fit.coefficients.insert(fit.coefficients.end(), rgb.begin(), rgb.end());
+  return fit;
+}
+
+/// Cuts of the level-of-detail table: all but the two finest levels, then one each.
+std::vector<int> level_ends(int bits) {
+  if (bits < 4) return {bits};
+  return {bits - 2, bits - 1, bits};
+}
+
+constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
+
+CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {
+  const LightFieldHeader& header = field.header;
+  const bool texture = settings.coefficients == CoefficientCoder::kTexture;
+  CodingParameters parameters;
+  parameters.geometry = settings.geometry;
+  parameters.coefficients = settings.coefficients;
+  parameters.texture = settings.texture;
+  parameters.step =
+      texture ? texture_steps(header.basis, header.shift,
+                              least_texture_steps(field.components, std::size_t(field.num_planes()),
+                                                  settings.texture.bits),
+                              settings.steps_by_norm)
+              : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
+  if (!texture) parameters.transform = settings.transform;
+  for (auto& step : parameters.step)
+    for (std::size_t c = texture ? 3 : 1; c < 3; ++c)
+      step[c] = static_cast<std::uint32_t>(
+          std::lround(std::clamp(step[c] * settings.chroma_step, 1.0, kMostStep)));
+  if (settings.preset != Preset::kPaper) {  // the paper codes all in one unit
+    parameters.group = scale_groups(header.basis);
+    if (!texture) parameters.coefficient_level_ends = level_ends(header.grid.bits);
+    if (settings.geometry == GeometryCoder::kOctree)
+      parameters.geometry_level_ends = level_ends(header.grid.bits);
+  }
+  parameters.predict = settings.predict;
+  parameters.rdo = settings.rdo;
+  parameters.quality_layers = settings.quality_layers;
+  parameters.base_levels = settings.base_levels;
+  parameters.max_slice_points = settings.max_slice_points;
+  parameters.threads = settings.threads;
+  return parameters;
+}
+
+/// What stays while a step is looked for, and what came out last.
+struct Job {
+  const Capture& capture;
+  std::span<const int> cameras;
+  EncoderSettings settings;
+  VoxelCloud cloud;
+  CaptureFit fit;
+  Encoded encoded;
+};
+
+/// Integers and bytes with the step q.
+Result<Done, InputError> code(Job& job, double q) {
+  job.encoded.q = job.settings.q = q;
+  const LightField field = quantise_grid(job.cloud, job.fit, job.capture.origin, job.capture.up,
+                                         job.settings);  // 6.3, 6.5
+  CodingParameters parameters = coding_parameters(field, job.settings);
+  parameters.metadata = encoder_metadata(job.settings, job.encoded, job.cameras.size());
+  SLF_TRY(job.encoded.stream, pack(field, parameters));  // spec 7, 8
+  return Done{};
+}
+
+}  // namespace
+
+Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
+                                   const EncoderSettings& given, const Progress& progress) {
+  Job job{capture, cameras, given, {}, {}, {}};
+  EncoderSettings& settings = job.settings;
+  Encoded& encoded = job.encoded;
+  if (cameras.empty()) {  // a colour, whatever the direction
+    settings.fit = {};
+    settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
+    settings.search = FitSearch::none();
+  }
+  settings.observe.threads = settings.fit.threads = settings.threads;
+  SLF_CHECK(check_settings(settings));
+  SLF_CHECK(check_target(settings, cameras.size()));
+  Stopwatch watch;
+  SLF_TRY(job.cloud, voxelise_mended(capture, cameras, settings, encoded.refined, progress));
+  encoded.points = job.cloud.positions.size();
+  encoded.merged = job.cloud.merged;
+  encoded.grid = moved(job.cloud.grid, capture.origin);
+  encoded.density = job.cloud.density;
+  const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
+  if (std::string warning = density_warning(encoded.density); automatic && !warning.empty())
+    encoded.warnings.push_back(std::move(warning));
+  encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
+  SLF_TRY(job.fit,  // paper II, III-A
+          cameras.empty() ? colours_alone(job.cloud)
+                          : fit_capture(capture, cameras, job.cloud, settings, progress));
+  if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
+  encoded.fit = job.fit.chosen;
+  encoded.cameras = job.fit.cameras;
+  for (const CameraTrust& trust : encoded.cameras)
+    if (trust.verdict != CameraVerdict::kKept)
+      encoded.warnings.push_back(capture.cameras[std::size_t(trust.camera)].name + ": " +
+                                 reason_of(trust));
+  encoded.observations = job.fit.observations;
+  encoded.unobserved_points = job.fit.unobserved_points;
+  encoded.seconds_observe = job.fit.seconds_observe;
+  encoded.seconds_choose = job.fit.seconds_choose;
+  encoded.seconds_fit = job.fit.seconds_fit;
+  encoded.pictures = job.fit.pictures;
+  encoded.seconds_pictures = job.fit.seconds_pictures;
+  watch.lap();
+  if (progress) progress("code", 0);
+  const auto code_with = [&](double q) { return code(job, q); };
+  SLF_CHECK(has_target(settings) ? code_to_target(settings, capture, cameras, code_with, encoded)
+                                 : code_with(settings.q));
+  encoded.seconds_code = watch.lap();
+  if (progress) progress("code", 1);
+  return std::move(job.encoded);
+}
+
+}  // namespace slf

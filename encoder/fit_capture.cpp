@@ -1,0 +1,177 @@
+#include "encoder/fit_capture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "bitstream/parameter_sets.h"
+#include "capture/spacing.h"
+#include "encoder/component_planes.h"
+#include "fit/fit_pictures.h"
+#include "fit/fit_settings.h"
+#include "geometry/surface_normals.h"
+#include "geometry/weight_classes.h"
+#include "lightfield/octahedral.h"
+#include "refine/refine_geometry.h"
+
+namespace slf {
+namespace {
+
+InputError invalid(std::string what) { return {Errc::kInvalidArgument, std::move(what)}; }
+
+ObservedPoints world_points(const VoxelCloud& cloud) {
+  ObservedPoints points;
+  for (const Voxel& v : cloud.positions) {
+    const Vec3 w = cloud.grid.world(v);
+    points.positions.push_back(
+        {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
+  }
+  points.normals = cloud.normals;
+  return points;
+}
+
+CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
+  CodedNormals normals{bits, {}};
+  if (bits > 0)
+    for (const auto& n : cloud.normals)
+      normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
+  return normals;
+}
+
+/// Settings whose lengths are in spacings of points, in voxels.
+FitSettings in_spacings(FitSettings fit, const VoxelCloud& cloud) {
+  const int spacing_log2 = std::min(cell_of_spacing(cloud.positions), cloud.grid.bits - 1);
+  fit.normal_cell_log2 = spacing_log2;
+  fit.hierarchy.block_log2 = std::min(fit.hierarchy.block_log2 + spacing_log2, 21);
+  return fit;
+}
+
+}  // namespace
+
+Result<Done, InputError> check_settings(const EncoderSettings& s) {
+  if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
+  if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
+  if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
+    return invalid("grid bits: 1 to 21, or 0 for automatic");
+  if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
+    return invalid("delta: 0 to 90 degrees");
+  SLF_CHECK(check_fit_settings(s.fit));
+  if (s.search.any() && s.fit.method != FitMethod::kHierarchical)
+    return invalid("cross-validation: of the hierarchical fit alone");
+  if (!(s.chroma_step >= 0.1 && s.chroma_step <= 10)) return invalid("chroma step: 0.1 to 10");
+  if (s.normal_bits != 0 && (s.normal_bits < 4 || s.normal_bits > 12))
+    return invalid("normal bits: 0, or 4 to 12");
+  return Done{};
+}
+
+Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
+                                                std::span<const int> cameras,
+                                                const EncoderSettings& settings) {
+  const bool needs_normals =
+      !cameras.empty() || settings.normal_bits > 0 || settings.densify.mode == Densify::kOn;
+  const auto on_grid = [&](const PointCloud& cloud) {
+    return voxelise_geometry(capture, cloud, cameras, settings.grid_bits, settings.voxel_size,
+                             settings.densify, settings.threads);
+  };
+  if (!needs_normals || !capture.cloud.normals.empty()) return on_grid(capture.cloud);
+  PointCloud cloud = capture.cloud;
+  std::vector<Vec3> viewpoints;
+  for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
+  cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
+  return on_grid(cloud);
+}
+
+Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
+                                               const EncoderSettings& settings,
+                                               RefineReport& report, const Progress& progress) {
+  RefineSettings refining{settings.refine_geometry, settings.grid_bits, settings.voxel_size,
+                          settings.threads};
+  Density density;
+  if (settings.grid_bits == 0 && settings.voxel_size == 0) {
+    density = choose_density(capture, cameras);
+    refining.voxel_size = density.voxel_size;
+  }
+  if (!capture.mesh.triangles.empty()) refining.mode = RefineGeometry::kOff;  // as exact as it is
+  Stopwatch watch;
+  SLF_TRY(const RefinedCloud refined, refine_geometry(capture, cameras, refining, progress));
+  report = refined.report;
+  report.seconds = watch.lap();
+  if (report.outcome != RefineReport::kMended) return voxelise_capture(capture, cameras, settings);
+  const double step = refined.voxel_size > 0 ? refined.voxel_size : refining.voxel_size;
+  SLF_TRY(VoxelCloud cloud, voxelise(refined.cloud, refining.grid_bits, step));
+  cloud.density = density;
+  return cloud;
+}
+
+Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
+                                           const VoxelCloud& cloud, const EncoderSettings& settings,
+                                           const Progress& progress) {
+  Stopwatch watch;
+  CaptureFit fit;
+  const ObservedPoints points = world_points(cloud);
+  const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
+  SLF_TRY(Observations world,
+          observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
+  if (settings.check_cameras) {
+    SLF_TRY(fit.cameras, check_cameras(world, settings.threads));
+    world = trusted_observations(std::move(world), fit.cameras);
+  }
+  fit.seconds_observe = watch.lap();
+  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, in_spacings(settings.fit, cloud),
+                                 settings.search, progress));
+  const FitSettings& chosen = fit.chosen.settings;
+  fit.seconds_choose = watch.lap();
+  const Observations seen = in_frame(std::move(world), chosen.frame, cloud.positions,
+                                     chosen.normal_cell_log2, settings.threads);
+  fit.observations = seen.colour.size();
+  for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
+    fit.unobserved_points += seen.first[p] == seen.first[p + 1];
+  // Harmonics go on smoothly beyond what was seen; B-splines are held there (spec 6.7).
+  if (chosen.basis.id == BasisId::kBspline) {
+    fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
+    fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
+  }
+  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
+  fit.seconds_fit = watch.lap();
+  if (chosen.pictures.rounds > 0) {
+    const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
+    const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
+    std::vector<int> trusted(cameras.begin(), cameras.end());
+    std::vector<std::array<float, 3>> gains;
+    if (!fit.cameras.empty()) trusted = trusted_cameras(fit.cameras);
+    for (const CameraTrust& t : fit.cameras)
+      if (t.verdict != CameraVerdict::kDropped) gains.push_back(t.gain);
+    SLF_TRY(fit.pictures,
+            fit_to_pictures({capture, trusted, gains, cloud.grid, cloud.positions, normals,
+                             settings.observe.transfer, gamma_range},
+                            chosen, settings.search.pictures, fit.coefficients, progress));
+    fit.seconds_pictures = watch.lap();
+  }
+  return fit;
+}
+
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
+                         const EncoderSettings& settings) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header.grid = moved(cloud.grid, origin);
+  header.basis = settings.fit.basis;
+  header.num_functions = header.basis.num_functions();
+  header.frame = settings.fit.frame;
+  header.colour = settings.colour;
+  header.transfer = settings.observe.transfer;
+  header.up = up;
+  header.gamma_min_q7 = fit.gamma_min_q7;
+  header.gamma_max_q7 = fit.gamma_max_q7;
+  if (header.frame == FrameId::kReflected) header.normal_cell_log2 = settings.fit.normal_cell_log2;
+  to_coded_channels(fit.coefficients, header.colour, settings.threads);
+  header.shift =
+      component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
+                       std::min<std::size_t>(2 * cloud.positions.size(), kMostBaseWeight));
+  field.components = to_components(fit.coefficients, header.shift, settings.threads);
+  field.positions = cloud.positions;
+  field.normals = coded_normals(cloud, settings.normal_bits);
+  return field;
+}
+
+}  // namespace slf

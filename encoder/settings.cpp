@@ -1,0 +1,270 @@
+// From names and values to the encoder's settings.
+#include "slf/settings.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+
+#include "encoder/setting_rows.h"
+
+namespace slf {
+namespace {
+
+using Outcome = Result<Done, InputError>;
+
+InputError wrong(const std::string& what) { return {Errc::kInvalidArgument, what}; }
+
+std::string shown(double number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+}
+
+/// All of the text as one number.
+template <class T>
+std::errc read(std::string_view text, T& value) {
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && stopped != text.data() + text.size() ? std::errc::invalid_argument
+                                                                      : error;
+}
+
+std::string wrong_whole(std::string_view text, double low, double high) {
+  std::int64_t value = 0;
+  const std::errc error = read(text, value);
+  const std::string given(text);
+  if (error == std::errc::invalid_argument) return given + " is not a whole number";
+  const auto least = static_cast<std::int64_t>(low), most = static_cast<std::int64_t>(high);
+  if (error != std::errc() || value < least || value > most)
+    return given + " is not in the range " + std::to_string(least) + " to " + std::to_string(most);
+  return "";
+}
+
+std::string wrong_number(std::string_view text, double low, double high) {
+  double value = 0;
+  const std::errc error = read(text, value);
+  const std::string given(text);
+  if (error == std::errc::invalid_argument) return given + " is not a number";
+  if (error != std::errc() || !(value >= low && value <= high))
+    return given + " is not in the range " + shown(low) + " to " + shown(high);
+  return "";
+}
+
+std::string wrong_pair(std::string_view text, double low, double high) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return std::string(text) + " is not two numbers, N,N";
+  const std::string first = wrong_whole(text.substr(0, comma), low, high);
+  return first.empty() ? wrong_whole(text.substr(comma + 1), low, high) : first;
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : "|") + word;
+  return list;
+}
+
+/// What was given, by name.
+class Given {
+ public:
+  explicit Given(const GivenSettings& given) : given_(given) {}
+
+  const std::string* find(std::string_view name) const {
+    for (const auto& [key, value] : given_)
+      if (key == name) return &value;
+    return nullptr;
+  }
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+  bool is(std::string_view name, std::string_view value) const {
+    const std::string* there = find(name);
+    return there != nullptr && *there == value;
+  }
+  bool any(std::initializer_list<std::string_view> names) const {
+    return std::any_of(names.begin(), names.end(), [&](auto name) { return has(name); });
+  }
+  int whole(std::string_view name, int otherwise) const {
+    const std::string* there = find(name);
+    if (there != nullptr) read(*there, otherwise);
+    return otherwise;
+  }
+
+ private:
+  const GivenSettings& given_;
+};
+
+Outcome check_given(const GivenSettings& all) {
+  const Given given(all);
+  for (const auto& pair : all) {
+    const std::string &name = pair.first, &value = pair.second;
+    const auto& rows = encoder_settings();
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const SettingInfo& info) { return info.name == name; });
+    if (row == rows.end()) return wrong("--" + name + " is not a setting of the encoder");
+    if (given.find(name) != &value) return wrong("--" + name + " is given twice");
+    if (const std::string what = wrong_value(*row, value); !what.empty())
+      return wrong("--" + name + " " + what);
+    for (const std::string& excluded : row->excludes)
+      if (given.has(excluded)) return wrong("--" + name + " excludes --" + excluded);
+  }
+  return Done{};
+}
+
+Outcome refuse(const Given& given, std::initializer_list<const char*> names, const char* of) {
+  for (const char* name : names)
+    if (given.has(name)) return wrong(std::string("--") + name + " is for " + of);
+  return Done{};
+}
+
+/// A value that only another fit or search has.
+Outcome refuse(const Given& given, const char* name, const char* value, const char* of) {
+  if (given.is(name, value)) return wrong(std::string("--") + name + " " + value + " is for " + of);
+  return Done{};
+}
+
+/// What was given for another fit or basis than the one in force.
+Outcome refuse_idle(const Given& given, const FitSettings& fit) {
+  if (fit.method == FitMethod::kHierarchical) {
+    SLF_CHECK(
+        refuse(given, {"lambda", "beta", "iterations", "penalise-dc", "free-dc"}, "--fit paper"));
+  } else {
+    const char* of = "--fit hierarchical";
+    SLF_CHECK(refuse(given, "basis", "harmonics", of));
+    SLF_CHECK(refuse(given, "basis", "auto", of));
+    SLF_CHECK(refuse(given, "frame", "auto", of));
+    SLF_CHECK(refuse(given,
+                     {"cross-validate", "effort", "block-log2", "block-strength", "block-growth",
+                      "point-penalty", "point-growth", "environment-degree", "environment-radius"},
+                     of));
+  }
+  if (given.is("cross-validate", "off")) {
+    SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
+    SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));
+  }
+  if (fit.basis.id == BasisId::kBspline) return refuse(given, {"degree"}, "--basis harmonics");
+  SLF_CHECK(refuse(given, {"functions", "scales"}, "--basis bspline"));
+  return given.is("basis", "auto") ? Outcome(Done{}) : refuse(given, {"order"}, "--basis bspline");
+}
+
+/// Each fit has a basis and a frame of its own. Settings that only the paper's has choose it.
+void choose_fit(const Given& given, EncoderSettings& settings) {
+  FitSettings& fit = settings.fit;
+  const bool of_paper =
+      !given.has("basis") && given.any({"functions", "scales", "order", "lambda", "beta",
+                                        "iterations", "penalise-dc", "free-dc"});
+  const bool hierarchical = given.has("fit") ? given.is("fit", "hierarchical")
+                                             : !of_paper && fit.method == FitMethod::kHierarchical;
+  const FitSettings start = hierarchical ? FitSettings::hierarchical() : FitSettings{};
+  if (start.method != fit.method) {
+    fit.method = start.method;
+    fit.basis = start.basis;
+    fit.frame = start.frame;
+    fit.pictures = start.pictures;
+    settings.search = FitSearch{};
+  }
+  if (given.is("basis", "bspline") && fit.basis.id != BasisId::kBspline) fit.basis = Basis{};
+  if (given.is("basis", "harmonics") && fit.basis.id != BasisId::kHarmonics)
+    fit.basis = FitSettings::hierarchical().basis;
+  if (given.is("basis", "auto")) fit.basis.id = BasisId::kHarmonics;
+  if (given.is("frame", "global")) fit.frame = FrameId::kGlobal;
+  if (given.is("frame", "reflected")) fit.frame = FrameId::kReflected;
+}
+
+void choose_pictures(const Given& given, PictureFitSettings& pictures) {
+  if (given.is("fit-to", "points")) pictures.rounds = 0;
+  if (given.is("fit-to", "pictures") && pictures.rounds == 0)
+    pictures = FitSettings::hierarchical().pictures;
+}
+
+/// What is left to cross-validation where the preset has `of_preset`: nothing that was given, and
+/// all else where it is asked for.
+FitSearch search_of(const Given& given, FitMethod method, FitSearch of_preset) {
+  const bool asked = given.has("cross-validate")
+                         ? given.is("cross-validate", "on")
+                         : given.is("basis", "auto") || given.is("frame", "auto");
+  const bool on = asked || (!given.has("cross-validate") && of_preset.any());
+  if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
+  const auto searched = [&](const char* name, bool by_preset) {
+    return (asked || by_preset) && (!given.has(name) || given.is(name, "auto"));
+  };
+  FitSearch search = of_preset;
+  if (asked) search.points = std::max(search.points, FitSearch{}.points);
+  search.strength = searched("block-strength", of_preset.strength);
+  search.growth = searched("block-growth", of_preset.growth);
+  search.point_penalty = searched("point-penalty", of_preset.point_penalty);
+  search.frame = searched("frame", of_preset.frame);
+  search.basis =
+      given.has("basis") ? given.is("basis", "auto") : of_preset.basis && !given.has("degree");
+  return search;
+}
+
+Outcome choose_scales(const Given& given, Basis& basis) {
+  if (given.has("functions")) {
+    const auto n = static_cast<unsigned>(given.whole("functions", 1));
+    if (!std::has_single_bit(n))
+      return wrong("--functions " + std::to_string(n) + " is not a power of two");
+    const int scales = std::countr_zero(n);
+    basis.scales_gamma = scales / 2;
+    basis.scales_theta = scales - basis.scales_gamma;
+  }
+  if (const std::string* scales = given.find("scales")) {
+    const std::string_view text(*scales);
+    const std::size_t comma = text.find(',');
+    read(text.substr(0, comma), basis.scales_theta);
+    read(text.substr(comma + 1), basis.scales_gamma);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+const std::vector<SettingInfo>& encoder_settings() {
+  static const std::vector<SettingInfo> all = [] {
+    std::vector<SettingInfo> infos;
+    for (const SettingRow& row : setting_rows()) infos.push_back(row.info);
+    return infos;
+  }();
+  return all;
+}
+
+std::string wrong_value(const SettingInfo& setting, std::string_view value) {
+  const auto& words = setting.words;
+  if (std::find(words.begin(), words.end(), value) != words.end()) return "";
+  switch (setting.kind) {
+    case SettingInfo::kNumber:
+      return wrong_number(value, setting.low, setting.high);
+    case SettingInfo::kWhole:
+      return wrong_whole(value, setting.low, setting.high);
+    case SettingInfo::kPair:
+      return wrong_pair(value, setting.low, setting.high);
+    case SettingInfo::kWord:
+      return std::string(value) + " is none of " + list_of(words);
+    case SettingInfo::kFlag:
+      return value == "on" || value == "off" ? "" : std::string(value) + " is none of on|off";
+    case SettingInfo::kText:
+      break;
+  }
+  return "";
+}
+
+Result<EncoderSettings, InputError> settings_from(const GivenSettings& all) {
+  SLF_CHECK(check_given(all));
+  const Given given(all);
+  const Preset preset = given.is("preset", "paper") ? Preset::kPaper : Preset::kDefault;
+  if (given.has("effort") && preset == Preset::kPaper)
+    return wrong("--effort is for --preset default");
+  EncoderSettings settings = settings_of(preset, given.whole("effort", kDefaultEffort));
+  choose_fit(given, settings);
+  SLF_CHECK(refuse_idle(given, settings.fit));
+  choose_pictures(given, settings.fit.pictures);
+  settings.search = search_of(given, settings.fit.method, settings.search);
+  for (const SettingRow& row : setting_rows())
+    if (const std::string* value = given.find(row.info.name); value != nullptr && row.apply)
+      row.apply(settings, *value);
+  SLF_CHECK(choose_scales(given, settings.fit.basis));
+  // More slices than one need a base, whatever the preset has.
+  if (given.has("slice-points") && !given.has("base-levels")) settings.base_levels = kAutomaticBase;
+  if (settings.normal_bits > 0 && settings.normal_bits < 4)
+    return wrong("--normal-bits " + std::to_string(settings.normal_bits) + " is not 0, or 4 to 12");
+  return settings;
+}
+
+}  // namespace slf

@@ -1,0 +1,154 @@
+// glTF 2.0 binary with KHR_gaussian_splatting: linear scales and opacity, quaternions w last, an
+// accessor for every harmonic; COLOR_0 for programs that know points alone.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "exchange/splat_axes.h"
+#include "exchange/splat_writers.h"
+#include "lightfield/colour.h"
+
+namespace slf {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kGlb = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kArrayBuffer = 34962, kPoints = 0;
+constexpr double kDegreeZero = 0.28209479177387814;  // the harmonic of degree 0: 1 / sqrt(4 pi)
+const std::string kExtension = "KHR_gaussian_splatting";
+
+/// Buffer views, accessors and attributes as they are added; each a run of the buffer.
+struct Attributes {
+  Json views = Json::array(), accessors = Json::array(), names = Json::object();
+  Bytes buffer;
+  std::size_t begin = 0;
+
+  /// @param fill  appends the values of all splats to the buffer
+  void add(const std::string& name, const char* type, int component, std::size_t count,
+           const std::function<void(Bytes&)>& fill) {
+    begin = buffer.size();
+    fill(buffer);
+    names[name] = accessors.size();
+    accessors.push_back({{"bufferView", views.size()},
+                         {"componentType", component},
+                         {"count", count},
+                         {"type", type}});
+    if (component != kFloat) accessors.back()["normalized"] = true;
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", begin},
+                     {"byteLength", buffer.size() - begin},
+                     {"target", kArrayBuffer}});
+  }
+};
+
+void add_positions(const SplatCloud& splats, Attributes& to) {
+  to.add("POSITION", "VEC3", kFloat, splats.size(), [&](Bytes& out) {
+    for (const auto& at : splats.positions)
+      for (const float x : at) put(out, x);
+  });
+  auto low = splats.positions[0], high = low;  // glTF asks for them
+  for (const auto& at : splats.positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], at[k]);
+      high[k] = std::max(high[k], at[k]);
+    }
+  to.accessors.back()["min"] = low;
+  to.accessors.back()["max"] = high;
+}
+
+/// Linear light of 16 bits, which degree 0 says in display values.
+void add_point_colours(const SplatCloud& splats, Attributes& to) {
+  const std::size_t row = 3 * splats.num_harmonics();
+  to.add("COLOR_0", "VEC4", kUnsignedShort, splats.size(), [&](Bytes& out) {
+    for (std::size_t p = 0; p < splats.size(); ++p) {
+      std::array<std::uint32_t, 4> rgba{0, 0, 0, 65535};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double display = 0.5 + kDegreeZero * double{splats.harmonics[p * row + c]};
+        rgba[c] = static_cast<std::uint32_t>(
+            std::lround(65535 * srgb_to_linear(std::clamp(display, 0.0, 1.0))));
+      }
+      put(out, rgba[0] | rgba[1] << 16);
+      put(out, rgba[2] | rgba[3] << 16);
+    }
+  });
+}
+
+void add_discs(const SplatCloud& splats, Attributes& to) {
+  to.add(kExtension + ":ROTATION", "VEC4", kFloat, splats.size(), [&](Bytes& out) {
+    for (const auto& normal : splats.normals) {
+      const auto q = disc_rotation(normal);
+      for (const std::size_t k : {1u, 2u, 3u, 0u}) put(out, q[k]);
+    }
+  });
+  to.add(kExtension + ":SCALE", "VEC3", kFloat, splats.size(), [&](Bytes& out) {
+    for (const float deviation : splats.deviations)
+      for (const float scale : {deviation, deviation, deviation * kSplatFlatness}) put(out, scale);
+  });
+  to.add(kExtension + ":OPACITY", "SCALAR", kFloat, splats.size(), [&](Bytes& out) {
+    for (std::size_t p = 0; p < splats.size(); ++p) put(out, kSplatOpacity);
+  });
+}
+
+void add_harmonics(const SplatCloud& splats, Attributes& to) {
+  const std::size_t count = splats.num_harmonics();
+  for (std::size_t l = 0, k = 0; k < count; ++l)
+    for (std::size_t m = 0; m < 2 * l + 1; ++m, ++k)
+      to.add(kExtension + ":SH_DEGREE_" + std::to_string(l) + "_COEF_" + std::to_string(m), "VEC3",
+             kFloat, splats.size(), [&](Bytes& out) {
+               for (std::size_t p = 0; p < splats.size(); ++p)
+                 for (std::size_t c = 0; c < 3; ++c)
+                   put(out, splats.harmonics[3 * (p * count + k) + c]);
+             });
+}
+
+Json document(const SplatCloud& splats, const Attributes& from) {
+  Json node{{"mesh", 0}};
+  if (splats.origin != Vec3{0, 0, 0}) node["translation"] = turned(splats.axes, splats.origin);
+  const Json splatting{{"kernel", "ellipse"},
+                       {"colorSpace", "srgb_rec709_display"},
+                       {"projection", "perspective"},
+                       {"sortingMethod", "cameraDistance"}};
+  return {{"asset", {{"version", "2.0"}, {"generator", "slf"}}},
+          {"extensionsUsed", {kExtension}},
+          {"scene", 0},
+          {"scenes", {{{"nodes", {0}}}}},
+          {"nodes", {node}},
+          {"meshes",
+           {{{"primitives",
+              {{{"mode", kPoints},
+                {"attributes", from.names},
+                {"extensions", {{kExtension, splatting}}}}}}}}},
+          {"accessors", from.accessors},
+          {"bufferViews", from.views},
+          {"buffers", {{{"byteLength", from.buffer.size()}}}}};
+}
+
+}  // namespace
+
+Bytes write_splat_glb(const SplatCloud& splats) {
+  Attributes attributes;
+  add_positions(splats, attributes);
+  add_point_colours(splats, attributes);
+  add_discs(splats, attributes);
+  add_harmonics(splats, attributes);
+  std::string json = document(splats, attributes).dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto size = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
+  Bytes out;
+  out.reserve(28 + json.size() + attributes.buffer.size());
+  put(out, kGlb);
+  put(out, std::uint32_t{2});
+  put(out, size(28 + json.size() + attributes.buffer.size()));
+  put(out, size(json.size()));
+  put(out, kJsonChunk);
+  put(out, json);
+  put(out, size(attributes.buffer.size()));  // whole words: every attribute is
+  put(out, kBinaryChunk);
+  out.insert(out.end(), attributes.buffer.begin(), attributes.buffer.end());
+  return out;
+}
+
+}  // namespace slf

@@ -1,0 +1,31 @@
+// The formats of splats, one file each.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "slf/splats.h"
+
+namespace slf {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes write_splat_ply(const SplatCloud& splats);
+Bytes write_splat_glb(const SplatCloud& splats);
+Result<Bytes, InputError> write_spz(const SplatCloud& splats);
+/// What write_spz() leaves of it.
+SplatCloud rounded_to_spz(SplatCloud splats);
+
+/// Little endian.
+inline void put(Bytes& out, std::uint32_t value) {
+  for (int shift = 0; shift < 32; shift += 8)
+    out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+inline void put(Bytes& out, float value) { put(out, std::bit_cast<std::uint32_t>(value)); }
+inline void put(Bytes& out, std::string_view text) {
+  out.insert(out.end(), text.begin(), text.end());
+}
+
+}  // namespace slf

@@ -1,0 +1,124 @@
+#include "fit/picture_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "fit/observe_camera.h"
+#include "render/splat_weights.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr float kCovered = 0.99f;  // a pixel of less is part background, which no point can explain
+constexpr std::uint8_t kClipped = 250;  // such a sample may have been any brighter
+constexpr std::array<float, 3> kNoGain{1, 1, 1};
+constexpr double kMemory = 3.0 * (1u << 30);
+constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
+constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, directions
+constexpr double kSeen = 0.5;                   // share of the points that a camera sees, at most
+
+/// Every so many-th camera fits into memory.
+std::size_t stride_of(const Capture& capture, std::span<const int> cameras, std::size_t points) {
+  double bytes = 0;
+  for (const int c : cameras) {
+    const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
+    bytes += kBytesPerPixel * camera.width * camera.height +
+             kBytesPerRay * kSeen * static_cast<double>(points);
+  }
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(bytes / kMemory)));
+}
+
+Result<PictureView, InputError> picture_view(const Capture& capture, int camera_index,
+                                             const std::array<float, 3>& gain,
+                                             const SurfelCloud& cloud,
+                                             const std::array<float, 256>& transfer) {
+  const Camera& camera = capture.cameras[static_cast<std::size_t>(camera_index)];
+  SLF_TRY(const Image image, load_image(capture, camera_index));
+  const SplatWeights splatted =
+      splat_weights(project_surfels(cloud, camera, 1), camera.width, camera.height, 1);
+  PictureView view;
+  view.first.push_back(0);
+  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+  std::vector<std::uint32_t> local_of(cloud.size(), kUnseen);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
+    const std::uint8_t* sample = &image.data[channels * i];
+    if (splatted.coverage[i] < kCovered || (channels == 4 && sample[3] < 255)) continue;
+    if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
+    for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {
+      view.local.push_back(splatted.point[j]);
+      view.weight.push_back(splatted.weight[j]);
+      local_of[splatted.point[j]] = 0;
+    }
+    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
+    Colour4 colour{};
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = gain[c] * transfer[sample[c]];
+    view.photograph.push_back(colour);
+  }
+  for (std::uint32_t p = 0; p < local_of.size(); ++p) {
+    if (local_of[p] == kUnseen) continue;
+    local_of[p] = static_cast<std::uint32_t>(view.points.size());
+    view.points.push_back(p);
+  }
+  for (std::uint32_t& p : view.local) p = local_of[p];
+  view.trust.assign(view.pixels(), 1.0f);
+  return view;
+}
+
+/// Rays by point, cameras ascending within a point; tells the views.
+Rays connect(std::vector<PictureView>& views, std::size_t points) {
+  Rays rays;
+  rays.first.assign(points + 1, 0);
+  for (const PictureView& view : views)
+    for (const std::uint32_t p : view.points) ++rays.first[p + 1];
+  for (std::size_t p = 0; p < points; ++p) rays.first[p + 1] += rays.first[p];
+  rays.view.resize(static_cast<std::size_t>(rays.first[points]));
+  std::vector<std::uint64_t> next(rays.first.begin(), rays.first.end() - 1);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const std::uint32_t p : views[v].points) {
+      rays.view[static_cast<std::size_t>(next[p])] = static_cast<std::uint32_t>(v);
+      views[v].ray.push_back(next[p]++);
+    }
+  return rays;
+}
+
+}  // namespace
+
+Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
+                                               std::span<const std::array<float, 3>> gains,
+                                               const SurfelCloud& cloud, Transfer transfer,
+                                               int threads, const Progress& progress) {
+  PictureViews pictures;
+  pictures.views.resize(cameras.size());
+  std::vector<std::optional<InputError>> failures(cameras.size());
+  const auto table = transfer_table(transfer);
+  const std::size_t stride = stride_of(capture, cameras, cloud.size());
+  parallel_ranges(
+      cameras.size(), 1, threads,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          if (v % stride != 0) continue;
+          auto view =
+              picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud, table);
+          if (view) {
+            pictures.views[v] = std::move(*view);
+          } else {
+            failures[v] = view.error();
+          }
+        }
+      },
+      [&](std::size_t done) {
+        if (progress) progress("pictures", double(done) / double(cameras.size()));
+      });
+  for (const auto& failure : failures)
+    if (failure) return *failure;
+  for (PictureView& view : pictures.views)
+    if (view.first.empty()) view.first.push_back(0);
+  pictures.rays = connect(pictures.views, cloud.size());
+  return pictures;
+}
+
+}  // namespace slf

@@ -1,0 +1,12 @@
+// Photographs: PNG (its CRCs are not checked while fuzzing where libpng is built so) and JPEG.
+#include "capture/image_formats.h"
+#include "fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const slf::Bytes file(data, size);
+  const auto png = slf::png_size(file), jpeg = slf::jpeg_size(file);
+  const auto small = [](const auto& s) { return s && s->width <= 512 && s->height <= 512; };
+  if (slf::is_png(file) && small(png)) (void)slf::decode_png("fuzz.png", file);
+  if (slf::is_jpeg(file) && small(jpeg)) (void)slf::decode_jpeg("fuzz.jpg", file);
+  return 0;
+}

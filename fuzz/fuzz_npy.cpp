@@ -1,0 +1,9 @@
+// Arrays as slf pack reads them.
+#include "fuzz/fuzz.h"
+#include "tools/npy.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto array = slf::tools::parse_npy({data, data + size});
+  if (array) (void)slf::tools::int32_values(*array);
+  return 0;
+}

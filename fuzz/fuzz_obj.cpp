@@ -1,0 +1,9 @@
+// OBJ meshes.
+#include "capture/mesh_formats.h"
+#include "fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (auto mesh = slf::parse_obj("fuzz.obj", {data, size}))
+    (void)slf::check_mesh("fuzz.obj", *mesh);
+  return 0;
+}

@@ -1,0 +1,23 @@
+// What truncate makes of a stream that decodes, decodes.
+#include <cstdlib>
+
+#include "fuzz/fuzz.h"
+#include "slf/truncate.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return 0;
+  const auto stream = slf::fuzz::with_sound_crcs({data + 2, size - 2});
+  slf::DecodeOptions options;
+  options.limits = slf::fuzz::small_limits();
+  options.levels = data[0] % 8;
+  options.groups = data[1] % 4;
+  if (data[0] & 0x80) options.region = slf::VoxelBox{{0, 0, 0}, {data[1], data[1], 3}};
+  const auto cut = slf::truncate(stream, options);
+  if (!cut) return 0;
+  const auto asked = slf::decode(stream, options);
+  options.levels = options.groups = 0;
+  options.region.reset();
+  const bool decodes = static_cast<bool>(slf::decode(*cut, options));
+  if (asked && !decodes) std::abort();
+  return 0;
+}

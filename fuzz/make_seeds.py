@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""Seeds of the fuzz targets: small files of every format, OUT/TARGET/NAME.
+
+    fuzz/make_seeds.py OUT [--slf build/bin/slf]
+
+Streams are conformance streams below 4 kB, and refused ones; the rest is written here, byte by byte.
+With --slf there are .igc files too.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import tempfile
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+MARK = b"\xff\xfe\xff"  # between the files of one input
+MOST_BYTES = 4096
+
+
+def streams():
+    """Name and bytes of conformance streams, small ones first."""
+    files = sorted(ROOT.glob("conformance/*/*/stream.slf"), key=lambda file: file.stat().st_size)
+    return [(file.parent.name, file.read_bytes()) for file in files if file.stat().st_size <= MOST_BYTES]
+
+
+def hevc(stream):
+    """The HEVC bytes of the first unit that has some, with the byte of the target before them."""
+    at = stream.find(b"\x00\x00\x00\x01\x40\x01")
+    return None if at < 0 else b"\x01" + stream[at:]
+
+
+def chunk(kind, body):
+    """A chunk of a PNG."""
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def png(depth, colour, channels, palette=b""):
+    """4 x 4 pixels."""
+    row = b"\x00" + bytes(range(4 * channels * depth // 8))
+    body = chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, depth, colour, 0, 0, 0))
+    if palette:
+        body += chunk(b"PLTE", palette) + chunk(b"tRNS", bytes(len(palette) // 3))
+    return b"\x89PNG\r\n\x1a\n" + body + chunk(b"IDAT", zlib.compress(row * 4)) + chunk(b"IEND", b"")
+
+
+def jpeg():
+    """8 x 8 grey pixels, baseline, of one DC coefficient."""
+    def segment(marker, body):
+        return bytes([0xFF, marker]) + struct.pack(">H", len(body) + 2) + body
+    table = bytes([1] + [0] * 15 + [0])  # one code of one bit: 0
+    return (b"\xff\xd8" + segment(0xDB, b"\x00" + bytes([16] * 64))
+            + segment(0xC0, struct.pack(">BHHB", 8, 8, 8, 1) + bytes([1, 0x11, 0]))
+            + segment(0xC4, b"\x00" + table) + segment(0xC4, b"\x10" + table)
+            + segment(0xDA, bytes([1, 1, 0x00, 0, 63, 0])) + b"\x3f" + b"\xff\xd9")
+
+
+def npy(kind, shape, body):
+    """A NumPy file of version 1."""
+    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".encode()
+    header += b" " * (-(len(header) + 11) % 64) + b"\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header + body
+
+
+def ply(form, body):
+    """Three vertices with colours, a face."""
+    return (f"ply\nformat {form} 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n").encode() + body
+
+
+def glb():
+    """A triangle with indices, under a node that turns."""
+    points = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    body = points + struct.pack("<3H", 0, 1, 2) + b"\x00\x00"
+    scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(body)}], "scene": 0,
+             "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, 3]}],
+             "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                           {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]}
+    text = json.dumps(scene, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def cameras():
+    """cameras.json, transforms.json of one focal length and with distortion."""
+    unit = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 3], [0, 0, 0, 1]]
+    ours = {"cameras": [{"image": "a.png", "width": 4, "height": 4, "K": [[5, 0, 2], [0, 5, 2], [0, 0, 1]],
+                         "R": [row[:3] for row in unit[:3]], "t": [0, 0, 3]}], "splits": {"dense": ["a.png"]}}
+    frames = [{"file_path": "a.png", "transform_matrix": unit}]
+    blender = {"camera_angle_x": 0.7, "w": 4, "h": 4, "frames": frames}
+    nerf = {"fl_x": 5, "fl_y": 5, "cx": 2, "cy": 2, "w": 4, "h": 4, "k1": 0.1, "k2": 0, "p1": 0, "p2": 0,
+            "camera_model": "OPENCV", "ply_file_path": "points.ply", "frames": frames}
+    return {"ours": ours, "blender": blender, "nerf": nerf}
+
+
+def colmap():
+    """A model of one camera, one image, one point, as text and as binary."""
+    text = MARK.join([b"1 PINHOLE 4 4 5 5 2 2\n", b"1 1 0 0 0 0 0 3 1 a.png\n2 2 1\n",
+                      b"1 0 0 0 9 8 7 0.5 1 0\n"])
+    camera = struct.pack("<QIiQQ4d", 1, 1, 1, 4, 4, 5, 5, 2, 2)
+    image = struct.pack("<QI7dI", 1, 1, 1, 0, 0, 0, 0, 0, 3, 1) + b"a.png\0" + struct.pack("<QddQ", 1, 2, 2, 1)
+    point = struct.pack("<QQ3d3BdQII", 1, 1, 0, 0, 0, 9, 8, 7, 0.5, 1, 1, 0)
+    return {"text": text, "binary": MARK.join([camera, image, point])}
+
+
+def igc(program):
+    """Files of four cameras of 32 x 32 pixels, as fuzz_igc.cpp expects."""
+    with tempfile.TemporaryDirectory() as scratch:
+        out = pathlib.Path(scratch) / "x.igc"
+        subprocess.run([program, "synth", "can", "-o", scratch + "/can", "--size", "32x32", "--points", "200"],
+                       check=True, capture_output=True)
+        made = json.loads((pathlib.Path(scratch) / "can/cameras.json").read_text())
+        made = {"cameras": made["cameras"][:4], "splits": {}}
+        for i, camera in enumerate(made["cameras"]):
+            shutil.copy(pathlib.Path(scratch) / "can" / camera["image"], scratch + f"/can/images/{i}.png")
+            camera["image"] = f"images/{i}.png"
+        (pathlib.Path(scratch) / "can/cameras.json").write_text(json.dumps(made))
+        subprocess.run([program, "igc", scratch + "/can", "-o", str(out), "--split", "all", "--grid-bits", "4"],
+                       check=True, capture_output=True)
+        return out.read_bytes()
+
+
+def seeds(program):
+    """Target: name: bytes."""
+    made = {target: {} for target in
+            "decode render truncate hevc npy ply obj glb image cameras colmap igc".split()}
+    for name, stream in streams():
+        made["decode"][name] = made["render"][name] = stream
+        made["truncate"][name] = b"\x03\x01" + stream
+        if hevc(stream):
+            made["hevc"][name] = hevc(stream)
+    made["npy"]["int32"] = npy("<i4", (2, 3), bytes(24))
+    made["npy"]["int64"] = npy(">i8", (1, 1, 3), bytes(24))
+    made["npy"]["float"] = npy("<f4", (2,), bytes(8))
+    values = [struct.pack(order + "fff3B", *point) for order in "<>" for point in
+              ((0, 0, 0, 1, 2, 3), (1, 0, 0, 4, 5, 6), (0, 1, 0, 7, 8, 9))]
+    made["ply"]["ascii"] = ply("ascii", b"0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2\n")
+    made["ply"]["little"] = ply("binary_little_endian", b"".join(values[:3]) + struct.pack("<B3i", 3, 0, 1, 2))
+    made["ply"]["big"] = ply("binary_big_endian", b"".join(values[3:]) + struct.pack(">B3i", 3, 0, 1, 2))
+    made["obj"]["triangle"] = b"v 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -1 -2 -3 1\n"
+    made["glb"]["triangle"] = glb()
+    made["image"] = {"grey.png": png(8, 0, 1), "rgb16.png": png(16, 2, 3), "rgba.png": png(8, 6, 4),
+                     "palette.png": png(8, 3, 1, bytes(range(12))), "grey.jpg": jpeg()}
+    made["cameras"] = {name: json.dumps(value).encode() for name, value in cameras().items()}
+    made["colmap"] = colmap()
+    if program:
+        made["igc"]["can"] = igc(program)
+    return made
+
+
+def main():
+    """Writes them."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--slf")
+    given = parser.parse_args()
+    for target, files in seeds(given.slf).items():
+        (given.out / target).mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            (given.out / target / name).write_bytes(content)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,19 @@
+// Pictures of a light field against photographs. Spec annex D.
+#pragma once
+
+#include <span>
+
+#include "measure/captured_view.h"
+#include "slf/evaluate.h"
+
+namespace slf {
+
+/// What of a Quality is of pictures: renders every camera and compares, one camera per thread.
+/// @errors those of load_image and settings.error_map
+Result<Done, InputError> evaluate_images(const ViewMaps& maps, const Capture& capture,
+                                         std::span<const int> cameras,
+                                         const CapturedSurface& surface,
+                                         const EvaluateSettings& settings, const Progress& progress,
+                                         Quality& quality);
+
+}  // namespace slf

@@ -1,0 +1,60 @@
+// slf.Camera of Python and slf::Camera.
+#pragma once
+
+#include "arrays.h"
+#include "slf/capture.h"
+
+namespace slf::python {
+
+/// @throws ValueError where a shape or a size is wrong, or a value is not finite
+inline Camera camera_of(const py::object& from) {
+  const auto matrix = [&](const char* name, std::vector<py::ssize_t> shape) {
+    Array<double> array = from.attr(name).cast<Array<double>>();
+    check_shape(array, shape, name);
+    for (py::ssize_t i = 0; i < array.size(); ++i)
+      if (!std::isfinite(array.data()[i]))
+        throw py::value_error(std::string(name) + " is not finite");
+    return array;
+  };
+  Camera camera;
+  camera.name = from.attr("name").cast<std::string>();
+  camera.width = from.attr("width").cast<int>();
+  camera.height = from.attr("height").cast<int>();
+  constexpr int kMost = 16384;
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMost || camera.height > kMost)
+    throw py::value_error("width and height of a camera are 1 to 16384");
+  const auto k = matrix("K", {3, 3}), r = matrix("R", {3, 3}), t = matrix("t", {3});
+  const auto distortion = matrix("distortion", {4});
+  camera.fx = k.at(0, 0);
+  camera.fy = k.at(1, 1);
+  camera.cx = k.at(0, 2);
+  camera.cy = k.at(1, 2);
+  if (!(camera.fx > 0 && camera.fy > 0)) throw py::value_error("K has no focal length");
+  for (py::ssize_t i = 0; i < 3; ++i) {
+    for (py::ssize_t j = 0; j < 3; ++j)
+      camera.rotation[std::size_t(i)][std::size_t(j)] = r.at(i, j);
+    camera.translation[std::size_t(i)] = t.at(i);
+  }
+  for (py::ssize_t i = 0; i < 4; ++i) camera.distortion[std::size_t(i)] = distortion.at(i);
+  return camera;
+}
+
+inline py::dict dict_of(const Camera& camera) {
+  using namespace py::literals;
+  py::array_t<double> k({3, 3}), r({3, 3}), t(3);
+  std::fill_n(k.mutable_data(), 9, 0.0);
+  k.mutable_at(0, 0) = camera.fx;
+  k.mutable_at(1, 1) = camera.fy;
+  k.mutable_at(0, 2) = camera.cx;
+  k.mutable_at(1, 2) = camera.cy;
+  k.mutable_at(2, 2) = 1;
+  for (py::ssize_t i = 0; i < 3; ++i) {
+    for (py::ssize_t j = 0; j < 3; ++j)
+      r.mutable_at(i, j) = camera.rotation[std::size_t(i)][std::size_t(j)];
+    t.mutable_at(i) = camera.translation[std::size_t(i)];
+  }
+  return py::dict("width"_a = camera.width, "height"_a = camera.height, "K"_a = k, "R"_a = r,
+                  "t"_a = t, "distortion"_a = camera.distortion, "name"_a = camera.name);
+}
+
+}  // namespace slf::python

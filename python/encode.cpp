@@ -1,0 +1,203 @@
+// Encoding, on the C++ library.
+#include "slf/encoder.h"
+
+#include <cmath>
+#include <functional>
+
+#include "arrays.h"
+#include "cameras.h"
+#include "failure.h"
+#include "module.h"
+
+namespace slf::python {
+namespace {
+
+/// Calls a Python function from a library that must not be left by an exception: the first one is
+/// kept, and raised when the library is done.
+class Reporter {
+ public:
+  explicit Reporter(const py::object& function) : function_(function) {}
+
+  Progress progress() {
+    if (function_.is_none()) return {};
+    return [this](const char* stage, double fraction) {
+      const py::gil_scoped_acquire gil;
+      if (error_) return;
+      try {
+        function_(stage, fraction);
+      } catch (const py::error_already_set&) {
+        error_ = std::current_exception();
+      }
+    };
+  }
+  void raise() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  py::object function_;
+  std::exception_ptr error_;
+};
+
+template <class T, std::size_t N>
+void copy_rows(const Array<T>& from, std::vector<std::array<T, N>>& to) {
+  to.resize(static_cast<std::size_t>(from.shape(0)));
+  for (std::size_t i = 0; i < to.size(); ++i)
+    for (std::size_t k = 0; k < N; ++k) to[i][k] = from.data()[N * i + k];
+}
+
+/// The mean, rounded: floats from there keep their digits.
+Vec3 middle(const Array<double>& points) {
+  Vec3 mean{0, 0, 0};
+  const auto count = static_cast<std::size_t>(points.shape(0));
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < 3; ++k) mean[k] += points.data()[3 * i + k] / double(count);
+  for (double& c : mean) c = std::abs(c) > 1000 ? std::round(c) : 0;
+  return mean;
+}
+
+Image image_of(const py::handle& given, const Camera& camera) {
+  const auto array = py::reinterpret_borrow<py::object>(given).cast<Array<std::uint8_t>>();
+  if (array.ndim() != 3 || array.shape(0) != camera.height || array.shape(1) != camera.width ||
+      (array.shape(2) != 3 && array.shape(2) != 4))
+    throw py::value_error("an image is uint8 [height, width, 3 or 4], as large as its camera says");
+  Image image{camera.width, camera.height, static_cast<int>(array.shape(2)), {}};
+  image.data.assign(array.data(), array.data() + array.size());
+  return image;
+}
+
+Capture capture_of(const py::object& from) {
+  Capture capture;
+  const auto points = from.attr("points").cast<Array<double>>();
+  check_shape(points, {-1, 3}, "points");
+  capture.origin = middle(points);
+  for (py::ssize_t i = 0; i < points.shape(0); ++i)
+    capture.cloud.positions.push_back({float(points.at(i, 0) - capture.origin[0]),
+                                       float(points.at(i, 1) - capture.origin[1]),
+                                       float(points.at(i, 2) - capture.origin[2])});
+  if (const py::object normals = from.attr("normals"); !normals.is_none()) {
+    check_shape(normals.cast<Array<float>>(), {points.shape(0), 3}, "normals");
+    copy_rows(normals.cast<Array<float>>(), capture.cloud.normals);
+  }
+  if (const py::object colours = from.attr("colours"); !colours.is_none()) {
+    check_shape(colours.cast<Array<std::uint8_t>>(), {points.shape(0), 3}, "colours");
+    copy_rows(colours.cast<Array<std::uint8_t>>(), capture.cloud.colours);
+  }
+  for (const py::handle camera : from.attr("cameras"))
+    capture.cameras.push_back(moved(camera_of(py::reinterpret_borrow<py::object>(camera)),
+                                    {-capture.origin[0], -capture.origin[1], -capture.origin[2]}));
+  std::size_t i = 0;
+  for (const py::handle image : from.attr("images")) {
+    if (i == capture.cameras.size()) throw py::value_error("there are more images than cameras");
+    capture.images.push_back(image_of(image, capture.cameras[i++]));
+  }
+  if (i != capture.cameras.size()) throw py::value_error("there are more cameras than images");
+  capture.image_files.resize(capture.cameras.size());
+  capture.up = static_cast<UpAxis>(from.attr("up_index").cast<int>());
+  return capture;
+}
+
+EncoderSettings settings_of(const py::dict& given) {
+  const auto preset =
+      given["preset"].cast<std::string>() == "paper" ? Preset::kPaper : Preset::kDefault;
+  EncoderSettings settings = slf::settings_of(preset, given["effort"].cast<int>());
+  if (const py::object q = given["q"]; !q.is_none()) settings.q = q.cast<double>();
+  settings.target_bytes = given["target_bytes"].cast<std::uint64_t>();
+  settings.target_psnr = given["target_psnr"].cast<double>();
+  settings.grid_bits = given["grid_bits"].cast<int>();
+  settings.voxel_size = given["voxel_size"].cast<double>();
+  settings.normal_bits = given["normal_bits"].cast<int>();
+  settings.quality_layers = given["quality_layers"].cast<int>();
+  settings.threads = given["threads"].cast<int>();
+  if (!(settings.q >= 0.05 && settings.q <= 4096)) throw py::value_error("q is 0.05 to 4096");
+  if (settings.grid_bits < 0 || settings.grid_bits > 21)
+    throw py::value_error("grid_bits is 0 to 21");
+  if (settings.normal_bits != 0 && (settings.normal_bits < 4 || settings.normal_bits > 12))
+    throw py::value_error("normal_bits is 0 or 4 to 12");
+  if (settings.quality_layers < 1 || settings.quality_layers > 4)
+    throw py::value_error("quality_layers is 1 to 4");
+  if (!(settings.voxel_size >= 0) || !(settings.target_psnr >= 0))
+    throw py::value_error("voxel_size and target_psnr are 0 or more");
+  return settings;
+}
+
+py::tuple encode_capture(const Capture& capture, const std::string& split, const py::dict& options,
+                         const py::object& progress) {
+  const EncoderSettings settings = settings_of(options);
+  Reporter reporter(progress);
+  const Progress report = reporter.progress();
+  Encoded encoded;
+  {
+    const py::gil_scoped_release no_gil;
+    std::vector<int> cameras;
+    if (!capture.cameras.empty()) cameras = value_of(split_cameras(capture, split));
+    encoded = value_of(encode(capture, cameras, settings, report));
+  }
+  reporter.raise();
+  using namespace py::literals;
+  return py::make_tuple(
+      bytes_of(encoded.stream),
+      py::dict("q"_a = encoded.q, "points"_a = encoded.points, "bits"_a = encoded.grid.bits,
+               "step"_a = encoded.grid.step, "observations"_a = encoded.observations,
+               "warnings"_a = encoded.warnings));
+}
+
+py::tuple encode_path(const std::string& path, const std::string& split, const py::dict& options,
+                      const py::object& progress) {
+  Capture capture;
+  {
+    const py::gil_scoped_release no_gil;
+    capture = value_of(load_capture(path));
+  }
+  return encode_capture(capture, split, options, progress);
+}
+
+py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& components, int bits,
+                      const Vec3& origin, double step, const py::object& steps,
+                      const std::vector<int>& groups, const Metadata& metadata, int threads) {
+  check_shape(positions, {-1, 3}, "positions");
+  LightField field;
+  copy_rows(positions, field.positions);
+  field.header.grid = {origin, step, bits};
+  field.header.has_basis = false;
+  if (!components.is_none()) {
+    const auto array = components.cast<Array<std::int32_t>>();
+    check_shape(array, {positions.shape(0), -1, 3}, "components");
+    field.header.num_functions = static_cast<int>(array.shape(1));
+    field.components.assign(array.data(), array.data() + array.size());
+  }
+  CodingParameters parameters;
+  parameters.group = groups;
+  if (!steps.is_none()) {
+    const auto array = steps.cast<Array<std::uint32_t>>();
+    check_shape(array, {field.header.num_functions, 3}, "steps");
+    copy_rows(array, parameters.step);
+  }
+  parameters.metadata = metadata;
+  parameters.threads = threads;
+  std::vector<std::uint8_t> stream;
+  {
+    const py::gil_scoped_release no_gil;
+    stream = value_of(pack(field, parameters));
+  }
+  return bytes_of(stream);
+}
+
+}  // namespace
+
+void add_encoding(py::module_& m) {
+  m.def("encode_path", &encode_path, py::arg("path"), py::arg("split"), py::arg("options"),
+        py::arg("progress"));
+  m.def(
+      "encode_capture",
+      [](const py::object& capture, const std::string& split, const py::dict& options,
+         const py::object& progress) {
+        return encode_capture(capture_of(capture), split, options, progress);
+      },
+      py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("progress"));
+  m.def("pack", &pack_arrays, py::arg("positions"), py::arg("components"), py::arg("bits"),
+        py::arg("origin"), py::arg("step"), py::arg("steps"), py::arg("groups"),
+        py::arg("metadata"), py::arg("threads"));
+}
+
+}  // namespace slf::python

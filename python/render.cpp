@@ -1,0 +1,96 @@
+// Rendering, on the C++ library: the C interface has no renderer.
+#include "slf/render.h"
+
+#include <memory>
+
+#include "arrays.h"
+#include "cameras.h"
+#include "failure.h"
+#include "module.h"
+#include "slf/decoder.h"
+
+namespace slf::python {
+namespace {
+
+LightField decoded(const py::object& source, const Part& part) {
+  const BytesView view(source);
+  DecodeOptions options;
+  options.levels = static_cast<int>(part.levels);
+  options.groups = static_cast<int>(part.groups);
+  options.layers = static_cast<int>(part.layers);
+  options.max_bytes = part.max_bytes;
+  options.threads = part.threads;
+  if (part.region) {
+    const auto& r = *part.region;
+    options.region = VoxelBox{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+  }
+  const py::gil_scoped_release no_gil;
+  return value_of(decode(view.bytes(), options));
+}
+
+/// View maps and the discs of a field.
+class FieldRenderer {
+ public:
+  FieldRenderer(const LightField& field, int threads) : threads_(threads) {
+    if (!field.header.has_basis)
+      throw failure_of(InputError{Errc::kInvalidInput, "holds planes without a basis: no colours"});
+    const py::gil_scoped_release no_gil;
+    maps_ = std::make_unique<ViewMaps>(field, threads);
+    renderer_ = std::make_unique<Renderer>(*maps_, settings({128, 128, 128}, true));
+  }
+
+  py::array_t<std::uint8_t> render(const py::object& camera,
+                                   const std::array<std::uint8_t, 3>& background,
+                                   bool view_dependent) const {
+    const Camera view = camera_of(camera);
+    Rendering rendering;
+    {
+      const py::gil_scoped_release no_gil;
+      const bool same = view_dependent && background == std::array<std::uint8_t, 3>{128, 128, 128};
+      rendering = same ? renderer_->render(view)
+                       : Renderer(*maps_, settings(background, view_dependent)).render(view);
+    }
+    py::array_t<std::uint8_t> out({view.height, view.width, 3});
+    std::copy(rendering.image.data.begin(), rendering.image.data.end(), out.mutable_data());
+    return out;
+  }
+
+  py::dict orbit(double turn, double elevation, int width, int height, double fov) const {
+    return dict_of(renderer_->orbit(turn, elevation, width, height, fov));
+  }
+
+ private:
+  RenderSettings settings(const std::array<std::uint8_t, 3>& background,
+                          bool view_dependent) const {
+    RenderSettings made;
+    made.background = background;
+    made.view_dependent = view_dependent;
+    made.threads = threads_;
+    return made;
+  }
+
+  int threads_;
+  std::unique_ptr<ViewMaps> maps_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace
+
+void add_rendering(py::module_& m) {
+  py::class_<FieldRenderer>(m, "Renderer")
+      .def(py::init([](const py::object& source, std::uint32_t levels, std::uint32_t groups,
+                       std::uint32_t layers, std::uint64_t max_bytes,
+                       const std::optional<std::array<int, 6>>& region, int threads) {
+             return std::make_unique<FieldRenderer>(
+                 decoded(source, Part{levels, groups, layers, max_bytes, region, threads, 0}),
+                 threads);
+           }),
+           py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("layers"),
+           py::arg("max_bytes"), py::arg("region"), py::arg("threads"))
+      .def("render", &FieldRenderer::render, py::arg("camera"), py::arg("background"),
+           py::arg("view_dependent"))
+      .def("orbit", &FieldRenderer::orbit, py::arg("turn"), py::arg("elevation"), py::arg("width"),
+           py::arg("height"), py::arg("fov"));
+}
+
+}  // namespace slf::python

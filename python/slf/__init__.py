@@ -1,0 +1,28 @@
+"""Surface light fields: read, look at, render and encode .slf files with numpy.
+
+    import slf
+    field = slf.read('can.slf')
+    picture = field.render(field.orbit(0.1), (800, 600))
+
+P is the number of points, R of coded functions of direction; colours are R, G, B of 0 to 255. Errors
+of the library are slf.Error and its subclasses. Long functions let other threads of Python run.
+"""
+from __future__ import annotations
+
+from . import _slf
+from ._encoding import encode, pack
+from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError,
+                      UnsupportedError)
+from ._field import LightField, info, read
+from ._types import Camera, Capture, Encoded, Info
+
+__all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Info',
+           'InputError', 'LightField', 'LimitError', 'UnsupportedError', '__version__', 'encode',
+           'info', 'pack', 'read']
+
+__version__: str = _slf.version()
+
+# Where a user finds them, in messages and in help().
+for _name in ('Camera', 'Capture', 'Encoded', 'Info', 'LightField', 'encode', 'info', 'pack', 'read'):
+    globals()[_name].__module__ = __name__
+del _name

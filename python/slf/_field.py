@@ -1,0 +1,175 @@
+"""Decoding: what of a stream, its arrays, its pictures."""
+from __future__ import annotations
+
+import functools
+import os
+from typing import Any, Dict, Optional, Tuple, TypeVar, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _slf
+from ._types import Box, Camera, Info, Source, Vector
+
+
+def _bytes(source: Source) -> Union[bytes, bytearray, memoryview]:
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return source
+    if not isinstance(source, (str, os.PathLike)):
+        raise TypeError(f'a path or bytes are needed, not {type(source).__name__}')
+    with open(source, 'rb') as file:
+        return file.read()
+
+
+def _info(fields: Dict[str, Any]) -> Info:
+    return Info(**fields)
+
+
+def info(source: Source) -> Info:
+    """Headers of a file or of bytes; nothing is decoded. Raises DamagedError, UnsupportedError."""
+    return _info(_slf.info(_bytes(source)))
+
+
+class LightField:
+    """A decoded light field. Arrays are read when first asked for, and are not to be written to."""
+
+    def __init__(self, data: Union[bytes, bytearray, memoryview],
+                 part: Dict[str, Any], max_memory: int) -> None:
+        self._data = data
+        self._part = part
+        self._field = _slf.Field(data, max_memory=max_memory, **part)
+        self._shape = self._field.shape()
+
+    def __len__(self) -> int:
+        return int(self._shape['points'])
+
+    def __repr__(self) -> str:
+        return f'<slf.LightField of {len(self)} points, {self.header.functions} functions>'
+
+    @functools.cached_property
+    def header(self) -> Info:
+        """Of the whole stream; bits, step and origin are those of its own grid."""
+        return _info(self._field.info())
+
+    @property
+    def partial(self) -> bool:
+        """Less was decoded than the stream was made of."""
+        return bool(self._shape['partial'])
+
+    @property
+    def step(self) -> float:
+        """World units between voxels of these points; larger with fewer levels."""
+        return float(self._shape['step'])
+
+    @property
+    def origin(self) -> Vector:
+        """World position of voxel (0, 0, 0) of these points."""
+        x, y, z = self._shape['origin']
+        return (x, y, z)
+
+    @functools.cached_property
+    def positions(self) -> npt.NDArray[np.int32]:
+        """Voxels, int32 [P, 3], Morton order."""
+        return _fixed(self._field.positions())
+
+    @functools.cached_property
+    def points(self) -> npt.NDArray[np.float64]:
+        """World positions, float64 [P, 3]."""
+        return _fixed(np.asarray(self.origin, np.float64) + np.float64(self.step) * self.positions)
+
+    @functools.cached_property
+    def components(self) -> npt.NDArray[np.int32]:
+        """The integers of the bit exact decode, int32 [P, R, 3]."""
+        return _fixed(self._field.components())
+
+    @functools.cached_property
+    def normals(self) -> npt.NDArray[np.float32]:
+        """Unit normals, float32 [P, 3], of either sign: coded, else estimated; 0 where unknown."""
+        return _fixed(self._field.normals())
+
+    @functools.cached_property
+    def radii(self) -> npt.NDArray[np.float32]:
+        """Radii of the discs that a renderer draws, float32 [P], world units."""
+        return _fixed(self._field.radii())
+
+    @functools.cached_property
+    def mean_colours(self) -> npt.NDArray[np.uint8]:
+        """R, G, B averaged over all directions, uint8 [P, 3]."""
+        return _fixed(self._field.mean_colours())
+
+    def radiance(self, points: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """Colours of points along directions, float32 of the broadcast shape [..., 3].
+
+        points: indices [...], 0 to P - 1; directions [..., 3]: world, from the point to the eye, any
+        length above 0. Values of header.transfer. Raises ValueError, IndexError.
+        """
+        where = np.asarray(points)
+        along = np.asarray(directions, np.float32)
+        if where.dtype.kind not in 'iu' or along.ndim < 1 or along.shape[-1] != 3:
+            raise ValueError('points are whole numbers and directions [..., 3]')
+        if where.size and not (0 <= int(where.min()) and int(where.max()) < len(self)):
+            raise IndexError(f'points are 0 to {len(self) - 1}')
+        shape = np.broadcast_shapes(where.shape, along.shape[:-1])
+        flat = np.broadcast_to(where, shape).reshape(-1).astype(np.uint32)
+        rays = np.ascontiguousarray(np.broadcast_to(along, (*shape, 3))).reshape(-1, 3)
+        if not np.isfinite(rays).all():
+            raise ValueError('directions are finite')
+        return self._field.radiance(flat, rays).reshape(*shape, 3)
+
+    @functools.cached_property
+    def _renderer(self) -> _slf.Renderer:
+        return _slf.Renderer(self._data, **self._part)
+
+    def render(self, camera: Camera, size: Optional[Tuple[int, int]] = None,
+               background: Tuple[int, int, int] = (128, 128, 128),
+               view_dependent: bool = True) -> npt.NDArray[np.uint8]:
+        """A picture, uint8 [height, width, 3], display values.
+
+        size: width and height in place of the camera's. view_dependent False: mean colours. The
+        first call decodes once more, for the renderer.
+        """
+        view = camera if size is None else camera.resized(size)
+        return self._renderer.render(view, background, view_dependent)
+
+    def orbit(self, turn: float, elevation: float = 20, size: Tuple[int, int] = (800, 800),
+              fov: float = 30) -> Camera:
+        """A camera on a circle around the cloud, all of it in view.
+
+        turn: 0 to 1; elevation and fov: degrees; size: width, height.
+        """
+        return Camera(**self._renderer.orbit(turn, elevation, size[0], size[1], fov))
+
+
+_Any = TypeVar('_Any', bound=np.generic)
+
+
+def _fixed(array: npt.NDArray[_Any]) -> npt.NDArray[_Any]:
+    array.flags.writeable = False
+    return array
+
+
+def _voxels(data: Union[bytes, bytearray, memoryview], region: Box) -> Tuple[int, ...]:
+    """A box of the world in voxels, as `slf decode --region` has it."""
+    header = _info(_slf.info(data))
+    corners = np.sort(np.asarray(region, float), axis=0)
+    if corners.shape != (2, 3) or not np.isfinite(corners).all():
+        raise ValueError('a region is two corners of three coordinates')
+    voxels = np.floor((corners - np.asarray(header.origin)) / header.step + 0.5)
+    return tuple(int(v) for v in np.clip(voxels, -1, 1 << 22).reshape(-1))
+
+
+def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
+         max_bytes: int = 0, region: Optional[Box] = None, threads: int = 0,
+         max_memory: int = 0) -> LightField:
+    """Decodes a file, or bytes (which are not copied, and not to be changed after).
+
+    levels: of the octree, 1 to Info.bits, fewer are a coarser cloud; groups: of planes; layers: of
+    quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
+    region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores. max_memory: bytes that decoding may take, 0 is any.
+    Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
+    """
+    data = _bytes(source)
+    part = {'levels': levels, 'groups': groups, 'layers': layers, 'max_bytes': max_bytes,
+            'threads': threads,
+            'region': None if region is None else _voxels(data, region)}
+    return LightField(data, part, max_memory)

@@ -1,0 +1,129 @@
+"""Values that functions of slf take and give."""
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from typing import Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview]
+Vector = Tuple[float, float, float]
+Box = Tuple[Sequence[float], Sequence[float]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Info:
+    """What a stream's headers say (slf_info of slf/slf.h)."""
+
+    format_version: Tuple[int, int]
+    profile: str  #: 'main', 'draco' (geometry) or 'texture'
+    bytes: int
+    points: int
+    functions: int  #: K
+    components: int  #: R, the coded ones
+    slices: int
+    groups: int  #: of planes: what read(groups=...) counts
+    bits: int  #: of the grid, levels of the octree: what read(levels=...) counts
+    normal_bits: int  #: of coded normals; 0: none
+    origin: Vector  #: world position of voxel (0, 0, 0)
+    step: float  #: world units from voxel to voxel
+    metres_per_unit: float  #: 0: not known
+    up: str  #: '+x', '-x', ... or 'unknown'
+    right_handed: bool
+    basis: str  #: 'bspline', 'harmonics' or 'none': integers without a meaning
+    frame: str  #: 'global' or 'reflected'
+    transfer: str  #: 'display' or 'linear': what colours are of
+    gamma_range: Tuple[float, float]
+    complete: bool  #: False: the end of the stream is missing
+    metadata: Tuple[Tuple[str, str], ...]
+
+
+@dataclasses.dataclass
+class Camera:
+    """A pinhole camera with OpenCV axes: x_cam = R x + t, x right, y down, z forward.
+
+    K [3, 3], R [3, 3], t [3]; the centre of the top left pixel is (0.5, 0.5). distortion: k1, k2,
+    p1, p2 of OpenCV.
+    """
+
+    width: int
+    height: int
+    K: npt.ArrayLike
+    R: npt.ArrayLike
+    t: npt.ArrayLike
+    distortion: npt.ArrayLike = (0.0, 0.0, 0.0, 0.0)
+    name: str = 'camera'
+
+    @classmethod
+    def look_at(cls, eye: npt.ArrayLike, target: npt.ArrayLike, up: npt.ArrayLike = (0, 0, 1),
+                size: Tuple[int, int] = (800, 800), fov: float = 30) -> Camera:
+        """A camera at `eye` that has `target` in its middle.
+
+        size: width and height; fov: degrees, of the larger of them.
+        """
+        position = np.asarray(eye, float)
+        forward = np.asarray(target, float) - position
+        right = np.cross(forward, np.asarray(up, float))
+        if not np.linalg.norm(right) > 0:
+            raise ValueError('the camera looks along `up`, or at itself')
+        forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
+        rotation = np.stack([right, np.cross(forward, right), forward])
+        focal = max(size) / 2 / math.tan(math.radians(fov) / 2)
+        intrinsics = np.diag([focal, focal, 1.0])
+        intrinsics[:2, 2] = np.asarray(size) / 2
+        return cls(size[0], size[1], intrinsics, rotation, -rotation @ position)
+
+    def resized(self, size: Tuple[int, int]) -> Camera:
+        """The same view in another number of pixels (width, height)."""
+        scale = np.diag([size[0] / self.width, size[1] / self.height, 1.0])
+        return dataclasses.replace(self, width=size[0], height=size[1],
+                                   K=scale @ np.asarray(self.K, float))
+
+
+@dataclasses.dataclass
+class Capture:
+    """Photographs and points in memory; a directory of files needs none of this (encode).
+
+    points [N, 3] world; normals [N, 3] unit, outward, or None; colours uint8 [N, 3] or None;
+    images: uint8 [height, width, 3 or 4] of each camera, display values, alpha 0 off the object.
+    """
+
+    points: npt.ArrayLike
+    normals: Optional[npt.ArrayLike] = None
+    colours: Optional[npt.ArrayLike] = None
+    cameras: Sequence[Camera] = ()
+    images: Sequence[npt.ArrayLike] = ()
+    up: str = '+z'
+
+    @property
+    def up_index(self) -> int:
+        """Of slf::UpAxis."""
+        return ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'].index(self.up)
+
+
+@dataclasses.dataclass(frozen=True)
+class Encoded:
+    """What encode() made."""
+
+    data: bytes  #: the stream
+    q: float  #: the quantiser step it was coded with
+    points: int
+    bits: int  #: of the grid
+    step: float  #: world units from voxel to voxel
+    observations: int
+    warnings: Tuple[str, ...]
+
+    def write(self, path: Union[str, 'os.PathLike[str]']) -> None:
+        """To a temporary file beside `path`, renamed over it."""
+        temporary = f'{os.fspath(path)}.tmp{os.getpid()}'
+        try:
+            with open(temporary, 'xb') as file:
+                file.write(self.data)
+            os.replace(temporary, path)
+        except BaseException:
+            if os.path.exists(temporary):
+                os.unlink(temporary)
+            raise

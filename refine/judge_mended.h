@@ -1,0 +1,27 @@
+// Whether a mended surface predicts photographs that did not make it.
+#pragma once
+
+#include <limits>
+
+#include "refine/held_out.h"
+#include "refine/mending_job.h"
+
+namespace slf {
+
+/// A surface that may take the place of the capture's.
+struct Candidate {
+  SurfacePoints points;
+  double error = std::numeric_limits<double>::infinity();  ///< mean square of held-out photographs,
+                                                           ///< what is uncovered counted
+  double uncovered = 0;                                    ///< its share in that
+  std::size_t kept_back = 0;
+  MendingLattice on;
+};
+
+/// Mended where that helps, on the lattice of the grid; without points where nothing is left.
+/// @param before  errors at job.start
+/// @errors those of observe
+Result<Candidate, InputError> judge_mended(const MendingJob& job, const HeldOutErrors& before,
+                                           const SurfacePoints& mended);
+
+}  // namespace slf

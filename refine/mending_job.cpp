@@ -1,0 +1,84 @@
+#include "refine/mending_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "capture/quantile.h"
+
+namespace slf {
+namespace {
+
+/// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
+double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> views) {
+  constexpr std::size_t kSamples = 1000;
+  const std::size_t stride = std::max<std::size_t>(points.size() / kSamples, 1);
+  std::vector<double> sizes;
+  for (const PhotoView& view : views)
+    for (std::size_t p = 0; p < points.size(); p += stride) {
+      const Float3& at = points.positions[p];
+      double z = 0;
+      const auto image = view.camera->project({at[0], at[1], at[2]}, &z);
+      if (image && (*image)[0] >= 0 && (*image)[0] < view.camera->width && (*image)[1] >= 0 &&
+          (*image)[1] < view.camera->height)
+        sizes.push_back(z / (std::max(view.camera->fx, view.camera->fy) * view.scale));
+    }
+  return median(std::move(sizes));
+}
+
+}  // namespace
+
+Result<Done, InputError> load_photographs(MendingJob& job, int coarsest) {
+  SLF_TRY(std::vector<PhotoView> views,
+          load_views(job.capture, job.parts.matched, job.settings.threads));
+  job.pixel = middle_pixel(job.start, views);
+  const auto halve = [&views] {
+    for (PhotoView& view : views) view = half(view);
+  };
+  for (; job.pixel > 0 && job.pixel < 0.4 * job.spacing; job.pixel *= 2) halve();
+  for (int level = 0; level <= coarsest; ++level) {
+    job.levels.push_back(views);
+    halve();
+  }
+  return Done{};
+}
+
+Result<std::vector<Silhouette>, InputError> silhouettes_of(const MendingJob& job,
+                                                           std::span<const int> cameras) {
+  return load_silhouettes(job.capture, cameras, job.start, job.spacing, job.settings.threads);
+}
+
+Result<HeldOutErrors, InputError> sampled_errors(const MendingJob& job,
+                                                 const SurfacePoints& points) {
+  const std::size_t every = (points.size() + kJudgedPoints - 1) / kJudgedPoints;
+  return held_out_errors(job.capture, job.cameras, points, job.spacing, job.settings.threads,
+                         every);
+}
+
+MendingLattice lattice_of(const SurfacePoints& surface, const MendingJob& job) {
+  MendingLattice found;
+  Lattice& lattice = found.lattice;
+  Vec3 high{};
+  double extent = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double low = std::numeric_limits<double>::max();
+    high[a] = std::numeric_limits<double>::lowest();
+    for (const Float3& p : surface.positions) {
+      low = std::min(low, double(p[a]));
+      high[a] = std::max(high[a], double(p[a]));
+    }
+    lattice.origin[a] = low;
+    extent = std::max(extent, high[a] - low);
+  }
+  const RefineSettings& s = job.settings;
+  const double nodes = std::pow(2.0, s.grid_bits);
+  const double step = s.voxel_size > 0 ? s.voxel_size : extent / (nodes - 1);
+  found.of_grid = step >= 0.7 * job.spacing;
+  lattice.step = found.of_grid ? step : 0.9 * job.spacing;
+  if (s.voxel_size == 0 && found.of_grid)
+    lattice.size = {std::int64_t(nodes), std::int64_t(nodes), std::int64_t(nodes)};
+  return found;
+}
+
+}  // namespace slf

@@ -1,0 +1,91 @@
+// slf encode: grids, presets, images of another exposure, clouds without cameras.
+#include <map>
+
+#include "cli_support.h"
+#include "slf/capture.h"
+
+namespace slf {
+namespace {
+
+TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
+  const std::string how = "encode tiny -o a.slf --grid-bits 5 --effort 1 --json";
+  EXPECT_TRUE(parsed(slf(how).out)["camera_check"].empty());
+  const auto cameras = parsed(read("tiny/cameras.json"));
+  const std::string darker = cameras["splits"]["dense"][6];
+  auto image = read_image(path("tiny/" + darker));
+  ASSERT_TRUE(image) << image.error().message;
+  for (std::uint8_t& value : image->data) value /= 2;
+  ASSERT_TRUE(write_png(path("tiny/" + darker), *image));
+  const Ran ran = slf(how);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = parsed(ran.out);
+  ASSERT_EQ(report["camera_check"].size(), 1u) << report["camera_check"];
+  EXPECT_EQ(report["camera_check"][0]["image"], darker);
+  EXPECT_EQ(report["camera_check"][0]["verdict"], "gain");
+  for (const double gain : report["camera_check"][0]["gain"]) EXPECT_NEAR(gain, 2, 0.1);
+  EXPECT_NE(ran.err.find("slf: warning: " + darker + ": another exposure"), std::string::npos)
+      << ran.err;
+  EXPECT_TRUE(report["settings"].contains("cameras_gain_corrected"));
+  const auto off = parsed(slf(how + " --check-cameras off").out);
+  EXPECT_TRUE(off["camera_check"].empty());
+  EXPECT_FALSE(off["settings"].contains("cameras_gain_corrected"));
+}
+
+TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
+  const auto report = parsed(slf("encode tiny -o a.slf --effort 1 --json").out);
+  EXPECT_EQ(report["settings"]["grid"], "auto");
+  EXPECT_EQ(report["grid"]["bits"], report["settings"]["grid_bits"]);
+  EXPECT_NEAR(report["grid"]["voxel_pixels"].get<double>(),
+              std::stod(report["settings"]["voxel_pixels"].get<std::string>()), 0.006);
+  ASSERT_EQ(slf("encode tiny -o b.slf --effort 1 --grid-bits auto").code, 0);
+  EXPECT_EQ(read("a.slf"), read("b.slf"));
+  const auto given = parsed(slf("encode tiny -o a.slf --effort 1 --grid-bits 4 --json").out);
+  EXPECT_EQ(given["settings"]["grid"], "given");
+  EXPECT_EQ(given["grid"]["bits"], 4);
+  expect_failure(slf("encode tiny -o a.slf --grid-bits 0"), 2, "--grid-bits", "1 to 21");
+}
+
+TEST_F(TinyCaptureTest, SameBytesForAnyNumberOfThreads) {
+  for (const char* threads : {"1", "2", "7"})
+    ASSERT_EQ(
+        slf(std::string("encode tiny --grid-bits 6 -o ") + threads + ".slf -j " + threads).code, 0);
+  EXPECT_EQ(read("1.slf"), read("2.slf"));
+  EXPECT_EQ(read("1.slf"), read("7.slf"));
+}
+
+TEST_F(TinyCaptureTest, OptionsOverrideThePresetWhateverTheirOrder) {
+  const auto settings = [&](const std::string& options) {
+    EXPECT_EQ(slf("encode tiny --grid-bits 5 -o a.slf " + options).code, 0) << options;
+    std::map<std::string, std::string> metadata;
+    const auto info = parsed(slf("info a.slf --json").out);
+    for (const auto& pair : info["metadata"]) metadata[pair["key"]] = pair["value"];
+    metadata["coder"] = info["coefficient_coder"];
+    return metadata;
+  };
+  const auto paper = settings("--preset paper");
+  EXPECT_EQ(paper.at("steps"), "uniform");
+  EXPECT_EQ(paper.at("penalise_dc"), "yes");
+  EXPECT_EQ(paper.at("coder"), "independent");
+  const auto changed = settings("--steps by-norm --free-dc -q 8 --preset paper");
+  EXPECT_EQ(changed.at("steps"), "by-norm");
+  EXPECT_EQ(changed.at("penalise_dc"), "no");
+  EXPECT_EQ(changed.at("q"), "8");
+  EXPECT_EQ(changed.at("coder"), "independent");
+}
+
+TEST_F(CliTest, ACloudWithColoursNeedsNoCameras) {
+  write("cloud.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "end_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 0 1 0 0 255\n");
+  ASSERT_EQ(slf("encode cloud.ply -o a.slf --grid-bits 1 -q 0.05").code, 0);
+  ASSERT_EQ(slf("decode a.slf --dump dump -o back.ply").code, 0);
+  EXPECT_EQ(parsed(read("dump/light_field.json"))["num_functions"], 1);
+  const std::string back = read("back.ply");
+  const std::string body = back.substr(back.find("end_header\n") + 11);
+  ASSERT_EQ(body.size(), 3u * (3 * 4 + 3));
+  EXPECT_EQ(body.substr(12, 3), std::string("\xff\0\0", 3)) << "the first in Morton order";
+}
+
+}  // namespace
+}  // namespace slf

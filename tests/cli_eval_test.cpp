@@ -1,0 +1,56 @@
+// slf eval: what it measures, on which cameras, and where it says no.
+#include "cli_support.h"
+
+namespace slf {
+namespace {
+
+TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
+  const std::string how = " --grid-bits 6 --fit paper --functions 8";
+  ASSERT_EQ(slf("encode tiny -o a.slf -q 64" + how).code, 0);
+  ASSERT_EQ(slf("encode tiny -o fine.slf -q 0.05" + how).code, 0);
+  const auto quality =
+      parsed(slf("eval a.slf tiny --unquantised fine.slf --error-map maps --json").out);
+  for (const char* cameras : {"input", "held_out"}) {
+    const auto& gap = quality[cameras]["gap"];
+    EXPECT_GT(gap["points_unquantised"], gap["points_quantised"]) << cameras;
+    EXPECT_GT(gap["pictures_unquantised"], gap["pictures_quantised"]) << cameras;
+    EXPECT_EQ(gap["points_quantised"], quality[cameras]["points"][0]["psnr"]);
+    EXPECT_EQ(gap["pictures_quantised"], quality[cameras]["image"]["psnr"]);
+    double sum = 0;
+    for (const auto& [step, share] : gap["error_share"].items()) sum += share.get<double>();
+    EXPECT_NEAR(sum, 1, 1e-9);
+    EXPECT_GT(quality[cameras]["image"]["all"]["ms_ssim"], 0.3);
+    EXPECT_EQ(quality[cameras]["image"]["regions"].size(), 3u);
+  }
+  const std::size_t cameras = quality["input"]["cameras"].get<std::size_t>() +
+                              quality["held_out"]["cameras"].get<std::size_t>();
+  std::size_t maps = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path("maps")))
+    maps += entry.path().extension() == ".png";
+  EXPECT_EQ(maps, cameras) << "one of every camera, and nothing half written beside them";
+  const std::string said = slf("eval a.slf tiny --unquantised fine.slf").out;
+  EXPECT_NE(said.find("splatting"), std::string::npos) << said;
+  expect_failure(slf("eval a.slf tiny --min-image-psnr 200 >/dev/null"), 8, "a.slf", "image PSNR");
+  EXPECT_EQ(slf("eval a.slf tiny --min-image-psnr 5").code, 0);
+  EXPECT_EQ(slf("eval a.slf tiny --no-images --min-image-psnr 5").code, 2);
+  expect_failure(slf("eval a.slf tiny --unquantised nowhere.slf"), 3, "nowhere.slf", "");
+}
+
+TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
+  const auto coded =
+      slf("igc tiny -o a.igc --grid-bits 6 --functions 8 --qp 22 --speed fast --json");
+  if (coded.code == 6) GTEST_SKIP() << "SLF_X265 is not part of this build";
+  ASSERT_EQ(coded.code, 0) << coded.err;
+  const auto report = parsed(coded.out);
+  const auto quality = parsed(slf("eval a.igc tiny --json --no-images").out);
+  EXPECT_EQ(quality["bytes"], report["bytes"]);
+  EXPECT_EQ(quality["bytes_by_type"], report["bytes_by_type"]);
+  EXPECT_EQ(quality["points"], report["points"]);
+  EXPECT_GT(quality["held_out"]["points"][0]["psnr"], 15);
+  for (const char* stage : {"geometry", "images", "observe", "fit", "total"})
+    EXPECT_GT(quality["decode"][stage], 0) << stage;
+  expect_failure(slf("eval a.igc nowhere"), 3, "nowhere", "");
+}
+
+}  // namespace
+}  // namespace slf

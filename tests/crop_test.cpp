@@ -1,0 +1,103 @@
+// A cloud with points far away: what is said, and what --crop leaves of it.
+#include "capture/crop.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstdio>
+
+#include "capture_support.h"
+
+namespace slf {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// 1,000 points of a unit cube, colours their numbers.
+PointCloud cube() {
+  PointCloud cloud;
+  for (int i = 0; i < 1000; ++i) {
+    cloud.positions.push_back({float(i % 10) / 9, float(i / 10 % 10) / 9, float(i / 100) / 9});
+    cloud.colours.push_back({std::uint8_t(i % 250), 0, 0});
+  }
+  return cloud;
+}
+
+/// The box that a warning names.
+WorldBox box_of(const std::string& warning) {
+  WorldBox b;
+  const auto at = warning.find("--crop=");
+  EXPECT_NE(at, std::string::npos) << warning;
+  if (at == std::string::npos) return b;
+  EXPECT_EQ(std::sscanf(warning.c_str() + at, "--crop=%lf,%lf,%lf,%lf,%lf,%lf", &b.low[0],
+                        &b.low[1], &b.low[2], &b.high[0], &b.high[1], &b.high[2]),
+            6);
+  return b;
+}
+
+TEST(FarPoints, OneIsNamedWithABoxThatLeavesAllOthers) {
+  Mesh mesh{cube(), {}};
+  EXPECT_EQ(far_points_warning(mesh.vertices, {0, 0, 0}), "");
+  mesh.vertices.positions.push_back({0, 900, 0});
+  mesh.vertices.colours.push_back({1, 2, 3});
+  const std::string warning = far_points_warning(mesh.vertices, {0, 0, 0});
+  EXPECT_THAT(warning, HasSubstr("900 times"));
+  ASSERT_TRUE(crop(mesh, {0, 0, 0}, box_of(warning)));
+  EXPECT_EQ(mesh.vertices.positions, cube().positions);
+  EXPECT_EQ(mesh.vertices.colours, cube().colours);
+}
+
+TEST(FarPoints, BoxesAreOfTheWorldAndKeepItsDigits) {
+  const Vec3 origin{4500000.25, 600000.5, 100};
+  Mesh mesh{cube(), {}};
+  mesh.vertices.positions.push_back({-500, 0, 0});
+  mesh.vertices.colours.push_back({1, 2, 3});
+  ASSERT_TRUE(crop(mesh, origin, box_of(far_points_warning(mesh.vertices, origin))));
+  EXPECT_EQ(mesh.vertices.positions, cube().positions);
+}
+
+TEST(FarPoints, SmallAndFlatCloudsAreLeftInPeace) {
+  PointCloud few = cube();
+  few.positions.resize(50);
+  few.positions.push_back({1000, 0, 0});
+  EXPECT_EQ(far_points_warning(few, {0, 0, 0}), "");
+  PointCloud one;
+  one.positions.assign(1000, {1, 2, 3});
+  EXPECT_EQ(far_points_warning(one, {0, 0, 0}), "");
+  PointCloud line;  // long, but all along
+  for (int i = 0; i < 1000; ++i) line.positions.push_back({float(i), 0, 0});
+  EXPECT_EQ(far_points_warning(line, {0, 0, 0}), "");
+}
+
+TEST(Crop, KeepsFacesByTheirCentroidsAndRefusesAnEmptyBox) {
+  Mesh mesh;
+  mesh.vertices.positions = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {30, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 2, 3}};
+  Mesh other = mesh;
+  ASSERT_TRUE(crop(mesh, {0, 0, 0}, {{2, 2, 1}, {0, 0, -1}}));  // corners in any order
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
+  const auto nothing = crop(other, {0, 0, 0}, {{50, 50, 50}, {60, 60, 60}});
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().code, Errc::kInvalidInput);
+}
+
+TEST(Crop, IsPartOfLoadingACaptureWhichElseWarns) {
+  const test::TemporaryDirectory directory;
+  PointCloud cloud = cube();
+  cloud.positions.push_back({0, 0, 700});
+  cloud.colours.push_back({1, 2, 3});
+  ASSERT_TRUE(write_ply(directory / "a.ply", cloud));
+  const auto whole = load_capture(directory / "a.ply");
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->cloud.positions.size(), 1001u);
+  EXPECT_THAT(whole->warnings, ::testing::Contains(HasSubstr("far away")));
+  CaptureOptions options;
+  options.crop = box_of(whole->warnings.back());
+  const auto cropped = load_capture(directory / "a.ply", options);
+  ASSERT_TRUE(cropped);
+  EXPECT_EQ(cropped->cloud.positions.size(), 1000u);
+  EXPECT_TRUE(cropped->warnings.empty());
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,157 @@
+// What an error of a stream says of its place, on the streams that have to be refused. Spec annex
+// F.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bitstream/units.h"
+#include "codec/stream_parts.h"
+#include "slf/syntax_listing.h"
+
+namespace slf {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+const std::filesystem::path kRefused = std::filesystem::path(SLF_CONFORMANCE) / "refused";
+
+Bytes refused(const std::string& id) {
+  std::ifstream in(kRefused / id / "stream.slf", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> all_refused() {
+  std::vector<std::string> ids;
+  for (const auto& folder : std::filesystem::directory_iterator(kRefused))
+    ids.push_back(folder.path().filename().string());
+  return ids;
+}
+
+/// Bits are counted by hand: 8 bytes of signature, units of 1 byte of type and 1 or 2 of length.
+struct Place {
+  const char* id;
+  Errc code;
+  const char* element;
+  const char* unit;
+  std::uint64_t bit;
+};
+
+constexpr Place kPlaces[] = {
+    {"signature", Errc::kNotSlf, "signature", "", 0},
+    {"bytes-after-end", Errc::kOutOfRange, "end_of_stream", "", 45088},
+    {"length-of-seven-bytes", Errc::kOutOfRange, "unit_length", "sequence", 72},
+    {"crc", Errc::kChecksum, "unit_crc", "coefficients", 29256},
+    {"version-major", Errc::kUnsupported, "sps_version_major", "sequence", 80},
+    {"version-minor", Errc::kUnsupported, "sps_version_minor", "sequence", 88},
+    {"profile", Errc::kUnsupported, "sps_profile", "sequence", 96},
+    {"normal-bits", Errc::kReserved, "sps_normal_bits", "sequence", 117},
+    {"step-zero", Errc::kOutOfRange, "sps_step", "sequence", 302},
+    {"values-beyond-level", Errc::kOutOfRange, "sps_level", "sequence", 64},
+    {"slices-longer", Errc::kOutOfRange, "slices_trailing_bits", "slices", 204},
+    {"points-one-more", Errc::kOutOfRange, "slice_num_points_minus1", "slices", 272},
+    {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 5640},
+    {"slices-late", Errc::kOutOfRange, "unit_type", "geometry", 272},
+    {"normals-escape", Errc::kOutOfRange, "nu_magnitude", "normals", 448},
+    {"coefficients-alignment", Errc::kReserved, "alignment_zero_bits", "coefficients", 435},
+    {"coefficient-limit", Errc::kOutOfRange, "cu_magnitude", "coefficients", 632},
+    {"layers-shorter", Errc::kTruncated, "cu_coefficients", "refinement", 28608},
+    {"index-box-range", Errc::kOutOfRange, "index_box", "index", 791},
+    {"index-ids", Errc::kOutOfRange, "index_unit_ids", "index", 288},
+    {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 44200},
+    {"digest", Errc::kChecksum, "digest_sha256", "digest", 43264},
+    {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 5104},
+    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44392},
+};
+
+TEST(Spec_F_Places, AreThatOfTheElementInTheStream) {
+  for (const Place& place : kPlaces) {
+    const auto decoded = decode(refused(place.id));
+    ASSERT_FALSE(decoded) << place.id;
+    const Error& error = decoded.error();
+    EXPECT_EQ(error.code, place.code) << place.id;
+    EXPECT_STREQ(error.element, place.element) << place.id;
+    EXPECT_STREQ(error.unit, place.unit) << place.id;
+    EXPECT_EQ(error.bit_offset, place.bit) << place.id;
+  }
+}
+
+TEST(Spec_F_Places, LieInAUnitOfTheTypeThatIsNamed) {
+  std::set<std::string> named;
+  for (const std::string& id : all_refused()) {
+    const Bytes stream = refused(id);
+    const auto units = split_units(stream);
+    const auto decoded = decode(stream);
+    if (!units || decoded || decoded.error().code == Errc::kUnsupported) continue;
+    const Error& error = decoded.error();
+    const auto holds = [&](const Unit& unit) {
+      return error.bit_offset >= 8 * unit.offset &&
+             error.bit_offset < 8 * (unit.offset + unit.bytes);
+    };
+    const auto unit = std::find_if(units->units.begin(), units->units.end(), holds);
+    ASSERT_NE(unit, units->units.end()) << id << " " << to_string(error);
+    EXPECT_STREQ(error.unit, unit_name(unit->type)) << id << " " << to_string(error);
+    named.insert(error.unit);
+  }
+  EXPECT_EQ(named, (std::set<std::string>{"sequence", "slices", "geometry", "normals",
+                                          "coefficients", "refinement", "index", "metadata",
+                                          "digest", "transform", "end"}));
+}
+
+/// The same error for who reads headers alone, where these show it.
+TEST(Spec_F_Places, AreTheSameForEveryReader) {
+  for (const std::string& id : all_refused()) {
+    const Bytes stream = refused(id);
+    const auto decoded = decode(stream);
+    ASSERT_FALSE(decoded) << id;
+    const auto same = [&](const auto& result) {
+      if (result || std::string(result.error().element) != decoded.error().element) return;
+      EXPECT_EQ(to_string(result.error()), to_string(decoded.error())) << id;
+    };
+    same(read_info(stream));
+    same(list_syntax(stream));
+  }
+}
+
+/// Decodes from the head of a stream and the parts that are asked for.
+Result<LightField> decode_from_parts(const Bytes& stream, const DecodeOptions& options) {
+  SLF_TRY(const auto head, find_head(stream, stream.size()));
+  const auto begin = std::span(stream).first(static_cast<std::size_t>(head->bytes));
+  SLF_TRY(const ReadPlan plan, plan_read(begin, stream.size(), options));
+  if (plan.whole) return decode(stream, options);
+  std::vector<StreamPart> parts;
+  for (const ByteRange& range : plan.ranges)
+    parts.push_back(
+        {range.offset, std::span(stream).subspan(static_cast<std::size_t>(range.offset),
+                                                 static_cast<std::size_t>(range.bytes))});
+  return decode_parts(begin, plan, parts, options);
+}
+
+TEST(Spec_F_Places, AreTheSameWhereAPartIsRead) {
+  std::size_t compared = 0;
+  for (const std::string& id : all_refused()) {
+    const Bytes stream = refused(id);
+    if (!split_units(stream) || !read_info(stream)) continue;
+    DecodeOptions options;
+    options.groups = 1;
+    const auto whole = decode(stream, options), part = decode_from_parts(stream, options);
+    if (whole || part) continue;
+    EXPECT_EQ(to_string(part.error()), to_string(whole.error())) << id;
+    ++compared;
+  }
+  EXPECT_GT(compared, 3u);
+}
+
+TEST(Spec_F_Places, AreNotSaidOfArgumentsAndLimits) {
+  EXPECT_EQ(to_string(Error{Errc::kLimitExceeded, "max_points"}), "kLimitExceeded: max_points");
+  EXPECT_EQ(to_string(Error{Errc::kOutOfRange, "sps_step", 302, "sequence"}),
+            "kOutOfRange: sps_step in the sequence unit, bit 302");
+  EXPECT_EQ(to_string(Error{Errc::kNotSlf, "signature"}), "kNotSlf: signature, bit 0");
+}
+
+}  // namespace
+}  // namespace slf

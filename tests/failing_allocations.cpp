@@ -1,0 +1,51 @@
+// Apart from what allocates: where both are inlined, compilers take free() for a mistake.
+#include "tests/failing_allocations.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace slf::test {
+
+std::atomic<long> allocations_left{-1};
+
+}  // namespace slf::test
+
+namespace {
+
+using slf::test::allocations_left;
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) <= 0) {
+    allocations_left.store(0);
+    return nullptr;
+  }
+  const std::size_t rounded = (size + alignment) / alignment * alignment;
+  return std::aligned_alloc(alignment, rounded);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  void* memory = allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  void* memory = allocate(size, static_cast<std::size_t>(alignment));
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
+  return operator new(size, nothrow);
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }

@@ -1,0 +1,11 @@
+// A program with this has an operator new that fails when it is told to.
+#pragma once
+
+#include <atomic>
+
+namespace slf::test {
+
+/// Allocations that succeed from now on; then all fail. Below 0: as many as one likes.
+extern std::atomic<long> allocations_left;
+
+}  // namespace slf::test

@@ -1,0 +1,152 @@
+// Files of meshes: what they give, and what is refused.
+#include <gmock/gmock.h>
+
+#include "capture/mesh_triangles.h"
+#include "mesh_files.h"
+
+namespace slf {
+namespace {
+
+using namespace test;
+using ::testing::HasSubstr;
+
+void expect_refused(const std::string& name, const std::string& bytes, const std::string& cause) {
+  const auto mesh = mesh_in(name, bytes);
+  ASSERT_FALSE(mesh) << cause;
+  EXPECT_THAT(mesh.error().message, HasSubstr(name));
+  EXPECT_THAT(mesh.error().message, HasSubstr(cause));
+}
+
+struct Format {
+  const char *name, *file;
+  std::string bytes;
+};
+void PrintTo(const Format& format, std::ostream* out) { *out << format.name; }
+
+class MeshFormat : public testing::TestWithParam<Format> {};
+
+TEST_P(MeshFormat, GivesTheSameClosedCubeWithItsOutsideOut) {
+  const auto mesh = mesh_in(GetParam().file, GetParam().bytes);
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 12u);
+  EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
+  const Box box = bounding_box(*mesh);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(box.min[k], -0.5, 1e-6);
+    EXPECT_NEAR(box.max[k], 0.5, 1e-6);
+  }
+}
+
+TEST_P(MeshFormat, EveryTruncationIsAnErrorOrASmallerMesh) {
+  const TemporaryDirectory directory;
+  const std::string& whole = GetParam().bytes;
+  for (std::size_t size = 0; size < whole.size(); size += 3) {
+    write_text(directory / GetParam().file, whole.substr(0, size));
+    const auto mesh = read_mesh(directory / GetParam().file);
+    if (!mesh) {
+      EXPECT_THAT(mesh.error().message, HasSubstr(GetParam().file));
+      continue;
+    }
+    EXPECT_LE(mesh->triangles.size(), 12u);
+    for (const auto& t : mesh->triangles)
+      for (const auto v : t) ASSERT_LT(v, mesh->vertices.positions.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFormat,
+                         testing::Values(Format{"ply_ascii", "cube.ply", cube_ply_ascii()},
+                                         Format{"ply_little", "cube.ply", cube_ply_binary(false)},
+                                         Format{"ply_big", "cube.ply", cube_ply_binary(true)},
+                                         Format{"obj", "cube.OBJ", cube_obj()},
+                                         Format{"glb", "cube.glb", cube_glb()}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(MeshFile, PlyFacesThatAreWrongAreNamed) {
+  const std::string cube = cube_ply_ascii();
+  expect_refused("a.ply", replaced(cube, "4 0 3 2 1", "4 0 3 2 8"), "vertex 8 of 8");
+  expect_refused("a.ply", replaced(cube, "4 0 3 2 1", "4 0 3 2 -1"), "face 0");
+  expect_refused("a.ply", replaced(cube, "4 4 5 6 7", "4 4 5 6.5 7"), "face 1");
+  expect_refused("a.ply", replaced(cube, "list uchar int", "list uchar float"), "vertex_indices");
+  expect_refused("a.ply", replaced(cube, "vertex_indices", "colours"), "vertex_indices");
+  expect_refused("a.ply", replaced(cube, "face 6", "face 60000"), "more than the file holds");
+}
+
+TEST(MeshFile, FacesOfFewerThanThreeCornersAreNoTriangles) {
+  const auto mesh = mesh_in("a.ply", replaced(cube_ply_ascii(), "4 0 3 2 1", "2 0 3"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 10u);
+}
+
+TEST(MeshFile, ObjCoordinatesThatFloatsCannotHoldAreGivenFromAnOriginNearby) {
+  const auto mesh = mesh_in("a.obj",
+                            "v 400000.001 5700000.002 0\nv 400001.004 5700000 0\n"
+                            "v 400000 5700001.25 0.5\nf 1 2 3\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  const PointCloud& vertices = mesh->vertices;
+  EXPECT_EQ(vertices.origin, (Vec3{400000, 5700000, 0}));
+  EXPECT_EQ(vertices.positions[1][1], 0);
+  EXPECT_NEAR(vertices.positions[0][0], 0.001, 1e-8);
+  EXPECT_NEAR(vertices.positions[0][1], 0.002, 1e-8);
+  EXPECT_EQ(vertices.positions[2][1], 1.25f);
+}
+
+TEST(MeshFile, ObjErrorsNameTheLine) {
+  expect_refused("a.obj", "v 0 0 0\nv 1 0\n", "line 2");
+  expect_refused("a.obj", "v 0 0 nan\n", "vertex 0");
+  expect_refused("a.obj", "v 0 0 1e99\n", "line 1");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1\n", "line 2");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1 0\n", "line 2");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1 -2\n", "line 2");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1 99999999999\n", "line 2");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1 x\n", "line 2");
+  expect_refused("a.obj", "v 0 0 0\nf 1 1 2\n", "triangle 0");
+  expect_refused("a.obj", "", "no points");
+}
+
+TEST(MeshFile, ObjNormalsBelongToCornersAndAnUnusableOneDropsAll) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 2\nvn 0 1 1\n"
+      "f 1//1 2//1 3//1\nf 3//2 2//1 4//1\n";
+  const auto mesh = mesh_in("a.obj", text);
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->vertices.positions.size(), 5u) << "vertex 3 has two normals";
+  EXPECT_EQ(mesh->vertices.normals[0], (std::array<float, 3>{0, 0, 1}));
+  const auto without = mesh_in("a.obj", replaced(text, "0 0 2", "0 0 0"));
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_TRUE(without->vertices.normals.empty());
+}
+
+TEST(MeshFile, GlbErrorsNameThePlace) {
+  const auto with = [](const char* from, const char* to) {
+    return cube_glb(replaced(kCubeGltf, from, to));
+  };
+  expect_refused("a.glb", with("\"count\": 8", "\"count\": 9"), "accessors[0]");
+  expect_refused("a.glb", with("\"count\": 8", "\"count\": 4294967295"), "accessors[0]");
+  expect_refused("a.glb", with("\"count\": 8", "\"count\": 7"), "index");
+  expect_refused("a.glb", with("\"byteOffset\": 128", "\"byteOffset\": 4000000000"),
+                 "bufferViews[1]");
+  expect_refused("a.glb", with("\"byteStride\": 16", "\"byteStride\": 4"), "byteStride");
+  expect_refused("a.glb", with("5126", "5127"), "componentType");
+  expect_refused("a.glb", with("{\"byteLength\": 164}", "{\"byteLength\": 164, \"uri\": \"x\"}"),
+                 "buffers[0]");
+  expect_refused("a.glb", with("\"children\": [0]", "\"children\": [1]"), "nodes[1]");
+  expect_refused("a.glb", with("\"children\": [0]", "\"children\": [2]"), "children[0]");
+  expect_refused("a.glb", with("\"scene\": 0", "\"scene\": 1"), "scene");
+  expect_refused("a.glb", with("\"asset\"", "\"extensionsRequired\": [\"KHR_draco\"], \"asset\""),
+                 "extensionsRequired[0]");
+  expect_refused("a.glb", with("0.5, 0.5, 0.5", "1e300, 0.5, 0.5"), "not finite");
+  expect_refused("a.glb", "glTF", "not a GLB file");
+  std::string long_chunk = cube_glb();
+  long_chunk[long_chunk.size() - 164 - 8] = static_cast<char>(164 + 8);
+  expect_refused("a.glb", long_chunk, "binary chunk");
+}
+
+TEST(MeshFile, AMirroringNodeKeepsTheOutsideOut) {
+  const auto mesh =
+      mesh_in("a.glb", cube_glb(replaced(kCubeGltf, "[0.5, 0.5, 0.5]", "[-0.5, 0.5, 0.5]")));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Makes the Debian packages of a build, installs them into an empty root with dpkg, and there: runs the
+# program, reads its man pages, completes a command line, builds a C and a C++ program with
+# pkg-config and examples/ with find_package; then removes them and looks that nothing is left.
+#   check_package.sh [BUILD]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source=$PWD
+build=$(realpath -- "${1:-build}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+root=$work/root
+
+say() { echo "check_package: $*" >&2; }
+fail() { say "FAILED: $*"; exit 1; }
+
+say "making packages"
+(cd "$build" && cpack -G DEB -B "$work/made" >"$work/cpack.log" 2>&1) || { cat "$work/cpack.log"; exit 1; }
+packages=("$work"/made/*.deb)
+ls -l "${packages[@]}" >&2
+
+say "installing into an empty root"
+mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates"
+: >"$root/var/lib/dpkg/status"
+# Scripts of packages run outside of the root, which has no shell, with an ldconfig that does nothing.
+mkdir "$work/bin"
+printf '#!/bin/sh\n' >"$work/bin/ldconfig" && chmod +x "$work/bin/ldconfig"
+export PATH=$work/bin:$PATH:/usr/sbin:/sbin
+in_root=(dpkg --root="$root" --force-not-root --force-script-chrootless --force-depends --force-bad-path --log=/dev/null)
+"${in_root[@]}" -i "${packages[@]}" >"$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; exit 1; }
+libdir=$(dirname "$(find "$root" -name 'libslf_decoder.a')")
+export LD_LIBRARY_PATH=$libdir
+
+say "the program"
+slf=$root/usr/bin/slf
+cd "$work"
+"$slf" --version
+"$slf" synth can -o tiny --size 48x48 --points 1500 --circles 3 --per-circle 8 --quiet
+"$slf" encode tiny -o tiny.slf --effort 1 --quiet
+"$slf" info tiny.slf >/dev/null
+"$slf" export tiny.slf -o tiny.spz --quiet
+
+say "man pages and completion"
+for page in slf slf-encode slf-export; do
+  file=$(find "$root/usr/share/man/man1" -name "$page.1*")
+  [[ -n $file ]] || fail "no man page $page"
+  case $file in *.gz) zcat "$file" ;; *) cat "$file" ;; esac >"$page.1"
+  if command -v man >/dev/null; then
+    MANROFFSEQ='' MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z "$page.1" 2>"$page.warnings" >/dev/null
+    [[ ! -s $page.warnings ]] || { cat "$page.warnings"; fail "man page $page"; }
+  fi
+done
+grep -q 'target\\-psnr' slf-encode.1 || fail "slf-encode.1 lacks an option"
+completed=$(bash -c 'source "$1"; COMP_WORDS=(slf export --for); COMP_CWORD=2; _slf; echo "${COMPREPLY[@]}"' \
+  bash "$root/usr/share/bash-completion/completions/slf")
+[[ $completed == --format ]] || fail "completion of --for is '$completed'"
+
+say "a C program by pkg-config"
+export PKG_CONFIG_PATH=$libdir/pkgconfig
+cat >use.c <<'C'
+#include <slf/slf.h>
+#include <stdio.h>
+#include <stdlib.h>
+int main(int argc, char** argv) {
+  static unsigned char bytes[1 << 24];
+  slf_error error = SLF_ERROR_INIT;
+  slf_stream* stream = NULL;
+  slf_info info = {sizeof(slf_info)};
+  FILE* file = argc == 2 ? fopen(argv[1], "rb") : NULL;
+  size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+  if (slf_open(bytes, size, NULL, &stream, &error) != SLF_OK ||
+      slf_get_info(stream, &info, &error) != SLF_OK) {
+    fprintf(stderr, "%s\n", error.message);
+    return 1;
+  }
+  printf("C: %lu points, library %s\n", (unsigned long)info.points, slf_version());
+  slf_release_stream(stream);
+  fclose(file);
+  return 0;
+}
+C
+cc -std=c99 use.c -o use_c $(pkg-config --cflags --libs slf)
+./use_c tiny.slf
+
+say "a C++ program by pkg-config"
+c++ -std=c++20 "$source/examples/decode_points.cpp" -o use_cxx $(pkg-config --cflags --libs slf-cxx)
+./use_cxx tiny.slf >/dev/null
+
+say "examples/ by find_package"
+cmake -S "$source/examples" -B examples -DCMAKE_PREFIX_PATH="$root/usr" >/dev/null
+cmake --build examples >/dev/null
+examples/decode_points tiny.slf >/dev/null
+
+say "removing"
+names=$("${in_root[@]}" --get-selections | cut -f1)
+"${in_root[@]}" --purge $names >"$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; exit 1; }
+left=$(find "$root" -path "$root/var" -prune -o -type f -print -o -type l -print)
+[[ -z $left ]] || fail "left behind: $left"
+say "all well"

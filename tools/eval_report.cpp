@@ -1,0 +1,135 @@
+#include "tools/eval_report.h"
+
+#include <array>
+#include <utility>
+
+#include "tools/describe.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+nlohmann::ordered_json picture_json(const PictureQuality& q) {
+  return {{"psnr", q.psnr}, {"ssim", q.ssim}, {"ms_ssim", q.ms_ssim}};
+}
+
+nlohmann::ordered_json region_json(const PictureRegion& r) {
+  return {{"psnr", r.psnr}, {"pixel_share", r.pixel_share}, {"error_share", r.error_share}};
+}
+
+nlohmann::ordered_json image_json(const ImageQuality& image) {
+  nlohmann::ordered_json json = picture_json(image);
+  json["coverage"] = image.coverage;
+  json["uncovered_error_share"] = image.uncovered_error_share;
+  json["outside_error_share"] = image.outside_error_share;
+  json["all"] = picture_json(image.all);
+  json["regions"] = {{"grazing", region_json(image.grazing)},
+                     {"rim", region_json(image.rim)},
+                     {"rest", region_json(image.rest)}};
+  json["psnr_each"] = image.psnr_each;
+  return json;
+}
+
+nlohmann::ordered_json gap_json(const Measured& m, bool images) {
+  const Quality &before = *m.unquantised, &after = m.quality;
+  nlohmann::ordered_json json = {{"points_unquantised", before.points[0].psnr},
+                                 {"points_quantised", after.points[0].psnr}};
+  if (!images) return json;
+  const QualityGap gap = quality_gap(before, after);
+  json["pictures_unquantised"] = before.image.psnr;
+  json["pictures_quantised"] = after.image.psnr;
+  json["error_share"] = {{"points", gap.points},
+                         {"splatting", gap.splatting},
+                         {"quantisation", gap.quantisation},
+                         {"coverage", gap.coverage}};
+  return json;
+}
+
+nlohmann::ordered_json quality_json(const Measured& m, bool images) {
+  nlohmann::ordered_json json = {{"cameras", m.cameras}};
+  for (const PointQuality& p : m.quality.points)
+    json["points"].push_back({{"delta", p.delta_degrees},
+                              {"psnr", p.psnr},
+                              {"luma_psnr", p.luma_psnr},
+                              {"channel_psnr", p.channel_psnr},
+                              {"observations", p.observations}});
+  json["image"] = nullptr;
+  if (images) json["image"] = image_json(m.quality.image);
+  json["gap"] = nullptr;
+  if (m.unquantised) json["gap"] = gap_json(m, images);
+  return json;
+}
+
+std::string image_text(const ImageQuality& image) {
+  std::string out =
+      text("  images             %6.2f dB   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
+           image.psnr, image.ssim, image.ms_ssim, 100 * image.coverage);
+  out += text("  all their pixels   %6.2f dB   SSIM %.4f, MS-SSIM %.4f\n", image.all.psnr,
+              image.all.ssim, image.all.ms_ssim);
+  const std::array<std::pair<const char*, const PictureRegion*>, 3> regions = {
+      {{"grazing", &image.grazing}, {"rim", &image.rim}, {"rest", &image.rest}}};
+  for (const auto& [name, r] : regions)
+    out += text("    %-16s %6.2f dB   %5.1f %% of the pixels, %5.1f %% of the squared error\n",
+                name, r->psnr, 100 * r->pixel_share, 100 * r->error_share);
+  out += text("    not covered                  %5.1f %% of the squared error on the object\n",
+              100 * image.uncovered_error_share);
+  return out;
+}
+
+std::string gap_text(const Measured& m, bool images) {
+  const Quality &before = *m.unquantised, &after = m.quality;
+  std::string out = "  gap            unquantised    coded\n";
+  out +=
+      text("    points          %6.2f dB %6.2f dB\n", before.points[0].psnr, after.points[0].psnr);
+  if (!images) return out;
+  const QualityGap gap = quality_gap(before, after);
+  out += text("    images          %6.2f dB %6.2f dB\n", before.image.psnr, after.image.psnr);
+  out += text(
+      "    squared error on the object: points %.1f %%, splatting %.1f %%, quantisation "
+      "%.1f %%, coverage %.1f %%\n",
+      100 * gap.points, 100 * gap.splatting, 100 * gap.quantisation, 100 * gap.coverage);
+  return out;
+}
+
+std::string quality_text(const Measured& m, bool images) {
+  std::string out = text("%s, %zu cameras\n", m.name.c_str(), m.cameras);
+  for (const PointQuality& p : m.quality.points)
+    out +=
+        text("  points, delta %-4g %6.2f dB   luma %.2f, R %.2f, G %.2f, B %.2f\n", p.delta_degrees,
+             p.psnr, p.luma_psnr, p.channel_psnr[0], p.channel_psnr[1], p.channel_psnr[2]);
+  if (images) out += image_text(m.quality.image);
+  if (m.unquantised) out += gap_text(m, images);
+  return out;
+}
+
+}  // namespace
+
+nlohmann::ordered_json eval_json(const Subject& subject, const std::vector<Measured>& measured,
+                                 bool images, double seconds) {
+  nlohmann::ordered_json json;
+  json["bytes"] = subject.bytes;
+  json["points"] = subject.field.num_points();
+  json["bits_per_point"] = bits_per_point(subject.bytes, subject.field.num_points());
+  json["bytes_by_type"] = subject.bytes_by_type;
+  json["settings"] = subject.settings;
+  json["partial"] = subject.field.partial;
+  json["decode"] = subject.decode_seconds;
+  json["render"] = nullptr;
+  if (images) json["render"] = {{"seconds_per_image", measured[0].quality.render_seconds}};
+  for (const Measured& m : measured)
+    json[m.name == "input" ? "input" : "held_out"] = quality_json(m, images);
+  json["seconds"] = seconds;
+  return json;
+}
+
+std::string eval_text(const std::string& name, const Subject& subject,
+                      const std::vector<Measured>& measured, bool images) {
+  const std::size_t points = subject.field.num_points();
+  std::string out = text("%s: %s bytes, %s points, %.2f bits per point\n\n", name.c_str(),
+                         grouped(subject.bytes).c_str(), grouped(points).c_str(),
+                         bits_per_point(subject.bytes, points));
+  for (const Measured& m : measured) out += quality_text(m, images);
+  return out + "\n" + subject.bytes_text;
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,142 @@
+#include "tools/stream_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "slf/capture.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+/// The voxel whose cell holds a coordinate; any beyond the grid for one beyond it.
+std::int32_t voxel_at(double coordinate, double origin, double step) {
+  const double voxel = std::floor((coordinate - origin) / step + 0.5);
+  return static_cast<std::int32_t>(std::clamp(voxel, -1.0, double{1 << 22}));
+}
+
+VoxelBox voxel_box(const Grid& grid, const std::vector<double>& corners) {
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax(corners[axis], corners[axis + 3]);
+    box.low[axis] = voxel_at(low, grid.origin[axis], grid.step);
+    box.high[axis] = voxel_at(high, grid.origin[axis], grid.step);
+  }
+  return box;
+}
+
+std::string missing(const StreamInfo& info) {
+  std::string what = "partial: ";
+  if (!info.complete) what += "it ends before its end unit";
+  if (info.cut) what += info.complete ? "parts were cut off" : ", and parts were cut off";
+  return what + "; what is missing counts as zero, and no digest is checked";
+}
+
+std::string mebibytes(std::uint64_t bytes) { return grouped((bytes + (1 << 20) - 1) >> 20); }
+
+}  // namespace
+
+void add_limits(CLI::App& verb, LimitOptions& options) {
+  const char* group = "Limits (a file beyond them is refused by its headers, exit code 5)";
+  DecodeLimits& limits = options.limits;
+  verb.add_option("--max-memory", limits.max_memory,
+                  "Bytes that decoding may take at most, all counted; K, M and G are powers of "
+                  "1024. slf info tells what a file takes")
+      ->type_name("BYTES")
+      ->default_str("1G")
+      ->transform(CLI::AsSizeValue(false))
+      ->group(group);
+  verb.add_option("--max-points", limits.max_points, "Points of a file at most")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_range(1, std::int64_t{1} << 38))
+      ->group(group);
+  verb.add_option("--max-work", limits.max_work,
+                  "Steps of decoding at most: 8 for every node that the octrees may have, 1 for "
+                  "every value of a component; a core does some 10^8 a second")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_range(1, std::int64_t{1} << 60))
+      ->group(group);
+  verb.add_flag("--strict", options.strict,
+                "Refuse a file that is partial: cut short, or with parts left out")
+      ->group(group);
+}
+
+bool is_partial(const StreamInfo& info) { return !info.complete || info.cut.has_value(); }
+
+Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
+                                                      const LimitOptions& given) {
+  const std::uint64_t most = std::min(given.limits.max_stream_bytes, given.limits.max_memory);
+  return from(input_name(file), read_file(file, most));
+}
+
+Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
+                                        const CommonOptions& common) {
+  SLF_TRY(auto bytes, read_input(file, given));
+  return open_stream(file, std::move(bytes), given, common);
+}
+
+Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std::uint8_t> bytes,
+                                        const LimitOptions& given, const CommonOptions& common) {
+  const std::string name = input_name(file);
+  SLF_TRY(StreamInfo info, from(name, read_info(bytes, given.limits)));
+  if (is_partial(info) && given.strict)
+    return Failure{kInputInvalid, name + ": " + missing(info) + " (--strict)"};
+  if (is_partial(info)) warn(name + ": " + missing(info), common.quiet);
+  return StreamFile{std::move(bytes), std::move(info)};
+}
+
+DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
+                             const LimitOptions& given, const CommonOptions& common) {
+  DecodeOptions options;
+  options.limits = given.limits;
+  options.threads = common.threads;
+  options.levels = part.levels;
+  options.groups = part.groups;
+  options.layers = part.layers;
+  options.max_bytes = part.max_bytes;
+  if (!part.region.empty()) options.region = voxel_box(info.header.grid, part.region);
+  return options;
+}
+
+Failure decode_failure(const std::string& file, const Error& error, const StreamInfo& info,
+                       const DecodeOptions& options) {
+  const DecodeCost cost = decode_cost(info, options.threads);
+  const auto beyond = [&](const char* limit) {
+    return error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
+  };
+  const std::string name = input_name(file) + ": ";
+  if (beyond("max_memory"))
+    return {kLimitExceeded, name + "decoding takes up to " + mebibytes(cost.memory_most) +
+                                " MiB, more than the " + mebibytes(options.limits.max_memory) +
+                                " MiB of --max-memory"};
+  if (beyond("max_points"))
+    return {kLimitExceeded, name + "holds " + grouped(info.num_points) + " points, more than the " +
+                                grouped(options.limits.max_points) + " of --max-points"};
+  if (beyond("max_work"))
+    return {kLimitExceeded, name + "decoding takes up to " + grouped(cost.work) +
+                                " steps, more than the " + grouped(options.limits.max_work) +
+                                " of --max-work"};
+  return failure_of(error, input_name(file));
+}
+
+Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
+                                         const LimitOptions& given, const CommonOptions& common) {
+  SLF_TRY(StreamFile stream, read_stream(file, given, common));
+  const DecodeOptions options = decode_options(stream.info, part, given, common);
+  Stopwatch watch;
+  auto field = decode(stream.bytes, options);
+  if (!field) return decode_failure(file, field.error(), stream.info, options);
+  return DecodedFile{*std::move(field), std::move(stream.info), stream.bytes.size(), watch.lap()};
+}
+
+Outcome require_view_maps(const LightField& field, const std::string& file) {
+  if (field.header.has_basis && field.header.num_functions > 0) return Done{};
+  return Failure{kInputInvalid, input_name(file) +
+                                    ": holds integer planes without a basis, so it has no colours "
+                                    "(slf decode reads it)"};
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,62 @@
+// A .slf file as input of a verb: read, judged by the limits that the caller sets, and what is
+// missing of it said.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "slf/decoder.h"
+#include "tools/failure.h"
+#include "tools/options.h"
+
+namespace slf::tools {
+
+/// --max-memory, --max-points, --max-work and --strict: the same in every verb that reads a .slf.
+struct LimitOptions {
+  DecodeLimits limits;
+  bool strict = false;
+};
+void add_limits(CLI::App& verb, LimitOptions& options);
+
+/// A stream whose headers were read and, by --strict, found whole.
+struct StreamFile {
+  std::vector<std::uint8_t> bytes;
+  StreamInfo info;
+};
+
+/// Warns of what is missing, unless quiet. "-" is standard input.
+Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
+                                        const CommonOptions& common);
+
+/// Bytes of any file, as far as the limits allow.
+Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
+                                                      const LimitOptions& given);
+/// The same for bytes that were read.
+Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std::uint8_t> bytes,
+                                        const LimitOptions& given, const CommonOptions& common);
+
+/// Is the file not all that was coded: cut short, or cut by `slf truncate`?
+bool is_partial(const StreamInfo& info);
+
+/// For the library.
+DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
+                             const LimitOptions& given, const CommonOptions& common);
+
+/// A limit is named with what the file would take, every other error as it is.
+Failure decode_failure(const std::string& file, const Error& error, const StreamInfo& info,
+                       const DecodeOptions& options);
+
+struct DecodedFile {
+  LightField field;
+  StreamInfo info;
+  std::uint64_t bytes = 0;
+  double seconds = 0;  ///< of decoding alone
+};
+Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
+                                         const LimitOptions& given, const CommonOptions& common);
+
+/// A failure for verbs that need view maps, where the file holds integer planes without a meaning.
+Outcome require_view_maps(const LightField& field, const std::string& file);
+
+}  // namespace slf::tools

@@ -1,0 +1,172 @@
+// slf export: a light field for programs that do not know .slf.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "slf/splats.h"
+#include "tools/dump.h"
+#include "tools/options.h"
+#include "tools/output.h"
+#include "tools/stream_input.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+const std::map<std::string, SplatFormat> kFormats{
+    {"ply", SplatFormat::kPly}, {"glb", SplatFormat::kGlb}, {"spz", SplatFormat::kSpz}};
+
+struct ExportOptions {
+  std::string input, output, format, axes = "auto";
+  bool mean = false;
+  SplatSettings splats;
+  PartOptions part;
+  LimitOptions limits;
+  CommonOptions common;
+};
+
+/// By --format, else by the name's extension.
+std::optional<SplatFormat> format_of(const ExportOptions& given) {
+  std::string name = given.format;
+  if (name.empty()) name = std::filesystem::path(given.output).extension().string();
+  name.erase(0, name.starts_with('.') ? 1 : 0);
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const auto found = kFormats.find(name);
+  return found == kFormats.end() ? std::nullopt : std::optional(found->second);
+}
+
+SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
+  SplatSettings settings = given.splats;
+  settings.threads = given.common.threads;
+  if (given.axes == "world") settings.axes = SplatAxes::kWorld;
+  if (given.axes == "y-up") settings.axes = SplatAxes::kYUp;
+  if (given.axes == "y-down") settings.axes = SplatAxes::kYDown;
+  if (given.axes == "auto")
+    settings.axes = format == SplatFormat::kPly ? SplatAxes::kYDown : SplatAxes::kYUp;
+  return settings;
+}
+
+/// null for what no number can say: nothing is lost.
+nlohmann::ordered_json decibels(double psnr) {
+  return std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nlohmann::ordered_json(nullptr);
+}
+
+Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
+               const SplatLoss& loss) {
+  const double each = static_cast<double>(bytes) / static_cast<double>(splats.size());
+  if (given.common.json)
+    return print(
+        nlohmann::ordered_json{{"splats", splats.size()},
+                               {"degree", splats.degree},
+                               {"bytes", bytes},
+                               {"bytes_per_splat", each},
+                               {"origin", splats.origin},
+                               {"psnr", decibels(loss.psnr)},
+                               {"channel_psnr",
+                                {decibels(loss.channel_psnr[0]), decibels(loss.channel_psnr[1]),
+                                 decibels(loss.channel_psnr[2])}},
+                               {"psnr_one_colour", decibels(loss.psnr_one_colour)}});
+  if (given.common.quiet) return Done{};
+  std::fprintf(
+      stderr,
+      "%s splats, %s bytes (%.1f each); colours over directions: PSNR %.2f dB with harmonics "
+      "up to degree %d, %.2f dB with one colour a point\n",
+      grouped(splats.size()).c_str(), grouped(bytes).c_str(), each, loss.psnr, splats.degree,
+      loss.psnr_one_colour);
+  if (splats.origin != Vec3{0, 0, 0})
+    warn(text("positions are from %.17g, %.17g, %.17g of the world, since floats cannot hold them",
+              splats.origin[0], splats.origin[1], splats.origin[2]),
+         false);
+  return Done{};
+}
+
+/// The same file as slf decode writes.
+Outcome export_points(const ExportOptions& given) {
+  SLF_TRY(const DecodedFile decoded,
+          decode_file(given.input, given.part, given.limits, given.common));
+  SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
+  if (given.common.json)
+    return print(nlohmann::ordered_json{{"points", decoded.field.num_points()}});
+  if (!given.common.quiet)
+    std::fprintf(stderr, "%s points with their mean colour\n",
+                 grouped(decoded.field.num_points()).c_str());
+  return Done{};
+}
+
+Outcome export_splats(const ExportOptions& given, SplatFormat format) {
+  const std::string name = input_name(given.input);
+  SLF_TRY(const DecodedFile decoded,
+          decode_file(given.input, given.part, given.limits, given.common));
+  SLF_CHECK(require_view_maps(decoded.field, given.input));
+  const ViewMaps maps(decoded.field, given.common.threads);
+  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
+  SLF_TRY(const auto bytes, from(name, splat_file(splats, format)));
+  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
+  if (given.common.quiet && !given.common.json) return Done{};
+  return report(given, splats, bytes.size(),
+                splat_loss(maps, as_stored(splats, format), given.common.threads));
+}
+
+Outcome run_export(const ExportOptions& given) {
+  const auto format = format_of(given);
+  if (!format)
+    return Failure{kUsage, "export: --output " + given.output +
+                               " ends in none of .ply, .glb, .spz, and there is no --format"};
+  if (given.mean && *format != SplatFormat::kPly)
+    return Failure{kUsage, "export: --mean writes points, as PLY alone"};
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "export: --json and --output - both want standard output"};
+  SLF_CHECK(check_output(given.output));
+  return given.mean ? export_points(given) : export_splats(given, *format);
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Run& run) {
+  auto* verb = program.add_subcommand(
+      "export", "Write Gaussian splats (PLY, glTF, SPZ) or coloured points for other programs");
+  auto o = std::make_shared<ExportOptions>();
+  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb->add_option("-o,--output", o->output,
+                   "y.ply (3-D Gaussian splatting), y.glb (KHR_gaussian_splatting) or y.spz; - is "
+                   "standard output")
+      ->type_name("FILE")
+      ->required();
+  verb->add_option("--format", o->format, "In place of the name's extension")
+      ->type_name("")
+      ->check(CLI::IsMember({"ply", "glb", "spz"}));
+  verb->add_option("--degree", o->splats.degree, "Of the harmonics")
+      ->capture_default_str()
+      ->check(whole_range(0, 3));
+  auto* size =
+      verb->add_option("--size", o->splats.size,
+                       "Standard deviation of a splat, in distances between neighbouring points")
+          ->capture_default_str()
+          ->check(range(0.1, 4));
+  auto* axes = verb->add_option("--axes", o->axes,
+                                "auto: y down in a PLY, y up in the others; world: as in the .slf")
+                   ->type_name("")
+                   ->capture_default_str()
+                   ->check(CLI::IsMember({"auto", "world", "y-up", "y-down"}));
+  verb->add_flag("--mean", o->mean,
+                 "PLY of points with the colour averaged over all directions, not of splats; world "
+                 "axes, as slf decode writes it")
+      ->excludes(size)
+      ->excludes(axes)
+      ->excludes(verb->get_option("--degree"));
+  add_part(*verb, o->part);
+  add_limits(*verb, o->limits);
+  add_threads(*verb, o->common);
+  add_quiet(*verb, o->common);
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_export(*o); }; });
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,205 @@
+// slf html: one page with a file, the decoder and the viewer in it, opened by a double click.
+#include <filesystem>
+#include <memory>
+
+#include "slf/jpeg.h"
+#include "slf/render.h"
+#include "tools/camera_file.h"
+#include "tools/options.h"
+#include "tools/output.h"
+#include "tools/page_template.h"
+#include "tools/stream_input.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+constexpr int kPosterPixels = 480, kPosterQuality = 75;
+
+struct HtmlOptions {
+  std::string input, output, title, camera, poster, background = "f3f1ec";
+  double azimuth = 30, elevation = 20, fov = 30, autorotate = 0;
+  bool no_poster = false;
+  LimitOptions limits;
+  CommonOptions common;
+};
+
+/// RRGGBB, with or without a #.
+bool parse_colour(std::string_view given, std::array<std::uint8_t, 3>& rgb) {
+  if (!given.empty() && given[0] == '#') given.remove_prefix(1);
+  if (given.size() != 6 || given.find_first_not_of("0123456789abcdefABCDEF") != given.npos)
+    return false;
+  const unsigned long value = std::stoul(std::string(given), nullptr, 16);
+  rgb = {std::uint8_t(value >> 16), std::uint8_t(value >> 8 & 255), std::uint8_t(value & 255)};
+  return true;
+}
+
+Outcome check_options(const HtmlOptions& given) {
+  std::array<std::uint8_t, 3> rgb{};
+  if (!parse_colour(given.background, rgb))
+    return Failure{kUsage, "html: --background " + given.background + " is not RRGGBB"};
+  if (given.no_poster && !given.poster.empty())
+    return Failure{kUsage, "html: --poster and --no-poster do not go together"};
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "html: --json and --output - both want standard output"};
+  if (page_template().empty())
+    return Failure{kUnsupported,
+                   "html: this program was built without the viewer page web/dist/one_file.html; "
+                   "run npm ci && npm run build in web/, then build slf again"};
+  return check_output(given.output);
+}
+
+std::string title_of(const HtmlOptions& given, const Metadata& metadata) {
+  if (!given.title.empty()) return given.title;
+  for (const char* wanted : {"title", "source"})
+    for (const auto& [key, value] : metadata)
+      if (key == wanted && !value.empty()) return value;
+  return given.input == "-" ? "Surface light field"
+                            : std::filesystem::path(given.input).stem().string();
+}
+
+/// The camera as the viewer reads it: rows right, down, forward, and where the eye is.
+nlohmann::ordered_json view_json(const Camera& camera) {
+  auto rotation = nlohmann::ordered_json::array();
+  for (const auto& row : camera.rotation)
+    for (const double value : row) rotation.push_back(value);
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy},
+          {"rotation", rotation},  {"eye", camera.centre()}};
+}
+
+/// The part of the camera's picture that a square poster shows, which is where the viewer starts.
+Camera square(Camera camera) {
+  const int side = std::min(camera.width, camera.height);
+  camera.cx -= (camera.width - side) / 2.0;
+  camera.cy -= (camera.height - side) / 2.0;
+  camera.width = camera.height = side;
+  return resized(std::move(camera), kPosterPixels, kPosterPixels);
+}
+
+Result<std::string, Failure> rendered_poster(const HtmlOptions& given, const LightField& field,
+                                             const std::optional<Camera>& camera) {
+  RenderSettings settings;
+  parse_colour(given.background, settings.background);
+  settings.threads = given.common.threads;
+  const ViewMaps maps(field, given.common.threads);
+  const Renderer renderer(maps, settings);
+  const Camera view = camera ? square(*camera)
+                             : renderer.orbit(given.azimuth / 360, given.elevation, kPosterPixels,
+                                              kPosterPixels, given.fov);
+  SLF_TRY(const auto jpeg,
+          from(std::string(), encode_jpeg(renderer.render(view).image, kPosterQuality)));
+  return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
+}
+
+/// A picture that was given, as it is.
+Result<std::string, Failure> given_poster(const std::string& file) {
+  SLF_TRY(const auto bytes, from(file, read_file(file)));
+  SLF_TRY([[maybe_unused]] const Image image, from(file, read_image(file)));
+  const char* type = bytes[0] == 0xff ? "jpeg" : "png";  // what read_image takes
+  return std::string("data:image/") + type + ";base64," + base64(bytes.data(), bytes.size());
+}
+
+/// Nothing in it ends the script element that it stands in.
+std::string script_json(const nlohmann::ordered_json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))
+    out += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return out;
+}
+
+nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string& title,
+                                    const std::optional<Camera>& camera) {
+  nlohmann::ordered_json options{{"title", title},
+                                 {"background", given.background},
+                                 {"azimuth", given.azimuth},
+                                 {"elevation", given.elevation},
+                                 {"fov", given.fov}};
+  if (given.autorotate != 0) options["autorotate"] = given.autorotate;
+  if (camera) options["view"] = view_json(*camera);
+  return options;
+}
+
+Outcome run_html(const HtmlOptions& given) {
+  SLF_CHECK(check_options(given));
+  std::optional<Camera> camera;
+  if (!given.camera.empty()) {
+    SLF_TRY(camera, read_camera(given.camera));
+  }
+  const std::string name = input_name(given.input);
+  SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
+  const std::vector<std::uint8_t>& stream = input.bytes;
+  const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
+  auto decoded = decode(stream, options);
+  if (!decoded) return decode_failure(name, decoded.error(), input.info, options);
+  const LightField& field = *decoded;
+  SLF_CHECK(require_view_maps(field, given.input));
+  std::string poster;
+  if (!given.poster.empty()) {
+    SLF_TRY(poster, given_poster(given.poster));
+  } else if (!given.no_poster) {
+    SLF_TRY(poster, rendered_poster(given, field, camera));
+  }
+  const std::string title = title_of(given, input.info.metadata);
+  const std::string file = base64(stream.data(), stream.size());
+  const std::string page = filled_template(
+      page_template(), {{"title", escaped_html(title)},
+                        {"poster", poster.empty() ? "data:," : poster},
+                        {"options", script_json(page_options(given, title, camera))},
+                        {"file", file}});
+  SLF_CHECK(save(given.output, page));
+  if (given.common.json)
+    return print(nlohmann::ordered_json{
+        {"bytes", page.size()}, {"file", file.size()}, {"poster", poster.size()}});
+  if (!given.common.quiet)
+    std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
+                 grouped(page.size()).c_str(), grouped(file.size()).c_str());
+  return Done{};
+}
+
+}  // namespace
+
+void add_html(CLI::App& program, Run& run) {
+  auto* verb =
+      program.add_subcommand("html", "One web page with the file, the decoder and a viewer in it");
+  auto o = std::make_shared<HtmlOptions>();
+  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb->add_option("-o,--output", o->output, "The page (HTML); - is standard output")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--title", o->title, "Of the page; default: the file's own, else its name")
+      ->type_name("TEXT");
+  auto* camera =
+      verb->add_option("--camera", o->camera,
+                       "First view: cameras.json, cameras.json:NAME or cameras.json:INDEX")
+          ->type_name("FILE[:WHICH]");
+  for (auto* option :
+       {verb->add_option("--azimuth", o->azimuth, "Of the first view, degrees")
+            ->check(range(-360, 360)),
+        verb->add_option("--elevation", o->elevation,
+                         "Of the first view, degrees above the horizon")
+            ->check(range(-90, 90)),
+        verb->add_option("--fov", o->fov, "Field of view, degrees")->check(range(1, 170))})
+    option->capture_default_str()->excludes(camera);
+  verb->add_option("--autorotate", o->autorotate,
+                   "Degrees a second until somebody takes hold; 0: still")
+      ->capture_default_str()
+      ->check(range(-90, 90));
+  verb->add_option("--background", o->background, "RRGGBB")
+      ->type_name("RRGGBB")
+      ->capture_default_str();
+  verb->add_option("--poster", o->poster,
+                   "PNG or JPEG that shows until the file is decoded; default: the first view")
+      ->type_name("FILE");
+  verb->add_flag("--no-poster", o->no_poster, "A smaller page, empty until the file is decoded");
+  add_limits(*verb, o->limits);
+  add_threads(*verb, o->common);
+  add_quiet(*verb, o->common);
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_html(*o); }; });
+}
+
+}  // namespace slf::tools

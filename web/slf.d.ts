@@ -1,0 +1,247 @@
+// Surface light fields decoded in WebAssembly. No globals, no dependency; every function throws SlfError.
+
+/** Code of an error: as in include/slf/slf.h without SLF_, and two of reading from a network. */
+export type SlfCode =
+  | 'NOT_SLF' | 'TRUNCATED' | 'CHECKSUM' | 'OUT_OF_RANGE' | 'RESERVED' | 'UNSUPPORTED' | 'LIMIT_EXCEEDED'
+  | 'INVALID_ARGUMENT' | 'OUT_OF_MEMORY' | 'CANCELLED' | 'READ_FAILED' | 'INTERNAL' | 'NETWORK' | 'ABORTED';
+
+export class SlfError extends Error {
+  constructor(code: SlfCode, message: string, details?: Partial<Pick<SlfError, 'element' | 'unit' | 'bitOffset'>> & { cause?: unknown });
+  readonly code: SlfCode;
+  /** Syntax element of the specification at which a stream is wrong, or the argument; may be empty. */
+  readonly element: string;
+  /** The unit whose element that is: "sequence", "geometry", ...; may be empty. */
+  readonly unit: string;
+  /** From the first byte of the stream. */
+  readonly bitOffset: number;
+}
+
+export interface SlfGrid {
+  /** World position of voxel (0, 0, 0). */
+  origin: [number, number, number];
+  /** World units from voxel to voxel: world = origin + step * voxel. */
+  step: number;
+  /** 1 .. 21 per axis. */
+  bits: number;
+}
+
+/** What a file holds, from its headers alone. */
+export interface SlfInfo {
+  version: string;
+  profile: 'main' | 'draco' | 'texture';
+  bytes: number;
+  points: number;
+  /** K; 0: geometry alone. */
+  functions: number;
+  /** R, the coded ones. */
+  components: number;
+  bits: number;
+  /** Of the octree: what options.levels counts; = bits. */
+  levels: number;
+  slices: number;
+  /** What options.groups counts. */
+  groups: number;
+  /** Of coded normals; 0: none. */
+  normalBits: number;
+  grid: SlfGrid;
+  /** 0: not known. */
+  metresPerUnit: number;
+  up: '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'unknown';
+  rightHanded: boolean;
+  /** false: planes without a meaning; no weights, no colours. */
+  hasBasis: boolean;
+  basis: 'bspline' | 'harmonics';
+  frame: 'global' | 'reflected';
+  transfer: 'display' | 'linear';
+  gamma: [number, number];
+  /** false: the file was cut short. */
+  complete: boolean;
+  /** Parts can be read without the rest. */
+  hasIndex: boolean;
+  metadata: Record<string, string>;
+  /** Memory a decode of all of it takes, estimated from above. Of SlfDecoder.info. */
+  decodeBytes?: number;
+}
+
+export interface SlfOptions {
+  /** Octree levels to keep, 1 .. info.levels; 0: all. Fewer give a coarser grid. */
+  levels?: number;
+  /** Groups of planes to decode, 1 .. info.groups; 0: all. */
+  groups?: number;
+  /** Quality layers to decode, 1 .. those of the group that has most; 0: all. */
+  layers?: number;
+  /** Only units that end within the first maxBytes; 0: all. */
+  maxBytes?: number;
+  /** Only points whose voxel of the kept levels meets the box; voxels of the whole grid, both corners included. */
+  region?: { low: ArrayLike<number>; high: ArrayLike<number> };
+  /** Refused beyond: LIMIT_EXCEEDED, before anything that large is allocated. */
+  maxPoints?: number;
+  /** The same of the memory that preflight() estimates, bytes. */
+  maxMemory?: number;
+  /** The same of positions and components together, bytes. */
+  maxWork?: number;
+  /** Called between units with the share of bytes decoded; false ends the decode with CANCELLED. */
+  onProgress?: (fraction: number) => boolean | void;
+}
+
+export interface SlfEstimate {
+  components: number;
+  /** At most. */
+  points: number;
+  /** Bytes that would be read of the file and are not here. */
+  readBytes: number;
+  fieldBytes: number;
+  memoryBytes: number;
+  /** Of SlfStream: in how many requests. */
+  requests?: number;
+}
+
+/** The functions on the faces of a cube, GL's order (+x -x +y -y +z -z) and axes. */
+export interface SlfFunctionTable {
+  /** Texels along an edge; texel i stands at -1 + 2 i / (side - 1), the outermost on the edges. */
+  side: number;
+  size: number;
+  /** ceil(W / 4). */
+  layers: number;
+  /** W */
+  functions: number;
+  /** [layers][6][side][side][4]; the last layer is filled up with zeros. */
+  data: Float32Array;
+}
+
+/** Constants of the reference reconstruction, spec annex E. */
+export interface SlfKernel {
+  version: number; filterPixels: number; exponent: number; spacingReach: number; leastReach: number; mostReach: number;
+  smallest: number; core: number; band: number; steepest: number; flattest: number; discShare: number;
+  densityGain: number; densityOffset: number;
+}
+
+/** A decoded light field. Its memory is WebAssembly's until release(); arrays handed out are copies that stay. */
+export class SlfField {
+  private constructor();
+  readonly info: SlfInfo;
+  /** P */
+  readonly points: number;
+  /** R */
+  readonly components: number;
+  /** W: real weights of a point; R, or K with a joint transform; 0 without a basis. */
+  readonly functions: number;
+  /** Less than the file was made of. */
+  readonly partial: boolean;
+  /** Of these points: coarser than the file's where levels were left out. */
+  readonly grid: SlfGrid;
+  readonly frame: 'global' | 'reflected';
+  readonly transfer: 'display' | 'linear';
+  readonly up: SlfInfo['up'];
+  readonly rightHanded: boolean;
+  readonly hasBasis: boolean;
+  readonly hasNormals: boolean;
+  /** Directions are clamped to these gammas (sines of elevation). */
+  readonly gamma: [number, number];
+  readonly kernel: SlfKernel;
+
+  /** [P][3] voxels, Morton order. */
+  readonly positions: Uint32Array;
+  /** [P][R][3] the integers of the bit exact decode; in 16 bits where all fit. */
+  readonly values: Int16Array | Int32Array;
+  /** [P][2] coded normals as levels of the octahedral map, or null. */
+  readonly octahedral: Uint16Array | null;
+  /** Discs that a renderer draws (annex E.2): [P][3] unit normals of either sign; 0: faces the eye. */
+  readonly normals: Float32Array;
+  /** [P][3] their centres, in voxels: world = grid.origin + grid.step * centre. */
+  readonly centres: Float32Array;
+  /** [P] their radii, world units. */
+  readonly radii: Float32Array;
+  /** [P] area of the surface that a point stands for, world units squared. */
+  readonly areas: Float32Array;
+  /** [P][3] unit normals that directions are mirrored at; null in the global frame. */
+  readonly frameNormals: Float32Array | null;
+
+  /** [P][W][3]: radiance = sum over W of weight times function, clamped to 0 .. 255. */
+  weights(out?: Float32Array): Float32Array;
+  /** [P][3] R, G, B averaged over all directions. */
+  meanColours(): Uint8Array;
+  /** side: 2 .. 1024 [65]. Linear interpolation is off by what docs/web.md lists. */
+  functionTable(options?: { side?: number }): SlfFunctionTable;
+  /** [n][3] reference colours of points along world directions from the point to the eye. */
+  radiance(points: ArrayLike<number>, directions: ArrayLike<number>): Float32Array;
+  /** Frees its memory. The field cannot be read after. */
+  release(): void;
+}
+
+type Bytes = ArrayBufferLike | ArrayBufferView;
+type WasmSource = string | URL | Response | Promise<Response> | ArrayBuffer | ArrayBufferView | WebAssembly.Module;
+
+export class SlfDecoder {
+  private constructor();
+  /** wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
+  static create(options?: { wasm?: WasmSource }): Promise<SlfDecoder>;
+  /** May be posted to workers. */
+  readonly module: WebAssembly.Module;
+  info(bytes: Bytes): SlfInfo;
+  preflight(bytes: Bytes, options?: SlfOptions): SlfEstimate;
+  decode(bytes: Bytes, options?: SlfOptions): SlfField;
+}
+
+export interface SlfOpenOptions {
+  signal?: AbortSignal;
+  headers?: Record<string, string>;
+  credentials?: RequestCredentials;
+  /** NETWORK where nothing comes for so long [30000]. */
+  stallMs?: number;
+}
+
+/** A file on a server, read in parts by its index; all of it where the server ignores ranges. From slf_stream.js. */
+export class SlfStream {
+  private constructor();
+  static open(url: string | URL, options?: SlfOpenOptions & {
+    decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch; onProgress?: (received: number, all: number) => void;
+  }): Promise<SlfStream>;
+  readonly info: SlfInfo;
+  /** Of the whole file, and received so far. */
+  readonly bytes: number;
+  readonly received: number;
+  /** The server gives parts. */
+  readonly ranged: boolean;
+  preflight(options?: SlfOptions): SlfEstimate;
+  /** Reads what decode(options) needs and is not here yet. */
+  read(options?: SlfOptions, reading?: SlfReading): Promise<void>;
+  decode(options?: SlfOptions, reading?: SlfReading): Promise<SlfField>;
+}
+
+export interface SlfReading {
+  /** Bytes so far, and all of this call. */
+  onRead?: (bytes: number, all: number) => void;
+  signal?: AbortSignal;
+}
+
+type SlfArray = 'positions' | 'values' | 'octahedral' | 'weights' | 'meanColours' | 'normals' | 'centres' | 'radii'
+  | 'areas' | 'frameNormals';
+
+/** A field as data, from a worker: the arrays that were asked for. */
+export type SlfPlainField =
+  Pick<SlfField, 'points' | 'components' | 'functions' | 'partial' | 'grid' | 'frame' | 'transfer' | 'up' | 'rightHanded'
+    | 'hasBasis' | 'hasNormals' | 'gamma' | 'kernel' | 'info'>
+  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'frameNormals'>>
+  & { weights?: Float32Array | null; meanColours?: Uint8Array | null; functionTable?: SlfFunctionTable };
+
+export interface SlfWanted {
+  /** Default: all. */
+  arrays?: SlfArray[];
+  functionTable?: { side?: number };
+  signal?: AbortSignal;
+}
+
+/** Decoding in a worker of its own. From slf_worker.js, which the worker runs too. */
+export class SlfWorker {
+  private constructor();
+  static create(options?: { wasm?: WasmSource; worker?: Worker }): Promise<SlfWorker>;
+  info(bytes: Bytes): Promise<SlfInfo>;
+  decode(bytes: Bytes, options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & { transfer?: boolean }): Promise<SlfPlainField>;
+  open(url: string | URL, options?: SlfOpenOptions): Promise<{
+    info: SlfInfo; bytes: number; ranged: boolean; received: number;
+    decode(options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & SlfReading): Promise<SlfPlainField>;
+    close(): Promise<void>;
+  }>;
+  terminate(): void;
+}

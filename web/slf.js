@@ -1,0 +1,135 @@
+// The decoder of surface light fields as an ES module: browser, worker, node. No dependency.
+//
+//     const decoder = await SlfDecoder.create();
+//     const field = decoder.decode(bytes, { levels: 8 });
+//     field.positions, field.values, field.weights() ...
+//     field.release();
+//
+// Types and documentation: slf.d.ts.
+import { SlfField } from './slf_field.js';
+import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
+import { Instance, compile } from './slf_instance.js';
+
+/** An instance that has grown beyond this is not used again: WebAssembly memory never shrinks. */
+const KEPT_BYTES = 32 << 20;
+
+export class SlfDecoder {
+  #module; #idle = null;
+
+  /** Use SlfDecoder.create(). */
+  constructor(module) { this.#module = module; }
+
+  static async create({ wasm } = {}) { return new SlfDecoder(await compile(wasm)); }
+
+  /** The compiled module: may be posted to workers and given to their create(). */
+  get module() { return this.#module; }
+
+  info(bytes) {
+    return this.#withStream(bytes, (instance, stream) => {
+      const info = readInfo(instance, stream);
+      setOptions(instance);
+      info.decodeBytes = preflight(instance, stream).memoryBytes;
+      return info;
+    });
+  }
+
+  preflight(bytes, options) {
+    return this.#withStream(bytes, (instance, stream) => {
+      setOptions(instance, options);
+      return preflight(instance, stream);
+    });
+  }
+
+  decode(bytes, options) {
+    const source = bytesOf(bytes), instance = this.take();
+    return this.#field(instance, () => {
+      const at = instance.put(source);
+      return { stream: instance.wasm.slfw_open(at, source.byteLength), at };
+    }, options);
+  }
+
+  /** Of a stream that is read in parts. readAt(offset, bytes): Uint8Array, or null. */
+  decodeParts(size, readAt, options) {
+    const instance = this.take();
+    return this.#field(instance, () => ({ stream: this.openParts(instance, size, readAt), at: 0 }), options);
+  }
+
+  /** Calls use(instance, stream) with a stream that is read in parts. */
+  withParts(size, readAt, use) {
+    const instance = this.take();
+    try {
+      return instance.call((w) => {
+        const stream = this.openParts(instance, size, readAt);
+        if (stream === 0) instance.fail();
+        try {
+          return use(instance, stream);
+        } finally {
+          w.slfw_release_stream(stream);
+        }
+      });
+    } finally {
+      this.give(instance);
+    }
+  }
+
+  openParts(instance, size, readAt) {
+    instance.readAt = (to, offset, bytes) => {
+      const part = readAt(offset, bytes);
+      if (part === null) return 1;
+      new Uint8Array(instance.wasm.memory.buffer, to, bytes).set(part);
+      return 0;
+    };
+    return instance.wasm.slfw_open_reader(size);
+  }
+
+  take() {
+    const instance = this.#idle ?? new Instance(this.#module);
+    this.#idle = null;
+    return instance;
+  }
+
+  give(instance) {
+    instance.readAt = () => 1;
+    instance.onProgress = () => 0;
+    if (!instance.dead && instance.bytes <= KEPT_BYTES) this.#idle = instance;
+  }
+
+  #field(instance, open, options) {
+    try {
+      const { field, info } = instance.call((w) => {
+        setOptions(instance, options);
+        const { stream, at } = open();
+        if (stream === 0) instance.fail();
+        const about = readInfo(instance, stream);
+        const decoded = w.slfw_decode(stream);
+        w.slfw_release_stream(stream);
+        w.slfw_free(at);
+        if (decoded === 0) instance.fail();
+        return { field: decoded, info: about };
+      });
+      return new SlfField(instance, field, info, (used) => this.give(used));
+    } catch (error) {
+      instance.dead = true; // may hold what was not given back
+      throw error;
+    }
+  }
+
+  #withStream(bytes, use) {
+    const source = bytesOf(bytes), instance = this.take();
+    try {
+      return instance.call((w) => {
+        const at = instance.put(source), stream = w.slfw_open(at, source.byteLength);
+        if (stream === 0) instance.fail();
+        const result = use(instance, stream);
+        w.slfw_release_stream(stream);
+        w.slfw_free(at);
+        return result;
+      });
+    } finally {
+      this.give(instance);
+    }
+  }
+}
+
+export { SlfError } from './slf_error.js';
+export { SlfField, readInfo, preflight, setOptions };

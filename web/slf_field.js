@@ -1,0 +1,149 @@
+// A decoded light field: arrays, colours, what a shader needs.
+import { SlfError } from './slf_error.js';
+import { FRAMES, TRANSFERS } from './slf_headers.js';
+
+const CHUNK_BYTES = 1 << 20; // of arrays on their way out
+
+/** The arrays of slfw_read, by number. */
+const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, FRAME_NORMALS = 5,
+  DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9;
+
+/** A decoded light field in an instance of its own, until release(). Arrays handed out are copies. */
+export class SlfField {
+  #instance; #field; #done; #arrays = new Map();
+
+  constructor(instance, field, info, done) {
+    this.#instance = instance;
+    this.#field = field;
+    this.#done = done;
+    instance.call((w) => { if (w.slfw_shape(field) !== 0) instance.fail(); });
+    const [components, points, bits, partial, x, y, z, step, weights, frame, transfer, normals, gammaMin, gammaMax] =
+      instance.numbers(14);
+    this.info = info;
+    this.points = points;
+    this.components = components;
+    this.partial = partial !== 0;
+    this.grid = { origin: [x, y, z], step, bits };
+    this.functions = weights;
+    this.frame = FRAMES[frame];
+    this.transfer = TRANSFERS[transfer];
+    this.up = info.up;
+    this.rightHanded = info.rightHanded;
+    this.hasBasis = weights > 0;
+    this.hasNormals = normals !== 0;
+    this.gamma = [gammaMin, gammaMax];
+  }
+
+  get positions() { return this.#cached(POSITIONS, () => this.#read(POSITIONS, Uint32Array, 3)); }
+  get normals() { return this.#cached(DISC_NORMALS, () => this.#read(DISC_NORMALS, Float32Array, 3)); }
+  get centres() { return this.#cached(DISC_CENTRES, () => this.#read(DISC_CENTRES, Float32Array, 3)); }
+  get radii() { return this.#cached(DISC_RADII, () => this.#read(DISC_RADII, Float32Array, 1)); }
+  get areas() { return this.#cached(DISC_AREAS, () => this.#read(DISC_AREAS, Float32Array, 1)); }
+  get octahedral() {
+    return this.hasNormals ? this.#cached(OCTAHEDRAL, () => this.#read(OCTAHEDRAL, Uint16Array, 2)) : null;
+  }
+  get frameNormals() {
+    if (!this.hasBasis || this.frame !== 'reflected') return null;
+    return this.#cached(FRAME_NORMALS, () => this.#read(FRAME_NORMALS, Float32Array, 3));
+  }
+  get values() {
+    return this.#cached(COMPONENTS, () => this.#narrow() ?? this.#read(COMPONENTS, Int32Array, 3 * this.components));
+  }
+
+  meanColours() { return this.#read(MEANS, Uint8Array, 3); }
+  weights(out) { return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out); }
+
+  functionTable({ side = 65 } = {}) {
+    const layers = Math.ceil(this.functions / 4), floats = layers * 24 * side * side;
+    return this.#instance.call((w) => {
+      const at = this.#instance.alloc(4 * floats);
+      if (w.slfw_cube(this.#field, side, at, floats) !== 0) this.#instance.fail();
+      const data = new Float32Array(w.memory.buffer, at, floats).slice();
+      w.slfw_free(at);
+      return { size: side, side, layers, functions: this.functions, data };
+    });
+  }
+
+  get kernel() {
+    return this.#instance.call((w) => {
+      w.slfw_kernel();
+      const [version, filterPixels, exponent, spacingReach, leastReach, mostReach, smallest, core, band, steepest,
+        flattest, discShare, densityGain, densityOffset] = this.#instance.numbers(14);
+      return { version, filterPixels, exponent, spacingReach, leastReach, mostReach, smallest, core, band, steepest,
+        flattest, discShare, densityGain, densityOffset };
+    });
+  }
+
+  radiance(points, directions) {
+    if (directions.length !== 3 * points.length)
+      throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: three numbers of a direction for every point');
+    const instance = this.#instance;
+    return instance.call((w) => {
+      const from = instance.put(new Uint8Array(Uint32Array.from(points).buffer));
+      const along = instance.put(new Uint8Array(Float32Array.from(directions).buffer));
+      const to = instance.alloc(12 * points.length + 4);
+      const code = w.slfw_radiance(this.#field, points.length, from, along, to);
+      const colours = new Float32Array(w.memory.buffer, to, 3 * points.length).slice();
+      for (const block of [from, along, to]) w.slfw_free(block);
+      if (code !== 0) instance.fail();
+      return colours;
+    });
+  }
+
+  release() {
+    if (this.#instance === null) return;
+    if (!this.#instance.dead) this.#instance.wasm.slfw_release_field(this.#field);
+    this.#done(this.#instance);
+    this.#instance = null;
+    this.#arrays.clear();
+  }
+
+  #cached(key, make) {
+    if (!this.#arrays.has(key)) this.#arrays.set(key, make());
+    return this.#arrays.get(key);
+  }
+
+  /** read(first, count, at) for a few points at a time, so that the instance need not hold an array twice. */
+  #chunks(rowBytes, use) {
+    if (this.#instance === null) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: the field was released');
+    return this.#instance.call((w) => {
+      const most = Math.max(1, Math.floor(CHUNK_BYTES / Math.max(rowBytes, 1)));
+      const at = this.#instance.alloc(most * rowBytes + 4);
+      let good = true;
+      for (let first = 0; good && first < this.points; first += most)
+        good = use(w, first, Math.min(most, this.points - first), at);
+      w.slfw_free(at);
+      return good;
+    });
+  }
+
+  #fetch(w, what, first, count, at) {
+    if (w.slfw_read(this.#field, what, first, count, at) !== 0) {
+      w.slfw_free(at);
+      this.#instance.fail();
+    }
+  }
+
+  #read(what, Type, width, out = new Type(this.points * width)) {
+    if (!(out instanceof Type) || out.length < this.points * width)
+      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: a ${Type.name} of ${this.points * width} or more`);
+    this.#chunks(width * Type.BYTES_PER_ELEMENT, (w, first, count, at) => {
+      this.#fetch(w, what, first, count, at);
+      out.set(new Type(w.memory.buffer, at, count * width), first * width);
+      return true;
+    });
+    return out;
+  }
+
+  /** Components in 16 bits, or null where one does not fit. */
+  #narrow() {
+    const width = 3 * this.components, out = new Int16Array(this.points * width);
+    const fits = this.#chunks(4 * width, (w, first, count, at) => {
+      this.#fetch(w, COMPONENTS, first, count, at);
+      if (w.slfw_narrow(at, at, count * width) === 0) return false;
+      out.set(new Int16Array(w.memory.buffer, at, count * width), first * width);
+      return true;
+    });
+    return fits ? out : null;
+  }
+}

@@ -1,0 +1,62 @@
+// What is asked of a decode, and what headers say, in the numbers of web/wasm/slf_wasm.c.
+import { SlfError } from './slf_error.js';
+
+const UP = ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'];
+export const FRAMES = ['global', 'reflected'];
+export const TRANSFERS = ['display', 'linear'];
+const PROFILES = ['main', 'draco', 'texture'];
+
+export function bytesOf(source) {
+  if (source instanceof Uint8Array) return source;
+  if (source instanceof ArrayBuffer) return new Uint8Array(source);
+  if (typeof SharedArrayBuffer === 'function' && source instanceof SharedArrayBuffer) return new Uint8Array(source);
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: bytes must be an ArrayBuffer or a view of one');
+}
+
+function whole(options, name, most = Number.MAX_SAFE_INTEGER) {
+  const value = options[name] ?? 0;
+  if (!Number.isInteger(value) || value < 0 || value > most)
+    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${name} must be a whole number, 0 or more`);
+  return value;
+}
+
+export function setOptions(instance, options = {}) {
+  const { region } = options;
+  const corner = (side) => {
+    const at = region?.[side] ?? [0, 0, 0];
+    if (at.length !== 3 || !Array.from(at).every((x) => Number.isInteger(x) && Math.abs(x) < 2 ** 31))
+      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: region.${side} must be three whole numbers`);
+    return at;
+  };
+  instance.setNumbers([
+    whole(options, 'levels', 255), whole(options, 'groups', 255), whole(options, 'maxBytes'), region ? 1 : 0,
+    ...corner('low'), ...corner('high'), whole(options, 'maxPoints'), whole(options, 'maxMemory'),
+    whole(options, 'maxWork'), options.onProgress ? 1 : 0, whole(options, 'layers', 255)]);
+  instance.wasm.slfw_set_options();
+  instance.onProgress = (fraction) => (options.onProgress(fraction) === false ? 1 : 0);
+}
+
+export function readInfo(instance, stream) {
+  const w = instance.wasm;
+  if (w.slfw_info(stream) !== 0) instance.fail();
+  const [format, bytes, points, slices, groups, levels, functions, components, normalBits, x, y, z, step, metres, up,
+    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex] =
+    instance.numbers(26);
+  const metadata = {};
+  for (let i = 0; i < pairs; ++i)
+    metadata[instance.text(w.slfw_metadata(stream, i, 0))] = instance.text(w.slfw_metadata(stream, i, 1));
+  return {
+    version: `${format >>> 16}.${format & 0xffff}`, profile: PROFILES[profile], bytes, points, functions, components,
+    bits: levels, levels, slices, groups, normalBits, grid: { origin: [x, y, z], step, bits: levels },
+    metresPerUnit: metres, up: UP[up], rightHanded: leftHanded === 0, hasBasis: hasBasis !== 0,
+    basis: basis === 0 ? 'bspline' : 'harmonics', frame: FRAMES[frame], transfer: TRANSFERS[transfer],
+    gamma: [gammaMin, gammaMax], complete: complete !== 0, hasIndex: hasIndex !== 0, metadata,
+  };
+}
+
+export function preflight(instance, stream) {
+  if (instance.wasm.slfw_preflight(stream) !== 0) instance.fail();
+  const [components, points, readBytes, fieldBytes, memoryBytes] = instance.numbers(5);
+  return { components, points, readBytes, fieldBytes, memoryBytes };
+}

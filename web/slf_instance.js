@@ -1,0 +1,112 @@
+// WebAssembly: which build, compiled from where, and instances with memory of their own.
+import { SlfError } from './slf_error.js';
+
+/** (module (func (result v128) i32.const 0 i8x16.splat)): valid only where there is SIMD. */
+const SIMD_PROBE = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0,
+  253, 15, 11);
+
+function defaultUrl() {
+  const simd = WebAssembly.validate(SIMD_PROBE);
+  return new URL(simd ? './slf.wasm' : './slf_scalar.wasm', import.meta.url);
+}
+
+async function bytesOfFile(url) {
+  const { readFile } = await import(/* @vite-ignore */ 'node:fs/promises');
+  return readFile(url);
+}
+
+/** A module from a module, an address, a response, bytes, or a promise of one of them. */
+export async function compile(source) {
+  if (source instanceof WebAssembly.Module) return source;
+  source = await source;
+  if (source instanceof WebAssembly.Module) return source;
+  if (source === undefined) source = defaultUrl();
+  if (typeof source === 'string' || source instanceof URL) {
+    const isFile = String(source).startsWith('file:') && typeof process === 'object' && process.versions?.node;
+    if (isFile) return WebAssembly.compile(await bytesOfFile(new URL(source)));
+    source = await fetch(source);
+  }
+  if (typeof Response === 'function' && source instanceof Response) {
+    if (!source.ok) throw new SlfError('NETWORK', `the decoder could not be loaded: ${source.status} ${source.url}`);
+    const type = source.headers.get('content-type') ?? '';
+    if (WebAssembly.compileStreaming && type.startsWith('application/wasm')) return WebAssembly.compileStreaming(source);
+    source = await source.arrayBuffer();
+  }
+  return WebAssembly.compile(source);
+}
+
+/** One instance of the decoder with its own memory. */
+export class Instance {
+  constructor(module) {
+    this.readAt = () => 1;
+    this.onProgress = () => 0;
+    this.dead = false;
+    const nothing = () => 0;
+    const { exports } = new WebAssembly.Instance(module, {
+      slf: {
+        read_at: (to, offset, bytes) => this.readAt(to >>> 0, offset, bytes >>> 0),
+        progress: (fraction) => this.onProgress(fraction),
+        out_of_memory: () => {
+          throw new SlfError('OUT_OF_MEMORY', 'OUT_OF_MEMORY: more than WebAssembly has');
+        },
+      },
+      // What the C library links: a clock for figures nobody asks for, and output nobody reads.
+      wasi_snapshot_preview1: { clock_time_get: nothing, fd_close: nothing, fd_seek: nothing, fd_write: nothing },
+    });
+    this.wasm = exports;
+    exports._initialize();
+  }
+
+  /** Runs a call. What traps or throws leaves an instance that is not used again. */
+  call(body) {
+    if (this.dead) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: used after a failure or a release');
+    try {
+      return body(this.wasm);
+    } catch (error) {
+      this.dead = true;
+      if (error instanceof SlfError) throw error;
+      if (error instanceof WebAssembly.RuntimeError)
+        throw new SlfError('INTERNAL', `INTERNAL: ${error.message}`, { cause: error });
+      throw error; // the caller's own, of a progress function
+    }
+  }
+
+  get bytes() { return this.wasm.memory.buffer.byteLength; }
+
+  /** Throws what the last call that failed has left. */
+  fail() {
+    const w = this.wasm;
+    const text = (which) => this.text(w.slfw_text(which));
+    const code = text(0).replace(/^SLF_/, '');
+    throw new SlfError(code, text(3).replace(/^SLF_/, ''),
+      { element: text(1), unit: text(2), bitOffset: w.slfw_bit_offset() });
+  }
+
+  text(at) {
+    const memory = new Uint8Array(this.wasm.memory.buffer);
+    let end = at >>>= 0;
+    while (memory[end] !== 0) ++end;
+    return new TextDecoder().decode(memory.slice(at, end));
+  }
+
+  /** The numbers that a call has left, a copy. */
+  numbers(count) {
+    return Array.from(new Float64Array(this.wasm.memory.buffer, this.wasm.slfw_numbers() >>> 0, count));
+  }
+
+  setNumbers(values) {
+    new Float64Array(this.wasm.memory.buffer, this.wasm.slfw_numbers() >>> 0, values.length).set(values);
+  }
+
+  alloc(bytes) {
+    const at = this.wasm.slfw_alloc(bytes) >>> 0;
+    if (at === 0) throw new SlfError('OUT_OF_MEMORY', `OUT_OF_MEMORY: ${bytes} bytes`);
+    return at;
+  }
+
+  put(bytes) {
+    const at = this.alloc(Math.max(bytes.byteLength, 1));
+    new Uint8Array(this.wasm.memory.buffer, at, bytes.byteLength).set(bytes);
+    return at;
+  }
+}

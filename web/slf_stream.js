@@ -1,0 +1,254 @@
+// Files on a server, read in parts: the beginning with the index, then what is asked for.
+import { preflight, readInfo, setOptions, SlfError, SlfDecoder } from './slf.js';
+
+const FIRST_BYTES = 1 << 16;
+
+function network(message, cause) {
+  return new SlfError('NETWORK', `NETWORK: ${message}`, { cause });
+}
+
+/** Start, end (not included) and size of a Content-Range, or null. */
+function contentRange(response) {
+  const match = /^bytes (\d+)-(\d+)\/(\d+)$/.exec(response.headers.get('content-range') ?? '');
+  return match && { begin: Number(match[1]), end: Number(match[2]) + 1, size: Number(match[3]) };
+}
+
+/** One request at a time: its body, cut off where it stalls or where the caller says so. */
+class Request {
+  #timer; #abort = new AbortController(); #stalled = false; #options; #forward;
+
+  constructor(options) {
+    this.#options = options;
+    const { signal } = options;
+    this.#forward = () => this.#abort.abort(signal.reason);
+    if (signal?.aborted) this.#forward();
+    signal?.addEventListener('abort', this.#forward, { once: true });
+  }
+
+  async run(url, headers, use) {
+    try {
+      this.#wait();
+      const { fetch: get, headers: own, credentials } = this.#options;
+      const ask = () => get(url, { headers: { ...own, ...headers }, credentials, signal: this.#abort.signal });
+      // Once more where nothing came: a connection that was kept may have been closed by the server.
+      const response = await ask().catch((error) => {
+        if (this.#abort.signal.aborted) throw error;
+        return ask();
+      });
+      if (!response.ok) throw network(`${response.status} ${response.statusText} for ${url}`.trim());
+      return await use(response);
+    } catch (error) {
+      this.#abort.abort();
+      throw this.#explain(error, url);
+    } finally {
+      clearTimeout(this.#timer);
+      this.#options.signal?.removeEventListener('abort', this.#forward);
+    }
+  }
+
+  /** All of a body, at most `most` bytes; `expected` of them where that is known. */
+  async body(response, most, expected, told) {
+    const parts = [];
+    let size = 0;
+    const reader = response.body.getReader();
+    for (;;) {
+      this.#wait();
+      const { done, value } = await reader.read();
+      if (done) break;
+      size += value.byteLength;
+      if (size > most) throw network(`more bytes than the ${most} that were asked for`);
+      parts.push(value);
+      told?.(size);
+    }
+    if (expected !== undefined && size !== expected) throw network(`${size} of ${expected} bytes came`);
+    const bytes = new Uint8Array(size);
+    let at = 0;
+    for (const part of parts) {
+      bytes.set(part, at);
+      at += part.byteLength;
+    }
+    return bytes;
+  }
+
+  #wait() {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#stalled = true;
+      this.#abort.abort();
+    }, this.#options.stallMs);
+  }
+
+  #explain(error, url) {
+    if (this.#stalled) return network(`nothing came for ${this.#options.stallMs} ms from ${url}`, error);
+    if (this.#options.signal?.aborted) return new SlfError('ABORTED', 'ABORTED: by the caller', { cause: error });
+    return error instanceof SlfError ? error : network(`${url}: ${error.message}`, error);
+  }
+}
+
+export class SlfStream {
+  #url; #options; #decoder; #parts = []; #tag = null;
+
+  /** Use SlfStream.open(). */
+  constructor(url, decoder, options) {
+    this.#url = url;
+    this.#decoder = decoder;
+    this.#options = options;
+    this.bytes = 0;      // of the whole file
+    this.received = 0;   // so far
+    this.ranged = false; // the server gives parts
+    this.info = null;
+  }
+
+  static async open(url, { decoder, wasm, signal, fetch: get, headers = {}, credentials, stallMs = 30000, onProgress } = {}) {
+    decoder ??= await SlfDecoder.create({ wasm });
+    const options = { signal, fetch: get ?? ((...all) => globalThis.fetch(...all)), headers, credentials, stallMs };
+    const stream = new SlfStream(String(url), decoder, options);
+    await stream.#begin(onProgress);
+    await stream.#retry(() => decoder.withParts(stream.bytes, stream.#at, (instance, opened) => {
+      stream.info = readInfo(instance, opened);
+    }));
+    return stream;
+  }
+
+  /** What decode(options) would read of the file that is not here yet, and what it gives. */
+  preflight(options = {}) {
+    return this.#decoder.withParts(this.bytes, this.#at, (instance, opened) => {
+      const ranges = this.#missing(this.#ranges(instance, opened, options));
+      const readBytes = ranges.reduce((sum, range) => sum + range.end - range.begin, 0);
+      return { ...preflight(instance, opened), readBytes, requests: ranges.length };
+    });
+  }
+
+  /** Reads what decode(options) needs. onRead(bytes so far, bytes of this call) */
+  async read(options = {}, { onRead, signal } = {}) {
+    const ranges = this.#decoder.withParts(this.bytes, this.#at,
+      (instance, opened) => this.#missing(this.#ranges(instance, opened, options)));
+    const all = ranges.reduce((sum, range) => sum + range.end - range.begin, 0);
+    let before = 0;
+    for (const range of ranges) {
+      await this.#fetch(range, (bytes) => onRead?.(before + bytes, all), signal);
+      before += range.end - range.begin;
+    }
+  }
+
+  /** Reads and decodes. */
+  async decode(options = {}, reading = {}) {
+    await this.read(options, reading);
+    return this.#decoder.decodeParts(this.bytes, this.#at, options);
+  }
+
+  /** bytes.slice(offset, offset + count), or null where they are not here. */
+  #at = (offset, count) => {
+    const part = this.#parts.find((p) => p.begin <= offset && offset + count <= p.begin + p.bytes.byteLength);
+    return part ? part.bytes.subarray(offset - part.begin, offset - part.begin + count) : this.#pieces(offset, count);
+  };
+
+  /** The same from several parts. */
+  #pieces(offset, count) {
+    const bytes = new Uint8Array(count);
+    let at = 0;
+    while (at < count) {
+      const part = this.#parts.find((p) => p.begin <= offset + at && offset + at < p.begin + p.bytes.byteLength);
+      if (!part) {
+        this.#wanted = { begin: offset, end: offset + count };
+        return null;
+      }
+      const piece = part.bytes.subarray(offset + at - part.begin, offset + count - part.begin);
+      bytes.set(piece, at);
+      at += piece.byteLength;
+    }
+    return bytes;
+  }
+  #wanted = null;
+
+  /** Calls again with what was missing: the beginning of a file may be longer than the first part. */
+  async #retry(call) {
+    for (;;) {
+      this.#wanted = null;
+      try {
+        return call();
+      } catch (error) {
+        if (error.code !== 'READ_FAILED' || this.#wanted === null) throw error;
+        for (const range of this.#missing([this.#wanted])) await this.#fetch(range);
+      }
+    }
+  }
+
+  #ranges(instance, opened, options) {
+    const w = instance.wasm;
+    setOptions(instance, { ...options, onProgress: undefined });
+    const count = w.slfw_ranges(opened);
+    if (count < 0) instance.fail();
+    return Array.from({ length: count }, (_, i) => {
+      w.slfw_range(i);
+      const [offset, bytes] = instance.numbers(2);
+      return { begin: offset, end: offset + bytes };
+    });
+  }
+
+  /** Of ascending ranges what is not here. */
+  #missing(ranges) {
+    const missing = [];
+    for (let { begin, end } of ranges) {
+      for (const part of [...this.#parts].sort((a, b) => a.begin - b.begin)) {
+        const partEnd = part.begin + part.bytes.byteLength;
+        if (partEnd <= begin || part.begin >= end) continue;
+        if (part.begin > begin) missing.push({ begin, end: part.begin });
+        begin = Math.min(end, partEnd);
+      }
+      if (begin < end) missing.push({ begin, end });
+    }
+    return missing;
+  }
+
+  #keep(begin, bytes) {
+    this.#parts.push({ begin, bytes });
+    this.received += bytes.byteLength;
+  }
+
+  /** All of the file, where a server gives no parts of it. */
+  async #takeWhole(request, response, told) {
+    const length = response.headers.get('content-length');
+    const encoded = response.headers.get('content-encoding');
+    const expected = length !== null && !encoded ? Number(length) : undefined;
+    const bytes = await request.body(response, Infinity, expected, (n) => told?.(n, expected ?? 0));
+    if (this.bytes > 0 && bytes.byteLength !== this.bytes) throw network('the file has changed on the server');
+    this.#parts = [];
+    this.received = 0;
+    this.bytes = bytes.byteLength;
+    this.#keep(0, bytes);
+  }
+
+  async #begin(told) {
+    const request = new Request(this.#options);
+    const again = await request.run(this.#url, { Range: `bytes=0-${FIRST_BYTES - 1}` }, async (response) => {
+      if (response.status !== 206) return this.#takeWhole(request, response, told).then(() => false);
+      const range = contentRange(response);
+      if (range === null) return true; // of another origin that does not let its sizes be seen
+      if (range.begin !== 0 || range.end !== Math.min(FIRST_BYTES, range.size))
+        throw network(`the server gave another part of ${this.#url}`);
+      this.bytes = range.size;
+      this.ranged = true;
+      this.#tag = response.headers.get('etag');
+      this.#keep(0, await request.body(response, range.end, range.end, (n) => told?.(n, range.size)));
+      return false;
+    });
+    if (!again) return;
+    const plain = new Request(this.#options);
+    await plain.run(this.#url, {}, (response) => this.#takeWhole(plain, response, told));
+  }
+
+  async #fetch({ begin, end }, told, signal) {
+    const request = new Request({ ...this.#options, signal: signal ?? this.#options.signal });
+    await request.run(this.#url, { Range: `bytes=${begin}-${end - 1}` }, async (response) => {
+      if (response.status !== 206) return this.#takeWhole(request, response, told);
+      const range = contentRange(response);
+      const same = range !== null && range.begin === begin && range.end === end;
+      if (!same) throw network(`the server gave another part of ${this.#url}`);
+      const tag = response.headers.get('etag');
+      if (range.size !== this.bytes || (tag && this.#tag && tag !== this.#tag))
+        throw network('the file has changed on the server');
+      this.#keep(begin, await request.body(response, end - begin, end - begin, told));
+    });
+  }
+}

@@ -1,0 +1,49 @@
+// What tests of the viewer's page share: a can, files that are slow or broken, a server, Chromium.
+import assert from 'node:assert/strict';
+import { after, before } from 'node:test';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { launch, makeCan, newPage, serve, settled, skip } from './support.mjs';
+
+/** can, server and chrome are there while the tests of the calling file run. */
+export function viewerUnderTest() {
+  const here = {
+    async open(query, options) {
+      const page = await newPage(here.chrome, options);
+      await page.goto(`${here.server.page}?${query}`);
+      return page;
+    },
+    async opened(query = 'src=/files/can.slf', options = undefined) {
+      const page = await here.open(query, options);
+      assert.equal(await settled(page), 'ready');
+      return page;
+    },
+  };
+  before(async () => {
+    if (skip) return;
+    here.can = makeCan(200);
+    here.server = await serveWithFaults(here.can);
+    here.chrome = await launch();
+  });
+  after(async () => {
+    await here.chrome?.close();
+    here.server?.close();
+  });
+  return here;
+}
+
+/** The can, whole; one byte of it changed; cut; slow; and over a connection that breaks. */
+function serveWithFaults({ dir, bytes }) {
+  const write = (name, content) => writeFileSync(join(dir, name), content);
+  write(
+    'damaged.slf',
+    bytes.map((b, i) => (i === bytes.length >> 1 ? b ^ 0x55 : b)),
+  );
+  write('cut.slf', bytes.subarray(0, bytes.length >> 1));
+  write('slow.slf', bytes);
+  write('breaks.slf', bytes);
+  return serve(
+    { files: dir },
+    { 'slow.slf': { chunk: 512, wait: 250 }, 'breaks.slf': { chunk: 2048, wait: 10, until: bytes.length / 2 } },
+  );
+}

@@ -1,0 +1,120 @@
+// Reading in parts from servers of all manners.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfStream } from '../../slf_stream.js';
+import { caseOf, cases, digest, serve } from './support.js';
+
+const decoder = await SlfDecoder.create();
+const streams = cases('streams').filter((one) => !/^(draco|texture-)/.test(one.id));
+/** More than the first request gives. */
+const large = streams.filter((one) => one.bytes.length > 1 << 16);
+const server = await serve(Object.fromEntries(streams.map((one) => [one.id, one.bytes])));
+after(() => server.close());
+
+function same(a, b, what) {
+  assert.equal(a.points, b.points, what);
+  assert.equal(digest(a.positions), digest(b.positions), what);
+  assert.equal(digest(Int32Array.from(a.values)), digest(Int32Array.from(b.values)), what);
+}
+
+/** What can be asked for of a stream. */
+function requests(info) {
+  const all = [{}];
+  for (const levels of new Set([1, Math.ceil(info.levels / 2), Math.max(1, info.levels - 1)])) all.push({ levels });
+  if (info.groups > 1) all.push({ groups: 1 });
+  const middle = 1 << (info.bits - 1);
+  all.push({ region: { low: [0, 0, 0], high: [middle, middle, middle] } });
+  return all;
+}
+
+test('the suite has streams that are read in parts', () => assert.ok(large.length > 0));
+
+for (const one of streams)
+  test(`${one.id}: parts decode as the whole does`, async () => {
+    const stream = await SlfStream.open(server.url(one.id), { decoder });
+    assert.equal(stream.bytes, one.bytes.length);
+    for (const options of requests(stream.info)) {
+      const parts = await stream.decode(options), whole = decoder.decode(one.bytes, options);
+      same(parts, whole, JSON.stringify(options));
+      parts.release();
+      whole.release();
+    }
+  });
+
+test('by an index not all is read, and nothing twice', async () => {
+  let received = 0, all = 0;
+  for (const one of large) {
+    const stream = await SlfStream.open(server.url(one.id), { decoder });
+    if (!stream.info.hasIndex) continue;
+    const opened = stream.received, { readBytes } = stream.preflight({ groups: 1 });
+    (await stream.decode({ groups: 1 })).release();
+    assert.equal(stream.received, opened + readBytes, one.id);
+    const before = server.requests.length;
+    (await stream.decode({ groups: 1 })).release();
+    assert.equal(server.requests.length, before, one.id);
+    received += stream.received;
+    all += one.bytes.length;
+  }
+  assert.ok(all > 0 && received < all, `${received} of ${all}`);
+});
+
+test('a connection that is lost before an answer is made again', async () => {
+  const stream = await SlfStream.open(server.url('two-points', '?manner=nothing%20at%20first'), { decoder });
+  assert.equal(stream.info.points, 2);
+});
+
+test('a server that ignores ranges is read whole', async () => {
+  for (const one of large) {
+    const stream = await SlfStream.open(server.url(one.id, '?manner=whole'), { decoder });
+    assert.equal(stream.ranged, false);
+    const field = await stream.decode({ groups: 1 });
+    assert.equal(stream.received, one.bytes.length);
+    field.release();
+  }
+});
+
+test('sizes that may not be seen make it read whole', async () => {
+  const stream = await SlfStream.open(server.url(large[0].id, '?manner=no%20Content-Range'), { decoder });
+  (await stream.decode()).release();
+  assert.equal(stream.received, large[0].bytes.length);
+});
+
+for (const manner of ['another part', 'less than it says', 'more than it says', 'another size', 'cut off', 'missing'])
+  test(`an error where the second answer is: ${manner}`, async () => {
+    const url = server.url(large[0].id, `?manner=${encodeURIComponent(manner)}&after=1&x=${Math.random()}`);
+    const stream = await SlfStream.open(url, { decoder });
+    await assert.rejects(stream.decode(), (error) => error instanceof SlfError && error.code === 'NETWORK');
+  });
+
+for (const manner of ['less than it says', 'more than it says', 'cut off', 'missing'])
+  test(`an error where the first answer is: ${manner}`, async () => {
+    const url = server.url('two-points', `?manner=${encodeURIComponent(manner)}`);
+    await assert.rejects(SlfStream.open(url, { decoder }), (error) => error instanceof SlfError && error.code === 'NETWORK');
+  });
+
+test('a stall ends, and says so', async () => {
+  const url = server.url('two-points', '?manner=stalls');
+  await assert.rejects(SlfStream.open(url, { decoder, stallMs: 50 }),
+    (error) => error.code === 'NETWORK' && /nothing came for 50 ms/.test(error.message));
+});
+
+test('a caller ends a stall', async () => {
+  const abort = new AbortController();
+  const opening = SlfStream.open(server.url('two-points', '?manner=stalls'), { decoder, signal: abort.signal });
+  setTimeout(() => abort.abort(), 30);
+  await assert.rejects(opening, (error) => error instanceof SlfError && error.code === 'ABORTED');
+});
+
+test('damage on the way is found', async () => {
+  const bytes = Uint8Array.from(caseOf(large[0].id).bytes);
+  bytes[bytes.length - 60] ^= 4;
+  const fetchDamaged = async (url, { headers }) => {
+    const [begin, end] = /bytes=(\d+)-(\d+)/.exec(headers.Range).slice(1).map(Number);
+    const stop = Math.min(end + 1, bytes.length);
+    return new Response(bytes.subarray(begin, stop),
+      { status: 206, headers: { 'Content-Range': `bytes ${begin}-${stop - 1}/${bytes.length}` } });
+  };
+  const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: fetchDamaged });
+  await assert.rejects(stream.decode(), (error) => error instanceof SlfError && error.code === 'CHECKSUM');
+});

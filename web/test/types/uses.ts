@@ -1,0 +1,43 @@
+// Compiled and not run: what the documentation shows, and what must not compile.
+import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { SlfDecoder, SlfError } from 'slf-decoder';
+import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js';
+import { SurfaceLightField } from 'slf-decoder/viewer/surface_light_field.js';
+import { Viewer } from 'slf-decoder/viewer/viewer.js';
+import { ViewerError, packField } from 'slf-decoder/viewer/packed_field.js';
+
+export async function scene(file: File, bytes: ArrayBuffer) {
+  const loader = new SLFLoader().setPart({ levels: 7 });
+  loader.maxMemory = 1e9;
+  const field: SurfaceLightField = await loader.loadAsync('can.slf', (event) => event.loaded);
+  const whole = await loader.stream('can.slf', (coarse) => coarse.dispose());
+  const others = [await loader.loadAsync(file), await loader.parse(bytes), await loader.parse(new Uint8Array(bytes))];
+  loader.load('can.slf', (loaded) => (loaded.exposure = 1), undefined, (error) => error instanceof ViewerError && error.kind);
+  const all = new Scene().add(field, whole, ...others);
+  new WebGLRenderer().render(all, new PerspectiveCamera());
+  // @ts-expect-error a light field has no colour
+  field.colour = 'red';
+  // @ts-expect-error levels are a number
+  loader.setPart({ levels: '7' });
+  return field.info.points;
+}
+
+export async function decoded(bytes: Uint8Array) {
+  const decoder = await SlfDecoder.create();
+  try {
+    const field = decoder.decode(bytes, { levels: 8, layers: 1 });
+    const packed = packField(field, 33);
+    field.release();
+    return packed.radius;
+  } catch (error) {
+    return error instanceof SlfError ? error.code : undefined;
+  }
+}
+
+export async function viewer() {
+  const page = new Viewer({ background: 'grey', levels: 5 });
+  await page.open('can.slf');
+  // @ts-expect-error numbers are no source
+  await page.open(7);
+  return page.facts.loaded;
+}

@@ -1,0 +1,26 @@
+// Types of SLFLoader.js.
+import type { Loader, LoadingManager } from 'three';
+import type { SurfaceLightField } from './surface_light_field.js';
+
+/**
+ * three.js loader of surface light fields: scene.add(await new SLFLoader().loadAsync('can.slf')).
+ * load() and loadAsync() also take a File or Blob, and decode in a worker.
+ */
+export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
+  constructor(manager?: LoadingManager);
+
+  /** Bytes that decoding may take; more is refused as 'too-large'. 2 GiB. */
+  maxMemory: number;
+
+  /** Fewer octree levels or plane groups than the file has; 0, the default: all. */
+  setPart(part: { levels?: number; groups?: number }): this;
+
+  /** Coarse objects first: `onCoarse` is called with each, which the next one replaces. */
+  stream(url: string, onCoarse: (field: SurfaceLightField) => void): Promise<SurfaceLightField>;
+
+  /**
+   * A whole file, decoded on this thread.
+   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps'
+   */
+  parse(buffer: ArrayBuffer | Uint8Array): Promise<SurfaceLightField>;
+}

@@ -1,0 +1,97 @@
+// three.js loader of surface light fields.
+//
+//   import { SLFLoader } from '@slf/viewer/SLFLoader.js'
+//   scene.add(await new SLFLoader().loadAsync('can.slf'))
+import { FileLoader, Loader } from 'three';
+import { FieldLoader } from './field_loader.js';
+import { DecodeSession, plainError } from './decode_session.js';
+import { ViewerError } from './packed_field.js';
+import { SurfaceLightField } from './surface_light_field.js';
+
+/**
+ * load(url, onLoad, onProgress, onError), loadAsync(url, onProgress) as every loader of three; both also
+ * take a File or Blob. They decode in a worker. parse() decodes on this thread.
+ */
+export class SLFLoader extends Loader {
+  constructor(manager) {
+    super(manager);
+    this.part = {};
+    this.maxMemory = 2 ** 31;
+  }
+
+  /** Fewer octree levels or plane groups than the file has; 0: all. */
+  setPart({ levels = 0, groups = 0 }) {
+    this.part = { levels, groups };
+    return this;
+  }
+
+  load(url, onLoad, onProgress, onError) {
+    const manager = this.manager,
+      named = url instanceof Blob ? 'file' : url;
+    manager.itemStart(named);
+    this.fetch(url, onProgress)
+      .then((bytes) => this.decode(bytes))
+      .then((object) => {
+        onLoad(object);
+        manager.itemEnd(named);
+      })
+      .catch((error) => {
+        if (onError) onError(error);
+        else console.error(error);
+        manager.itemError(named);
+        manager.itemEnd(named);
+      });
+  }
+
+  /** Coarse objects first. @param onCoarse  called with each, which the next replaces */
+  async stream(url, onCoarse) {
+    const loader = new FieldLoader({ maxMemory: this.maxMemory });
+    try {
+      const field = (packed, info, final) => {
+        if (!final) onCoarse(new SurfaceLightField(packed, info));
+      };
+      const { packed, info } = await loader.load(this.manager.resolveURL(this.path + url), { field }, this.part);
+      return new SurfaceLightField(packed, info);
+    } finally {
+      loader.dispose();
+    }
+  }
+
+  /**
+   * @param {ArrayBuffer|Uint8Array} buffer  a whole file
+   * @returns {Promise<SurfaceLightField>}
+   * @throws {ViewerError} kind 'damaged', 'too-large', 'memory', 'no-view-maps'
+   */
+  async parse(buffer) {
+    const { SlfDecoder } = await import('../slf.js');
+    const session = new DecodeSession(() => SlfDecoder.create());
+    session.append(new Uint8Array(buffer));
+    try {
+      const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });
+      return new SurfaceLightField(packed, info);
+    } catch (error) {
+      const { kind, message } = plainError(error);
+      throw new ViewerError(kind, message);
+    }
+  }
+
+  async fetch(url, onProgress) {
+    if (url instanceof Blob) return url.arrayBuffer();
+    const loader = new FileLoader(this.manager);
+    loader.setPath(this.path);
+    loader.setResponseType('arraybuffer');
+    loader.setRequestHeader(this.requestHeader);
+    loader.setWithCredentials(this.withCredentials);
+    return loader.loadAsync(url, onProgress);
+  }
+
+  async decode(bytes) {
+    const loader = new FieldLoader({ maxMemory: this.maxMemory });
+    try {
+      const { packed, info } = await loader.load(bytes, {}, this.part);
+      return new SurfaceLightField(packed, info);
+    } finally {
+      loader.dispose();
+    }
+  }
+}

@@ -1,0 +1,110 @@
+// Looking through the cameras of a capture: a photograph beside the rendering, and how alike they are.
+import { fetchCapture, psnrWithin } from './capture.js';
+import { at, press } from './elements.js';
+import { axesOf, dot, fittedCamera, poseOfCamera } from './view.js';
+
+export class Comparison {
+  /** @param {import('./viewer.js').Viewer} viewer */
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.cameras = [];
+    this.shown = null; // index, camera and photograph of the one that is looked through
+  }
+
+  async open(capture) {
+    try {
+      this.cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
+    } catch (error) {
+      return this.viewer.fail(error);
+    }
+    at('cameras').replaceChildren(new Option('Free view', ''), ...this.cameras.map((c, i) => new Option(c.name, i)));
+    at('photographs').hidden = false;
+    document.querySelector('[data-do=compare]').hidden = false;
+    const { camera } = this.viewer.options;
+    if (camera === null) return;
+    const named = this.cameras.findIndex((c) => c.name === camera || c.name.split('/').pop() === camera);
+    const index = named >= 0 ? named : Number(camera);
+    if (this.cameras[index]) await this.lookThrough(index);
+  }
+
+  async lookThrough(index) {
+    const camera = this.cameras[index];
+    if (!camera || !this.viewer.stage.field) return;
+    this.viewer.spin(0);
+    this.shown = { index, camera, photograph: null };
+    const own = this.shown;
+    this.viewer.controls.pose = poseOfCamera(camera, this.viewer.stage.field);
+    this.viewer.stage.pose = this.viewer.controls.pose;
+    this.viewer.stage.camera = camera;
+    at('cameras').value = index;
+    at('psnr').textContent = '';
+    this.viewer.stage.redraw();
+    try {
+      own.photograph = await camera.photograph();
+    } catch (error) {
+      at('psnr').textContent = error.message;
+      return;
+    }
+    if (this.shown !== own) return;
+    this.measure();
+    this.show(true);
+  }
+
+  /** The camera that sees the object most as it is seen now. */
+  nearest() {
+    const forward = axesOf(this.viewer.controls.pose, this.viewer.controls.up)[2];
+    const likeness = this.cameras.map((c) => dot(forward, c.rotation.slice(6)));
+    return likeness.indexOf(Math.max(...likeness));
+  }
+
+  measure() {
+    const { camera, photograph } = this.shown,
+      { width, height } = camera;
+    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    context.drawImage(photograph, 0, 0, width, height);
+    const value = psnrWithin(
+      context.getImageData(0, 0, width, height).data,
+      this.viewer.stage.readCamera(camera),
+      width,
+      height,
+    );
+    this.viewer.facts.psnr = value;
+    at('psnr').textContent = Number.isNaN(value)
+      ? 'The object is not in this picture.'
+      : `PSNR within the object: ${value.toFixed(2)} dB`;
+  }
+
+  show(shown) {
+    if (shown && !this.shown) return this.lookThrough(this.nearest());
+    at('compare').hidden = !shown;
+    press('compare', shown);
+    if (shown) this.lay();
+    else if (this.viewer.stage) this.viewer.stage.redraw();
+  }
+
+  /** Where the camera's picture is on the stage. */
+  lay() {
+    const canvas = at('photograph'),
+      [width, height] = this.viewer.stage.pixels();
+    canvas.width = width;
+    canvas.height = height;
+    const [x, y, w, h] = fittedCamera(this.shown.camera, width, height).frame;
+    canvas.getContext('2d').drawImage(this.shown.photograph, x, y, w, h);
+    at('compare').style.setProperty('--at', `${at('divider').value}%`);
+  }
+
+  leave() {
+    this.shown = null;
+    if (this.viewer.stage) this.viewer.stage.camera = null;
+    at('compare').hidden = true;
+    at('cameras').value = '';
+    at('psnr').textContent = '';
+    press('compare', false);
+  }
+
+  step(by) {
+    if (!this.cameras.length) return;
+    const from = this.shown?.index ?? (by > 0 ? -1 : 0);
+    this.lookThrough((from + by + this.cameras.length) % this.cameras.length);
+  }
+}

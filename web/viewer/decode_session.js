@@ -1,0 +1,99 @@
+// What a decoding worker does; apart from it so that a page without workers can do it as well.
+import { buffersOf, packField, ViewerError } from './packed_field.js';
+import { walkUnits } from './stream_units.js';
+
+/** Lets `port` (a worker's scope, or one end of a MessageChannel) hold a file and decode it. */
+export function answer(port, create) {
+  const session = new DecodeSession(create);
+  port.onmessage = async ({ data }) => {
+    if (data.wasm) session.wasm = data.wasm;
+    if (data.reset) session.reset();
+    if (data.append) session.append(data.append);
+    if (!data.decode) return;
+    try {
+      const result = await session.decode(data.decode);
+      port.postMessage({ id: data.id, ...result }, result.packed ? buffersOf(result.packed) : []);
+    } catch (error) {
+      port.postMessage({ id: data.id, error: plainError(error) });
+    }
+  };
+}
+
+export class DecodeSession {
+  /** @param {(wasm?: ArrayBuffer) => Promise<object>} create  a decoder of slf.js */
+  constructor(create) {
+    this.create = create;
+    this.reset();
+  }
+
+  reset() {
+    this.bytes = new Uint8Array(1 << 16);
+    this.length = 0;
+  }
+
+  append(chunk) {
+    if (this.length + chunk.length > this.bytes.length) {
+      const larger = new Uint8Array(Math.max(2 * this.bytes.length, this.length + chunk.length));
+      larger.set(this.bytes.subarray(0, this.length));
+      this.bytes = larger;
+    }
+    this.bytes.set(chunk, this.length);
+    this.length += chunk.length;
+  }
+
+  /**
+   * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups: 0 is all;
+   *   maxMemory: bytes that a decode may take; tableSize
+   * @returns {{packed?: object, info?: object, end?: number}} without `packed` where a prefix shows nothing yet
+   */
+  async decode({ prefix = 0, levels = 0, groups = 0, maxMemory = 2 ** 31, tableSize = 65 }) {
+    let bytes = this.bytes.subarray(0, this.length);
+    const units = walkUnits(prefix ? bytes.subarray(0, prefix) : bytes);
+    if (units.foreign || this.length === 0) throw new ViewerError('damaged', 'This is not an .slf file.');
+    if (prefix) {
+      if (units.pictures === 0) return {};
+      bytes = bytes.subarray(0, units.pictures);
+    }
+    const decoder = await (this.decoder ??= this.create(this.wasm));
+    const info = decoder.info(bytes);
+    if (info.decodeBytes > maxMemory)
+      throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(info.decodeBytes / 2 ** 20)} MiB.`);
+    if (info.hasBasis === false)
+      throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
+    const field = this.run(decoder, bytes, { levels, groups, maxMemory });
+    try {
+      return { packed: packField(field, tableSize), info: JSON.parse(JSON.stringify(info)), end: bytes.length };
+    } finally {
+      field.release();
+    }
+  }
+
+  /** A decoder whose memory failed is not asked again. */
+  run(decoder, bytes, options) {
+    try {
+      return decoder.decode(bytes, options);
+    } catch (error) {
+      if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) this.decoder = undefined;
+      throw error;
+    }
+  }
+}
+
+const WORDS = {
+  TRUNCATED: 'It ends before it should: perhaps it was not copied whole.',
+  CHECKSUM: 'Some of its bytes have changed since it was written.',
+  NOT_SLF: 'It is not an .slf file.',
+  UNSUPPORTED: 'It was made for another version or profile of the decoder.',
+  LIMIT_EXCEEDED: 'Decoding it takes more than this page allows.',
+  OUT_OF_MEMORY: 'There is not enough memory to decode it.',
+};
+const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network' };
+
+/** An error as a message can carry it: a ViewerError's kind and text. */
+export function plainError(error) {
+  if (error instanceof ViewerError) return { kind: error.kind, message: error.message };
+  if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError)
+    return { kind: 'memory', message: 'There is not enough memory to decode this file.' };
+  const words = WORDS[error?.code] ?? 'Some of it says what cannot be.';
+  return { kind: KINDS[error?.code] ?? 'damaged', message: `${words} (${error?.message ?? error})` };
+}

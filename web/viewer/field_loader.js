@@ -1,0 +1,153 @@
+// From a file, an address or bytes to packed light fields: coarse ones while the rest arrives.
+import { ViewerError } from './packed_field.js';
+
+const MOST_BYTES = 2 ** 30;
+const FIRST_LOOK = 4096,
+  GROWTH = 1.6; // bytes at which a prefix is decoded, and how much later the next
+const LARGE = 200_000,
+  LOOK = 65_536; // bytes of a file that came at once, and of its first picture
+
+/** One worker that holds one file at a time. */
+export class FieldLoader {
+  /**
+   * @param {object} options  worker: () => Worker; wasm: the decoder's bytes, where the worker cannot
+   *   fetch them; maxMemory: bytes that a decode may take
+   */
+  constructor({ worker = newWorker, wasm = null, maxMemory = 2 ** 31 } = {}) {
+    this.start = worker;
+    this.wasm = wasm;
+    this.maxMemory = maxMemory;
+    this.waiting = new Map();
+    this.next = 1;
+    this.turn = 0;
+    this.stopped = null; // why the worker answers no more
+  }
+
+  /**
+   * Loads and decodes; a load that is going on is given up.
+   * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
+   * @param {object} on  progress(received, total or 0), field(packed, info, final)
+   * @param {object} options  levels, groups, signal
+   * @returns {Promise<{packed, info, bytes}>} of the whole file
+   * @throws {ViewerError}
+   */
+  async load(source, on = {}, options = {}) {
+    const turn = ++this.turn;
+    const current = () => turn === this.turn && !options.signal?.aborted;
+    this.restart();
+    const stream = await openStream(source, options.signal);
+    if (stream.total > MOST_BYTES) throw new ViewerError('too-large', `This file has ${stream.total} bytes.`);
+    let received = 0,
+      look = FIRST_LOOK,
+      looking = null;
+    const showPrefix = (prefix) => {
+      looking = this.decode({ ...options, prefix })
+        .then(({ packed, info }) => packed && current() && on.field(packed, info, false))
+        .catch(() => {}) // what is wrong with a prefix is said of the whole file
+        .finally(() => {
+          looking = null;
+        });
+    };
+    for await (const chunk of stream.chunks) {
+      if (!current()) throw aborted();
+      received += chunk.length;
+      if (received > MOST_BYTES) throw new ViewerError('too-large', `This file has more than ${MOST_BYTES} bytes.`);
+      this.worker.postMessage({ append: chunk });
+      on.progress?.(received, stream.total);
+      if (!on.field || looking || received < look || received === stream.total) continue;
+      look = received * GROWTH;
+      showPrefix(received);
+    }
+    if (stream.total && received < stream.total)
+      throw new ViewerError('network', `The connection ended after ${received} of ${stream.total} bytes.`);
+    if (on.field && look === FIRST_LOOK && received > LARGE) showPrefix(LOOK);
+    await looking;
+    if (!current()) throw aborted();
+    const result = await this.decode(options);
+    if (!current()) throw aborted();
+    on.field?.(result.packed, result.info, true);
+    return { ...result, bytes: received };
+  }
+
+  /** Decodes what is loaded once more, with other levels or groups. */
+  async decode({ prefix = 0, levels = 0, groups = 0 } = {}) {
+    if (this.stopped) throw this.stopped;
+    const id = this.next++;
+    const answered = new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+    this.worker.postMessage({ id, decode: { prefix, levels, groups, maxMemory: this.maxMemory } });
+    return answered;
+  }
+
+  /** Frees the worker and its memory. */
+  dispose() {
+    ++this.turn;
+    this.worker?.terminate?.();
+    this.worker = null;
+    for (const { reject } of this.waiting.values()) reject(aborted());
+    this.waiting.clear();
+  }
+
+  /** A new worker for every file: memory that WebAssembly has grown to is never given back otherwise. */
+  restart() {
+    const turn = this.turn;
+    this.dispose();
+    this.turn = turn;
+    this.stopped = null;
+    this.worker = this.start();
+    this.worker.onmessage = ({ data }) => {
+      const own = this.waiting.get(data.id);
+      if (!own) return;
+      this.waiting.delete(data.id);
+      if (data.error) own.reject(new ViewerError(data.error.kind, data.error.message));
+      else own.resolve(data);
+    };
+    this.worker.onerror = (event) => {
+      event.preventDefault?.();
+      this.stopped = new ViewerError('memory', `The decoder stopped: ${event.message ?? 'no reason given'}.`);
+      for (const { reject } of this.waiting.values()) reject(this.stopped);
+      this.waiting.clear();
+    };
+    if (this.wasm) this.worker.postMessage({ wasm: this.wasm });
+  }
+}
+
+function newWorker() {
+  return new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });
+}
+
+const aborted = () => new DOMException('Another file was opened.', 'AbortError');
+
+/** Chunks of a source, and how many bytes there will be; 0 where nobody says. */
+async function openStream(source, signal) {
+  if (source instanceof ArrayBuffer) source = new Uint8Array(source);
+  if (source instanceof Uint8Array) return { total: source.length, chunks: [source] };
+  if (source instanceof Blob) return { total: source.size, chunks: chunksOf(source.stream()) };
+  let response;
+  try {
+    response = await fetch(source, { signal });
+  } catch (error) {
+    if (signal?.aborted) throw aborted();
+    throw new ViewerError('network', `${source} cannot be fetched.`);
+  }
+  if (!response.ok)
+    throw new ViewerError('network', `${source}: the server says ${response.status} ${response.statusText}.`);
+  const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
+  const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
+  return { total, chunks: chunksOf(response.body) };
+}
+
+async function* chunksOf(stream) {
+  const reader = stream.getReader();
+  try {
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      yield value;
+    }
+  } catch (error) {
+    if (error?.name === 'AbortError') throw error;
+    throw new ViewerError('network', 'The connection broke.');
+  } finally {
+    reader.releaseLock();
+  }
+}

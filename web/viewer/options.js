@@ -1,0 +1,61 @@
+// What an address, or a page that was made by `slf html`, asks of the viewer. The list is that of
+// README.md.
+
+export const BACKGROUNDS = {
+  paper: '#f3f1ec',
+  white: '#ffffff',
+  grey: '#808080',
+  slate: '#191a1d',
+  black: '#000000',
+};
+
+/** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
+export function readOptions(query, page = {}) {
+  const text = (name) => query.get(name) ?? page[name] ?? null;
+  const number = (name, low, high, fallback) => {
+    const given = text(name),
+      value = given === null || given === '' ? NaN : Number(given);
+    return Number.isFinite(value) ? Math.min(high, Math.max(low, value)) : fallback;
+  };
+  const flag = (name) => {
+    const given = text(name);
+    return given !== null && given !== false && !['0', 'false', 'no'].includes(String(given));
+  };
+  return {
+    src: text('src'),
+    capture: text('capture'),
+    title: text('title'),
+    poster: text('poster'),
+    embed: flag('embed'),
+    background: backgroundOf(text('background')),
+    exposure: number('exposure', -3, 3, 0),
+    mean: flag('mean'),
+    autorotate: flag('autorotate') ? number('autorotate', -90, 90, 12) || 12 : 0,
+    azimuth: number('azimuth', -360, 360, null),
+    elevation: number('elevation', -90, 90, null),
+    fov: number('fov', 1, 170, 30),
+    zoom: number('zoom', 0.05, 50, 1),
+    camera: text('camera'),
+    view: page.view ?? null,
+    points: number('points', 1, 100, 100),
+    levels: number('levels', 0, 21, 0),
+    groups: number('groups', 0, 4096, 0),
+    mode: text('mode') === 'fly' ? 'fly' : 'orbit',
+    memory: number('memory', 16, 3500, 2048) * 2 ** 20,
+  };
+}
+
+/** Name of BACKGROUNDS, "transparent", or RRGGBB with or without #; null where it is none of them. */
+export function backgroundOf(given) {
+  if (given === null) return null;
+  if (given in BACKGROUNDS || given === 'transparent') return given;
+  const hex = /^#?([0-9a-f]{6})$/i.exec(given);
+  return hex ? `#${hex[1].toLowerCase()}` : null;
+}
+
+/** @returns {number[]|null} RGB 0 .. 1 of backgroundOf(); null: transparent */
+export function backgroundColour(name) {
+  if (name === 'transparent') return null;
+  const hex = BACKGROUNDS[name] ?? name;
+  return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
+}

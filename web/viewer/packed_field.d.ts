@@ -1,0 +1,30 @@
+// Types of packed_field.js.
+import type { SlfField, SlfGrid } from '../slf.js';
+
+/** Why a file is not shown. */
+export class ViewerError extends Error {
+  constructor(kind: ViewerError['kind'], message: string);
+  kind: 'too-large' | 'no-view-maps' | 'no-webgl2' | 'damaged' | 'unsupported' | 'network' | 'memory';
+}
+
+/** A decoded light field as texels of the pipeline, and plain numbers; may be posted to a thread. */
+export interface PackedField {
+  readonly points: number;
+  readonly components: number;
+  readonly levels: SlfGrid['bits'];
+  /** World units from voxel to voxel. */
+  readonly step: number;
+  /** Of the box, and of a ball around it, in world units. */
+  readonly centre: number[];
+  readonly size: number[];
+  readonly radius: number;
+  readonly up: string;
+  readonly linear: boolean;
+  readonly partial: boolean;
+}
+
+/** @param tableSize  samples along a side of a face of the function table; 65 */
+export function packField(field: SlfField, tableSize?: number): PackedField;
+
+/** Of all that can be transferred to another thread without a copy. */
+export function buffersOf(packed: PackedField): ArrayBuffer[];

@@ -1,0 +1,4 @@
+// What viewer.html runs.
+import { Viewer } from './viewer.js';
+
+window.viewer = new Viewer();

@@ -1,0 +1,167 @@
+// A canvas with one light field on it: draws when something has changed, coarser while frames are
+// slow and a hand moves, and again after the context was lost.
+import { SurfelPipeline } from './surfel_pipeline.js';
+import { ViewerError } from './packed_field.js';
+import { fittedCamera, viewOf } from './view.js';
+
+const SLOW = 40,
+  FAST = 18; // ms a frame, beyond which resolution changes while moving
+const COARSEST = 0.4; // of the screen's resolution
+const REST = 180; // ms after which a picture at rest is drawn in full
+
+export class Stage {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {object} on  tick(seconds): before a frame, true to be called again; drawn(); lost(); restored()
+   * @throws {ViewerError} kind 'no-webgl2'
+   */
+  constructor(canvas, on = {}) {
+    this.canvas = canvas;
+    this.on = on;
+    this.gl = canvas.getContext('webgl2', { alpha: true, antialias: false, depth: false, premultipliedAlpha: true });
+    if (!this.gl) throw new ViewerError('no-webgl2', 'This browser offers no WebGL 2.');
+    this.pipeline = new SurfelPipeline(this.gl);
+    this.pose = this.camera = null; // one or the other: a pose of an orbit, a capture's camera
+    this.look = { background: null, exposure: 0, meanOnly: false, share: 1, resolution: 1 };
+    this.scale = 1;
+    this.frameTime = 0;
+    this.settled = true;
+    this.asked = 0;
+    canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
+    canvas.addEventListener('webglcontextrestored', () => this.restore());
+    this.observer = new ResizeObserver(() => this.redraw());
+    this.observer.observe(canvas);
+  }
+
+  get field() {
+    return this.pipeline.field;
+  }
+
+  setField(packed) {
+    this.pipeline.setField(packed);
+    this.redraw();
+  }
+
+  clear() {
+    this.pipeline.clearField();
+    this.pose = this.camera = null;
+    this.redraw();
+  }
+
+  /** A frame soon. @param {boolean} moving  more will follow: it may be coarse */
+  redraw({ moving = false } = {}) {
+    this.settled = this.settled && !moving;
+    if (this.asked || this.gl.isContextLost()) return;
+    this.asked = requestAnimationFrame((now) => this.frame(now));
+  }
+
+  frame(now) {
+    this.asked = 0;
+    const since = now - (this.last ?? now);
+    this.last = now;
+    const more = this.on.tick?.(since / 1000) ?? false;
+    if (more) this.settled = false;
+    if (!this.settled) this.adapt(since);
+    clearTimeout(this.rest);
+    const scale = this.settled ? 1 : this.scale;
+    this.draw(scale);
+    if (more) return this.redraw({ moving: true });
+    this.last = undefined;
+    if (this.settled) return;
+    this.rest = setTimeout(() => {
+      this.settled = true;
+      if (scale < 1) this.redraw();
+    }, REST);
+  }
+
+  /** The time between frames of a motion decides how fine the next is. */
+  adapt(since) {
+    if (!(since > 0 && since < 2000)) return;
+    this.frameTime = this.frameTime ? 0.7 * this.frameTime + 0.3 * since : since;
+    if (this.frameTime > SLOW) this.scale = Math.max(COARSEST, this.scale * 0.85);
+    else if (this.frameTime < FAST) this.scale = Math.min(1, this.scale * 1.1);
+  }
+
+  /** @returns {[number, number]} pixels of the screen that the canvas has */
+  pixels() {
+    const density = Math.min(devicePixelRatio || 1, 3) * this.look.resolution;
+    return [this.canvas.clientWidth, this.canvas.clientHeight].map((v) => Math.max(1, Math.round(v * density)));
+  }
+
+  draw(scale = 1) {
+    const { gl, canvas, pipeline } = this,
+      [width, height] = this.pixels();
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    const size = [width, height].map((v) => Math.max(1, Math.round(v * scale)));
+    if (pipeline.field && (this.pose || this.camera)) pipeline.accumulate(this.view(...size), this.look);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    this.paint([0, 0, width, height], this.look.background);
+    this.on.drawn?.();
+  }
+
+  view(width, height) {
+    return this.camera ? fittedCamera(this.camera, width, height) : viewOf(this.pose, this.field.up, width, height);
+  }
+
+  /** @param {number[]|null} background  RGB 0 .. 1; null: transparent */
+  paint(viewport, background) {
+    const { gl } = this;
+    gl.clearColor(...(background ?? [0, 0, 0]), background ? 1 : 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    this.pipeline.resolve({ viewport, exposure: this.look.exposure });
+  }
+
+  /** RGBA of a camera's own picture, without background: alpha is coverage; rows from the bottom. */
+  readCamera(camera) {
+    const { gl, pipeline } = this,
+      { width, height } = camera;
+    const texture = gl.createTexture(),
+      buffer = gl.createFramebuffer(),
+      out = new Uint8Array(4 * width * height);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, width, height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+    pipeline.accumulate(fittedCamera(camera, width, height), { ...this.look, share: 1 });
+    gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    pipeline.resolve({ viewport: [0, 0, width, height] });
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, out);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.deleteFramebuffer(buffer);
+    gl.deleteTexture(texture);
+    this.redraw();
+    return out;
+  }
+
+  /** @returns {Promise<Blob>} PNG of what is shown, in full resolution */
+  screenshot() {
+    this.draw();
+    return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+  }
+
+  lose(event) {
+    event.preventDefault();
+    cancelAnimationFrame(this.asked);
+    this.asked = 0;
+    this.on.lost?.();
+  }
+
+  restore() {
+    this.pipeline = new SurfelPipeline(this.gl);
+    this.on.restored?.();
+  }
+
+  dispose() {
+    this.observer.disconnect();
+    cancelAnimationFrame(this.asked);
+    clearTimeout(this.rest);
+    this.pipeline.dispose();
+    this.gl.getExtension('WEBGL_lose_context')?.loseContext();
+  }
+}

@@ -1,0 +1,42 @@
+// Where units of a stream end (spec 7.1), so that the beginning of a file that is still arriving is
+// decoded as far as it goes.
+
+const SIGNATURE = [0x8b, 0x53, 0x4c, 0x46, 0x0d, 0x0a, 0x1a, 0x0a];
+const GEOMETRY = 3,
+  COEFFICIENTS = 5,
+  END = 15;
+
+/**
+ * @param {Uint8Array} bytes  the beginning of a stream
+ * @returns {{foreign: boolean, end: number, pictures: number, complete: boolean}}
+ *   foreign: no .slf at all; end: of the last whole unit; pictures: of the last unit up to which every
+ *   geometry has coefficients; complete: the end unit is there
+ */
+export function walkUnits(bytes) {
+  const result = { foreign: false, end: 0, pictures: 0, complete: false };
+  for (let i = 0; i < Math.min(8, bytes.length); ++i)
+    if (bytes[i] !== SIGNATURE[i]) return { ...result, foreign: true };
+  let at = SIGNATURE.length;
+  while (at < bytes.length && !result.complete) {
+    const type = bytes[at],
+      size = payloadSize(bytes, at + 1);
+    if (size === null || at + 1 + size.digits + size.bytes + 4 > bytes.length) break;
+    at += 1 + size.digits + size.bytes + 4;
+    result.end = at;
+    if (type === COEFFICIENTS || (type !== GEOMETRY && result.pictures > 0)) result.pictures = at;
+    result.complete = type === END;
+  }
+  return result;
+}
+
+/** unit_length: seven bits a byte, least significant first; null where it is cut or too long. */
+function payloadSize(bytes, at) {
+  let value = 0;
+  for (let digits = 0; digits < 6; ++digits) {
+    if (at + digits >= bytes.length) return null;
+    const byte = bytes[at + digits];
+    value += (byte & 0x7f) * 2 ** (7 * digits);
+    if (byte < 0x80) return { bytes: value, digits: digits + 1 };
+  }
+  return null;
+}

@@ -1,0 +1,186 @@
+// A light field as an object of a three.js scene. It has the picture of `slf render` from wherever the
+// scene's camera is, hides what is behind it and is hidden by what is before it.
+import { BufferAttribute, BufferGeometry, Matrix4, Mesh, MeshBasicMaterial, Sphere, Vector3, Vector4 } from 'three';
+import { SurfelPipeline } from './surfel_pipeline.js';
+
+const viewport = new Vector4(),
+  toObject = new Matrix4();
+
+/**
+ * Draws with WebGLRenderer. Moves, turns and scales (evenly) like any object; materials, fog and tone
+ * mapping do not apply: the light it was photographed in is in it. Blended after opaque objects.
+ *
+ * meanOnly: without what depends on the view; exposure: stops; share: of the points, 0 .. 1.
+ * One renderer at a time: another gets its own copy of the textures when it draws first.
+ */
+export class SurfaceLightField extends Mesh {
+  /** @param packed  of packField(); kept, so that a lost context can be filled again */
+  constructor(packed, info = {}) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(9), 3));
+    super(geometry, new MeshBasicMaterial({ transparent: true, depthWrite: false, colorWrite: false }));
+    this.isSurfaceLightField = true;
+    this.type = 'SurfaceLightField';
+    this.info = info;
+    this.packed = packed;
+    this.meanOnly = false;
+    this.exposure = 0;
+    this.share = 1;
+    this.pipelines = new Map();
+    geometry.boundingSphere = new Sphere(new Vector3(...packed.centre), packed.radius + 2 * packed.step);
+    geometry.computeBoundingSphere = () => {};
+    this.onBeforeRender = this.draw;
+  }
+
+  /** three's own intersection would meet a point at the origin. */
+  raycast() {}
+
+  draw(renderer, scene, camera) {
+    const gl = renderer.getContext(),
+      pipeline = this.pipelineOf(gl);
+    const target = renderer.getRenderTarget();
+    renderer.getCurrentViewport(viewport);
+    const [x, y, width, height] = viewport.toArray().map(Math.round);
+    if (!(width > 0 && height > 0)) return;
+    toObject.copy(this.matrixWorld).invert().multiply(camera.matrixWorld);
+    const { view, scale } = viewOfCamera(camera.projectionMatrix.elements, toObject.elements, width, height);
+    withState(gl, () => {
+      pipeline.accumulate(view, { meanOnly: this.meanOnly, share: this.share });
+    });
+    withState(gl, () => {
+      const linear = target !== null && target.isXRRenderTarget !== true && target.texture.colorSpace !== 'srgb';
+      pipeline.resolve({
+        viewport: [x, y, width, height],
+        exposure: this.exposure,
+        toLinear: linear,
+        depthRange: depthRange(camera.projectionMatrix.elements, scale * this.packed.step),
+      });
+    });
+  }
+
+  pipelineOf(gl) {
+    let own = this.pipelines.get(gl);
+    if (own && !own.lost) return own;
+    withState(gl, () => {
+      own = new SurfelPipeline(gl);
+      own.setField(this.packed);
+    });
+    gl.canvas.addEventListener(
+      'webglcontextlost',
+      () => {
+        own.lost = true;
+      },
+      { once: true },
+    );
+    this.pipelines.set(gl, own);
+    return own;
+  }
+
+  dispose() {
+    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose();
+    this.pipelines.clear();
+    this.geometry.dispose();
+    this.material.dispose();
+  }
+}
+
+/**
+ * A perspective camera of three (x right, y up, looking along -z) as a View in the object's axes.
+ * @param p  projection, column-major
+ * @param m  camera to object, column-major: a rotation times an even scale, and a place
+ * @returns scale: of world lengths over the object's
+ */
+export function viewOfCamera(p, m, width, height) {
+  const length = Math.hypot(m[0], m[1], m[2]),
+    axis = (i, sign) => [0, 1, 2].map((k) => (sign * m[4 * i + k]) / length);
+  return {
+    scale: 1 / length,
+    view: {
+      width,
+      height,
+      fx: (p[0] * width) / 2,
+      fy: (p[5] * height) / 2,
+      cx: (width / 2) * (1 - p[8]),
+      cy: (height / 2) * (1 + p[9]),
+      rotation: [...axis(0, 1), ...axis(1, -1), ...axis(2, -1)],
+      eye: [m[12], m[13], m[14]],
+    },
+  };
+}
+
+/** Depth in the frame buffer is x + y / z, z in voxels; `voxel` in the camera's units. */
+function depthRange(p, voxel) {
+  // clip z over w of a point z before the camera: (-p[10] z + p[14]) / z
+  return [0.5 - 0.5 * p[10], (0.5 * p[14]) / voxel];
+}
+
+const FLAGS = ['BLEND', 'DEPTH_TEST', 'CULL_FACE', 'SCISSOR_TEST', 'STENCIL_TEST'];
+const UNITS = 6;
+
+/** Calls `draw` and leaves WebGL as it was, so that three's own record of it stays true. */
+export function withState(gl, draw) {
+  const get = (name) => gl.getParameter(gl[name]);
+  const flags = FLAGS.map((name) => gl.isEnabled(gl[name]));
+  const unit = get('ACTIVE_TEXTURE');
+  const textures = Array.from({ length: UNITS }, (_, i) => {
+    gl.activeTexture(gl.TEXTURE0 + i);
+    return [get('TEXTURE_BINDING_2D'), get('TEXTURE_BINDING_2D_ARRAY'), get('SAMPLER_BINDING')];
+  });
+  for (let i = 0; i < UNITS; ++i) gl.bindSampler(i, null);
+  const saved = Object.fromEntries(
+    [
+      'CURRENT_PROGRAM',
+      'VERTEX_ARRAY_BINDING',
+      'DRAW_FRAMEBUFFER_BINDING',
+      'READ_FRAMEBUFFER_BINDING',
+      'VIEWPORT',
+      'BLEND_EQUATION_RGB',
+      'BLEND_EQUATION_ALPHA',
+      'BLEND_SRC_RGB',
+      'BLEND_DST_RGB',
+      'BLEND_SRC_ALPHA',
+      'BLEND_DST_ALPHA',
+      'DEPTH_FUNC',
+      'DEPTH_WRITEMASK',
+      'DEPTH_CLEAR_VALUE',
+      'COLOR_WRITEMASK',
+      'COLOR_CLEAR_VALUE',
+      'PIXEL_UNPACK_BUFFER_BINDING',
+      'UNPACK_ALIGNMENT',
+      'UNPACK_FLIP_Y_WEBGL',
+      'UNPACK_PREMULTIPLY_ALPHA_WEBGL',
+    ].map((name) => [name, get(name)]),
+  );
+  try {
+    draw();
+  } finally {
+    restore(gl, saved);
+    FLAGS.forEach((name, i) => (flags[i] ? gl.enable(gl[name]) : gl.disable(gl[name])));
+    textures.forEach(([plain, array, sampler], i) => {
+      gl.activeTexture(gl.TEXTURE0 + i);
+      gl.bindTexture(gl.TEXTURE_2D, plain);
+      gl.bindTexture(gl.TEXTURE_2D_ARRAY, array);
+      gl.bindSampler(i, sampler);
+    });
+    gl.activeTexture(unit);
+  }
+}
+
+function restore(gl, s) {
+  gl.useProgram(s.CURRENT_PROGRAM);
+  gl.bindVertexArray(s.VERTEX_ARRAY_BINDING);
+  gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, s.DRAW_FRAMEBUFFER_BINDING);
+  gl.bindFramebuffer(gl.READ_FRAMEBUFFER, s.READ_FRAMEBUFFER_BINDING);
+  gl.viewport(...s.VIEWPORT);
+  gl.blendEquationSeparate(s.BLEND_EQUATION_RGB, s.BLEND_EQUATION_ALPHA);
+  gl.blendFuncSeparate(s.BLEND_SRC_RGB, s.BLEND_DST_RGB, s.BLEND_SRC_ALPHA, s.BLEND_DST_ALPHA);
+  gl.depthFunc(s.DEPTH_FUNC);
+  gl.depthMask(s.DEPTH_WRITEMASK);
+  gl.clearDepth(s.DEPTH_CLEAR_VALUE);
+  gl.colorMask(...s.COLOR_WRITEMASK);
+  gl.clearColor(...s.COLOR_CLEAR_VALUE);
+  gl.bindBuffer(gl.PIXEL_UNPACK_BUFFER, s.PIXEL_UNPACK_BUFFER_BINDING);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, s.UNPACK_ALIGNMENT);
+  gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, s.UNPACK_FLIP_Y_WEBGL);
+  gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, s.UNPACK_PREMULTIPLY_ALPHA_WEBGL);
+}

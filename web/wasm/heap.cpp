@@ -1,0 +1,149 @@
+// malloc and free of one instance, on one thread: a tenth of the bytes of the C library's. Blocks
+// lie one after another, those that are free in lists by size; neighbours that are free are joined.
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+extern "C" char __heap_base;  // where the linker's own data ends
+
+namespace {
+
+constexpr std::uint32_t kPage = 65536, kUsed = 1;
+constexpr int kTries = 64;  // blocks of about the size that is wanted, before a larger one is split
+
+/// Stands before its memory. Sizes are with this head, multiples of 16.
+struct Block {
+  std::uint32_t before;  ///< size of the block before it in memory; 0: there is none
+  std::uint32_t bytes;   ///< or kUsed where it is not free
+  Block *next, *previous;
+
+  bool is_free() const { return (bytes & kUsed) == 0; }
+  Block* at(std::uint32_t offset) {
+    return reinterpret_cast<Block*>(reinterpret_cast<char*>(this) + offset);
+  }
+  Block* after() { return at(bytes & ~kUsed); }
+};
+
+Block* lists[32];  // of free blocks, by the logarithm of their size
+Block* last;       // without memory, never free: what lies behind all others
+
+Block*& list_of(std::uint32_t bytes) { return lists[std::bit_width(bytes) - 1]; }
+
+void enter(Block* block) {
+  Block*& first = list_of(block->bytes);
+  block->next = first;
+  block->previous = nullptr;
+  if (first != nullptr) first->previous = block;
+  first = block;
+}
+
+void leave(Block* block) {
+  if (block->next != nullptr) block->next->previous = block->previous;
+  (block->previous != nullptr ? block->previous->next : list_of(block->bytes)) = block->next;
+}
+
+void give_back(Block* block) {
+  block->bytes &= ~kUsed;
+  if (Block* next = block->after(); next->is_free()) {
+    leave(next);
+    block->bytes += next->bytes;
+  }
+  if (Block* previous = block->at(0u - block->before); block->before > 0 && previous->is_free()) {
+    leave(previous);
+    previous->bytes += block->bytes;
+    block = previous;
+  }
+  block->after()->before = block->bytes;
+  enter(block);
+}
+
+/// All that is behind `last` becomes a free block.
+void take_in() {
+  Block* block = last;
+  last = reinterpret_cast<Block*>(__builtin_wasm_memory_size(0) * kPage - sizeof(Block));
+  last->bytes = kUsed;
+  block->bytes =
+      static_cast<std::uint32_t>(reinterpret_cast<char*>(last) - reinterpret_cast<char*>(block));
+  give_back(block);
+}
+
+bool grow(std::uint32_t bytes) {
+  if (last == nullptr) {
+    last = reinterpret_cast<Block*>((reinterpret_cast<std::uintptr_t>(&__heap_base) + 15) & ~15u);
+    take_in();
+    if (list_of(last->before) != nullptr && last->before >= bytes) return true;
+  }
+  const std::size_t pages = (std::uint64_t{bytes} + kPage - 1) / kPage;
+  if (__builtin_wasm_memory_grow(0, pages) == SIZE_MAX) return false;
+  take_in();
+  return true;
+}
+
+Block* find(std::uint32_t bytes) {
+  int tries = kTries;
+  for (Block* block = list_of(bytes); block != nullptr && tries-- > 0; block = block->next)
+    if (block->bytes >= bytes) return block;
+  for (auto size = static_cast<unsigned>(std::bit_width(bytes)); size < 32; ++size)
+    if (lists[size] != nullptr) return lists[size];
+  return nullptr;
+}
+
+/// What is left of it beyond `bytes` becomes a block.
+void split(Block* block, std::uint32_t bytes) {
+  const std::uint32_t rest = block->bytes - bytes;
+  if (rest < 2 * sizeof(Block)) return;
+  block->bytes = bytes;
+  Block* behind = block->after();
+  behind->before = bytes;
+  behind->bytes = rest;
+  behind->after()->before = rest;
+  enter(behind);
+}
+
+}  // namespace
+
+extern "C" void* malloc(std::size_t size) {
+  if (size > UINT32_MAX - 2 * kPage) return nullptr;
+  const auto bytes = static_cast<std::uint32_t>((size + sizeof(Block) + 15) & ~std::size_t{15});
+  Block* block = find(bytes);
+  if (block == nullptr && grow(bytes)) block = find(bytes);
+  if (block == nullptr) return nullptr;
+  leave(block);
+  split(block, bytes);
+  block->bytes |= kUsed;
+  return block + 1;
+}
+
+extern "C" void free(void* memory) {
+  if (memory != nullptr) give_back(static_cast<Block*>(memory) - 1);
+}
+
+extern "C" void* calloc(std::size_t count, std::size_t size) {
+  std::size_t bytes;
+  if (__builtin_mul_overflow(count, size, &bytes)) return nullptr;
+  void* memory = malloc(bytes);
+  return memory == nullptr ? nullptr : std::memset(memory, 0, bytes);
+}
+
+extern "C" void* realloc(void* memory, std::size_t size) {
+  void* moved = malloc(size);
+  if (memory == nullptr || moved == nullptr) return moved;
+  const std::size_t had = (static_cast<Block*>(memory) - 1)->bytes - kUsed - sizeof(Block);
+  std::memcpy(moved, memory, had < size ? had : size);
+  free(memory);
+  return moved;
+}
+
+/// Nothing here asks for more than malloc gives: 16.
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return alignment <= 16 ? malloc(size) : nullptr;
+}
+
+extern "C" int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  *memory = aligned_alloc(alignment, size);
+  return *memory == nullptr ? 12 : 0;  // ENOMEM
+}
+
+/// What libc keeps of work for an exit, which never comes, asks by this name.
+extern "C" void* __libc_calloc(std::size_t count, std::size_t size) { return calloc(count, size); }
