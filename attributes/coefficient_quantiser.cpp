@@ -91,10 +91,16 @@ class LevelQuantiser {
 
   bool needs_whole_rows() const { return input_.rdo > 0; }
 
+  void begin_with_zeros(const SliceCells& cells) {
+    for (const std::uint32_t row : cells.row)
+      std::fill_n(coefficients_.begin() + static_cast<std::ptrdiff_t>(row * planes_), planes_, 0);
+  }
+
   /// The rows of a slice's cells as the base has them.
   void adopt(const QuantisedBase& base) {
-    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].start_from(base.quantised.rates[g]);
-    start_from_base(base.cells, base.quantised.values, base.weights, planes_, values_);
+    if (base.quantised == nullptr) return begin_with_zeros(base.cells);
+    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].start_from(base.quantised->rates[g]);
+    start_from_base(base.cells, base.quantised->values, base.weights, planes_, values_);
     for (std::size_t i = 0; i < base.cells.size(); ++i) {
       const std::uint32_t row = base.cells.row[i];
       const auto there = base.coefficients.subspan((base.cells.first + i) * planes_, planes_);

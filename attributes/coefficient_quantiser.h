@@ -21,13 +21,13 @@ struct Quantised {
   std::vector<RateModel> rates;                  ///< [groups] what was learnt of the bits
 };
 
-/// The base that a slice goes on from. Spec 8.2.
+/// The base that a slice goes on from, or of slices apart its cells alone, all zero. Spec 8.2.
 struct QuantisedBase {
   const SliceCells& cells;                     ///< of the slice
   int level;                                   ///< of the cells
   CodeWeights weights;                         ///< of the cells of the scene
   std::span<const std::int32_t> coefficients;  ///< [cells of the scene][planes] quantised
-  const Quantised& quantised;
+  const Quantised* quantised;                  ///< nullptr where slices are apart
 };
 
 struct QuantiserInput {

@@ -7,6 +7,7 @@
 
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
+#include "slf/types.h"
 
 namespace slf {
 
@@ -22,9 +23,15 @@ struct SliceEntry {
 /// Spec 7.3: all slices of the scene, in Morton order.
 struct SliceTable {
   std::uint32_t slices_num_minus1 = 0;
-  std::uint32_t slices_shared_flag = 0;  ///< slices begin with what slice 0 has learnt
+  std::uint32_t slices_start = 0;  ///< of several: a SliceStart, by its number
   std::vector<SliceEntry> slices;
   std::uint64_t offset = 0;  ///< of the slices unit in the stream
+
+  /// One slice has no other to start from.
+  bool shared() const {
+    return slices_num_minus1 > 0 && slices_start == static_cast<std::uint32_t>(SliceStart::kShared);
+  }
+  bool apart() const { return slices_start == static_cast<std::uint32_t>(SliceStart::kApart); }
 
   std::uint64_t num_points() const {
     std::uint64_t points = 0;
@@ -42,7 +49,7 @@ struct SliceTable {
 template <class V, class Table>
 void slice_table(V& v, Table& t, std::uint32_t base_levels) {
   v.ue("slices_num_minus1", t.slices_num_minus1, Range{0, base_levels > 0 ? kMaxSlices - 1 : 0});
-  if (t.slices_num_minus1 > 0) v.u(1, "slices_shared_flag", t.slices_shared_flag, Range{0, 1});
+  if (t.slices_num_minus1 > 0) v.ue("slices_start", t.slices_start, Range{0, 2});
   v.resize("slices_num_minus1", t.slices, std::uint64_t{t.slices_num_minus1} + 1);
   for (auto& slice : t.slices) {
     if (base_levels > 0)

@@ -91,7 +91,9 @@ Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& 
   if (!plan.has_base() || plan.planes() == 0) return Done{};
   const auto codes = grid_codes(base, plan);
   const RahtTop top = build_raht_top(codes, plan.lowest_split(plan.base_levels()), base.weights());
-  return decode_components(units, plan, codes, top, threads, false, base);
+  SLF_CHECK(decode_components(units, plan, codes, top, threads, plan.table.apart(), base));
+  if (plan.table.apart()) base.components = {{}, {}, std::move(base.components.values), {}, {}};
+  return Done{};
 }
 
 Result<Done> give_out_base(const PartUnits& units, const SequencePlan& plan, int threads,

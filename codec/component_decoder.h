@@ -18,7 +18,8 @@ namespace slf {
 struct BaseComponents {
   std::vector<CoefficientModels> models;  ///< one, or none: no unit was decoded
   std::vector<CoefficientStates> states;  ///< [layers][groups]
-  std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(its weight)
+  std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(its weight); the mean
+                                          ///< where slices are apart
   std::vector<bool> any;                  ///< [groups] not all of its values are zero
   const PartUnit* last = nullptr;         ///< unit that was decoded last
 };
@@ -41,6 +42,8 @@ class ComponentDecoder {
   /// `weights`.
   void start_from_base(const BaseComponents& base, const CodeWeights& weights,
                        std::size_t first_cell, std::span<std::int32_t> components);
+  /// A slice apart, of which the base tells the cells alone.
+  void start_apart();
   /// Entropy decoding of units[place]. components: [rows][planes], coefficients after.
   Result<Done> decode(const PartUnit& unit, std::span<std::int32_t> components);
   /// Dequantisation and inverse transform, when all units are decoded. An error is of the last.

@@ -213,7 +213,7 @@ DecodeShape shape_of(const SequencePlan& plan) {
   shape.draco = set.sps_geometry_coder == 1;
   shape.texture = set.has_texture();
   shape.normals = set.sps_normal_bits > 0;
-  shape.shared_states = plan.table.slices_shared_flag != 0;
+  shape.shared_states = plan.table.shared();
   shape.ahead = shape.shared_states && plan.kept_levels_only();
   return shape;
 }
@@ -280,7 +280,7 @@ DecodeShape shape_of(const StreamInfo& info) {
   shape.texture = info.texture_bits > 0;
   shape.normals = std::any_of(info.units.begin(), info.units.end(),
                               [](const UnitInfo& unit) { return unit.type == "normals"; });
-  shape.shared_states = info.shared_states;
+  shape.shared_states = info.num_slices > 1 && info.slice_start == SliceStart::kShared;
   return shape;
 }
 

@@ -46,7 +46,7 @@ VoxelBox box_of(const CellBox& cells, const SequenceParameterSet& set) {
 Result<Done> describe_scene(const Units& units, const SequenceParameterSet& set,
                             const SliceTable& table, StreamInfo& info) {
   info.base_levels = static_cast<int>(set.sps_base_levels);
-  info.shared_states = table.slices_shared_flag != 0;
+  if (table.slices_num_minus1 > 0) info.slice_start = static_cast<SliceStart>(table.slices_start);
   info.num_slices = table.slices.size();
   info.num_points = table.num_points();
   SLF_TRY(const auto index, find_index(units, set));

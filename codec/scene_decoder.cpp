@@ -47,7 +47,7 @@ class SceneDecoder {
         threads_(threads),
         field_(field),
         lead_(PartList(plan.set, false).size()) {
-    SliceLead* lead = plan.table.slices_shared_flag ? &lead_ : nullptr;
+    SliceLead* lead = plan.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < units.slices.size(); ++s)
       if ((lead != nullptr && s == 0) || meets_region(base, s))
         tasks_.push_back({SliceDecoder(plan, base, units.slices[s], s, lead), 0, 0, {}});
@@ -119,6 +119,7 @@ class SceneDecoder {
     }
     task.run([&] { return task.slice.decode_components(components, plane_threads); });
     if (count > 0) task.run([&] { return task.slice.check_digest(components, normals); });
+    if (!task.error) task.slice.add_means(components);
     task.slice.drop();
   }
 

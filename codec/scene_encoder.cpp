@@ -28,7 +28,7 @@ class SceneEncoder {
         layout_(layout),
         threads_(threads),
         lead_(PartList(coding.set, false).size()) {
-    SliceLead* lead = layout.table.slices_shared_flag ? &lead_ : nullptr;
+    SliceLead* lead = layout.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < slices.size(); ++s)
       slices_.emplace_back(coding, layout, s, slices[s], lead);
   }
@@ -39,15 +39,15 @@ class SceneEncoder {
         layout_.base_levels > 0 ? layout_.cells.size() * coding_.planes() : 0);
     SLF_CHECK(for_each_slice([&](SliceEncoder& slice, std::size_t s) -> Step {
       const CloseAtEnd<OccupancyStates> close{lead_.geometry, s == 0};
-      SLF_CHECK(slice.encode_geometry(base.geometry));  // 8.4, 8.5
-      slice.encode_normals();                           // 8.10
+      SLF_CHECK(slice.encode_geometry(start_of_slices(base)));  // 8.4, 8.5
+      slice.encode_normals();                                   // 8.10
       return slice.transform(base_input, slice_threads());
     }));
     encode_base_components(coding_, layout_, std::move(base_input), threads_, base);  // 8.6 - 8.8
     SLF_CHECK(for_each_slice([&](SliceEncoder& slice, std::size_t s) -> Step {
       const CloseAtEnd<CoefficientStates> close{lead_.coefficients, s == 0};
-      SLF_CHECK(slice.encode_components(base, slice_threads()));  // 8.6 - 8.8
-      slice.encode_digest();                                      // 7.9
+      SLF_CHECK(slice.encode_components(start_of_slices(base), slice_threads()));  // 8.6 - 8.8
+      slice.encode_digest();                                                       // 7.9
       return Done{};
     }));
     return in_order(std::move(base.units));
@@ -55,6 +55,10 @@ class SceneEncoder {
 
  private:
   using Step = Result<Done, InputError>;
+
+  const EncodedBase* start_of_slices(const EncodedBase& base) const {
+    return layout_.table.apart() ? nullptr : &base;
+  }
 
   int slice_threads() const { return slices_.size() > 1 ? 1 : threads_; }
 

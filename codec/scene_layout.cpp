@@ -140,7 +140,7 @@ Result<SceneLayout, InputError> lay_out(std::span<const std::uint64_t> morton, i
     layout.classes = classes_of(first, parameters.base_weight);
     layout.weight_before = weights_before(layout.classes);
   }
-  layout.table.slices_shared_flag = slices > 1 && parameters.share_states;
+  if (slices > 1) layout.table.slices_start = static_cast<std::uint32_t>(parameters.slice_start);
   SLF_CHECK(describe_slices(layout));
   return layout;
 }

@@ -23,6 +23,7 @@ struct SceneLayout {
   std::vector<std::uint8_t> classes;         ///< [cells] where there is a base, spec 8.4.5
   std::vector<std::uint32_t> weight_before;  ///< [cells + 1] of the cells before each
   std::vector<SliceCut> cuts;
+  std::size_t first_slice = 0;  ///< slice_id of the first of them: above 0 of a part of a scene
   SliceTable table;
 
   CodeWeights weights() const { return CodeWeights(weight_before); }

@@ -57,7 +57,7 @@ class Collector {
     if (digest && set_.sps_cut_flag) return at(unit, "unit_type");
     if (list.place_of(read) != next || (next == list.size()) != digest)
       return at(unit, misplaced(unit.type, list.type_at(next)));
-    const bool follows_slice_0 = scene_.table.slices_shared_flag && !read.header.of_base() &&
+    const bool follows_slice_0 = scene_.table.shared() && !read.header.of_base() &&
                                  read.header.slice_id > 0 && unit.type != UnitType::kNormals &&
                                  !digest;
     if (follows_slice_0 && scene_.slices[0].size() <= next) return at(unit, "slice_id");

@@ -13,7 +13,7 @@ void Selection::choose_slices(const Base& base) {
       return plan_.meets_region(from_morton(cell), base.level);
     });
   }
-  if (plan_.table.slices_shared_flag) slice_[0] = true;
+  if (plan_.table.shared()) slice_[0] = true;
 }
 
 void Selection::choose_slices(std::span<const CellBox> boxes) {
@@ -25,7 +25,7 @@ void Selection::choose_slices(std::span<const CellBox> boxes) {
       const std::int64_t high = ((std::int64_t{boxes[s][axis + 3]} + 1) << below) - 1;
       if (high < plan_.region->low[axis] || low > plan_.region->high[axis]) slice_[s] = false;
     }
-  if (plan_.table.slices_shared_flag) slice_[0] = true;
+  if (plan_.table.shared()) slice_[0] = true;
 }
 
 bool Selection::all_slices() const {

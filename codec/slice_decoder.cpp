@@ -1,6 +1,7 @@
 #include "codec/slice_decoder.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "attributes/normal_model.h"
 #include "attributes/raht_inverse.h"
@@ -13,6 +14,10 @@
 
 namespace slf {
 namespace {
+
+Voxel cell_at(const Voxel& voxel, int below) {
+  return {voxel[0] >> below, voxel[1] >> below, voxel[2] >> below};
+}
 
 /// Slice 0 failed where this one would have gone on from it: its error is the one to report.
 Error abandoned() { return {Errc::kTruncated, "slice_id"}; }
@@ -29,7 +34,9 @@ std::span<const std::uint64_t> SliceDecoder::cells() const {
 
 Result<Done> SliceDecoder::decode_octree() {
   const SequenceParameterSet& set = plan_->set;
-  OctreeDecoder octree(plan_->grid_bits(), points(), base_->states, plan_->base_levels(), cells());
+  OctreeDecoder octree(plan_->grid_bits(), points(),
+                       apart() ? OccupancyStates(points()) : base_->states, plan_->base_levels(),
+                       cells());
   for (std::size_t place = 0; place < units_->size(); ++place) {
     const PartUnit& unit = (*units_)[place];
     if (unit.type != UnitType::kGeometry) break;
@@ -97,17 +104,23 @@ void SliceDecoder::keep() {
 }
 
 /// Of a slice whose geometry is incomplete: the nodes known stand for its points, without
-/// coefficients. Spec 8.9.2.
+/// coefficients. Between zeros there is nothing to interpolate. Spec 8.9.2.
 Result<Done> SliceDecoder::interpolate_nodes(std::span<std::int32_t> components, int threads) {
-  if (base_->components.values.empty()) return Done{};
+  if (base_->components.values.empty() || apart()) return Done{};
   for (std::uint64_t& code : codes_) code <<= plan_->lowest_split(level_);
   const int levels = std::min(level_, plan_->levels);
   const RahtTop top = build_raht_top(codes_, plan_->lowest_split(levels));
   ComponentDecoder decoder(*plan_, {codes_, top.tree, top.first, plan_->base_levels(), levels});
-  decoder.start_from_base(base_->components, base_->weights(), base_->first[slice_], components);
+  start(decoder, components);
   SLF_CHECK(decoder.reconstruct(components, threads));
   decoder.to_means(components);
   return Done{};
+}
+
+void SliceDecoder::start(ComponentDecoder& decoder, std::span<std::int32_t> components) const {
+  if (!plan_->has_base()) return;
+  if (apart()) return decoder.start_apart();
+  decoder.start_from_base(base_->components, base_->weights(), base_->first[slice_], components);
 }
 
 /// The level of whose rows the units of slice 0 are decoded: others start from the states after a
@@ -121,8 +134,7 @@ int SliceDecoder::levels_ahead() const {
 
 Result<Done> SliceDecoder::decode_units(ComponentDecoder& decoder,
                                         std::span<std::int32_t> components) {
-  if (plan_->has_base())
-    decoder.start_from_base(base_->components, base_->weights(), base_->first[slice_], components);
+  start(decoder, components);
   for (std::size_t place = 0; place < units_->size(); ++place) {
     const PartUnit& unit = (*units_)[place];
     if (!plan_->wants_values(unit.type, unit.header)) continue;
@@ -206,6 +218,22 @@ Result<Done> SliceDecoder::check_digest(std::span<const std::int32_t> components
       return in_unit(unit, Error{Errc::kChecksum, "digest_sha256"});
   }
   return Done{};
+}
+
+void SliceDecoder::add_means(std::span<std::int32_t> components) const {
+  if (!apart() || components.empty()) return;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  const std::size_t planes = plan_->planes();
+  const int below = plan_->levels - plan_->base_levels();
+  const std::int32_t* mean = base_->components.values.data() + base_->first[slice_] * planes;
+  for (std::size_t row = 0; row < positions.size(); ++row) {
+    if (row > 0 && cell_at(positions[row], below) != cell_at(positions[row - 1], below))
+      mean += planes;
+    for (std::size_t j = 0; j < planes; ++j) {
+      std::int32_t& value = components[row * planes + j];
+      value = static_cast<std::int32_t>(std::clamp(std::int64_t{value} + mean[j], -kMost, kMost));
+    }
+  }
 }
 
 void SliceDecoder::drop() {

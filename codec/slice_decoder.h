@@ -37,6 +37,8 @@ class SliceDecoder {
   Result<Done> decode_normals(std::span<std::array<std::uint16_t, 2>> normals);
   Result<Done> check_digest(std::span<const std::int32_t> components,
                             std::span<const std::array<std::uint16_t, 2>> normals);
+  /// Of slices apart: what the base has of every cell to what stands in it. Spec 8.8.3.
+  void add_means(std::span<std::int32_t> components) const;
 
   /// Leaves nothing of the slice's points.
   void drop();
@@ -53,11 +55,13 @@ class SliceDecoder {
  private:
   bool leads() const { return lead_ != nullptr && slice_ == 0; }
   bool follows() const { return lead_ != nullptr && slice_ != 0; }
+  bool apart() const { return plan_->has_base() && plan_->table.apart(); }
   std::span<const std::uint64_t> cells() const;
   Result<Done> decode_octree();
   Result<Done> decode_draco_unit();
   Result<Done> check_count() const;
   void keep();
+  void start(ComponentDecoder& decoder, std::span<std::int32_t> components) const;
   Result<Done> decode_units(ComponentDecoder& decoder, std::span<std::int32_t> components);
   Result<Done> decode_ahead(ComponentDecoder& decoder, std::span<std::int32_t> components,
                             int levels);

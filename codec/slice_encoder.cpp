@@ -63,9 +63,9 @@ void SliceEncoder::encode_octree(OccupancyStates states) {
   }
 }
 
-Result<Done, InputError> SliceEncoder::encode_geometry(const OccupancyStates& states) {
+Result<Done, InputError> SliceEncoder::encode_geometry(const EncodedBase* base) {
   if (coding_->set.sps_geometry_coder == 0) {
-    encode_octree(states);
+    encode_octree(base != nullptr ? base->geometry : OccupancyStates(input_.morton.size()));
     return Done{};
   }
   auto draco = encode_draco({input_.positions.begin(), input_.positions.end()});
@@ -96,7 +96,7 @@ Result<Done, InputError> SliceEncoder::transform(std::span<std::int32_t> base_in
   std::iota(first_.begin(), first_.end(), 0u);
   if (layout_->base_levels > 0)
     cells_ = find_cells(tree_, first_, 3 * (coding_->grid_bits() - layout_->base_levels),
-                        layout_->cuts[slice_].first_cell);
+                        layout_->cuts[slice_ - layout_->first_slice].first_cell);
   raht_forward(tree_, static_cast<int>(planes), input_.components, threads, cells_.size());
   if (layout_->base_levels > 0)
     put_into_base(cells_, input_.components, layout_->weights(), planes, base_input);
@@ -110,12 +110,14 @@ Result<Done, InputError> SliceEncoder::encode_texture(int threads) {
   return Done{};
 }
 
-void SliceEncoder::encode_coefficients(const EncodedBase& base, const Quantised& quantised) {
+void SliceEncoder::encode_coefficients(const EncodedBase* base, const Quantised& quantised) {
   const SequenceParameterSet& set = coding_->set;
   CoefficientModels models(coding_->groups, tree_, input_.morton, first_, set.has_vectors(), {},
                            set.num_layers());
-  if (!base.models.empty()) models.adopt(base.models.front(), cells_);
-  models.start_from_all(base.states);
+  if (base != nullptr) {
+    if (!base->models.empty()) models.adopt(base->models.front(), cells_);
+    models.start_from_all(base->states);
+  }
   for (std::uint32_t layer = 0; layer < set.num_layers(); ++layer)
     encode_layer(layer, quantised, models);
 }
@@ -153,22 +155,29 @@ void SliceEncoder::encode_unit(std::uint32_t layer, std::uint32_t range, std::ui
   if (leads()) lead_->coefficients.publish(place, models.states(group, layer));
 }
 
-Result<Done, InputError> SliceEncoder::encode_components(const EncodedBase& base, int threads) {
+Quantised SliceEncoder::quantise(const EncodedBase* base, int threads) {
+  QuantisedBase cells{cells_, layout_->base_levels, layout_->weights(), {}, nullptr};
+  if (base != nullptr) {
+    cells.coefficients = base->coefficients;
+    cells.quantised = &base->quantised;
+  }
+  return quantise_coefficients({tree_,
+                                input_.morton,
+                                coding_->grid_bits(),
+                                coding_->groups,
+                                coding_->steps,
+                                coding_->set.sps_prediction_flag != 0,
+                                coding_->rdo,
+                                0,
+                                {},
+                                layout_->base_levels > 0 ? &cells : nullptr},
+                               input_.components, threads);
+}
+
+Result<Done, InputError> SliceEncoder::encode_components(const EncodedBase* base, int threads) {
   if (coding_->planes() == 0) return Done{};
   if (coding_->set.has_texture()) return encode_texture(threads);
-  const QuantisedBase cells{cells_, layout_->base_levels, layout_->weights(), base.coefficients,
-                            base.quantised};
-  Quantised quantised = quantise_coefficients({tree_,
-                                               input_.morton,
-                                               coding_->grid_bits(),
-                                               coding_->groups,
-                                               coding_->steps,
-                                               coding_->set.sps_prediction_flag != 0,
-                                               coding_->rdo,
-                                               0,
-                                               {},
-                                               layout_->base_levels > 0 ? &cells : nullptr},
-                                              input_.components, threads);
+  Quantised quantised = quantise(base, threads);
   encode_coefficients(base, quantised);
   decoded_ = std::move(quantised.values);
   tree_ = {};

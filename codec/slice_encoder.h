@@ -24,18 +24,21 @@ struct SliceInput {
 /// A slice on its way. Steps are called in the order of the members below.
 class SliceEncoder {
  public:
-  /// @param lead  of slices that share states, else nullptr
+  /// @param slice  its slice_id; layout.first_slice is the first of those laid out
+  /// @param lead   of slices that share states, else nullptr
   SliceEncoder(const SliceCoding& coding, const SceneLayout& layout, std::size_t slice,
                const SliceInput& input, SliceLead* lead);
 
+  /// @param base   its geometry is coded; nullptr where slices are apart
   /// @errors kUnsupported: no Draco in this build.
-  Result<Done, InputError> encode_geometry(const OccupancyStates& states);
+  Result<Done, InputError> encode_geometry(const EncodedBase* base);
   void encode_normals();
   /// Components to coefficients, down to the cells, whose values go to the input of the base.
   /// @errors kInvalidArgument: a component too large to transform.
   Result<Done, InputError> transform(std::span<std::int32_t> base_input, int threads);
+  /// @param base  all of it is coded; nullptr where slices are apart
   /// @errors those of textures
-  Result<Done, InputError> encode_components(const EncodedBase& base, int threads);
+  Result<Done, InputError> encode_components(const EncodedBase* base, int threads);
   void encode_digest();
 
   /// In the order of a slice's units.
@@ -49,7 +52,8 @@ class SliceEncoder {
            std::uint32_t layer = 0);
   void encode_octree(OccupancyStates states);
   Result<Done, InputError> encode_texture(int threads);
-  void encode_coefficients(const EncodedBase& base, const Quantised& quantised);
+  Quantised quantise(const EncodedBase* base, int threads);
+  void encode_coefficients(const EncodedBase* base, const Quantised& quantised);
   void encode_layer(std::uint32_t layer, const Quantised& quantised, CoefficientModels& models);
   void encode_unit(std::uint32_t layer, std::uint32_t range, std::uint32_t group,
                    const CoefficientRows& rows, const Quantised& quantised,

@@ -52,6 +52,7 @@ std::vector<Case> valid_cases();
 std::vector<Case> component_cases();  ///< among them: what values there are
 std::vector<Case> header_cases();     ///< among them: slices, normals, what headers say
 std::vector<Case> scene_cases();      ///< among them
+std::vector<Case> apart_cases();      ///< among them
 std::vector<Case> small_cases();      ///< among them
 std::vector<Case> edited_cases();     ///< among them: units that no encoder writes
 std::vector<Case> transform_cases();  ///< among them: matrices that no encoder writes
@@ -69,5 +70,6 @@ std::vector<RefusedCase> refused_cases();
 std::vector<RefusedCase> refused_scenes();  ///< among them
 std::vector<RefusedCase> refused_units();   ///< among them
 std::vector<RefusedCase> refused_layers();  ///< among them
+std::vector<RefusedCase> refused_apart();   ///< among them
 
 }  // namespace slf::conformance

@@ -107,7 +107,7 @@ std::vector<Case> layer_cases() {
   cases.push_back(layered("layers-by-group", "groups of 1, 3 and 2 layers", {1, 3, 2}, 2, 500));
   Case alone =
       layered("layers-alone", "slices that start from the base's states", {2, 2, 2}, 2, 500);
-  alone.parameters.share_states = false;
+  alone.parameters.slice_start = SliceStart::kBase;
   cases.push_back(alone);
   cases.push_back(even());
   Case large =

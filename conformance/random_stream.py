@@ -62,7 +62,7 @@ class RandomStream:
         self.cuts = [0] + sorted(self.rng.sample(range(1, len(self.first)), count - 1)) + [len(self.first)]
         bounds = self.first + [len(self.codes)]
         self.spans = [(bounds[a], bounds[b]) for a, b in zip(self.cuts, self.cuts[1:])]
-        self.shared = self.rng.randrange(2)
+        self.start = self.rng.randrange(3) if len(self.spans) > 1 else 1       # 7.3
 
     def sequence_unit(self):
         """7.2: the header in three pieces, between which sps_cut_flag and sps_cut_layers stand."""
@@ -112,7 +112,7 @@ class RandomStream:
         """7.1: transforms, slices, the base, and slices in any order that is allowed."""
         if self.transform:
             self.transform_unit()
-        slices = BitWriter().ue(len(self.spans) - 1).u(self.shared, 1 if len(self.spans) > 1 else 0)
+        slices = BitWriter().ue(len(self.spans) - 1, *[self.start] * (len(self.spans) > 1))
         for s, (first, end) in enumerate(self.spans):
             slices.ue(*[self.cuts[s + 1] - self.cuts[s] - 1] * bool(self.base), end - first - 1)
         self.units.append((text.SLICES, slices.payload()))
@@ -124,7 +124,7 @@ class RandomStream:
         while any(left):
             s = self.rng.choice([s for s, kinds in enumerate(left) if kinds])
             kind = left[s][0]
-            if s and self.shared and kind[0] != text.NORMALS and kind not in done:
+            if s and self.start == 0 and kind[0] != text.NORMALS and kind not in done:
                 continue
             self.unit_of(s, left[s].pop(0))
             if s == 0:
@@ -242,7 +242,7 @@ class RandomStream:
         prefix = SIGNATURE + b"".join(unit(*each) for each in self.units[:rng.randrange(1, len(self.units))])
         yield prefix, rng.choice([0, rng.randrange(1, self.bits + 1)]), 0, 0, []
         kept = {s for s in range(len(self.spans)) if rng.randrange(2)}
-        kept |= {0} if self.shared or not self.base else set()
+        kept |= {0} if self.start == 0 or not self.base else set()
         levels = rng.choice([self.bits, rng.randrange(1, self.bits + 1)])
         slices_flag, lost = rng.randrange(2) if self.base else 0, rng.choice([0, 2, 5])
         cut = self.cut(levels, rng.choice([0, groups]), rng.choice([0, layers % most]), kept, slices_flag, lost)

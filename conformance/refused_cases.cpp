@@ -247,6 +247,7 @@ std::vector<RefusedCase> refused_cases() {
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
   for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));
+  for (RefusedCase& apart : refused_apart()) cases.push_back(std::move(apart));
   add_textures(cases);
   add_transforms(cases);
   return cases;

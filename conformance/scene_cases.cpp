@@ -39,7 +39,7 @@ void add_scenes(std::vector<Case>& cases) {
   cases.push_back(scene("base-all-but-one-level", "every cell has few points", 5, 1u << 20));
   cases.push_back(scene("scene-shared", "slices that start from the first one's states", 3, 1500));
   Case alone = scene("scene-alone", "slices that start from the base's states", 3, 1500);
-  alone.parameters.share_states = false;
+  alone.parameters.slice_start = SliceStart::kBase;
   cases.push_back(alone);
   Case independent = scene("scene-independent", "the independent coder, shared states", 3, 2500);
   independent.parameters.coefficients = CoefficientCoder::kIndependent;

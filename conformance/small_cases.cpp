@@ -108,7 +108,7 @@ void add_scenes(std::vector<Case>& cases) {
   cases.push_back(shared);
   Case alone = scene("small-alone", "slices without shared states, normals of 12 bits",
                      {"8.1", "8.9", "8.10"});
-  alone.parameters.share_states = false;
+  alone.parameters.slice_start = SliceStart::kBase;
   alone.levels = {3};
   add_normals(alone.field, 12, 4096);
   cases.push_back(alone);

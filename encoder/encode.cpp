@@ -63,6 +63,7 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
   parameters.quality_layers = settings.quality_layers;
   parameters.base_levels = settings.base_levels;
   parameters.max_slice_points = settings.max_slice_points;
+  parameters.slice_start = settings.slice_start;
   parameters.threads = settings.threads;
   return parameters;
 }

@@ -113,7 +113,13 @@ void add_coding(std::vector<SettingRow>& rows) {
                  "Octree levels coded once for all slices; 0: none, and one slice; auto: 24 "
                  "points or more in a cell of the base"),
        number("slice-points", SLF_AT(max_slice_points), 1, kMostSlicePoints,
-              "Points of a slice, about: slices are decoded side by side, or some of them alone")});
+              "Points of a slice, about: slices are decoded side by side, or some of them alone"),
+       choice("slice-start", SLF_AT(slice_start),
+              Words<SliceStart>{{"shared", SliceStart::kShared},
+                                {"base", SliceStart::kBase},
+                                {"apart", SliceStart::kApart}},
+              "Slices start from what the first has learnt (smallest), from the base, or from "
+              "nothing: apart, each coded by itself")});
 }
 
 void add_observation(std::vector<SettingRow>& rows) {

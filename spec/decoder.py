@@ -430,7 +430,9 @@ class Slices:
         count = reader.ue("slices_num_minus1") + 1
         require(count <= 1 << 16 and (sequence.base_levels or count == 1), "slices_num_minus1")
         require(count <= 8 * len(payload), "slices_num_minus1 (truncated)")
-        self.shared = reader.u(1, "slices_shared_flag") if count > 1 else 0
+        start = reader.ue("slices_start") if count > 1 else 1
+        require(start <= 2, "slices_start")
+        self.shared, self.apart = start == 0, start == 2
         self.cells, self.points = [], []
         for _ in range(count):
             self.cells.append(reader.ue("slice_num_cells_minus1") + 1 if sequence.base_levels else 1)
@@ -1433,7 +1435,7 @@ class Part:
     def __init__(self, sequence, slices, number, base):
         """8.2: what it has and begins with; base is that of a slice, if any."""
         self.sequence, self.number, self.base = sequence, number, base
-        self.is_base = number is None
+        self.is_base, self.apart = number is None, slices.apart and number is not None
         self.first, self.last = sequence.base_levels, sequence.grid_bits        # its levels
         self.points = sum(slices.cells)
         self.classes = [0] * self.points    # 8.4.5; of no meaning where K = 0
@@ -1486,8 +1488,14 @@ class Part:
         self.cell_rows = []
         if self.base:
             self.cell_rows = self.tree.nodes(3 * (self.sequence.grid_bits - self.first))
-            for cell, r in enumerate(self.cell_rows, self.first_cell):
+            for r, cell in self.adopted_rows():
                 self.tree.scale[r] = self.base.tree.scale[cell]
+
+    def adopted_rows(self):
+        """8.7.2: cell rows behind row 0, with their base cells; none where slices are apart."""
+        if not self.base or self.apart:
+            return []
+        return [(r, cell) for cell, r in enumerate(self.cell_rows, self.first_cell) if r]
 
     def decode_coefficients(self, decoder, level_range, group, state):
         """8.7.1: the rows of a level range, the functions of a group."""
@@ -1495,9 +1503,8 @@ class Part:
         if group == len(self.coders):
             before = self.coders[-1] if self.coders else None
             self.coders.append(sequence.coder(len(sequence.coded[group]), self.tree, before))
-            for cell, r in enumerate(self.cell_rows, self.first_cell if self.base else 0):
-                if r:
-                    self.coders[group].adopt(self.base.coders[group], r, cell)
+            for r, cell in self.adopted_rows():
+                self.coders[group].adopt(self.base.coders[group], r, cell)
         begin, end = sequence.coefficient_bounds[level_range:level_range + 2]
         self.coders[group].state = state
         if sequence.coded[group] and decoder.codeword:
@@ -1510,9 +1517,8 @@ class Part:
             coarser = self.refiners[layer - 1, group] if layer > 1 else self.coders[group]
             before = self.refiners.get((layer, group - 1))
             self.refiners[number] = VectorCoder(len(sequence.coded[group]), self.tree, before, coarser)
-            for cell, r in enumerate(self.cell_rows, self.first_cell if self.base else 0):
-                if r:
-                    self.refiners[number].adopt(self.base.refiners[number], r, cell)
+            for r, cell in self.adopted_rows():
+                self.refiners[number].adopt(self.base.refiners[number], r, cell)
         begin, end = sequence.coefficient_bounds[level_range:level_range + 2]
         rows = self.tree.rows(begin, end, sequence.grid_bits)
         self.refiners[number].state = state
@@ -1560,7 +1566,7 @@ class Part:
         if sequence.texture:
             return texture_components(sequence, self.coders[:wanted.groups], self.points, wanted.coded)
         values = reconstruct(sequence, self.layers(wanted), self.points, wanted.coded)
-        if self.base:
+        if self.base and not self.apart:
             points, run = np.diff(self.cell_rows + [self.points]).tolist(), slice(self.first_cell, self.first_cell + self.num_cells)
             values[self.cell_rows] = cell_values(base_values[run], points, [1 << k for k in self.base.classes[run]])
         for level in range(self.first, min(self.last, wanted.levels)):
@@ -1586,7 +1592,15 @@ class Part:
         components = values.reshape(len(rows), len(wanted.coded), 3)
         if self.digest and wanted.all and not self.expected:
             check_digest(self.digest, positions, components, normals if self.sequence.normal_bits else None)
+        if self.apart:
+            components = clamp31(components + self.cell_means(rows, base_values).reshape(components.shape))
         return positions[rows] >> wanted.shift, components, normals
+
+    def cell_means(self, rows, base_values):
+        """8.8.3: by row the means of the base cell it lies in."""
+        cells = np.searchsorted(self.cell_rows, rows, "right") - 1 + self.first_cell
+        scale = np.array([math.isqrt(2**60 >> k) for k in self.base.classes], np.int64)
+        return round30(base_values * scale[:, None])[cells]
 
     def deepest_nodes(self, wanted, base_values):
         """8.9.2: the nodes of the deepest level known, for want of geometry."""
@@ -1928,7 +1942,8 @@ class LightField:
             decoder.finish("nu_normals")
         elif unit_type == GEOMETRY:
             decoder = ArithmeticDecoder(reader.rest("gu_alignment"))
-            part.decode_geometry(decoder, kind[1], self.start_state(part, kind, self.fresh_octree.copy))
+            new = (lambda: OctreeState(part.points)) if part.apart else self.fresh_octree.copy
+            part.decode_geometry(decoder, kind[1], self.start_state(part, kind, new))
             decoder.finish("gu_occupancy")
         elif unit_type == REFINEMENT:
             self.read_refinement(part, kind, reader)
@@ -1981,7 +1996,7 @@ class LightField:
             require(kind in self.handed, "slice_id (before the unit of slice 0)")
             return self.handed[kind].copy()
         if what not in part.states:
-            part.states[what] = part.base.states[what].copy() if part.base else new()
+            part.states[what] = part.base.states[what].copy() if part.base and not part.apart else new()
         return part.states[what]
 
     def hand_on(self, part, kind):

@@ -31,7 +31,7 @@ DecodeOptions part(int levels, int groups, std::optional<VoxelBox> region = {}) 
 
 const VoxelBox kCorner{{0, 0, 0}, {22, 40, 63}};
 
-class ScenePart : public testing::TestWithParam<bool> {};
+class ScenePart : public testing::TestWithParam<SliceStart> {};
 
 TEST_P(ScenePart, OfFewerLevelsHasTheMeansOfNodes) {
   CodingParameters p = parameters_of({3, 1500, GetParam()}, 1, 1);
@@ -196,8 +196,10 @@ TEST_P(ScenePart, TheErrorIsThatOfTheFirstWrongUnitWhateverTheThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Spec_8_9, ScenePart, testing::Bool(),
-                         [](const auto& shared) { return shared.param ? "shared" : "alone"; });
+INSTANTIATE_TEST_SUITE_P(Spec_8_9, ScenePart,
+                         testing::Values(SliceStart::kShared, SliceStart::kBase,
+                                         SliceStart::kApart),
+                         [](const auto& start) { return start_name(start.param); });
 
 /// Root mean square error of a linear field at the nodes of a beginning of its stream.
 double error_at_nodes(const LightField& part) {
@@ -215,7 +217,7 @@ TEST(Spec_8_9_2_IncompleteSlices, HaveInterpolatedColoursAtTheNodesKnown) {
     const Voxel& v = field.positions[i];
     std::fill_n(&field.components[3 * i], 3, 100 * (v[0] + 2 * v[1] - v[2]));
   }
-  CodingParameters p = parameters_of({3, 8000, true}, 1, 1);
+  CodingParameters p = parameters_of({3, 8000, SliceStart::kShared}, 1, 1);
   p.geometry_level_ends = {3, 6, 7};
   std::array<double, 2> error{};
   for (const bool predict : {false, true}) {
@@ -234,7 +236,7 @@ TEST(Spec_8_9_2_IncompleteSlices, HaveInterpolatedColoursAtTheNodesKnown) {
 
 TEST(Spec_7_1_Order, ABeginningOfATwentiethHasTheColoursOfTheBase) {
   const LightField field = test::make_field(test::sphere_cloud(7), 7, 16);
-  CodingParameters p = parameters_of({-1, 8000, true}, 16, 4);
+  CodingParameters p = parameters_of({-1, 8000, SliceStart::kShared}, 16, 4);
   const auto stream = packed(field, p);
   const StreamInfo info = *read_info(stream);
   DecodeOptions options;

@@ -69,7 +69,7 @@ TEST_P(ScenePrediction, BaseAndSlicesReconstructWhatTheEncoderDid) {
                      steps, base.coefficients, 0);
     EXPECT_EQ(base_values, base.quantised.values);
     for (std::size_t s = 0; s < slices.size(); ++s) {
-      const QuantisedBase start{cells[s], level, weights, base.coefficients, base.quantised};
+      const QuantisedBase start{cells[s], level, weights, base.coefficients, &base.quantised};
       parts[s].quantised = quantise_coefficients(
           {parts[s].tree, slices[s].points, bits, groups, steps, true, rdo, 0, {}, &start},
           parts[s].coefficients, 2);

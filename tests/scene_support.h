@@ -29,12 +29,17 @@ inline LightField decoded(std::span<const std::uint8_t> stream, const DecodeOpti
 struct Shape {
   int base_levels;
   std::uint32_t slice_points;
-  bool shared;
+  SliceStart start;
 };
+
+inline std::string start_name(SliceStart start) {
+  constexpr const char* kNames[] = {"shared", "from_base", "apart"};
+  return kNames[static_cast<std::size_t>(start)];
+}
 
 inline std::string name_of(const Shape& s) {
   return "base_" + (s.base_levels < 0 ? "auto" : std::to_string(s.base_levels)) + "_points_" +
-         std::to_string(s.slice_points) + (s.shared ? "_shared" : "_alone");
+         std::to_string(s.slice_points) + "_" + start_name(s.start);
 }
 inline void PrintTo(const Shape& shape, std::ostream* out) { *out << name_of(shape); }
 
@@ -44,7 +49,7 @@ inline CodingParameters parameters_of(const Shape& shape, int functions, std::ui
   for (int k = 0; k < functions; ++k) p.group.push_back(k == 0 ? 0 : k < 3 ? 1 : 2);
   p.base_levels = shape.base_levels;
   p.max_slice_points = shape.slice_points;
-  p.share_states = shape.shared;
+  p.slice_start = shape.start;
   return p;
 }
 
@@ -60,10 +65,10 @@ inline LightField sphere() {
 }
 
 /// Several slices and more than one level range above and below the base.
-inline std::vector<std::uint8_t> scene(bool shared, bool normals = true) {
+inline std::vector<std::uint8_t> scene(SliceStart start, bool normals = true) {
   LightField field = sphere();
   if (!normals) field.normals = {};
-  CodingParameters p = parameters_of({3, 1500, shared}, kFunctions, 12);
+  CodingParameters p = parameters_of({3, 1500, start}, kFunctions, 12);
   p.geometry_level_ends = {2, 5, 6};
   p.coefficient_level_ends = {2, 5, 6};
   return packed(field, p);

@@ -8,6 +8,7 @@ namespace slf {
 namespace {
 
 using namespace test;
+using enum SliceStart;
 
 class SceneRoundTrip : public testing::TestWithParam<Shape> {};
 
@@ -48,16 +49,17 @@ TEST_P(SceneRoundTrip, NeitherBytesNorIntegersDependOnThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Spec_8_2, SceneRoundTrip,
-                         testing::Values(Shape{0, 1u << 16, true}, Shape{1, 1u << 16, true},
-                                         Shape{3, 1u << 16, true}, Shape{5, 1u << 16, true},
-                                         Shape{2, 2500, true}, Shape{2, 2500, false},
-                                         Shape{4, 700, true}, Shape{4, 700, false},
-                                         Shape{5, 100, true}, Shape{-1, 1u << 16, true},
-                                         Shape{-1, 3000, true}),
+                         testing::Values(Shape{0, 1u << 16, kShared}, Shape{1, 1u << 16, kShared},
+                                         Shape{3, 1u << 16, kShared}, Shape{5, 1u << 16, kShared},
+                                         Shape{2, 2500, kShared}, Shape{2, 2500, kBase},
+                                         Shape{4, 700, kShared}, Shape{4, 700, kBase},
+                                         Shape{2, 2500, kApart}, Shape{4, 700, kApart},
+                                         Shape{5, 100, kApart}, Shape{5, 100, kShared},
+                                         Shape{-1, 1u << 16, kShared}, Shape{-1, 3000, kShared}),
                          [](const auto& shape) { return name_of(shape.param); });
 
 TEST(Spec_7_7_Index, BoxesAreThoseOfTheCells) {
-  const StreamInfo info = *read_info(scene(true));
+  const StreamInfo info = *read_info(scene(kShared));
   const LightField field = sphere();
   std::size_t first = 0;
   for (const SliceInfo& slice : info.slices) {

@@ -18,6 +18,11 @@ struct InfoOptions {
   CommonOptions common;
 };
 
+const char* start_name(SliceStart start) {
+  constexpr const char* kNames[] = {"shared", "base", "apart"};
+  return kNames[static_cast<std::size_t>(start)];
+}
+
 nlohmann::ordered_json units_json(const StreamInfo& info) {
   auto list = nlohmann::ordered_json::array();
   for (const UnitInfo& unit : info.units) {
@@ -93,7 +98,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes, in
   json["decode"] = cost_json(cost_with_file(info, bytes, threads));
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
-  json["shared_states"] = info.shared_states;
+  json["slice_start"] = start_name(info.slice_start);
   json["base"] = base_json(info);
   json["slice"] = slices_json(info);
   if (info.cut)
@@ -167,11 +172,12 @@ std::string cut_text(const CutInfo& cut) {
 }
 
 std::string base_text(const StreamInfo& info) {
+  constexpr const char* how[] = {"after the first", "each alone", "apart"};
   const auto base = base_json(info);
   return text("  base          %d levels, %s cells, %s bytes; slices %s\n", info.base_levels,
               grouped(base["cells"].get<std::uint64_t>()).c_str(),
               grouped(base["bytes"].get<std::uint64_t>()).c_str(),
-              info.shared_states ? "after the first" : "each alone");
+              how[static_cast<std::size_t>(info.slice_start)]);
 }
 
 std::string slices_text(const StreamInfo& info) {

@@ -19,14 +19,14 @@ namespace slf::tools {
 namespace {
 
 /// The settings of slf encode that code given integers.
-const std::set<std::string> kCoding = {"geometry", "coefficients",   "klt",         "predict",
-                                       "rdo",      "quality-layers", "base-levels", "slice-points"};
+const std::set<std::string> kCoding = {"geometry",    "coefficients", "klt",
+                                       "predict",     "rdo",          "quality-layers",
+                                       "base-levels", "slice-points", "slice-start"};
 
 struct PackOptions {
   std::string positions, components, output, steps, groups;
   int grid_bits = 0;
   std::uint32_t step = 1;
-  bool independent_slices = false;
   GivenSettings coding;  ///< those of slf encode that code given integers
   std::vector<int> levels;
   bool index = false, no_index = false, no_digest = false;
@@ -151,12 +151,12 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   parameters.transform = coding.transform;
   parameters.base_levels = coding.base_levels;
   parameters.max_slice_points = coding.max_slice_points;
+  parameters.slice_start = coding.slice_start;
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
   if (coding.coefficients != CoefficientCoder::kTexture)
     parameters.coefficient_level_ends = given.levels;
   if (coding.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
-  parameters.share_states = !given.independent_slices;
   parameters.digest = !given.no_digest;
   parameters.index = given.index || (functions > 0 && !given.no_index);
   parameters.threads = given.common.threads;
@@ -246,8 +246,6 @@ void add_pack(CLI::App& program, Run& run) {
           "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")
       ->delimiter(',')
       ->check(whole_range(1, 21));
-  verb->add_flag("--independent-slices", o->independent_slices,
-                 "Slices do not start from what the first has learnt: larger, each decodes alone");
   auto* index =
       verb->add_flag("--index", o->index, "Write the index unit (default with COMPONENTS)");
   verb->add_flag("--no-index", o->no_index, "Leave out the index unit")->excludes(index);

@@ -91,8 +91,8 @@ struct StreamInfo {
   LightFieldHeader header;
   std::uint64_t num_points = 0;  ///< as the slices unit says
   std::uint64_t num_slices = 0;
-  int base_levels = 0;         ///< the coarsest levels, coded once for all slices; 0: one slice
-  bool shared_states = false;  ///< slices are coded after the first, not alone
+  int base_levels = 0;  ///< the coarsest levels, coded once for all slices; 0: one slice
+  SliceStart slice_start = SliceStart::kBase;  ///< of several slices
   std::vector<SliceInfo> slices;
   std::optional<CutInfo> cut;
   int num_groups = 0;

@@ -78,8 +78,7 @@ struct CodingParameters {
                                   ///< two; 0: those that it has
   /// There are as many slices as give this many points each, about. One with Draco or a texture
   std::uint32_t max_slice_points = kDefaultSlicePoints;
-  bool share_states = true;  ///< slices start from what the first has learnt: smaller, and the
-                             ///< first has to be decoded with any other
+  SliceStart slice_start = SliceStart::kShared;
   bool digest = true;
   bool index = true;
   Metadata metadata;
@@ -124,6 +123,7 @@ struct EncoderSettings {
   int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
   int base_levels = kAutomaticBase;                      ///< CodingParameters
   std::uint32_t max_slice_points = kDefaultSlicePoints;  ///< CodingParameters
+  SliceStart slice_start = SliceStart::kShared;          ///< CodingParameters
   Metadata metadata;  ///< added to what the encoder itself records
   int threads = 0;
 };

@@ -68,6 +68,13 @@ enum class Transfer : std::uint8_t {
 /// The world axis that points up. So that no file is ever upside down.
 enum class UpAxis : std::uint8_t { kPlusX, kMinusX, kPlusY, kMinusY, kPlusZ, kMinusZ, kUnknown };
 
+/// Where the slices of a scene start from. Spec 7.3.
+enum class SliceStart : std::uint8_t {
+  kShared = 0,  ///< what slice 0 has learnt: smallest; slice 0 is decoded with any other
+  kBase = 1,    ///< the base alone
+  kApart = 2,   ///< nothing: a slice is coded knowing its own points alone, and added to the base
+};
+
 /// Everything about a light field but its points. Coded in the sequence unit.
 struct LightFieldHeader {
   Grid grid;

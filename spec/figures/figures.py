@@ -77,7 +77,7 @@ def units():
     figure.word((first + 3 * 96 + x) / 2, 228, "coefficients (level_range, plane_group)", size=10)
     figure.line((first - 10, 75), (first + 14, 75), (first + 14, 100), arrow=True)
     figure.word(first + 22, 72, "states", "start", 11)
-    figure.word(first + 110, 94, "slices_shared_flag: the unit of slice 0 hands its states on", "start", 11)
+    figure.word(first + 110, 94, "slices shared: the unit of slice 0 hands its states on", "start", 11)
     figure.word(960, 30, "stream: left to right", "end", 11)
     figure.box(x, 102, 44, 26, PLAIN, "end")
     return figure
