@@ -121,8 +121,11 @@ std::vector<RefusedCase> refused_apart() {
   std::vector<RefusedCase> cases;
   const Case c = apart("", "");
   const Bytes stream = *pack(c.field, c.parameters);
-  const auto with_table = [&](const char* id, const char* purpose, std::uint32_t start) {
-    cases.push_back({id, purpose, {"7.3"}, edited(stream, [&](auto& units) {
+  Case of_base = c;
+  of_base.parameters.slice_start = SliceStart::kBase;
+  const auto with_table = [&](const char* id, const char* purpose, const Bytes& of,
+                              std::uint32_t start) {
+    cases.push_back({id, purpose, {"7.3"}, edited(of, [&](auto& units) {
                        const auto set = *parse_sequence_parameter_set(units[0].payload);
                        Bytes& payload = first_of(units, UnitType::kSlices).payload;
                        SliceTable table = *parse_slice_table(payload, set);
@@ -130,8 +133,9 @@ std::vector<RefusedCase> refused_apart() {
                        payload = write_slice_table(table, set);
                      })});
   };
-  with_table("slices-start", "slices that start from what is not known", 3);
-  with_table("slices-start-other", "slices apart, said to start from the base", 1);
+  with_table("slices-start", "slices that start from what is not known",
+             *pack(of_base.field, of_base.parameters), 3);
+  with_table("slices-start-other", "slices apart, said to start from the base", stream, 1);
   cases.push_back({"digest-of-sums",
                    "digests of components with the means of the base",
                    {"7.9"},

@@ -114,7 +114,7 @@ void add_payloads(std::vector<RefusedCase>& cases) {
   add(cases, "slices-too-many", "more slices than the unit has bits for", "7.3", [](auto& units) {
     BitWriter out;
     out.ue(kMaxSlices - 1);
-    out.u(1, 0);
+    out.ue(0);
     first_of(units, UnitType::kSlices).payload = out.take();
   });
   add(cases, "slice-id", "a unit of a slice that there is not", "7.4", [](auto& units) {
