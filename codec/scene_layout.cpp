@@ -10,6 +10,8 @@ namespace {
 constexpr std::size_t kFewPoints = 2000;   // a base does not pay below
 constexpr std::size_t kPointsOfCell = 24;  // at least, by choice: docs/format-0.4.md
 constexpr std::size_t kCellsOfSlice = 2;   // at least, where there are several slices
+/// At least, of slices apart: enough to cut slices alike, and few, since no cell knows of another.
+constexpr std::size_t kCellsOfSliceApart = 4;
 
 InputError invalid(const char* what) { return {Errc::kInvalidArgument, what}; }
 
@@ -58,7 +60,10 @@ int choose_base_levels(const std::vector<std::size_t>& nodes, std::size_t slices
   const int most = static_cast<int>(nodes.size()) - 2;
   int level = std::min(1, most);
   const auto at = [&](int l) { return nodes[static_cast<std::size_t>(l)]; };
-  while (level < most && at(level + 1) * kPointsOfCell <= points) ++level;
+  const bool apart = slices > 1 && p.slice_start == SliceStart::kApart;
+  while (level < most && at(level + 1) * kPointsOfCell <= points &&
+         !(apart && at(level) >= kCellsOfSliceApart * slices))
+    ++level;
   while (slices > 1 && level < most && at(level) < kCellsOfSlice * slices) ++level;
   return level;
 }
