@@ -36,10 +36,12 @@ void leave_if_interrupted(const std::filesystem::path& directory) {
 
 Outcome run_synth(const SynthOptions& given) {
   if (given.list) {
-    return print(
-        std::string("can   textured, specular cylinder under 4 lights, as the paper's Can\n"
-                    "die   specular, slightly transparent die under 3 lights, as the paper's Die\n"
-                    "vase  glazed solid of revolution\n"));
+    return print(std::string(
+        "can   textured, specular cylinder under 4 lights, as the paper's Can\n"
+        "die   specular, slightly transparent die under 3 lights, as the paper's Die\n"
+        "vase  glazed solid of revolution\n"
+        "terrace  streets of houses, 1 to 10000 (--houses, --cameras, --seed): windows, "
+        "wet stones and metal that mirror sky and street\n"));
   }
   if (given.settings.scene.empty())
     return Failure{kUsage, "synth: SCENE is missing (see slf synth --list)"};
@@ -62,8 +64,8 @@ Outcome run_synth(const SynthOptions& given) {
 }  // namespace
 
 void add_synth(CLI::App& program, Run& run) {
-  auto* verb =
-      program.add_subcommand("synth", "Write a capture of an analytic scene: can, die, vase");
+  auto* verb = program.add_subcommand(
+      "synth", "Write a capture of an analytic scene: can, die, vase, terrace");
   auto o = std::make_shared<SynthOptions>();
   synth::SynthSettings& s = o->settings;
   verb->add_option("SCENE", s.scene, "Scene (see --list)")->type_name("");
@@ -74,11 +76,20 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("--size", o->size, "Pixels of an image, WxH, 8x8 to 4096x4096")
       ->type_name("WxH")
       ->capture_default_str();
-  verb->add_option("--points", s.points,
-                   "About so many points, 100 to 10000000; 0: the scene's own density")
+  verb->add_option(
+          "--points", s.points,
+          "About so many points, 100 to 10000000, of the terrace to 100000000; 0: the scene's "
+          "own density")
       ->capture_default_str()
-      ->check(whole_range(0, 10'000'000));
-  verb->add_option("--circles", s.circles, "Circles of cameras")
+      ->check(whole_range(0, 100'000'000));
+  verb->add_option("--houses", s.houses, "Houses of the terrace (12)")
+      ->check(whole_range(1, 10'000));
+  verb->add_option(
+          "--cameras", s.cameras,
+          "Photographs of the terrace, half of them from the street, half from above; every "
+          "eighth is for evaluation (120)")
+      ->check(whole_range(2, 10'000));
+  verb->add_option("--circles", s.circles, "Circles of cameras; not of the terrace")
       ->capture_default_str()
       ->check(whole_range(1, 99));
   verb->add_option("--per-circle", s.per_circle, "Cameras on a circle")
@@ -101,7 +112,8 @@ void add_synth(CLI::App& program, Run& run) {
           "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
       ->capture_default_str()
       ->check(range(0, 20));
-  verb->add_option("--seed", s.disturb.seed, "Of --noise and --hull")->capture_default_str();
+  verb->add_option("--seed", s.disturb.seed, "Of --noise, --hull and the terrace")
+      ->capture_default_str();
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");
   verb->add_flag("--list", o->list, "List the scenes");

@@ -10,16 +10,28 @@
 
 namespace slf::synth {
 
-/// A closed surface, around the origin, z up.
-class Scene {
+/// What a photograph shows.
+class Subject {
  public:
-  virtual ~Scene() = default;
+  virtual ~Subject() = default;
 
+  /// Of a sphere around the origin that holds all that is seen; infinite: of every ray.
+  virtual double radius() const = 0;
+
+  /// Light that arrives along -ray.direction, and in `transmittance` the share of the background
+  /// that shines through; false if the ray misses.
+  virtual bool radiance(const Ray& ray, Colour& light, double& transmittance) const = 0;
+};
+
+/// A closed surface, around the origin, z up.
+class Scene : public Subject {
+ public:
   struct Bounds {
     Vec3 low, high;
     double radius;  ///< of a sphere around the origin
   };
   virtual Bounds bounds() const = 0;
+  double radius() const override { return bounds().radius; }
 
   /// Points per largest extent of the default cloud: with 255 it is closed on an 8-bit grid.
   virtual int default_lattice() const = 0;
@@ -32,18 +44,14 @@ class Scene {
 
   /// Diffuse colour of a surface point.
   virtual Colour albedo(const SurfacePoint& point) const = 0;
-
-  /// Light that arrives along -ray.direction, and in `transmittance` the share of the background
-  /// that shines through; false if the ray misses.
-  virtual bool radiance(const Ray& ray, Colour& light, double& transmittance) const = 0;
 };
 
 /// Segments of a circle in a mesh: the chord is off by less than 4e-5 of the radius.
 inline constexpr std::uint32_t kMeshSegments = 360;
 
-/// "can", "die", "vase"; null for any other name.
+/// "can", "die", "vase"; null for any other name. The terrace is no closed surface: terrace.h.
 std::unique_ptr<Scene> make_scene(const std::string& name);
-/// The same names, for messages: "can, die, vase".
+/// All names, for messages: "can, die, vase, terrace".
 std::string scene_names();
 
 std::unique_ptr<Scene> make_can();

@@ -26,8 +26,8 @@ class DisplayTable {
 
 class Tracer {
  public:
-  Tracer(const Scene& scene, const Camera& camera, int supersampling)
-      : scene_(scene), camera_(camera), grid_(supersampling), centre_(camera.centre()) {}
+  Tracer(const Subject& subject, const Camera& camera, int supersampling)
+      : subject_(subject), camera_(camera), grid_(supersampling), centre_(camera.centre()) {}
 
   /// Mean of the pixel's samples; false where it shows nothing but background.
   bool pixel(int x, int y, Colour& mean) const {
@@ -35,7 +35,7 @@ class Tracer {
     const Vec3 middle = ray_direction(x + 0.5, y + 0.5);
     const double along = -dot(centre_, middle);
     const double miss = dot(centre_, centre_) - along * along;
-    const double reach = scene_.bounds().radius + along / std::min(camera_.fx, camera_.fy);
+    const double reach = subject_.radius() + along / std::min(camera_.fx, camera_.fy);
     if (miss > reach * reach) return false;
     Colour sum{0, 0, 0};
     bool any = false;
@@ -44,7 +44,7 @@ class Tracer {
         const Ray ray{centre_, ray_direction(x + (sx + 0.5) / grid_, y + (sy + 0.5) / grid_)};
         Colour light{0, 0, 0};
         double transmittance = 1;
-        any |= scene_.radiance(ray, light, transmittance);
+        any |= subject_.radiance(ray, light, transmittance);
         for (std::size_t k = 0; k < 3; ++k)  // display white is where a photograph clips
           sum[k] += std::min(1.0, light[k] + transmittance * background_);
       }
@@ -60,7 +60,7 @@ class Tracer {
                        x * r[0][2] + y * r[1][2] + r[2][2]});
   }
 
-  const Scene& scene_;
+  const Subject& subject_;
   const Camera& camera_;
   int grid_;
   Vec3 centre_;
@@ -69,9 +69,9 @@ class Tracer {
 
 }  // namespace
 
-Image trace_image(const Scene& scene, const Camera& camera, int supersampling) {
+Image trace_image(const Subject& subject, const Camera& camera, int supersampling) {
   static const DisplayTable to_display;
-  const Tracer tracer(scene, camera, supersampling);
+  const Tracer tracer(subject, camera, supersampling);
   Image image;
   image.width = camera.width;
   image.height = camera.height;
