@@ -22,7 +22,8 @@ enum class Surface : std::uint8_t {
   kTrim,  ///< dressed stone
   kWindow,
   kDoor,
-  kTiles,
+  kTilesOnBrick,    ///< of a roof, and what its gables are of
+  kTilesOnPlaster,  ///< the same
   kGravel,
   kSetts,  ///< of the road
   kPaving,

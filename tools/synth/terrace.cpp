@@ -87,7 +87,7 @@ Colour Terrace::diffuse(const Solid& solid, const SurfacePoint& point, double fo
 /// What a mirror shows: the scene without its own reflections, or the sky.
 Colour Terrace::reflected(const Vec3& from, const Vec3& direction, double footprint) const {
   const auto hit = tree_.nearest({from, direction});
-  if (!hit) return sky(direction);
+  if (!hit) return direction[2] < -1e-3 ? country(from, direction) : sky(direction);
   const Lit l = lit(*hit->solid, hit->point, footprint + kPixel * hit->t);
   const double cosine = -dot(direction, hit->point.normal);
   const Colour share = fresnel(l.look.mirror, cosine);
@@ -102,7 +102,7 @@ bool Terrace::radiance(const Ray& ray, Colour& light, double& transmittance) con
   transmittance = 0;
   const auto hit = tree_.nearest(ray);
   if (!hit) {
-    light = sky(ray.direction);
+    light = ray.direction[2] < -1e-3 ? country(ray.origin, ray.direction) : sky(ray.direction);
     return true;
   }
   const double footprint = kPixel * hit->t;

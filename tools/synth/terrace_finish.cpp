@@ -35,7 +35,7 @@ void brick(Finish& f, const Solid& solid, const FaceCoordinates& at, double foot
   const double joint = seen * (1 - smoothstep(0.006, 0.014, c.edge));
   const double varied = 1 + seen * 0.5 * (unit(c.bits) - 0.5);
   f.albedo =
-      weather(at, solid.seed, footprint) * mix(varied * base, from_hex(0xb9ad9c), 0.8 * joint);
+      weather(at, solid.seed, footprint) * mix(varied * base, from_hex(0xb9ad9c), 0.65 * joint);
 }
 
 void stones(Finish& f, const Solid& solid, const FaceCoordinates& at, double footprint,
@@ -117,6 +117,22 @@ void tiles(Finish& f, const Solid& solid, const FaceCoordinates& at, double foot
   f.exponent = 18;
 }
 
+Colour plaster(const Solid& solid, double worn) {
+  return (0.25 + 0.72 * worn) * pick(kPlasters, solid.seed);
+}
+
+void roof(Finish& f, const Solid& solid, const FaceCoordinates& at, double footprint) {
+  const bool gable = std::abs(f.normal[0]) > 0.5;
+  if (gable && solid.surface == Surface::kTilesOnBrick)
+    brick(f, solid, at, footprint);
+  else if (gable)
+    f.albedo = plaster(solid, weather(at, solid.seed, footprint));
+  else if (f.normal[2] < 0)
+    f.albedo = from_hex(0xb79f86);  // boards under the eaves
+  else
+    tiles(f, solid, at, footprint);
+}
+
 void metal(Finish& f, const Colour& colour) {
   f.albedo = 0.04 * colour;
   f.mirror = colour;
@@ -126,7 +142,7 @@ void plain(Finish& f, const Solid& solid, const FaceCoordinates& at, double foot
   const double worn = weather(at, solid.seed, footprint);
   switch (solid.surface) {
     case Surface::kPlaster:
-      f.albedo = (0.25 + 0.72 * worn) * pick(kPlasters, solid.seed);
+      f.albedo = plaster(solid, worn);
       break;
     case Surface::kTrim:
       f.albedo = worn * from_hex(0xd8cfbd);
@@ -153,15 +169,30 @@ void plain(Finish& f, const Solid& solid, const FaceCoordinates& at, double foot
   }
 }
 
-void green(Finish& f, const Solid& solid, const FaceCoordinates& at, double footprint) {
+void green(Finish& f, const Solid& solid, const SurfacePoint& point, const FaceCoordinates& at,
+           double footprint) {
   if (solid.surface == Surface::kGrass) {
     const double tuft = shown(0.1, footprint) * (value_noise(14 * at.u, 14 * at.v, 3) - 0.5);
     const double patch = cloudy_noise(0.5 * at.u, 0.5 * at.v, 4);
     f.albedo = (1 + 0.5 * tuft) * mix(from_hex(0x5f7d36), from_hex(0x93994f), patch);
     return;
   }
-  const double leaf = shown(0.12, footprint) * (cloudy_noise(9 * at.u, 9 * at.v, solid.seed) - 0.5);
-  f.albedo = (1 + 1.3 * leaf) * mix(from_hex(0x46702f), from_hex(0x7f9440), unit(solid.seed, 1));
+  // Tufts of leaves that look different ways, dark where light does not reach between them.
+  const auto bump = [&](double scale, std::uint32_t salt) {
+    const Vec3 p = scale * point.position;
+    return (value_noise(p[0] + 0.3 * p[1], p[2], salt) +
+            value_noise(p[1] - 0.3 * p[2], p[0], salt) +
+            value_noise(p[2] + 0.3 * p[0], p[1], salt)) /
+               1.5 -
+           1;
+  };
+  const double tuft = shown(0.2, footprint), leaf = 0.8 * shown(0.06, footprint);
+  const auto relief = [&](std::uint32_t salt) {
+    return tuft * bump(5, salt) + leaf * bump(17, salt);
+  };
+  f.normal = normalised(f.normal + 0.8 * Vec3{relief(1), relief(2), relief(3)});
+  f.albedo =
+      (1 + 0.6 * relief(4)) * mix(from_hex(0x426a2e), from_hex(0x6f8a3e), unit(solid.seed, 1));
   f.gloss = 0.02;
   f.exponent = 12;
 }
@@ -193,11 +224,9 @@ Finish finish(const Solid& solid, const SurfacePoint& point, double footprint) {
     case Surface::kDoor:
       door(f, solid, point);
       break;
-    case Surface::kTiles:
-      if (std::abs(point.normal[0]) > 0.5 || point.normal[2] < 0)
-        f.albedo = weather(at, solid.seed, footprint) * from_hex(0xb79f86);
-      else
-        tiles(f, solid, at, footprint);
+    case Surface::kTilesOnBrick:
+    case Surface::kTilesOnPlaster:
+      roof(f, solid, at, footprint);
       break;
     case Surface::kBrass:
       metal(f, {0.90, 0.66, 0.30});
@@ -207,7 +236,7 @@ Finish finish(const Solid& solid, const SurfacePoint& point, double footprint) {
       break;
     case Surface::kLeaves:
     case Surface::kGrass:
-      green(f, solid, at, footprint);
+      green(f, solid, point, at, footprint);
       break;
     case Surface::kMarble:
       marble(f, solid, at);

@@ -146,11 +146,12 @@ class House {
     constexpr double kEaves = 0.38;
     const double height = style_.pitch * (kHouseDepth / 2 + kEaves);
     const double a = y_at(kEaves), b = y_at(-kHouseDepth - kEaves);
-    solids_.push_back({{lot_.x0, std::min(a, b), top_},
-                       {lot_.x1, std::max(a, b), top_ + height},
-                       Shape::kRoof,
-                       Surface::kTiles,
-                       lot_.seed});
+    solids_.push_back(
+        {{lot_.x0, std::min(a, b), top_},
+         {lot_.x1, std::max(a, b), top_ + height},
+         Shape::kRoof,
+         style_.wall == Surface::kBrick ? Surface::kTilesOnBrick : Surface::kTilesOnPlaster,
+         lot_.seed});
     chimney(top_ + height);
     if (!style_.dormer) return;
     const double x = (lot_.x0 + lot_.x1) / 2, low = top_ + 0.55;

@@ -11,7 +11,10 @@ inline constexpr Colour kSunlight{2.55, 2.2, 1.72};  ///< at normal incidence
 
 /// Light from a direction (unit), with clouds and the sun's disc; below the horizon that of ground.
 Colour sky(const Vec3& direction);
-/// The same without clouds and disc, for surfaces that blur what they reflect.
+/// What lies around the terrace as far as one sees, without being of it: fields and woods in haze.
+/// @param eye  above the ground; the direction is unit and leads down
+Colour country(const Vec3& eye, const Vec3& direction);
+/// The sky without clouds and disc, for surfaces that blur what they reflect.
 Colour plain_sky(const Vec3& direction);
 /// What falls from all of the sky and the ground on a surface that looks to `normal` in the open.
 Colour skylight(const Vec3& normal);

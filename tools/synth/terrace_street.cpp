@@ -17,11 +17,13 @@ void lamp(double x, double y, std::uint32_t seed, std::vector<Solid>& solids) {
 void tree(double x, double y, std::uint32_t seed, std::vector<Solid>& solids) {
   const double size = 0.8 + 0.35 * unit(seed, 1), trunk = 2.3 * size;
   solids.push_back(pillar(x, y, 0.14 * size, 0, trunk + 0.6, Surface::kBark, seed));
-  for (std::uint32_t i = 0; i < 9; ++i) {
-    const double angle = 2.4 * i + 6 * unit(seed, 2), out = i == 0 ? 0 : 0.75 * size;
-    const double up = trunk + size * (0.5 + 1.5 * unit(seed, 10 + i) + (i == 0 ? 0.8 : 0));
+  for (std::uint32_t i = 0; i < 14; ++i) {
+    // By the golden angle around the trunk, in the shape of an egg.
+    const double angle = 2.4 * i + 6 * unit(seed, 2), height = i / 13.0;
+    const double out = size * (0.25 + 1.0 * std::sqrt(std::max(0.0, height * (1 - height))) * 1.4);
+    const double up = trunk + size * (0.3 + 1.9 * height);
     solids.push_back(ball({x + out * std::cos(angle), y + out * std::sin(angle), up},
-                          size * (0.6 + 0.25 * unit(seed, 20 + i)), Surface::kLeaves,
+                          size * (0.42 + 0.22 * unit(seed, 20 + i)), Surface::kLeaves,
                           mixed(seed, 30 + i)));
   }
 }

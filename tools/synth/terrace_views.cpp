@@ -68,8 +68,9 @@ Camera drone(const Plan& plan, int i, int count, int width, int height) {
   const double half_x = plan.length / 2;
   if (std::abs(target[0]) > half_x) target[0] = 2 * at[0] - target[0];
   if (std::abs(target[1]) > half_y) target[1] = 2 * at[1] - target[1];
-  target[0] = std::clamp(target[0], -half_x, half_x);
-  target[1] = std::clamp(target[1], -half_y, half_y);
+  const double most_x = std::max(half_x - 9, half_x / 2), most_y = std::max(half_y - 9, half_y / 2);
+  target[0] = std::clamp(target[0], -most_x, most_x);
+  target[1] = std::clamp(target[1], -most_y, most_y);
   return camera_at(at, target, width, height);
 }
 
