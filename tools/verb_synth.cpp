@@ -37,9 +37,9 @@ void leave_if_interrupted(const std::filesystem::path& directory) {
 Outcome run_synth(const SynthOptions& given) {
   if (given.list) {
     return print(std::string(
-        "can   textured, specular cylinder under 4 lights, as the paper's Can\n"
-        "die   specular, slightly transparent die under 3 lights, as the paper's Die\n"
-        "vase  glazed solid of revolution\n"
+        "can      textured, specular cylinder under 4 lights, as the paper's Can\n"
+        "die      specular, slightly transparent die under 3 lights, as the paper's Die\n"
+        "vase     glazed solid of revolution\n"
         "terrace  streets of houses, 1 to 10000 (--houses, --cameras, --seed): windows, "
         "wet stones and metal that mirror sky and street\n"));
   }
