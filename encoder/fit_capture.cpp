@@ -19,6 +19,16 @@ namespace {
 
 InputError invalid(std::string what) { return {Errc::kInvalidArgument, std::move(what)}; }
 
+CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
+  CodedNormals normals{bits, {}};
+  if (bits > 0)
+    for (const auto& n : cloud.normals)
+      normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
+  return normals;
+}
+
+}  // namespace
+
 ObservedPoints world_points(const VoxelCloud& cloud) {
   ObservedPoints points;
   for (const Voxel& v : cloud.positions) {
@@ -30,23 +40,12 @@ ObservedPoints world_points(const VoxelCloud& cloud) {
   return points;
 }
 
-CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
-  CodedNormals normals{bits, {}};
-  if (bits > 0)
-    for (const auto& n : cloud.normals)
-      normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
-  return normals;
-}
-
-/// Settings whose lengths are in spacings of points, in voxels.
-FitSettings in_spacings(FitSettings fit, const VoxelCloud& cloud) {
-  const int spacing_log2 = std::min(cell_of_spacing(cloud.positions), cloud.grid.bits - 1);
+FitSettings in_spacings(FitSettings fit, std::span<const Voxel> positions, int grid_bits) {
+  const int spacing_log2 = std::min(cell_of_spacing(positions), grid_bits - 1);
   fit.normal_cell_log2 = spacing_log2;
   fit.hierarchy.block_log2 = std::min(fit.hierarchy.block_log2 + spacing_log2, 21);
   return fit;
 }
-
-}  // namespace
 
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
@@ -103,6 +102,47 @@ Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span
   return cloud;
 }
 
+Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
+                                    const EncoderSettings& settings, const Progress& progress,
+                                    CaptureFit& fit) {
+  Stopwatch watch;
+  const FitSettings& chosen = fit.chosen.settings;
+  const VoxelCloud& cloud = of.cloud;
+  const Observations seen = in_frame(std::move(world), chosen.frame, cloud.positions,
+                                     chosen.normal_cell_log2, settings.threads);
+  fit.observations = seen.colour.size();
+  for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
+    fit.unobserved_points += seen.first[p] == seen.first[p + 1];
+  // Harmonics go on smoothly beyond what was seen; B-splines are held there (spec 6.7).
+  if (chosen.basis.id == BasisId::kBspline) {
+    fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
+    fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
+  }
+  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
+  fit.seconds_fit = watch.lap();
+  if (chosen.pictures.rounds == 0) return Done{};
+  const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
+  const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
+  std::vector<int> trusted;
+  std::vector<std::array<float, 3>> gains;
+  std::vector<int> order(of.cameras.begin(), of.cameras.end());
+  std::sort(order.begin(), order.end());
+  for (const int camera : order) {
+    const auto trust = std::find_if(fit.cameras.begin(), fit.cameras.end(),
+                                    [&](const CameraTrust& t) { return t.camera == camera; });
+    const bool known = trust != fit.cameras.end();
+    if (known && trust->verdict == CameraVerdict::kDropped) continue;
+    trusted.push_back(camera);
+    if (!fit.cameras.empty()) gains.push_back(known ? trust->gain : CameraTrust{}.gain);
+  }
+  SLF_TRY(fit.pictures,
+          fit_to_pictures({of.capture, trusted, gains, cloud.grid, cloud.positions, normals,
+                           settings.observe.transfer, gamma_range, of.hidden_by},
+                          chosen, settings.search.pictures, fit.coefficients, progress));
+  fit.seconds_pictures = watch.lap();
+  return Done{};
+}
+
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
                                            const VoxelCloud& cloud, const EncoderSettings& settings,
                                            const Progress& progress) {
@@ -117,36 +157,13 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
     world = trusted_observations(std::move(world), fit.cameras);
   }
   fit.seconds_observe = watch.lap();
-  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, in_spacings(settings.fit, cloud),
+  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions,
+                                 in_spacings(settings.fit, cloud.positions, cloud.grid.bits),
                                  settings.search, progress));
-  const FitSettings& chosen = fit.chosen.settings;
   fit.seconds_choose = watch.lap();
-  const Observations seen = in_frame(std::move(world), chosen.frame, cloud.positions,
-                                     chosen.normal_cell_log2, settings.threads);
-  fit.observations = seen.colour.size();
-  for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
-    fit.unobserved_points += seen.first[p] == seen.first[p + 1];
-  // Harmonics go on smoothly beyond what was seen; B-splines are held there (spec 6.7).
-  if (chosen.basis.id == BasisId::kBspline) {
-    fit.gamma_min_q7 = std::clamp(static_cast<int>(std::floor(seen.gamma_min * 127)), -127, 127);
-    fit.gamma_max_q7 = std::clamp(static_cast<int>(std::ceil(seen.gamma_max * 127)), -127, 127);
-  }
-  SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
-  fit.seconds_fit = watch.lap();
-  if (chosen.pictures.rounds > 0) {
-    const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
-    const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
-    std::vector<int> trusted(cameras.begin(), cameras.end());
-    std::vector<std::array<float, 3>> gains;
-    if (!fit.cameras.empty()) trusted = trusted_cameras(fit.cameras);
-    for (const CameraTrust& t : fit.cameras)
-      if (t.verdict != CameraVerdict::kDropped) gains.push_back(t.gain);
-    SLF_TRY(fit.pictures,
-            fit_to_pictures({capture, trusted, gains, cloud.grid, cloud.positions, normals,
-                             settings.observe.transfer, gamma_range},
-                            chosen, settings.search.pictures, fit.coefficients, progress));
-    fit.seconds_pictures = watch.lap();
-  }
+  std::vector<int> used(cameras.begin(), cameras.end());
+  if (!fit.cameras.empty()) used = trusted_cameras(fit.cameras);
+  SLF_CHECK(fit_chosen({capture, used, cloud, {}}, std::move(world), settings, progress, fit));
   return fit;
 }
 

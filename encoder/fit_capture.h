@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/observe_points.h"
 #include "slf/encoder.h"
 
 namespace slf {
@@ -35,6 +36,27 @@ struct CaptureFit {
   std::size_t observations = 0, unobserved_points = 0;
   double seconds_observe = 0, seconds_choose = 0, seconds_fit = 0, seconds_pictures = 0;
 };
+
+/// The points of a fit, as the world has them.
+ObservedPoints world_points(const VoxelCloud& cloud);
+
+/// Settings whose lengths are in spacings of points, in voxels. positions: Morton order, or a part
+FitSettings in_spacings(FitSettings fit, std::span<const Voxel> positions, int grid_bits);
+
+/// What view maps are fitted to.
+struct FittedCloud {
+  const Capture& capture;
+  std::span<const int> cameras;  ///< ascending
+  const VoxelCloud& cloud;       ///< with normals
+  DepthOfCamera hidden_by;       ///< of what is not in the cloud; or empty
+};
+
+/// The last steps of fit_capture: to settings that are chosen, with cameras that are checked.
+/// @param world  observations of the trusted cameras, of world directions
+/// @param fit    `chosen` and `cameras` are there; receives the rest
+Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
+                                    const EncoderSettings& settings, const Progress& progress,
+                                    CaptureFit& fit);
 
 /// View maps from what the cameras saw of a cloud with normals. Paper II, III-A. Errors as observe,
 /// choose_fit and fit_view_maps.

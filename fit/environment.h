@@ -19,6 +19,11 @@ class ObjectBox {
  public:
   /// @param positions  at least one
   explicit ObjectBox(std::span<const Voxel> positions);
+  /// half: > 0
+  ObjectBox(const Vec3& centre, double half) : centre_(centre), half_(half) {}
+
+  const Vec3& centre() const { return centre_; }
+  double half() const { return half_; }
   Vec3 operator()(const Voxel& voxel) const;
 
  private:

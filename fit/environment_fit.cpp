@@ -120,9 +120,10 @@ std::array<double, 2> held_out_error(const ReflectedViews& views, const CameraFo
 
 }  // namespace
 
-MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads) {
+MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads,
+                           const KnownLight& known) {
   MirrorPoints points;
-  const ObjectBox box(positions);
+  const ObjectBox box = known.half > 0 ? ObjectBox(known.centre, known.half) : ObjectBox(positions);
   for (const Voxel& v : positions) points.position.push_back(box(v));
   points.normal = frame_normals(FrameId::kReflected, positions, cell_log2, threads);
   return points;
@@ -214,12 +215,26 @@ EnvironmentSettings with_radius(const Observations& observations, const MirrorPo
 std::optional<Environment> fit_environment(const Observations& observations,
                                            const MirrorPoints& points, const FitSettings& settings,
                                            std::size_t most_views) {
+  const EnvironmentSettings& given = settings.environment;
+  if (given.known.half > 0)
+    return Environment(given.radius, given.degree, given.known.light, settings.threads);
   const EnvironmentSettings e = with_radius(observations, points, settings);
   if (e.degree == 0) return std::nullopt;
   const ReflectedViews views = reflected_views(observations, points, settings.frame, most_views);
   if (views.colour.empty()) return std::nullopt;
   return Environment(e.radius, e.degree, solve_environment(views, e.radius, e, settings.threads),
                      settings.threads);
+}
+
+KnownLight known_light(const Observations& observations, std::span<const Voxel> positions,
+                       const FitSettings& settings) {
+  const EnvironmentSettings& e = settings.environment;
+  if (e.degree == 0 || observations.colour.empty()) return {};
+  const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
+  const ReflectedViews views = reflected_views(observations, points, settings.frame, kMostViews);
+  if (views.colour.empty()) return {};
+  const ObjectBox box(positions);
+  return {box.centre(), box.half(), solve_environment(views, e.radius, e, settings.threads)};
 }
 
 }  // namespace slf

@@ -11,12 +11,16 @@
 
 namespace slf {
 
+inline constexpr std::size_t kMostViews = 200000;
+
 /// Points as mirrors: where they are in the object's box, and their normals of either sign.
 struct MirrorPoints {
   std::vector<Vec3> position;
   std::vector<std::array<float, 3>> normal;
 };
-MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads);
+/// @param known  light in another box than that of these positions, or none
+MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int threads,
+                           const KnownLight& known = {});
 
 /// What was seen of some of the points, and where a mirror there would look.
 struct ReflectedViews {
@@ -46,6 +50,13 @@ EnvironmentSettings with_radius(const Observations& observations, const MirrorPo
 /// The same for any number of threads. O(most_views K^2), K = (degree + 1)^2.
 std::optional<Environment> fit_environment(const Observations& observations,
                                            const MirrorPoints& points, const FitSettings& settings,
-                                           std::size_t most_views = 200000);
+                                           std::size_t most_views = kMostViews);
+
+/// The light of fit_environment for fits that see a part of this scene each. None where degree is 0
+/// or nothing was seen.
+/// @param observations  of the frame's directions
+/// @param settings      with a radius
+KnownLight known_light(const Observations& observations, std::span<const Voxel> positions,
+                       const FitSettings& settings);
 
 }  // namespace slf

@@ -142,7 +142,8 @@ std::vector<float> fit_hierarchical(const Observations& observations,
   MirrorPoints points;
   std::optional<Environment> light;
   if (settings.environment.degree > 0) {
-    points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
+    points = mirror_points(positions, settings.normal_cell_log2, settings.threads,
+                           settings.environment.known);
     light = fit_environment(observations, points, settings);
   }
   const EnvironmentPrior environment(light, points, settings.frame);

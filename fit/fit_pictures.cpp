@@ -70,8 +70,9 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
                                                const Progress& progress) {
   const SurfelCloud cloud =
       surfel_cloud(input.grid, input.positions, input.normals, 0, settings.threads);
-  SLF_TRY(PictureViews pictures, picture_views(input.capture, input.cameras, input.gains, cloud,
-                                               input.transfer, settings.threads, progress));
+  SLF_TRY(PictureViews pictures,
+          picture_views(input.capture, input.cameras, input.gains, cloud, input.transfer,
+                        input.hidden_by, settings.threads, progress));
   std::vector<Vec3> eyes;
   for (const int c : input.cameras)
     eyes.push_back(input.capture.cameras[static_cast<std::size_t>(c)].centre());

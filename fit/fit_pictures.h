@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/observe_points.h"
 #include "slf/capture.h"
 #include "slf/fit.h"
 
@@ -20,6 +21,7 @@ struct PictureFitInput {
   const CodedNormals& normals;             ///< those of the file, or none
   Transfer transfer = Transfer::kDisplay;  ///< of the coefficients
   std::array<float, 2> gamma_range{-1, 1};
+  DepthOfCamera hidden_by = {};  ///< of points that are not among these; or empty
 };
 
 /// Moves coefficients so that the renderer's pictures of them have the least squared error to the

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fit/observe_camera.h"
+#include "fit/observe_points.h"
 #include "lightfield/frame.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
@@ -20,15 +21,13 @@ Result<Done, InputError> invalid(const std::string& message) {
 }
 
 Result<Done, InputError> check(const Capture& capture, std::span<const int> cameras,
-                               const ObservedPoints& points, double spacing,
-                               const ObserveSettings& settings) {
+                               const ObservedPoints& points, const ObserveSettings& settings) {
   if (!(settings.delta_degrees >= 0 && settings.delta_degrees <= 90))
     return invalid("delta must be 0 .. 90 degrees");
   if (!(settings.occlusion_resolution >= 0.05 && settings.occlusion_resolution <= 8))
     return invalid("occlusion resolution must be 0.05 .. 8");
   if (!(settings.depth_tolerance >= 0 && std::isfinite(settings.depth_tolerance)))
     return invalid("depth tolerance must be 0 or more");
-  if (!(spacing > 0 && std::isfinite(spacing))) return invalid("spacing must be positive");
   if (points.positions.size() != points.normals.size())
     return invalid("as many normals as points are needed");
   if (points.positions.size() > std::numeric_limits<std::uint32_t>::max())
@@ -48,17 +47,20 @@ struct CameraResult {
 };
 
 std::vector<CameraResult> observe_each(const Capture& capture, const std::vector<int>& order,
-                                       const CameraObserver& observer, int threads,
+                                       const CameraObserver& observer,
+                                       const DepthOfCamera& depth_of, int threads,
                                        const Progress& progress) {
   std::vector<CameraResult> results(order.size());
   const auto body = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto image = load_image(capture, order[i]);
-      if (image)
+      const auto image = load_image(capture, order[i]);
+      const auto depth =
+          image ? depth_of(order[i]) : Result<DepthBuffer, InputError>(image.error());
+      if (depth)
         results[i].seen =
-            observer.observe(capture.cameras[static_cast<std::size_t>(order[i])], *image);
+            observer.observe(capture.cameras[static_cast<std::size_t>(order[i])], *image, *depth);
       else
-        results[i].error = image.error();
+        results[i].error = depth.error();
     }
   };
   parallel_ranges(order.size(), 1, threads, body, [&](std::size_t done) {
@@ -93,11 +95,9 @@ Observations group_by_point(std::vector<CameraResult>& results, const std::vecto
   return out;
 }
 
-InputError nothing_seen(const std::vector<CameraResult>& results, std::size_t points) {
-  SightingCounts sum;
-  for (const CameraResult& result : results) sum += result.seen.counts;
+InputError nothing_seen(const SightingCounts& sum, std::size_t cameras, std::size_t points) {
   return {Errc::kInvalidInput,
-          "no camera sees any point: of " + std::to_string(results.size()) + " cameras x " +
+          "no camera sees any point: of " + std::to_string(cameras) + " cameras x " +
               std::to_string(points) + " points, " + std::to_string(sum.facing) +
               " face the camera within delta, " + std::to_string(sum.inside) +
               " of them project into the image, " + std::to_string(sum.visible) +
@@ -106,24 +106,44 @@ InputError nothing_seen(const std::vector<CameraResult>& results, std::size_t po
 
 }  // namespace
 
+Result<SeenPoints, InputError> observe_points(const Capture& capture, std::span<const int> cameras,
+                                              const ObservedPoints& points,
+                                              const DepthOfCamera& depth_of,
+                                              const ObserveSettings& settings,
+                                              const Progress& progress) {
+  SLF_CHECK(check(capture, cameras, points, settings));
+  std::vector<int> order(cameras.begin(), cameras.end());
+  std::sort(order.begin(), order.end());
+  order.erase(std::unique(order.begin(), order.end()), order.end());
+  const CameraObserver observer(points, settings);
+  auto results = observe_each(capture, order, observer, depth_of, settings.threads, progress);
+  SeenPoints seen;
+  for (const CameraResult& result : results) {
+    if (result.error) return *result.error;
+    seen.counts += result.seen.counts;
+  }
+  seen.observations = group_by_point(results, order, points.positions.size());
+  set_gamma_range(seen.observations);
+  return seen;
+}
+
 Result<Observations, InputError> observe(const Capture& capture, std::span<const int> cameras,
                                          const ObservedPoints& points,
                                          std::span<const std::array<float, 3>> occluders,
                                          double spacing, const ObserveSettings& settings,
                                          const Progress& progress) {
-  SLF_TRY([[maybe_unused]] const Done checked, check(capture, cameras, points, spacing, settings));
-  std::vector<int> order(cameras.begin(), cameras.end());
-  std::sort(order.begin(), order.end());
-  order.erase(std::unique(order.begin(), order.end()), order.end());
-  const Mesh* mesh = capture.mesh.triangles.empty() ? nullptr : &capture.mesh;
-  const CameraObserver observer(points, occluders, spacing, settings, mesh);
-  auto results = observe_each(capture, order, observer, settings.threads, progress);
-  for (const CameraResult& result : results)
-    if (result.error) return *result.error;
-  Observations observations = group_by_point(results, order, points.positions.size());
-  if (observations.camera.empty()) return nothing_seen(results, points.positions.size());
-  set_gamma_range(observations);
-  return observations;
+  if (!(spacing > 0 && std::isfinite(spacing)))
+    return InputError{Errc::kInvalidArgument, "spacing must be positive"};
+  const DepthSettings depth{settings.occlusion_resolution, spacing, settings.depth_tolerance};
+  const auto depth_of = [&](int index) -> Result<DepthBuffer, InputError> {
+    const Camera& camera = capture.cameras[static_cast<std::size_t>(index)];
+    return capture.mesh.triangles.empty() ? DepthBuffer(camera, occluders, depth)
+                                          : DepthBuffer(camera, capture.mesh, depth);
+  };
+  SLF_TRY(SeenPoints seen, observe_points(capture, cameras, points, depth_of, settings, progress));
+  if (seen.observations.camera.empty())
+    return nothing_seen(seen.counts, cameras.size(), points.positions.size());
+  return std::move(seen.observations);
 }
 
 }  // namespace slf

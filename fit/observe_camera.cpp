@@ -72,20 +72,14 @@ bool sample_bilinear(const Image& image, double u, double v, const std::array<fl
   return true;
 }
 
-CameraObserver::CameraObserver(const ObservedPoints& points,
-                               std::span<const std::array<float, 3>> occluders, double spacing,
-                               const ObserveSettings& settings, const Mesh* mesh)
+CameraObserver::CameraObserver(const ObservedPoints& points, const ObserveSettings& settings)
     : points_(points),
-      occluders_(occluders),
-      mesh_(mesh),
-      depth_{settings.occlusion_resolution, spacing, settings.depth_tolerance},
       min_cosine_(least_cosine(settings.delta_degrees)),
       transfer_(transfer_table(settings.transfer)) {}
 
-CameraSightings CameraObserver::observe(const Camera& camera, const Image& image) const {
+CameraSightings CameraObserver::observe(const Camera& camera, const Image& image,
+                                        const DepthBuffer& depth_buffer) const {
   CameraSightings seen;
-  const DepthBuffer depth_buffer = mesh_ != nullptr ? DepthBuffer(camera, *mesh_, depth_)
-                                                    : DepthBuffer(camera, occluders_, depth_);
   const Vec3 centre = camera.centre();
   for (std::size_t p = 0; p < points_.positions.size(); ++p) {
     const auto& position = points_.positions[p];

@@ -35,21 +35,17 @@ struct CameraSightings {
   SightingCounts counts;
 };
 
-/// Keeps references to its arguments. A mesh hides in place of the occluders. Thread-safe: const
-/// after construction.
+/// Keeps references to its arguments. Thread-safe: const after construction.
 class CameraObserver {
  public:
-  CameraObserver(const ObservedPoints& points, std::span<const std::array<float, 3>> occluders,
-                 double spacing, const ObserveSettings& settings, const Mesh* mesh = nullptr);
+  CameraObserver(const ObservedPoints& points, const ObserveSettings& settings);
 
   /// @param image  of the camera's size, 3 or 4 channels
-  CameraSightings observe(const Camera& camera, const Image& image) const;
+  CameraSightings observe(const Camera& camera, const Image& image,
+                          const DepthBuffer& depth_buffer) const;
 
  private:
   const ObservedPoints& points_;
-  std::span<const std::array<float, 3>> occluders_;
-  const Mesh* mesh_;
-  DepthSettings depth_;
   double min_cosine_;
   std::array<float, 256> transfer_;  // 8-bit sample to 0 .. 255 of the chosen transfer
 };

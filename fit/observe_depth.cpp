@@ -50,7 +50,7 @@ Before before_camera(const Camera& camera, const std::array<Vec3, 3>& triangle) 
 }  // namespace
 
 DepthBuffer::DepthBuffer(const Camera& camera, const Mesh& mesh, const DepthSettings& settings)
-    : DepthBuffer(camera, std::span<const std::array<float, 3>>{}, settings) {
+    : DepthBuffer(camera, settings) {
   for (const auto& triangle : mesh.triangles) {
     std::array<Vec3, 3> world{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -66,14 +66,21 @@ DepthBuffer::DepthBuffer(const Camera& camera, const Mesh& mesh, const DepthSett
   }
 }
 
-DepthBuffer::DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
-                         const DepthSettings& settings)
+DepthBuffer::DepthBuffer(const Camera& camera, const DepthSettings& settings)
     : settings_(settings),
       focal_(std::max(camera.fx, camera.fy) * settings.resolution),
       width_(buffer_size(camera.width, settings.resolution)),
       height_(buffer_size(camera.height, settings.resolution)),
       depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-             std::numeric_limits<float>::infinity()) {
+             std::numeric_limits<float>::infinity()) {}
+
+DepthBuffer::DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
+                         const DepthSettings& settings)
+    : DepthBuffer(camera, settings) {
+  add(camera, occluders);
+}
+
+void DepthBuffer::add(const Camera& camera, std::span<const std::array<float, 3>> occluders) {
   for (const auto& point : occluders) {
     double depth = 0;
     if (const auto image = camera.project({point[0], point[1], point[2]}, &depth))

@@ -21,10 +21,19 @@ struct DepthSettings {
 /// would be seen.
 class DepthBuffer {
  public:
+  /// Nothing is anywhere yet; what hides is added.
+  DepthBuffer(const Camera& camera, const DepthSettings& settings);
   DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
               const DepthSettings& settings);
   /// Of exact triangles, both sides of which hide: nothing is wider than it is.
   DepthBuffer(const Camera& camera, const Mesh& mesh, const DepthSettings& settings);
+
+  /// Splats more occluders: the order does not matter.
+  void add(const Camera& camera, std::span<const std::array<float, 3>> occluders);
+
+  /// [height][width] of the buffer, +inf where nothing is: for keeping it.
+  std::span<float> depths() { return depth_; }
+  std::span<const float> depths() const { return depth_; }
 
   /// @param image  where the point is in the image, inside it
   /// @param depth  along the optical axis

@@ -13,32 +13,71 @@ namespace slf {
 namespace {
 
 constexpr float kCovered = 0.99f;  // a pixel of less is part background, which no point can explain
+constexpr double kSlanted = 0.2;   // cosine of a surface that is seen along itself
 constexpr std::uint8_t kClipped = 250;  // such a sample may have been any brighter
 constexpr std::array<float, 3> kNoGain{1, 1, 1};
-constexpr double kMemory = 3.0 * (1u << 30);
+constexpr double kMemory = 3.0 * (1u << 30), kMemoryOfPart = 0.75 * (1u << 30);
 constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
 constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, directions
 constexpr double kSeen = 0.5;                   // share of the points that a camera sees, at most
 
+/// Of the rectangle about a part of a scene in its picture.
+double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
+  constexpr std::size_t kEvery = 16;
+  double left = camera.width, right = 0, top = camera.height, bottom = 0;
+  for (std::size_t p = 0; p < cloud.size(); p += kEvery) {
+    const auto at = camera.project(cloud.centres[p]);
+    if (!at) continue;
+    left = std::min(left, std::max((*at)[0], 0.0));
+    right = std::max(right, std::min((*at)[0], double(camera.width)));
+    top = std::min(top, std::max((*at)[1], 0.0));
+    bottom = std::max(bottom, std::min((*at)[1], double(camera.height)));
+  }
+  return std::max(right - left, 0.0) * std::max(bottom - top, 0.0);
+}
+
 /// Every so many-th camera fits into memory.
-std::size_t stride_of(const Capture& capture, std::span<const int> cameras, std::size_t points) {
+std::size_t stride_of(const Capture& capture, std::span<const int> cameras,
+                      const SurfelCloud& cloud, bool part) {
   double bytes = 0;
   for (const int c : cameras) {
     const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
-    bytes += kBytesPerPixel * camera.width * camera.height +
-             kBytesPerRay * kSeen * static_cast<double>(points);
+    const double all = double{1} * camera.width * camera.height;
+    const double pixels = part ? pixels_of_part(camera, cloud) : all;
+    bytes += kBytesPerPixel * pixels +
+             kBytesPerRay * kSeen * (part ? pixels / all : 1) * static_cast<double>(cloud.size());
   }
-  return static_cast<std::size_t>(std::max(1.0, std::ceil(bytes / kMemory)));
+  return static_cast<std::size_t>(
+      std::max(1.0, std::ceil(bytes / (part ? kMemoryOfPart : kMemory))));
+}
+
+/// [pixels] is what a picture shows there hidden by something that is not in it?
+Result<std::vector<bool>, InputError> hidden_pixels(const SplatWeights& splatted,
+                                                    const Camera& camera, int camera_index,
+                                                    const DepthOfCamera& hidden_by) {
+  std::vector<bool> hidden(splatted.coverage.size(), false);
+  if (!hidden_by) return hidden;
+  SLF_TRY(const DepthBuffer depth, hidden_by(camera_index));
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    if (splatted.coverage[i] < kCovered) continue;
+    const std::size_t width = static_cast<std::size_t>(camera.width);
+    const std::array<double, 2> at = {static_cast<double>(i % width) + 0.5,
+                                      static_cast<double>(i / width) + 0.5};
+    hidden[i] = depth.hides(at, double{splatted.depth[i]}, kSlanted);
+  }
+  return hidden;
 }
 
 Result<PictureView, InputError> picture_view(const Capture& capture, int camera_index,
                                              const std::array<float, 3>& gain,
                                              const SurfelCloud& cloud,
-                                             const std::array<float, 256>& transfer) {
+                                             const std::array<float, 256>& transfer,
+                                             const DepthOfCamera& hidden_by) {
   const Camera& camera = capture.cameras[static_cast<std::size_t>(camera_index)];
   SLF_TRY(const Image image, load_image(capture, camera_index));
   const SplatWeights splatted =
       splat_weights(project_surfels(cloud, camera, 1), camera.width, camera.height, 1);
+  SLF_TRY(const auto hidden, hidden_pixels(splatted, camera, camera_index, hidden_by));
   PictureView view;
   view.first.push_back(0);
   constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
@@ -47,6 +86,7 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
   for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
     const std::uint8_t* sample = &image.data[channels * i];
     if (splatted.coverage[i] < kCovered || (channels == 4 && sample[3] < 255)) continue;
+    if (hidden[i]) continue;
     if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
     for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {
       view.local.push_back(splatted.point[j]);
@@ -90,19 +130,20 @@ Rays connect(std::vector<PictureView>& views, std::size_t points) {
 Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
                                                std::span<const std::array<float, 3>> gains,
                                                const SurfelCloud& cloud, Transfer transfer,
-                                               int threads, const Progress& progress) {
+                                               const DepthOfCamera& hidden_by, int threads,
+                                               const Progress& progress) {
   PictureViews pictures;
   pictures.views.resize(cameras.size());
   std::vector<std::optional<InputError>> failures(cameras.size());
   const auto table = transfer_table(transfer);
-  const std::size_t stride = stride_of(capture, cameras, cloud.size());
+  const std::size_t stride = stride_of(capture, cameras, cloud, hidden_by != nullptr);
   parallel_ranges(
       cameras.size(), 1, threads,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
           if (v % stride != 0) continue;
-          auto view =
-              picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud, table);
+          auto view = picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud,
+                                   table, hidden_by);
           if (view) {
             pictures.views[v] = std::move(*view);
           } else {

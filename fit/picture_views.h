@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/direction_kernel.h"
+#include "fit/observe_points.h"
 #include "render/surfel_cloud.h"
 #include "slf/capture.h"
 #include "slf/error.h"
@@ -44,13 +45,16 @@ struct PictureViews {
 /// @param gains  [cameras] of R, G, B; where one is not 1, what is at the upper end does not count.
 /// Or
 ///               empty: 1. A pixel counts if discs cover it and no mask or alpha is in it. Where
-/// pixels or rays are too many for the memory of a fit (3 GiB), every n-th camera shows something,
-/// the others nothing.
-/// @errors those of load_image
+/// pixels or rays are too many for the memory of a fit (3 GiB; of a part of a scene, with hidden_by,
+/// 0.75 GiB), every n-th camera shows something, the others nothing.
+/// @param hidden_by  of what is not in the cloud: a pixel where it is in front does not count; may
+///                   be empty
+/// @errors those of load_image and of hidden_by
 /// The same for any thread count.
 Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
                                                std::span<const std::array<float, 3>> gains,
                                                const SurfelCloud& cloud, Transfer transfer,
-                                               int threads, const Progress& progress);
+                                               const DepthOfCamera& hidden_by, int threads,
+                                               const Progress& progress);
 
 }  // namespace slf

@@ -20,6 +20,7 @@ std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const V
 }
 
 void set_gamma_range(Observations& observations) {
+  if (observations.direction.empty()) return;
   float low = 1, high = -1;
   for (const auto& direction : observations.direction) {
     low = std::min(low, direction[1]);

@@ -66,9 +66,10 @@ TEST(Observe, WithoutToleranceTheNearestPointOfAPixelWins) {
 /// What the camera sees of points behind a triangle.
 bool sees_behind(const Mesh& mesh, const std::array<float, 3>& point) {
   const ObservedPoints points{{point}, {kTowards}};
-  return !CameraObserver(points, {}, 0.1, {}, &mesh)
-              .observe(small_camera(), ramp())
-              .sightings.empty();
+  const ObserveSettings settings;
+  const DepthBuffer depth(small_camera(), mesh,
+                          {settings.occlusion_resolution, 0.1, settings.depth_tolerance});
+  return !CameraObserver(points, settings).observe(small_camera(), ramp(), depth).sightings.empty();
 }
 
 TEST(Observe, ATriangleHidesWhatIsBehindItAndNothingBesideIt) {

@@ -44,9 +44,9 @@ inline std::array<float, 3> at(double u, double v, double depth) {
 inline std::vector<Sighting> see(const ObservedPoints& points, const Points& occluders,
                                  const ObserveSettings& settings, const Image& image = ramp(),
                                  double spacing = 0.1) {
-  return CameraObserver(points, occluders, spacing, settings)
-      .observe(small_camera(), image)
-      .sightings;
+  const DepthBuffer depth(small_camera(), occluders,
+                          {settings.occlusion_resolution, spacing, settings.depth_tolerance});
+  return CameraObserver(points, settings).observe(small_camera(), image, depth).sightings;
 }
 
 inline bool sees(const std::array<float, 3>& point, const Points& occluders,

@@ -72,11 +72,19 @@ struct HierarchySettings {
 /// What the object reflects, of the hierarchical fit: light on a sphere about it, one for all
 /// points, taken before the blocks take the rest. It tells what cameras between those of the
 /// capture see.
+struct KnownLight {
+  Vec3 centre{};             ///< of the object's box, voxels
+  double half = 0;           ///< of its longest side, voxels; 0: the light is not known
+  std::vector<float> light;  ///< [(degree + 1)^2][3], element 0 is not used
+};
+
 struct EnvironmentSettings {
   int degree = 16;         ///< of the harmonics of the light, 1 .. 16; 0: no environment
   double radius = 0;       ///< of the sphere, 2 or more halves of the object's longest side; 0: the
                            ///< best on held-out input cameras, or none if none is better
   double strength = 0.01;  ///< > 0: pull towards no light, per observation
+  KnownLight known = {};   ///< found before, of these degree and radius: of a scene that is fitted
+                           ///< in parts
 };
 
 /// The fit to pictures, after that to points: coefficients move until the renderer's pictures look
