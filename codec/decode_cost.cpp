@@ -230,13 +230,46 @@ Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows) {
   return Done{};
 }
 
-Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
+namespace {
+
+Result<Done> check_shape(const DecodeShape& shape, std::uint64_t points,
+                         const DecodeOptions& options) {
   const DecodeLimits& limits = options.limits;
-  const std::uint64_t points = plan.base_alone() ? plan.table.num_cells() : plan.table.num_points();
   if (points > limits.max_points) return Error{Errc::kLimitExceeded, "max_points"};
-  const DecodeCost cost = decode_cost(plan, options.threads);
+  const std::size_t slices = std::max<std::size_t>(shape.slices.size(), 1);
+  const DecodeCost cost =
+      cost_of(shape, static_cast<std::uint64_t>(thread_count(options.threads, slices)));
   if (cost.memory_most > limits.max_memory) return Error{Errc::kLimitExceeded, "max_memory"};
   if (cost.work > limits.max_work) return Error{Errc::kLimitExceeded, "max_work"};
+  return Done{};
+}
+
+/// The slices are not known that will be opened.
+bool waits_for_base(const SequencePlan& plan) {
+  return plan.region && plan.has_base() && !plan.base_alone();
+}
+
+}  // namespace
+
+Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
+                                    const std::vector<bool>& chosen) {
+  if (!waits_for_base(plan)) return Done{};
+  DecodeShape shape = shape_of(plan);
+  shape.slices.clear();
+  std::uint64_t points = 0;
+  for (std::size_t s = 0; s < chosen.size(); ++s) {
+    if (!chosen[s]) continue;
+    shape.slices.push_back(plan.table.slices[s].points());
+    points += shape.slices.back();
+  }
+  return check_shape(shape, points, options);
+}
+
+Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
+  DecodeShape shape = shape_of(plan);
+  if (waits_for_base(plan)) shape.base_alone = true;
+  const std::uint64_t points = shape.base_alone ? plan.table.num_cells() : plan.table.num_points();
+  SLF_CHECK(check_shape(shape, points, options));
   // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
   const bool told = plan.complete && plan.whole && !plan.region;
   if (told || plan.set.sps_geometry_coder == 1)

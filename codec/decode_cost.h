@@ -45,8 +45,13 @@ DecodeCost decode_cost(const SequencePlan& plan, int threads);
 /// @errors kOutOfRange: sps_level
 Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows);
 
-/// What the slices say they hold, before any of it is decoded.
+/// What the slices say they hold, before any of it is decoded; where a region is asked for, what
+/// the base takes, which tells the slices.
 /// @errors kLimitExceeded, with the limit as element.
 Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options);
+
+/// The same of slices that meet a region. chosen: [slices]
+Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
+                                    const std::vector<bool>& chosen);
 
 }  // namespace slf

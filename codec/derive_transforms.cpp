@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "attributes/raht_forward.h"
+#include "codec/forward_columns.h"
 #include "codec/transform_units.h"
 #include "entropy/range_encoder.h"
 
@@ -55,15 +55,14 @@ class Derivation {
     forward.inverse = std::move(shape);
     PlaneTransform& t = forward.inverse;
     t.rank = t.functions.size();
-    unit_ = std::sqrt(weights_[t.functions[0]]);
     step_ = steps_[std::size_t{3} * t.functions[0]];
-    for (std::size_t i = 0; i < t.rows(); ++i)
-      forward.weights.push_back(weights_[t.functions[t.lanes == 3 ? i : i / 3]] / (unit_ * unit_));
+    forward.weights = weights_of_rows(t, weights_);
     Statistics s = collect(t, forward.weights);
     if (!(s.largest * step_ < double{1 << 25}) || s.samples.rows() == 0) return forward;
-    if (t.lanes == 3) choose_colour(t, forward, s.samples);
+    if (t.lanes == 3) choose_colour(t, s.samples);
     choose_columns(forward, s);
-    return forward;
+    if (t.matrix.empty()) return forward;
+    return forward_transform(std::move(t), std::move(forward.precision), weights_);
   }
 
  private:
@@ -74,7 +73,7 @@ class Derivation {
     const double vectors = static_cast<double>(input_.morton.size() * t.lanes);
     const auto stride = static_cast<std::size_t>(
         std::max(1.0, std::ceil(vectors * static_cast<double>(n * n) / kMostWork)));
-    s.scale = static_cast<double>(stride);
+    s.scale = static_cast<double>(stride) * input_.scale;
     std::vector<float> rows;
     for (const SliceCut& cut : input_.cuts) {
       const std::size_t points = cut.end - cut.begin;
@@ -105,8 +104,7 @@ class Derivation {
   }
 
   /// Channels that are not correlated, where they cost less than those given; in place.
-  static void choose_colour(PlaneTransform& t, ForwardTransform& forward, Samples& samples) {
-    forward.colour = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  static void choose_colour(PlaneTransform& t, Samples& samples) {
     Square3 covariance = Square3::Zero();
     const Eigen::Index rows = samples.rows() / 3, n = samples.cols();
     for (Eigen::Index r = 0; r < rows; ++r) {
@@ -138,10 +136,8 @@ class Derivation {
     if (after >= before) return;
     samples = std::move(mixed);
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t d = 0; d < 3; ++d) {
+      for (std::size_t d = 0; d < 3; ++d)
         t.colour[i][d] = static_cast<std::int32_t>(coded(static_cast<int>(i), static_cast<int>(d)));
-        forward.colour[i][d] = inverse(static_cast<int>(i), static_cast<int>(d));
-      }
   }
 
   /// Eigenvectors that save more than their columns cost, rounded as finely as their energy asks.
@@ -183,7 +179,6 @@ class Derivation {
     if (kept.empty()) return;
     t.rank = kept.size() / per_function;
     t.matrix.assign(n * kept.size(), 0);
-    Square coded(index(n), index(kept.size()));
     for (std::size_t c = 0; c < kept.size(); ++c)
       for (std::size_t i = 0; i < n; ++i) {
         const int bits = forward.precision[c];
@@ -192,9 +187,7 @@ class Derivation {
         const auto m = static_cast<std::int32_t>(
             std::lround(std::clamp(std::ldexp(entry, bits), -limit, limit)));
         t.matrix[c * n + i] = m * (1 << (PlaneTransform::kFractionBits - bits));
-        coded(index(i), index(c)) = std::ldexp(m, -bits) * std::sqrt(forward.weights[i]);
       }
-    invert(coded, forward);
   }
 
   /// Bits that each component is worth: its energy, less what is left of it when it is coded.
@@ -215,21 +208,11 @@ class Derivation {
     return saved;
   }
 
-  /// Weighted least squares of the columns.
-  static void invert(const Square& coded, ForwardTransform& forward) {
-    const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(coded).pseudoInverse();
-    forward.matrix.clear();
-    for (Eigen::Index c = 0; c < inverse.rows(); ++c)
-      for (Eigen::Index i = 0; i < inverse.cols(); ++i)
-        forward.matrix.push_back(inverse(c, i) *
-                                 std::sqrt(forward.weights[static_cast<std::size_t>(i)]));
-  }
-
   const TransformInput& input_;
   const std::vector<double>& weights_;
   const std::vector<std::uint32_t>& steps_;
   int threads_;
-  double unit_ = 1, step_ = 1;
+  double step_ = 1;
 };
 
 }  // namespace

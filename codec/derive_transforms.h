@@ -17,6 +17,7 @@ struct TransformInput {
   std::span<const std::uint64_t> morton;
   std::span<const std::int32_t> components;  ///< [P][planes]
   std::span<const SliceCut> cuts;
+  double scale = 1;  ///< points of the scene that each of these stands for
 };
 
 /// One transform for the planes of group 0 and one for all others, or one where there is one group

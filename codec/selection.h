@@ -21,6 +21,7 @@ class Selection {
   void choose_slices(std::span<const CellBox> boxes);
 
   bool all_slices() const;
+  const std::vector<bool>& slices() const { return slice_; }  ///< kept
 
   /// Does what was asked for need this unit of a slice, or of the base? Never a digest, which is of
   /// the whole.

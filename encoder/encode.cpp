@@ -1,12 +1,9 @@
 // The encoder's main path: photographs and points to bytes. The last step is codec/pack.cpp.
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/stopwatch.h"
 #include "capture/density.h"
-#include "codec/texture_parameters.h"
-#include "encoder/component_planes.h"
+#include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
@@ -24,48 +21,6 @@ Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
   for (const auto& rgb : cloud.colours)
     fit.coefficients.insert(fit.coefficients.end(), rgb.begin(), rgb.end());
   return fit;
-}
-
-/// Cuts of the level-of-detail table: all but the two finest levels, then one each.
-std::vector<int> level_ends(int bits) {
-  if (bits < 4) return {bits};
-  return {bits - 2, bits - 1, bits};
-}
-
-constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
-
-CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {
-  const LightFieldHeader& header = field.header;
-  const bool texture = settings.coefficients == CoefficientCoder::kTexture;
-  CodingParameters parameters;
-  parameters.geometry = settings.geometry;
-  parameters.coefficients = settings.coefficients;
-  parameters.texture = settings.texture;
-  parameters.step =
-      texture ? texture_steps(header.basis, header.shift,
-                              least_texture_steps(field.components, std::size_t(field.num_planes()),
-                                                  settings.texture.bits),
-                              settings.steps_by_norm)
-              : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
-  if (!texture) parameters.transform = settings.transform;
-  for (auto& step : parameters.step)
-    for (std::size_t c = texture ? 3 : 1; c < 3; ++c)
-      step[c] = static_cast<std::uint32_t>(
-          std::lround(std::clamp(step[c] * settings.chroma_step, 1.0, kMostStep)));
-  if (settings.preset != Preset::kPaper) {  // the paper codes all in one unit
-    parameters.group = scale_groups(header.basis);
-    if (!texture) parameters.coefficient_level_ends = level_ends(header.grid.bits);
-    if (settings.geometry == GeometryCoder::kOctree)
-      parameters.geometry_level_ends = level_ends(header.grid.bits);
-  }
-  parameters.predict = settings.predict;
-  parameters.rdo = settings.rdo;
-  parameters.quality_layers = settings.quality_layers;
-  parameters.base_levels = settings.base_levels;
-  parameters.max_slice_points = settings.max_slice_points;
-  parameters.slice_start = settings.slice_start;
-  parameters.threads = settings.threads;
-  return parameters;
 }
 
 /// What stays while a step is looked for, and what came out last.

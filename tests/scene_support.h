@@ -11,6 +11,16 @@
 #include "slf/encoder.h"
 #include "tests/field_support.h"
 
+namespace slf {
+
+inline std::string start_name(SliceStart start) {
+  constexpr const char* kNames[] = {"shared", "from_base", "apart"};
+  return kNames[static_cast<std::size_t>(start)];
+}
+inline void PrintTo(SliceStart start, std::ostream* out) { *out << start_name(start); }
+
+}  // namespace slf
+
 namespace slf::test {
 
 inline std::vector<std::uint8_t> packed(const LightField& field,
@@ -31,11 +41,6 @@ struct Shape {
   std::uint32_t slice_points;
   SliceStart start;
 };
-
-inline std::string start_name(SliceStart start) {
-  constexpr const char* kNames[] = {"shared", "from_base", "apart"};
-  return kNames[static_cast<std::size_t>(start)];
-}
 
 inline std::string name_of(const Shape& s) {
   return "base_" + (s.base_levels < 0 ? "auto" : std::to_string(s.base_levels)) + "_points_" +
