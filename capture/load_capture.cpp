@@ -181,8 +181,10 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   SLF_CHECK(check_cameras(import));
   SLF_CHECK(resolve_files(import));
   if (options.check_images) SLF_CHECK(check_image_files(import.capture));
-  SLF_TRY(const auto cloud_name, load_cloud(options, import));
-  SLF_CHECK(check_cloud(import.capture, cloud_name));
+  if (options.cloud) {
+    SLF_TRY(const auto cloud_name, load_cloud(options, import));
+    SLF_CHECK(check_cloud(import.capture, cloud_name));
+  }
   // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their
   // photographs say otherwise.
   const UpAxis usual = import.cloud_name.empty() ? UpAxis::kPlusZ : UpAxis::kUnknown;

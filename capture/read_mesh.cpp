@@ -22,6 +22,12 @@ std::string extension_of(const std::filesystem::path& file) {
 Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
                                            std::vector<std::string>* warnings) {
   const std::string extension = extension_of(file);
+  if (extension == ".las" || extension == ".laz" || extension == ".e57")
+    return InputError{Errc::kUnsupported,
+                      file.string() +
+                          ": scans of this format are not read here: with PDAL's pdal " +
+                          "translate " + file.filename().string() +
+                          " points.ply --writers.ply.precision=6f they become a PLY, which is"};
   if (extension != ".obj" && extension != ".glb") return read_ply_mesh(file, true, warnings);
   SLF_TRY(const auto bytes, read_file(file, kMostBytes));
   if (extension == ".obj") return parse_obj(file.string(), bytes);

@@ -26,6 +26,8 @@ LAYERS = {
     'codec': ['slf', 'base', 'bitstream', 'entropy', 'geometry', 'attributes', 'texture', 'lightfield'],
     'encoder': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit', 'refine',
                 'codec'],
+    'scene': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit', 'codec',
+              'encoder'],
     'igc': ['slf', 'base', 'bitstream', 'video', 'capture', 'lightfield', 'render', 'fit', 'encoder'],
     'exchange': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'render'],
     'capi': ['slf', 'base', 'bitstream', 'lightfield', 'render', 'codec'],

@@ -89,6 +89,7 @@ struct CaptureOptions {
   std::filesystem::path points;  ///< the cloud or mesh, where it is not the capture's own
   bool check_images = true;      ///< open every image and compare its size with the calibration
   std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
+  bool cloud = true;  ///< false: cameras alone, as the file has them; Capture::origin is 0
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
@@ -123,7 +124,8 @@ Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
 /// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension. Polygons are taken apart
 /// into fans; nodes of a GLB are put where they stand; materials, textures and points that no face
 /// has are left out.
-/// @errors kUnreadable. kInvalidInput: names the file, the face or vertex and the cause: an index
+/// @errors kUnreadable. kUnsupported: a scan (LAS, LAZ, E57), and what makes a PLY of it.
+///         kInvalidInput: names the file, the face or vertex and the cause: an index
 ///         that is no vertex, a coordinate that is not finite, a damaged file, no vertices.
 ///         Bounded: OBJ and GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
 Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,

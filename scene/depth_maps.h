@@ -1,0 +1,46 @@
+// What is nearest to each camera of a scene: made once of all points, kept on disk.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "fit/observe_depth.h"
+#include "scene/region.h"
+#include "slf/capture.h"
+#include "slf/scene.h"
+
+namespace slf {
+
+/// Thread-safe; several processes may share the directory.
+class DepthMaps {
+ public:
+  /// In a directory of its own below `work`, which the same points, cameras and settings share.
+  /// capture and scene are kept by reference.
+  /// @errors kUnwritable
+  static Result<DepthMaps, InputError> in(const std::filesystem::path& work, const Capture& capture,
+                                          const SceneCells& scene, const ScenePlan& plan,
+                                          const EncoderSettings& settings);
+
+  /// @errors kUnreadable, kUnwritable
+  Result<DepthBuffer, InputError> of(int camera) const;
+
+ private:
+  DepthMaps(const Capture& capture, const SceneCells& scene, const DepthSettings& settings,
+            std::filesystem::path directory)
+      : capture_(capture), scene_(scene), settings_(settings), directory_(std::move(directory)) {}
+  Result<DepthBuffer, InputError> make(const Camera& camera) const;
+
+  const Capture& capture_;
+  const SceneCells& scene_;
+  DepthSettings settings_;
+  std::filesystem::path directory_;
+};
+
+/// Whether something within the sphere may be in the image. Never wrongly false.
+bool may_see(const Camera& camera, const Vec3& middle, double radius);
+
+/// Of `cameras`, those that may see one of the cells.
+std::vector<int> cameras_of(const Capture& capture, std::span<const int> cameras,
+                            const SceneCells& scene, std::span<const std::size_t> cells);
+
+}  // namespace slf

@@ -1,0 +1,196 @@
+// Slices of a plan, one after the other, to a part.
+#include <cstdio>
+
+#include "base/stopwatch.h"
+#include "base/vec3.h"
+#include "encoder/fit_capture.h"
+#include "scene/depth_maps.h"
+#include "scene/encode_slice.h"
+#include "scene/planned_scene.h"
+#include "scene/scene_parts.h"
+
+namespace slf {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Slices [first, last) of a part: its share of the points.
+std::array<std::size_t, 2> slices_of(const ScenePlan& plan, const ScenePart& part) {
+  const auto share = [&](int index) {
+    std::uint64_t before = 0;
+    std::size_t slice = 0;
+    const std::uint64_t wanted =
+        plan.points() * static_cast<std::uint64_t>(index) / static_cast<std::uint64_t>(part.count);
+    while (slice < plan.slices.size() && before < wanted) before += plan.slices[slice++].points;
+    return slice;
+  };
+  return {share(part.index), share(part.index + 1)};
+}
+
+/// The slice, where it was coded before for this plan.
+bool take_finished(const fs::path& file, const SceneParts& of, std::size_t slice,
+                   SceneParts& parts) {
+  const auto bytes = read_file(file);
+  if (!bytes) return false;
+  auto there = read_part({file.string(), *bytes});
+  if (!there || there->plan != of.plan || there->slices.size() <= slice || !there->slices[slice])
+    return false;
+  parts.slices[slice] = std::move(there->slices[slice]);
+  return true;
+}
+
+std::string line_of(const CodedSlice& slice, std::size_t bytes, double seconds) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "slice %zu: %zu points, %zu around, %zu cameras, %zu observations, %zu unseen, "
+                "%zu bytes, %.1f s",
+                slice.slice, slice.points, slice.around, slice.cameras, slice.observations,
+                slice.unobserved, bytes, seconds);
+  return text;
+}
+
+/// The cameras of a capture, from the plan's origin.
+Capture cameras_from(const Capture& capture, const Vec3& origin) {
+  Capture cameras;
+  cameras.root = capture.root;
+  cameras.origin = origin;
+  for (const Camera& camera : capture.cameras)
+    cameras.cameras.push_back(moved(camera, minus(capture.origin, origin)));
+  cameras.image_files = capture.image_files;
+  cameras.images = capture.images;
+  cameras.mask_files = capture.mask_files;
+  cameras.up = capture.up;
+  return cameras;
+}
+
+/// How far a slice is, in a stage of it.
+double done_of_slice(const std::string& stage, double fraction) {
+  if (stage == "observe") return 0.2 * fraction;
+  if (stage == "fit") return 0.2 + 0.4 * fraction;
+  if (stage == "code") return 0.95;
+  return 0.6 + 0.3 * fraction;
+}
+
+/// The scene's cloud, where the directory does not have it.
+Result<Done, InputError> restore_points(const Capture& capture, const ScenePlan& plan,
+                                        const SceneWork& work) {
+  if (has_points(plan, work)) return Done{};
+  if (capture.cloud.positions.empty())
+    return InputError{Errc::kInvalidInput, "the points of the plan are not in " +
+                                               work.directory.string() +
+                                               ", and the capture was opened without its own"};
+  SLF_TRY(const EncoderSettings settings,
+          scene_settings(plan.settings, !plan.cameras.empty(), work.threads));
+  EncoderSettings on_grid = settings;
+  on_grid.grid_bits = 0;
+  on_grid.voxel_size = plan.grid.step;
+  SLF_TRY(const VoxelCloud cloud, voxelise_capture(capture, plan.cameras, on_grid));
+  SLF_TRY(const std::string digest, PointStore::write(work.directory, cloud));
+  if (digest == plan.points_digest) return Done{};
+  return InputError{Errc::kInvalidInput, "the capture's points are not those of the plan"};
+}
+
+Result<Done, InputError> check(const Capture& capture, const ScenePlan& plan, const ScenePart& part,
+                               const SceneWork& work) {
+  if (part.count < 1 || part.count > kMostParts || part.index < 0 || part.index >= part.count)
+    return InputError{Errc::kInvalidArgument, "part: 1/n to n/n, of 4096 at the most"};
+  if (capture.cameras.size() != plan.capture_cameras)
+    return InputError{Errc::kInvalidInput,
+                      "the capture has " + std::to_string(capture.cameras.size()) +
+                          " cameras, that of the plan " + std::to_string(plan.capture_cameras)};
+  std::error_code error;
+  fs::create_directories(work.directory, error);
+  if (error) return InputError{Errc::kUnwritable, work.directory.string() + ": " + error.message()};
+  return restore_points(capture, plan, work);
+}
+
+}  // namespace
+
+bool has_points(const ScenePlan& plan, const SceneWork& work) {
+  return static_cast<bool>(PointStore::open(work.directory, plan.points_digest, plan.points()));
+}
+
+Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
+                                                          const ScenePlan& plan,
+                                                          const ScenePart& part,
+                                                          const SceneWork& work,
+                                                          const Progress& progress) {
+  SLF_CHECK(check(given, plan, part, work));
+  const Capture capture = cameras_from(given, plan.origin);
+  SLF_TRY(const auto scene, open_scene(plan, work));
+  SLF_TRY(const DepthMaps depth,
+          DepthMaps::in(work.directory, capture, scene->cells, plan, scene->settings));
+  const SceneParts none = parts_of(*scene);
+  SceneParts parts = none;
+  const auto [first, last] = slices_of(plan, part);
+  for (std::size_t s = first; s < last; ++s) {
+    const fs::path file = scene->directory / ("slice-" + std::to_string(s) + ".slf");
+    const auto tell = [&](const char* stage, double fraction) {
+      if (progress)
+        progress("slices",
+                 (double(s - first) + done_of_slice(stage, fraction)) / double(last - first));
+    };
+    tell("observe", 0);
+    if (work.resume && take_finished(file, none, s, parts)) continue;
+    Stopwatch watch;
+    SLF_TRY(CodedSlice slice, encode_slice(*scene, capture, depth, s, tell));
+    CodedSlice report = slice;
+    report.units.clear();
+    SceneParts one = none;
+    add_slice(one, std::move(slice));
+    SLF_TRY(const auto bytes, join(one, true, work.threads));
+    SLF_CHECK(write_file(file, bytes.data(), bytes.size()));
+    parts.slices[s] = std::move(one.slices[s]);
+    if (work.log) work.log(line_of(report, bytes.size(), watch.lap()));
+  }
+  if (progress) progress("slices", 1);
+  return join(parts, true, work.threads);
+}
+
+Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, bool allow_missing,
+                                            int threads) {
+  if (given.empty()) return InputError{Errc::kInvalidArgument, "merge: no part is given"};
+  SLF_TRY(SceneParts parts, read_part(given[0]));
+  std::vector<std::string> names = {given[0].name};
+  for (const PartStream& part : given.subspan(1)) {
+    SLF_TRY(SceneParts more, read_part(part));
+    SLF_CHECK(combine(parts, std::move(more), part.name, names));
+  }
+  MergedScene merged;
+  merged.missing = parts.missing();
+  if (!merged.missing.empty() && !allow_missing) {
+    std::string list;
+    for (std::size_t i = 0; i < merged.missing.size() && i < 10; ++i)
+      list.append(" ").append(std::to_string(merged.missing[i]));
+    if (merged.missing.size() > 10) list.append(" ...");
+    std::string cause = "of " + std::to_string(parts.slices.size()) + " slices ";
+    cause.append(std::to_string(merged.missing.size())).append(" are missing:").append(list);
+    return InputError{Errc::kInvalidInput, std::move(cause)};
+  }
+  SLF_TRY(merged.stream, join(parts, false, threads));
+  return merged;
+}
+
+SceneCost cost_of(const ScenePlan& plan) {
+  constexpr double kObservation = 2 * 24, kViews = 40, kWithAround = 1.4, kBlockPoints = 24;
+  SceneCost cost;
+  cost.points = plan.points();
+  cost.slices = plan.slices.size();
+  cost.cameras = plan.cameras.size();
+  std::uint32_t largest = 0;
+  for (const PlannedSlice& slice : plan.slices) largest = std::max(largest, slice.points);
+  const double points = std::max(kWithAround * largest, 2.0 * kPlanSample),
+               functions = plan.fit.basis.num_functions();
+  double bytes = double(64 << 20) + 16.0 * double(cost.points) +  // codes, cells
+                 points * (64 + 12 * 4 * functions);              // coefficients, planes, rows
+  if (!plan.cameras.empty()) {
+    bytes += points * kObservation * std::min(kViews, double(cost.cameras)) +
+             points / kBlockPoints * 4 * functions * functions;  // blocks' sums
+    if (plan.fit.pictures.rounds > 0) bytes += double{3 << 28};  // fit/picture_views.cpp
+  }
+  cost.memory = static_cast<std::uint64_t>(bytes);
+  cost.disk = cost.points * 32;
+  return cost;
+}
+
+}  // namespace slf

@@ -1,0 +1,122 @@
+// Slices to one stream: the base, which they have together, is coded here.
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "bitstream/metadata.h"
+#include "codec/assemble.h"
+#include "codec/base_decoder.h"
+#include "codec/base_encoder.h"
+#include "codec/scene_frame.h"
+#include "codec/sequence_plan.h"
+#include "geometry/weight_classes.h"
+#include "scene/part_sums.h"
+#include "scene/scene_parts.h"
+
+namespace slf {
+namespace {
+
+InputError damaged(const Error& error) {
+  return {Errc::kInvalidInput, "the base of the parts: " + to_string(error)};
+}
+
+/// What the sequence says of a stream that slices are missing from.
+SequenceParameterSet cut_slices(SequenceParameterSet set) {
+  set.sps_cut_flag = 1;
+  set.sps_cut_levels = set.grid_bits();
+  set.sps_cut_slices_flag = 1;
+  return set;
+}
+
+/// A stream with the head and the geometry of the base alone, to be read as a decoder reads it.
+std::vector<std::uint8_t> beginning(const SceneParts& parts) {
+  std::vector<CodedUnit> units = parts.head;
+  units.insert(units.end(), parts.base.begin(), parts.base.end());
+  return assemble(cut_slices(parts.set), units, std::nullopt);
+}
+
+/// The layout as the base's geometry tells it.
+SceneLayout layout_of(const SceneParts& parts, Base base, const SequencePlan& plan) {
+  SceneLayout layout;
+  layout.base_levels = plan.base_levels();
+  layout.cells = std::move(base.cells);
+  layout.weight_before = std::move(base.weight_before);
+  layout.table = parts.table;
+  std::size_t cell = 0, point = 0;
+  for (const SliceEntry& slice : parts.table.slices) {
+    layout.cuts.push_back({cell, point, point + slice.points()});
+    cell += slice.cells();
+    point += slice.points();
+  }
+  return layout;
+}
+
+/// [cells][planes] of all slices that are there; 0 of the others.
+std::vector<std::int32_t> base_input(const SceneParts& parts, const SceneLayout& layout,
+                                     std::size_t planes) {
+  std::vector<std::int32_t> input(layout.cells.size() * planes);
+  for (std::size_t s = 0; s < parts.slices.size(); ++s)
+    if (parts.slices[s])
+      std::copy(parts.slices[s]->sums.begin(), parts.slices[s]->sums.end(),
+                input.begin() + static_cast<std::ptrdiff_t>(layout.cuts[s].first_cell * planes));
+  return input;
+}
+
+/// Spec 7.1. Unit by unit of a slice, all slices.
+void add_slices(const SceneParts& parts, bool digests, std::vector<CodedUnit>& units) {
+  std::size_t most = 0;
+  for (const auto& piece : parts.slices)
+    if (piece) most = std::max(most, piece->units.size());
+  for (std::size_t place = 0; place < most; ++place)
+    for (const auto& piece : parts.slices)
+      if (piece && place < piece->units.size()) units.push_back(piece->units[place]);
+  if (!digests) return;
+  for (const auto& piece : parts.slices)
+    if (piece && piece->digest) units.push_back(*piece->digest);
+}
+
+CodedUnit part_of(const SceneParts& parts) {
+  PartSums sums{parts.plan, parts.rdo, {}};
+  for (std::size_t s = 0; s < parts.slices.size(); ++s) {
+    if (!parts.slices[s]) continue;
+    sums.slices.push_back({s, {}, parts.slices[s]->sums});
+    if (const auto& digest = parts.slices[s]->digest)
+      sums.slices.back().digest.assign(digest->payload.end() - 32, digest->payload.end());
+  }
+  return {kPartUnit, write_part_sums(sums), {}};
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, bool as_part,
+                                                   int threads) {
+  const std::vector<std::uint8_t> head = beginning(parts);
+  const auto read = split_units(head);
+  if (!read) return damaged(read.error());
+  const auto scene = collect_units(*read, cut_slices(parts.set));
+  auto plan = plan_sequence(*read, parts.set, parts.table, {});
+  if (!plan) return damaged(plan.error());
+  auto known = scene ? decode_base_geometry(scene->base, *plan) : Result<Base>(scene.error());
+  if (!known) return damaged(known.error());
+  if (!known->is_known(*plan)) return damaged({Errc::kTruncated, "gu_occupancy"});
+  const SceneLayout layout = layout_of(parts, *std::move(known), *plan);
+  const TextureSettings no_texture;
+  const SliceCoding coding{parts.set,  plan->groups, plan->steps,   true,
+                           no_texture, parts.rdo,    parts.matrices};
+  EncodedBase base{OccupancyStates(1), parts.base, {}, {}, {}, {}};
+  encode_base_components(coding, layout, base_input(parts, layout, coding.planes()), threads, base);
+  const bool partial = as_part || !parts.missing().empty();
+  std::vector<CodedUnit> body = std::move(base.units);
+  add_slices(parts, !partial, body);
+  std::vector<CodedUnit> units = parts.head;
+  add_filler(units, body, layout.cells.size(), parts.table.num_points(), coding.planes());
+  std::move(body.begin(), body.end(), std::back_inserter(units));
+  if (!parts.metadata.empty())
+    units.push_back({UnitType::kMetadata, write_metadata(parts.metadata), {}});
+  if (as_part) units.push_back(part_of(parts));
+  std::optional<std::vector<CellBox>> boxes;
+  if (!as_part) boxes = boxes_of(layout);
+  return assemble(partial ? cut_slices(parts.set) : parts.set, units, boxes);
+}
+
+}  // namespace slf

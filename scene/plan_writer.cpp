@@ -1,0 +1,118 @@
+// A plan as JSON. The way back: plan_reader.cpp.
+#include <array>
+#include <charconv>
+
+#include "slf/scene.h"
+
+namespace slf {
+namespace {
+
+constexpr double kPlanVersion = 1;
+
+/// The shortest form that reads back as the same number.
+std::string text(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string text(const std::string& value) {
+  std::string quoted = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) {
+      quoted += c;
+    } else {
+      constexpr const char* kDigits = "0123456789abcdef";
+      quoted += "\\u00";
+      quoted += kDigits[static_cast<unsigned char>(c) >> 4];
+      quoted += kDigits[c & 15];
+    }
+  }
+  return quoted + "\"";
+}
+
+template <class Values>
+std::string list(const Values& values) {
+  std::string out = "[";
+  for (const auto& value : values) {
+    if (out.size() > 1) out += ",";
+    out += text(static_cast<double>(value));
+  }
+  return out + "]";
+}
+
+std::string pairs(const std::vector<std::pair<std::string, std::string>>& all) {
+  std::string out = "[";
+  for (const auto& [key, value] : all)
+    out += (out.size() > 1 ? ", [" : "[") + text(key) + ", " + text(value) + "]";
+  return out + "]";
+}
+
+std::string fit_text(const FitSettings& fit) {
+  const HierarchySettings& h = fit.hierarchy;
+  const EnvironmentSettings& e = fit.environment;
+  const PictureFitSettings& p = fit.pictures;
+  return "{\"hierarchical\": " + text(fit.method == FitMethod::kHierarchical) + ", \"basis\": " +
+         list(std::array<int, 5>{int(fit.basis.id), fit.basis.order, fit.basis.scales_theta,
+                                 fit.basis.scales_gamma, fit.basis.degree}) +
+         ", \"reflected\": " + text(fit.frame == FrameId::kReflected) +
+         ", \"normal_cell_log2\": " + text(fit.normal_cell_log2) + ",\n    \"blocks\": " +
+         list(std::array<double, 5>{double(h.block_log2), h.strength, h.growth, h.point_penalty,
+                                    h.point_growth}) +
+         ", \"environment\": " +
+         list(std::array<double, 3>{double(e.degree), e.radius, e.strength}) + ",\n    \"box\": " +
+         list(std::array<double, 4>{e.known.centre[0], e.known.centre[1], e.known.centre[2],
+                                    e.known.half}) +
+         ", \"light\": " + list(e.known.light) + ",\n    \"pictures\": " +
+         list(std::array<double, 6>{double(p.rounds), double(p.steps), p.mean_penalty, p.penalty,
+                                    p.growth, p.outlier}) +
+         "}";
+}
+
+std::string trust_text(const std::vector<CameraTrust>& trust) {
+  std::string out = "[";
+  for (const CameraTrust& t : trust)
+    out += (out.size() > 1 ? ", " : "") +
+           list(std::array<double, 5>{double(t.camera), double(t.verdict), double(t.gain[0]),
+                                      double(t.gain[1]), double(t.gain[2])});
+  return out + "]";
+}
+
+std::string transforms_text(const std::vector<PlannedTransform>& transforms) {
+  std::string out = "[";
+  for (const PlannedTransform& t : transforms) {
+    std::vector<std::int32_t> colour;
+    for (const auto& row : t.coded.colour) colour.insert(colour.end(), row.begin(), row.end());
+    out += out.size() > 1 ? ",\n    {" : "\n    {";
+    out +=
+        "\"groups\": " + list(std::array<std::size_t, 2>{t.coded.first_group, t.coded.num_groups}) +
+        ", \"rank\": " + text(double(t.coded.rank)) +
+        ", \"lanes\": " + text(double(t.coded.lanes)) + ", \"colour\": " + list(colour) +
+        ", \"precision\": " + list(t.precision) + ",\n     \"matrix\": " + list(t.coded.matrix) +
+        "}";
+  }
+  return out + "]";
+}
+
+}  // namespace
+
+std::string write_plan(const ScenePlan& plan) {
+  std::vector<std::uint32_t> slices;
+  for (const PlannedSlice& s : plan.slices) slices.insert(slices.end(), {s.cells, s.points});
+  const Vec3& origin = plan.grid.origin;
+  return "{\"slf_plan\": " + text(kPlanVersion) + ",\n  \"settings\": " + pairs(plan.settings) +
+         ",\n  \"metadata\": " + pairs(plan.metadata) +
+         ",\n  \"capture_cameras\": " + text(double(plan.capture_cameras)) +
+         ", \"cameras\": " + list(plan.cameras) + ",\n  \"origin\": " + list(plan.origin) +
+         ", \"up\": " + text(int(plan.up)) + ", \"grid\": " +
+         list(std::array<double, 4>{origin[0], origin[1], origin[2], plan.grid.step}) +
+         ", \"grid_bits\": " + text(plan.grid.bits) + ", \"spacing\": " + text(plan.spacing) +
+         ",\n  \"points_sha256\": " + text(plan.points_digest) +
+         ",\n  \"base_levels\": " + text(plan.base_levels) + ", \"slices\": " + list(slices) +
+         ",\n  \"fit\": " + fit_text(plan.fit) + ",\n  \"trust\": " + trust_text(plan.trust) +
+         ",\n  \"gamma\": " + list(std::array<int, 2>{plan.gamma_min_q7, plan.gamma_max_q7}) +
+         ", \"shift\": " + list(plan.shift) +
+         ",\n  \"transforms\": " + transforms_text(plan.transforms) + "}\n";
+}
+
+}  // namespace slf

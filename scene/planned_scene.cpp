@@ -1,0 +1,211 @@
+#include "scene/planned_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/hexadecimal.h"
+#include "base/sha256.h"
+#include "codec/forward_columns.h"
+#include "codec/pack_parameters.h"
+#include "codec/sequence.h"
+#include "codec/transform_units.h"
+#include "codec/use_transforms.h"
+#include "encoder/coding_parameters.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kPointsOfCell = 512;  // at least: what the base has is apart from slices
+
+InputError refused(const char* what) {
+  return {Errc::kInvalidArgument, std::string(what) + " needs the whole scene at once"};
+}
+
+/// Nodes of a level, of codes in ascending order.
+std::size_t nodes_at(std::span<const std::uint64_t> codes, int below) {
+  std::size_t nodes = codes.empty() ? 0 : 1;
+  for (std::size_t p = 1; p < codes.size(); ++p)
+    nodes += codes[p] >> (3 * below) != codes[p - 1] >> (3 * below);
+  return nodes;
+}
+
+CodingParameters scene_parameters(const LightField& field, const EncoderSettings& settings) {
+  CodingParameters parameters = coding_parameters(field, settings);
+  parameters.slice_start = SliceStart::kApart;
+  return parameters;
+}
+
+Result<Done, InputError> set_up_coding(PlannedScene& scene) {
+  const LightField field = scene_header(scene.plan, scene.settings);
+  const CodingParameters parameters = scene_parameters(field, scene.settings);
+  const SceneLayout& layout = scene.cells.layout;
+  SLF_TRY(scene.set, sequence_of(field, parameters));
+  set_base(layout, scene.set);
+  scene.coding.reset(new SliceCoding{scene.set, plane_groups(scene.set), plane_steps(scene.set),
+                                     parameters.digest, parameters.texture, parameters.rdo});
+  scene.coded.resize(static_cast<std::size_t>(field.header.num_functions));
+  std::iota(scene.coded.begin(), scene.coded.end(), std::uint16_t{0});
+  const std::vector<double> weights = error_weights(field.header);
+  for (const PlannedTransform& planned : scene.plan.transforms) {
+    PlaneTransform coded = planned.coded;
+    coded.functions =
+        functions_of_groups(scene.coding->groups, coded.first_group, coded.num_groups);
+    if (coded.matrix.size() != coded.rows() * coded.columns() ||
+        planned.precision.size() != coded.columns())
+      return InputError{Errc::kInvalidInput, "plan: transforms: a matrix of another size"};
+    scene.transforms.push_back(forward_transform(std::move(coded), planned.precision, weights));
+  }
+  if (!scene.transforms.empty()) {
+    SLF_TRY(scene.coded, use_transforms(field, layout, parameters, scene.transforms, scene.set,
+                                        *scene.coding, scene.head));
+  }
+  scene.head.push_back({UnitType::kSlices, write_slice_table(layout.table, scene.set), {}});
+  return Done{};
+}
+
+bool same_slices(const ScenePlan& plan, const SceneLayout& layout) {
+  const auto& entries = layout.table.slices;
+  return layout.base_levels == plan.base_levels &&
+         std::equal(entries.begin(), entries.end(), plan.slices.begin(), plan.slices.end(),
+                    [](const SliceEntry& a, const PlannedSlice& b) {
+                      return a.cells() == b.cells && a.points() == b.points;
+                    });
+}
+
+}  // namespace
+
+std::uint64_t ScenePlan::points() const {
+  return std::accumulate(slices.begin(), slices.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const PlannedSlice& s) { return sum + s.points; });
+}
+
+std::vector<std::size_t> PlannedScene::cells_of(std::size_t slice) const {
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < slice; ++s) first += plan.slices[s].cells;
+  std::vector<std::size_t> of_slice(plan.slices[slice].cells);
+  std::iota(of_slice.begin(), of_slice.end(), first);
+  return of_slice;
+}
+
+Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, bool cameras,
+                                                   int threads) {
+  SLF_TRY(EncoderSettings settings, settings_from(given));
+  if (settings.target_bytes > 0 || settings.target_psnr > 0) return refused("a target");
+  if (settings.geometry == GeometryCoder::kDraco) return refused("--geometry draco");
+  if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
+  if (settings.refine_geometry == RefineGeometry::kOn) return refused("--refine-geometry on");
+  if (settings.densify.mode == Densify::kOn) return refused("--densify on");
+  if (settings.preset == Preset::kPaper) return refused("--preset paper");
+  if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");
+  if (settings.base_levels == 0) return refused("--base-levels 0");
+  const bool given_points = std::any_of(given.begin(), given.end(), [](const auto& setting) {
+    return setting.first == "slice-points";
+  });
+  if (!given_points) settings.max_slice_points = kScenePoints;
+  settings.refine_geometry = RefineGeometry::kOff;
+  settings.densify.mode = Densify::kOff;
+  settings.threads = settings.fit.threads = settings.observe.threads = threads;
+  if (!cameras) {  // a colour, whatever the direction
+    settings.fit = {};
+    settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
+    settings.fit.threads = threads;
+    settings.search = FitSearch::none();
+  }
+  return settings;
+}
+
+Result<SceneLayout, InputError> lay_out_scene(std::span<const std::uint64_t> codes,
+                                              const Grid& grid, double spacing,
+                                              const EncoderSettings& settings) {
+  CodingParameters parameters;
+  parameters.slice_start = SliceStart::kApart;
+  // Two at least: one alone would start from the base.
+  parameters.max_slice_points = std::clamp<std::uint32_t>(
+      static_cast<std::uint32_t>(std::min<std::size_t>((codes.size() + 1) / 2, kMostSlicePoints)),
+      1, settings.max_slice_points);
+  parameters.base_levels = settings.base_levels;
+  if (settings.base_levels == kAutomaticBase) {
+    const double around = kAround * std::max(spacing, grid.step) / grid.step;
+    int level = 1;
+    while (level + 2 < grid.bits && std::ldexp(1, grid.bits - level - 1) >= around &&
+           nodes_at(codes, grid.bits - level - 1) * kPointsOfCell <= codes.size())
+      ++level;
+    parameters.base_levels = level;
+  }
+  const InputError too_small{Errc::kInvalidInput, "the scene is too small to be coded in parts"};
+  if (grid.bits < 2) return too_small;
+  SLF_TRY(SceneLayout layout, lay_out(codes, grid.bits, parameters));
+  if (layout.cuts.size() < 2) return too_small;
+  return layout;
+}
+
+int voxels_around(const SceneCells& scene, double spacing) {
+  const double wanted = std::ceil(kAround * spacing / scene.grid.step);
+  return static_cast<int>(std::min(wanted, std::ldexp(1, scene.cell_bits())));
+}
+
+std::vector<std::uint64_t> first_points(const SceneLayout& layout,
+                                        std::span<const std::uint64_t> codes, int grid_bits) {
+  const int below = 3 * (grid_bits - layout.base_levels);
+  std::vector<std::uint64_t> first;
+  for (std::size_t p = 0; p < codes.size(); ++p)
+    if (p == 0 || codes[p] >> below != codes[p - 1] >> below) first.push_back(p);
+  first.push_back(codes.size());
+  return first;
+}
+
+LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header.grid = moved(plan.grid, plan.origin);
+  header.basis = plan.fit.basis;
+  header.num_functions = header.basis.num_functions();
+  header.frame = plan.fit.frame;
+  header.colour = settings.colour;
+  header.transfer = settings.observe.transfer;
+  header.up = plan.up;
+  header.gamma_min_q7 = plan.gamma_min_q7;
+  header.gamma_max_q7 = plan.gamma_max_q7;
+  if (header.frame == FrameId::kReflected) header.normal_cell_log2 = plan.fit.normal_cell_log2;
+  header.shift = plan.shift;
+  field.positions = {{0, 0, 0}};
+  field.components.resize(std::size_t{3} * static_cast<std::size_t>(header.num_functions));
+  field.normals = {settings.normal_bits, {}};
+  if (settings.normal_bits > 0) field.normals.octahedral.resize(1);
+  return field;
+}
+
+std::array<std::uint8_t, 32> digest_of(const ScenePlan& plan) {
+  const std::string text = write_plan(plan);
+  Sha256 sha;
+  sha.update({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return sha.finish();
+}
+
+Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& plan,
+                                                             const SceneWork& work) {
+  auto scene = std::make_unique<PlannedScene>(plan);
+  SLF_TRY(scene->settings, scene_settings(plan.settings, !plan.cameras.empty(), work.threads));
+  FitSettings& fit = scene->settings.fit;
+  fit = plan.fit;
+  fit.threads = work.threads;
+  scene->settings.search = FitSearch::none();
+  scene->directory = work.directory / hexadecimal(digest_of(plan)).substr(0, 16);
+  std::error_code error;
+  std::filesystem::create_directories(scene->directory, error);
+  if (error)
+    return InputError{Errc::kUnwritable, scene->directory.string() + ": " + error.message()};
+  SLF_TRY(scene->cells.store, PointStore::open(work.directory, plan.points_digest, plan.points()));
+  SceneCells& cells = scene->cells;
+  SLF_TRY(const auto codes, cells.store.codes(0, cells.store.size()));
+  cells.grid = plan.grid;
+  SLF_TRY(cells.layout, lay_out_scene(codes, plan.grid, plan.spacing, scene->settings));
+  if (!same_slices(plan, cells.layout))
+    return InputError{Errc::kInvalidInput, "plan: slices: not those of its points"};
+  cells.first = first_points(cells.layout, codes, plan.grid.bits);
+  SLF_CHECK(set_up_coding(*scene));
+  return scene;
+}
+
+}  // namespace slf

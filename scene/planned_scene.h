@@ -1,0 +1,69 @@
+// A plan with all that follows from it: what every step of a part works on.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "attributes/forward_transform.h"
+#include "codec/coded_unit.h"
+#include "scene/region.h"
+#include "slf/scene.h"
+
+namespace slf {
+
+struct PlannedScene {
+  explicit PlannedScene(const ScenePlan& of) : plan(of) {}
+
+  const ScenePlan& plan;
+  EncoderSettings settings;
+  std::filesystem::path directory;  ///< of depth maps and slices: a plan has its own
+  SceneCells cells;
+  SequenceParameterSet set;
+  std::vector<ForwardTransform> transforms;
+  std::vector<std::uint16_t> coded;  ///< [R] functions that components stand in
+  std::vector<CodedUnit> head;       ///< transforms and slices, as a stream begins with them
+  std::unique_ptr<SliceCoding> coding;
+
+  /// [cells of slice] of the scene.
+  std::vector<std::size_t> cells_of(std::size_t slice) const;
+};
+
+/// Points of the sample that a plan is made on, about, with what is around them.
+inline constexpr std::size_t kPlanSample = 24000;
+
+/// Points of a slice where the settings do not say: what a default encode fits into 2 GiB with.
+inline constexpr std::uint32_t kScenePoints = 1u << 16;
+
+/// Points of other cells that a fit sees beside those of its own, in spacings.
+inline constexpr double kAround = 8;
+
+/// The settings of a plan, and whether a scene can be coded in parts with them.
+/// @errors kInvalidArgument
+Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, bool cameras,
+                                                   int threads);
+
+/// Cells and slices, with a base whose cells are not smaller than what slices see around them.
+/// @errors those of lay_out; kInvalidInput: too few points
+Result<SceneLayout, InputError> lay_out_scene(std::span<const std::uint64_t> codes,
+                                              const Grid& grid, double spacing,
+                                              const EncoderSettings& settings);
+
+/// Voxels of kAround, at most the side of a cell.
+int voxels_around(const SceneCells& scene, double spacing);
+
+/// @param points  how many there are of each cell
+std::vector<std::uint64_t> first_points(const SceneLayout& layout,
+                                        std::span<const std::uint64_t> codes, int grid_bits);
+
+/// A field of one point of nothing, with the header of the scene's.
+LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings);
+
+/// SHA-256 of the plan as JSON.
+std::array<std::uint8_t, 32> digest_of(const ScenePlan& plan);
+
+/// @errors kUnreadable: the points are not in the directory; kInvalidInput: they are not the plan's
+Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& plan,
+                                                             const SceneWork& work);
+
+}  // namespace slf

@@ -1,0 +1,172 @@
+#include "scene/scene_parts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "codec/base_encoder.h"
+#include "codec/scene_units.h"
+#include "codec/sequence.h"
+#include "codec/sequence_plan.h"
+#include "scene/part_sums.h"
+
+namespace slf {
+namespace {
+
+InputError wrong(const std::string& name, const std::string& cause) {
+  return {Errc::kInvalidInput, name + ": " + cause};
+}
+
+CodedUnit copy_of(const Unit& unit) {
+  return {unit.type, {unit.payload.begin(), unit.payload.end()}, {}};
+}
+
+/// A part as it is read.
+class PartReader {
+ public:
+  PartReader(const PartStream& part, SceneParts& parts) : part_(part), parts_(parts) {}
+
+  Result<Done> read() {
+    SLF_TRY(units_, split_units(part_.bytes));
+    SLF_TRY(cut_, find_sequence(units_));
+    SLF_TRY(scene_, collect_units(units_, cut_));
+    SLF_TRY(parts_.metadata, collect_metadata(units_));
+    parts_.table = scene_.table;
+    parts_.set = cut_;
+    parts_.set.sps_cut_flag = parts_.set.sps_cut_levels = parts_.set.sps_cut_slices_flag = 0;
+    SLF_TRY(const SequencePlan plan, plan_sequence(units_, cut_, scene_.table, {}));
+    SLF_CHECK(read_head(plan));
+    return read_slices();
+  }
+
+ private:
+  Result<Done> read_head(const SequencePlan& plan) {
+    bool found = false;
+    for (const Unit& unit : units_.units) {
+      if (unit.type == UnitType::kTransform || unit.type == UnitType::kSlices)
+        parts_.head.push_back(copy_of(unit));
+      if (unit.type != kPartUnit) continue;
+      if (found) return Error{Errc::kOutOfRange, "unit_type"};
+      found = true;
+      SLF_TRY(sums_, parse_part_sums(unit.payload, scene_.table, plan.planes()));
+    }
+    if (!found) return Error{Errc::kTruncated, "part_plan"};
+    parts_.plan = sums_.plan;
+    parts_.rdo = sums_.rdo;
+    if (plan.set.sps_transform_flag != 0) parts_.matrices.resize(plan.groups.size());
+    for (const PartUnit& unit : scene_.base) {
+      if (unit.type == UnitType::kGeometry)
+        parts_.base.push_back({unit.type, payload_at(unit), unit.header});
+      if (unit.type == UnitType::kCoefficients && unit.header.range == 0 &&
+          unit.header.group < parts_.matrices.size())
+        parts_.matrices[unit.header.group] = {unit.matrix.begin(), unit.matrix.end()};
+    }
+    return Done{};
+  }
+
+  Result<Done> read_slices() {
+    parts_.slices.resize(scene_.slices.size());
+    for (SliceSums& sums : sums_.slices) {
+      const PartUnits& units = scene_.slices[sums.slice];
+      if (units.size() < PartList(parts_.set, false).size())
+        return Error{Errc::kTruncated, "slice_id"};
+      ScenePiece piece;
+      for (const PartUnit& unit : units)
+        piece.units.push_back({unit.type, payload_at(unit), unit.header});
+      if (!sums.digest.empty()) {
+        SliceUnitHeader header;
+        header.slice_id = static_cast<std::uint32_t>(sums.slice);
+        piece.digest = part_unit(UnitType::kDigest, header, sums.digest, parts_.set);
+      }
+      piece.sums = std::move(sums.sums);
+      parts_.slices[sums.slice] = std::move(piece);
+    }
+    return Done{};
+  }
+
+  /// The payload of the whole unit that a part unit was read from.
+  std::vector<std::uint8_t> payload_at(const PartUnit& part) const {
+    const auto unit = std::find_if(units_.units.begin(), units_.units.end(),
+                                   [&](const Unit& u) { return u.offset == part.offset; });
+    return {unit->payload.begin(), unit->payload.end()};
+  }
+
+  const PartStream& part_;
+  SceneParts& parts_;
+  Units units_;
+  SequenceParameterSet cut_;
+  SceneUnits scene_;
+  PartSums sums_;
+};
+
+bool same_units(const std::vector<CodedUnit>& a, const std::vector<CodedUnit>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.type == y.type && x.payload == y.payload;
+  });
+}
+
+}  // namespace
+
+std::vector<std::size_t> SceneParts::missing() const {
+  std::vector<std::size_t> none;
+  for (std::size_t s = 0; s < slices.size(); ++s)
+    if (!slices[s]) none.push_back(s);
+  return none;
+}
+
+SceneParts parts_of(const PlannedScene& scene) {
+  SceneParts parts;
+  parts.plan = digest_of(scene.plan);
+  parts.rdo = scene.coding->rdo;
+  parts.set = scene.set;
+  parts.table = scene.cells.layout.table;
+  parts.head = scene.head;
+  parts.base = encode_base_geometry(*scene.coding, scene.cells.layout).units;
+  parts.matrices = scene.coding->matrices;
+  parts.metadata = scene.plan.metadata;
+  parts.slices.resize(parts.table.slices.size());
+  return parts;
+}
+
+void add_slice(SceneParts& parts, CodedSlice slice) {
+  ScenePiece piece;
+  for (CodedUnit& unit : slice.units) {
+    if (unit.type == UnitType::kDigest)
+      piece.digest = std::move(unit);
+    else
+      piece.units.push_back(std::move(unit));
+  }
+  piece.sums = std::move(slice.sums);
+  parts.slices[slice.slice] = std::move(piece);
+}
+
+Result<SceneParts, InputError> read_part(const PartStream& part) {
+  SceneParts parts;
+  if (const auto read = PartReader(part, parts).read(); !read) {
+    const bool other = std::string_view(read.error().element) == "part_plan";
+    return wrong(part.name, other ? "not a part of a scene" : to_string(read.error()));
+  }
+  return parts;
+}
+
+Result<Done, InputError> combine(SceneParts& parts, SceneParts more, const std::string& name,
+                                 std::vector<std::string>& names) {
+  if (parts.plan != more.plan || parts.slices.size() != more.slices.size() ||
+      !same_units(parts.head, more.head) || !same_units(parts.base, more.base) ||
+      parts.matrices != more.matrices || parts.metadata != more.metadata)
+    return wrong(name, "a part of another plan than " + names.front());
+  for (std::size_t s = 0; s < more.slices.size(); ++s) {
+    if (!more.slices[s]) continue;
+    if (parts.slices[s]) {
+      const auto has = [&](const std::string& other) { return other != name; };
+      const auto first = std::find_if(names.begin(), names.end(), has);
+      return wrong(name, "slice " + std::to_string(s) + " is in " +
+                             (first == names.end() ? std::string("another part") : *first) +
+                             " too");
+    }
+    parts.slices[s] = std::move(more.slices[s]);
+  }
+  names.push_back(name);
+  return Done{};
+}
+
+}  // namespace slf

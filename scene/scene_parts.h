@@ -1,0 +1,60 @@
+// Slices of a scene on their way into one file: in memory, and as the streams that parts are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/metadata.h"
+#include "codec/coded_unit.h"
+#include "scene/encode_slice.h"
+#include "slf/scene.h"
+
+namespace slf {
+
+/// A slice with what the base needs of it.
+struct ScenePiece {
+  std::vector<CodedUnit> units;  ///< without the digest
+  std::optional<CodedUnit> digest;
+  std::vector<std::int32_t> sums;  ///< [its cells][planes]
+};
+
+/// What parts of one plan have in common, and the slices that are there.
+struct SceneParts {
+  std::array<std::uint8_t, 32> plan{};  ///< its digest
+  double rdo = 0;
+  SequenceParameterSet set;  ///< of the whole: not cut
+  SliceTable table;
+  std::vector<CodedUnit> head;                      ///< transforms and slices
+  std::vector<CodedUnit> base;                      ///< its geometry
+  std::vector<std::vector<std::uint8_t>> matrices;  ///< [groups] codewords of columns; or none
+  Metadata metadata;
+  std::vector<std::optional<ScenePiece>> slices;  ///< [slices]
+
+  std::vector<std::size_t> missing() const;
+};
+
+/// Without slices.
+SceneParts parts_of(const PlannedScene& scene);
+
+/// Moves a slice to its place.
+void add_slice(SceneParts& parts, CodedSlice slice);
+
+/// A stream of the slices that are there. As a part it can be read again and is partial; as a whole
+/// it is a light field, partial where slices are missing.
+/// @errors kInvalidInput: the base is damaged
+Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, bool as_part,
+                                                   int threads);
+
+/// @errors kInvalidInput: not a part, or a damaged one; names it
+Result<SceneParts, InputError> read_part(const PartStream& part);
+
+/// Adds the slices of another part of the same plan.
+/// @errors kInvalidInput: of another plan, or a slice is in both
+Result<Done, InputError> combine(SceneParts& parts, SceneParts more, const std::string& name,
+                                 std::vector<std::string>& names);
+
+}  // namespace slf
