@@ -63,6 +63,8 @@ int run(int argc, char** argv) {
   Run verb;
   add_synth(program, verb);
   add_encode(program, verb);
+  add_plan(program, verb);
+  add_merge(program, verb);
   add_pack(program, verb);
   add_decode(program, verb);
   add_render(program, verb);

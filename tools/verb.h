@@ -18,6 +18,8 @@ void add_encode(CLI::App& program, Run& run);
 void add_html(CLI::App& program, Run& run);
 void add_igc(CLI::App& program, Run& run);
 void add_settings_verb(CLI::App& program, Run& run);
+void add_plan(CLI::App& program, Run& run);
+void add_merge(CLI::App& program, Run& run);
 void add_pack(CLI::App& program, Run& run);
 void add_decode(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);

@@ -6,6 +6,7 @@
 #include "tools/encode_options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/scene_options.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -121,9 +122,18 @@ Outcome run_encode(const EncodeOptions& given) {
 
 void add_encode(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand("encode", "From photographs and points to an .slf file");
-  auto o = std::make_shared<EncodeOptions>();
-  add_encode_options(*verb, *o);
-  verb->callback([&run, o] { run = [o] { return run_encode(*o); }; });
+  struct Options {
+    EncodeOptions encode;
+    SceneOptions scene;
+  };
+  auto o = std::make_shared<Options>();
+  add_encode_options(*verb, o->encode);
+  add_scene(*verb, o->scene);
+  verb->callback([&run, o] {
+    run = [o] {
+      return o->scene.in_parts() ? encode_scene(o->encode, o->scene) : run_encode(o->encode);
+    };
+  });
 }
 
 }  // namespace slf::tools

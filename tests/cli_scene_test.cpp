@@ -1,0 +1,201 @@
+// Scenes in parts, as a person runs them: plan, encode --part, merge, encode --memory.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "cli_support.h"
+
+namespace slf {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A street of two houses in six slices, and what it is in one process.
+class SceneTest : public CliTest {
+ protected:
+  static constexpr const char* kSettings =
+      " --slice-points 2500 --effort 1 --degree 3 --grid-bits 9 -j 2 --quiet";
+
+  void SetUp() override {
+    CliTest::SetUp();
+    ASSERT_EQ(slf("synth terrace -o street --houses 2 --points 15000 --cameras 10 --size 96x72 "
+                  "--quiet")
+                  .code,
+              0);
+  }
+
+  Ran plan(const std::string& more = "") {
+    return slf("plan street -o plan.json --work work" + (kSettings + more));
+  }
+  Ran part(const std::string& which, const std::string& output, const std::string& more = "") {
+    return slf("encode street --plan plan.json --work work --quiet --part " + which + " -o " +
+               output + more);
+  }
+};
+
+TEST_F(SceneTest, AnyDivisionOfTheWorkGivesTheSameFile) {
+  const Ran whole = slf(std::string("encode street -o whole.slf --memory 1G") + kSettings);
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_FALSE(exists("whole.slf.work"));
+  ASSERT_EQ(plan().code, 0);
+  for (const int parts : {1, 3}) {
+    std::string names;
+    for (int i = parts; i > 0; --i) {
+      const std::string name = "part" + std::to_string(i) + ".slf";
+      const Ran ran = part(std::to_string(i) + "/" + std::to_string(parts), name, " -j 1");
+      ASSERT_EQ(ran.code, 0) << ran.err;
+      names += name + " ";
+    }
+    ASSERT_EQ(slf("merge " + names + "-o merged.slf --quiet").code, 0);
+    EXPECT_EQ(read("merged.slf"), read("whole.slf")) << parts << " parts";
+  }
+  EXPECT_EQ(slf("decode merged.slf -o merged.ply --strict --quiet").code, 0);
+  const auto info = parsed(slf("info merged.slf --json").out);
+  EXPECT_GT(info["slices"].get<int>(), 3);
+  EXPECT_FALSE(info["partial"].get<bool>());
+}
+
+TEST_F(SceneTest, FewPointsAreTwoSlicesAndLookAsTheyDoInOnePiece) {
+  const std::string settings = " --effort 1 --degree 3 --grid-bits 9 --refine-geometry off";
+  ASSERT_EQ(slf("encode street -o parts.slf --quiet --memory 1G" + settings).code, 0);
+  ASSERT_EQ(slf("encode street -o piece.slf --quiet" + settings).code, 0);
+  ASSERT_EQ(slf("decode parts.slf -o parts.ply --strict --quiet").code, 0);
+  EXPECT_EQ(parsed(slf("info parts.slf --json").out)["slices"], 2);
+  const auto psnr = [&](const std::string& file) {
+    const Ran ran = slf("eval " + file + " street --json");
+    return parsed(ran.out)["input"]["points"][0]["psnr"].get<double>();
+  };
+  EXPECT_NEAR(psnr("parts.slf"), psnr("piece.slf"), 0.5);
+}
+
+TEST_F(SceneTest, APlanIsTheSameForAnyNumberOfThreads) {
+  ASSERT_EQ(plan().code, 0);
+  const std::string first = read("plan.json");
+  ASSERT_EQ(slf(std::string("plan street -o plan.json --work other") +
+                " --slice-points 2500 --effort 1 --degree 3 --grid-bits 9 -j 1 --quiet")
+                .code,
+            0);
+  EXPECT_EQ(read("plan.json"), first);
+}
+
+TEST_F(SceneTest, WhatIsDoneIsNotCodedAgain) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/1", "first.slf").code, 0);
+  std::size_t slices = 0;
+  fs::path one;
+  for (const auto& file : fs::recursive_directory_iterator(path("work")))
+    if (file.path().filename().string().starts_with("slice-")) {
+      ++slices;
+      one = file.path();
+    }
+  ASSERT_GT(slices, 3u);
+  fs::remove(one);
+  ASSERT_EQ(part("1/1", "second.slf", " --resume --log log.txt").code, 0);
+  EXPECT_EQ(read("second.slf"), read("first.slf"));
+  const std::string log = read("log.txt");
+  const std::size_t coded =
+      log.find(": slice ") == std::string::npos ? log.find(" slice ") : log.find(": slice ");
+  ASSERT_NE(coded, std::string::npos) << log;
+  EXPECT_EQ(log.find(" slice ", coded + 1), std::string::npos) << log;
+}
+
+TEST_F(SceneTest, ADirectoryWithoutItsPointsIsFilledFromTheCapture) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/2", "here.slf").code, 0);
+  fs::remove_all(path("work"));
+  ASSERT_EQ(part("1/2", "there.slf").code, 0);
+  EXPECT_EQ(read("there.slf"), read("here.slf"));
+}
+
+TEST_F(SceneTest, PartsThatDoNotFitTogetherAreRefusedByName) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/2", "a.slf").code, 0);
+  ASSERT_EQ(part("2/2", "b.slf").code, 0);
+  ASSERT_EQ(part("1/1", "all.slf").code, 0);
+  ASSERT_EQ(plan(" -q 30").code, 0);
+  ASSERT_EQ(part("2/2", "other.slf").code, 0);
+  expect_failure(slf("merge a.slf all.slf -o x.slf"), 4, "all.slf", "a.slf");
+  expect_failure(slf("merge a.slf other.slf -o x.slf"), 4, "other.slf", "another plan");
+  expect_failure(slf("merge a.slf -o x.slf"), 4, "x.slf", "missing");
+  expect_failure(slf("merge street/points.ply -o x.slf"), 4, "points.ply", "");
+  write("cut.slf", read("b.slf").substr(0, read("b.slf").size() / 2));
+  expect_failure(slf("merge a.slf cut.slf -o x.slf"), 4, "cut.slf", "");
+  EXPECT_FALSE(exists("x.slf"));
+}
+
+TEST_F(SceneTest, MissingPartsLeaveAValidPartialScene) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("2/3", "b.slf").code, 0);
+  const Ran merged = slf("merge b.slf -o some.slf --allow-missing --json");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_GT(parsed(merged.out)["missing_slices"].size(), 1u);
+  EXPECT_EQ(slf("decode some.slf -o some.ply --quiet").code, 0);
+  EXPECT_TRUE(parsed(slf("info some.slf --json").out)["partial"].get<bool>());
+  // A part by itself is one, too.
+  EXPECT_EQ(slf("decode b.slf -o part.ply --quiet").code, 0);
+  EXPECT_EQ(read("part.ply"), read("some.ply"));
+}
+
+TEST_F(SceneTest, ADryRunSaysWhatItWouldTakeAndWritesNothing) {
+  const Ran ran =
+      slf(std::string("encode street -o x.slf --dry-run --memory 1G --json") + kSettings);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto cost = parsed(ran.out);
+  for (const char* key : {"points", "slices", "cameras", "memory", "disk"})
+    EXPECT_GT(cost[key].get<std::uint64_t>(), 0u) << key;
+  EXPECT_FALSE(exists("x.slf"));
+  EXPECT_FALSE(exists("x.slf.work"));
+}
+
+TEST_F(SceneTest, WrongOptionsSayWhatWouldDo) {
+  ASSERT_EQ(plan().code, 0);
+  expect_failure(slf("encode street -o x.slf --part 1/2"), 2, "--part", "--plan");
+  expect_failure(part("3/2", "x.slf"), 2, "3/2", "I/N");
+  expect_failure(part("1/2", "x.slf", " -q 20"), 2, "quality", "plan");
+  expect_failure(slf("encode street -o x.slf --plan plan.json --part 1/2"), 2, "--work", "");
+  expect_failure(slf("plan street -o y.json --work work --target-bytes 1000"), 2, "target", "");
+  expect_failure(slf("plan street -o y.json --work work --coefficients texture"), 2, "texture", "");
+  expect_failure(slf("encode street -o x.slf --memory 256M --grid-bits 9 --fit-to pictures"), 5,
+                 "MiB", "--slice-points");
+}
+
+TEST_F(SceneTest, ADamagedPlanIsRefusedByItsElement) {
+  ASSERT_EQ(plan().code, 0);
+  const std::string whole = read("plan.json");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    write("plan.json", text);
+  };
+  with("\"base_levels\": ", "\"base_levels\": 30");
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "base_levels");
+  with("\"slices\": [", "\"slices\": [7,7,");
+  expect_failure(part("1/1", "x.slf"), 4, "", "");
+  with("\"matrix\": [", "\"matrix\": [1.5,");
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "matrix");
+  write("plan.json", whole.substr(0, whole.size() / 2));
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "");
+}
+
+TEST_F(SceneTest, AScanIsRefusedWithTheCommandThatMakesAPlyOfIt) {
+  write("scan.laz", "LASF");
+  const Ran ran = slf("encode street -o x.slf --points scan.laz");
+  EXPECT_NE(ran.code, 0);
+  EXPECT_NE(ran.err.find("pdal translate scan.laz"), std::string::npos) << ran.err;
+}
+
+TEST_F(SceneTest, APhotographThatDisappearsIsNamedAndNothingIsLost) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/2", "a.slf").code, 0);
+  const auto cameras = parsed(read("street/cameras.json"));
+  for (const auto& name : cameras["splits"]["dense"])
+    fs::remove(path("street/" + name.get<std::string>()));
+  const Ran ran = part("2/2", "b.slf");
+  EXPECT_NE(ran.code, 0);
+  EXPECT_FALSE(exists("b.slf"));
+  EXPECT_TRUE(exists("a.slf"));
+}
+
+}  // namespace
+}  // namespace slf

@@ -1,0 +1,102 @@
+#include "tools/scene_options.h"
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include "tools/interrupt.h"
+#include "tools/options.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+constexpr double kSecondsOfLine = 60;
+
+/// "2026-11-23 10:15:00", UTC.
+std::string now() {
+  const std::time_t seconds = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+}  // namespace
+
+void add_work(CLI::App& verb, SceneOptions& o) {
+  verb.add_option("--memory", o.memory,
+                  "Code the scene slice by slice within so many bytes (K, M and G are 2^10, 2^20, "
+                  "2^30): at least 256M")
+      ->type_name("BYTES")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(whole_range(std::int64_t{1} << 28, std::int64_t{1} << 50));
+  verb.add_option("--work", o.work,
+                  "Directory for points, depth maps and slices that are done; parts may share it. "
+                  "None: FILE.work, removed at the end")
+      ->type_name("DIR");
+  verb.add_option("--log", o.log, "File that a line is added to for every slice, and every minute")
+      ->type_name("FILE");
+}
+
+void add_scene(CLI::App& verb, SceneOptions& o) {
+  const std::string group = "Large scenes (docs/scenes.md)";
+  add_work(verb, o);
+  verb.add_option("--plan", o.plan, "What all parts share, from slf plan, in place of settings")
+      ->type_name("FILE");
+  verb.add_option("--part", o.part, "Code part I of N of the plan: 1/4 .. 4/4, for slf merge")
+      ->type_name("I/N");
+  verb.add_flag("--resume", o.resume, "Go on where an earlier run with the same --work was ended");
+  verb.add_flag("--dry-run", o.dry_run,
+                "Say points, slices, memory and disk that it would take, and stop");
+  for (const char* name :
+       {"--memory", "--work", "--log", "--plan", "--part", "--resume", "--dry-run"})
+    verb.get_option(name)->group(group);
+}
+
+Result<std::unique_ptr<SceneLog>, Failure> SceneLog::open(const std::string& file,
+                                                          ProgressLine& line) {
+  std::unique_ptr<SceneLog> log(new SceneLog(line.callback()));
+  if (file.empty()) return log;
+  log->file_ = std::fopen(file.c_str(), "ae");
+  if (log->file_ == nullptr) return Failure{kWriteFailed, file + ": " + std::strerror(errno)};
+  return log;
+}
+
+SceneLog::~SceneLog() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void SceneLog::write(const std::string& text) {
+  last_ = std::chrono::steady_clock::now();
+  if (file_ == nullptr) return;
+  std::fprintf(file_, "%s %s\n", now().c_str(), text.c_str());
+  std::fflush(file_);
+}
+
+Progress SceneLog::progress() {
+  return [this](const char* stage, double fraction) {
+    if (interrupt_pending()) {
+      write("interrupted");
+      exit_cancelled();
+    }
+    if (draw_) draw_(stage, fraction);
+    const auto time = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(time - last_).count() < kSecondsOfLine) return;
+    write(text("%s %.0f %%", stage, 100 * fraction));
+  };
+}
+
+SceneWork scene_work(const SceneOptions& options, const std::string& directory, int threads,
+                     SceneLog& log) {
+  SceneWork work;
+  work.directory = directory;
+  if (options.memory > 0) work.memory = options.memory;
+  work.resume = options.resume;
+  work.threads = threads;
+  work.log = [&log](const std::string& line) { log.write(line); };
+  return work;
+}
+
+}  // namespace slf::tools

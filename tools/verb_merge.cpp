@@ -1,0 +1,60 @@
+// slf merge: parts of a scene to one file.
+#include <memory>
+
+#include "tools/output.h"
+#include "tools/scene_options.h"
+#include "tools/text.h"
+#include "tools/verb.h"
+
+namespace slf::tools {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> parts;
+  std::string output;
+  bool allow_missing = false;
+  CommonOptions common;
+};
+
+Outcome run_merge(const MergeOptions& given) {
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "merge: --json and --output - both want standard output"};
+  SLF_CHECK(check_output(given.output));
+  std::vector<PartStream> parts;
+  for (const std::string& name : given.parts) {
+    SLF_TRY(auto bytes, from(name, read_file(name)));
+    parts.push_back({name, std::move(bytes)});
+  }
+  SLF_TRY(const MergedScene merged,
+          from(given.output, merge_parts(parts, given.allow_missing, given.common.threads)));
+  SLF_CHECK(save(given.output, merged.stream.data(), merged.stream.size()));
+  if (given.common.json)
+    return print(nlohmann::ordered_json{{"bytes", merged.stream.size()},
+                                        {"missing_slices", merged.missing}});
+  if (given.common.quiet) return Done{};
+  std::fprintf(stderr, "%s bytes", grouped(merged.stream.size()).c_str());
+  if (!merged.missing.empty())
+    std::fprintf(stderr, ", %zu slices are missing", merged.missing.size());
+  std::fputs("\n", stderr);
+  return Done{};
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, Run& run) {
+  auto* verb = program.add_subcommand(
+      "merge", "Join the parts of a scene (slf encode --part) without coding them again");
+  auto o = std::make_shared<MergeOptions>();
+  verb->add_option("PART", o->parts, "The parts, in any order")->type_name("")->required();
+  verb->add_option("-o,--output", o->output, "The .slf file; - is standard output")
+      ->type_name("FILE")
+      ->required();
+  verb->add_flag("--allow-missing", o->allow_missing,
+                 "Slices that no part has are left out: the file is partial");
+  add_threads(*verb, o->common);
+  add_quiet(*verb, o->common);
+  add_json(*verb, o->common);
+  verb->callback([&run, o] { run = [o] { return run_merge(*o); }; });
+}
+
+}  // namespace slf::tools
