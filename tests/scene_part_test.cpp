@@ -138,6 +138,22 @@ TEST_P(ScenePart, ARegionIsTheWholeFiltered) {
   }
 }
 
+TEST_P(ScenePart, ARegionIsHeldToTheLimitsByTheSlicesItMeets) {
+  const auto stream = scene(GetParam());
+  DecodeOptions whole = part(0, 0), some = part(0, 0, kCorner);
+  whole.threads = some.threads = 1;
+  some.limits.max_points = whole.limits.max_points = read_info(stream)->num_points - 1;
+  const auto refused = decode(stream, whole);
+  ASSERT_FALSE(refused);
+  EXPECT_STREQ(refused.error().element, "max_points");
+  expect_same(decoded(stream, some), decoded(stream, part(0, 0, kCorner)));
+  some.limits.max_points = 10;
+  EXPECT_FALSE(decode(stream, some));
+  some.limits = {};
+  some.limits.max_memory = 1;
+  EXPECT_FALSE(decode(stream, some));
+}
+
 TEST_P(ScenePart, EveryBeginningOfUnitsIsThePartialScene) {
   const auto stream = scene(GetParam());
   const StreamInfo info = *read_info(stream);

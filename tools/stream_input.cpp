@@ -108,6 +108,9 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
     return error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
   };
   const std::string name = input_name(file) + ": ";
+  if (options.region && beyond("max_memory"))
+    return {kLimitExceeded, name + "what the region meets takes more than the " +
+                                mebibytes(options.limits.max_memory) + " MiB of --max-memory"};
   if (beyond("max_memory"))
     return {kLimitExceeded, name + "decoding takes up to " + mebibytes(cost.memory_most) +
                                 " MiB, more than the " + mebibytes(options.limits.max_memory) +
