@@ -39,13 +39,12 @@ bool take_finished(const fs::path& file, const SceneParts& of, std::size_t slice
   return true;
 }
 
-std::string line_of(const CodedSlice& slice, std::size_t bytes, double seconds) {
-  char text[200];
+std::string line_of(const CodedSlice& slice) {
+  char text[160];
   std::snprintf(text, sizeof text,
-                "slice %zu: %zu points, %zu around, %zu cameras, %zu observations, %zu unseen, "
-                "%zu bytes, %.1f s",
+                "slice %zu: %zu points, %zu around, %zu cameras, %zu observations, %zu unseen",
                 slice.slice, slice.points, slice.around, slice.cameras, slice.observations,
-                slice.unobserved, bytes, seconds);
+                slice.unobserved);
   return text;
 }
 
@@ -134,14 +133,17 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
     if (work.resume && take_finished(file, none, s, parts)) continue;
     Stopwatch watch;
     SLF_TRY(CodedSlice slice, encode_slice(*scene, capture, depth, s, tell));
-    CodedSlice report = slice;
-    report.units.clear();
+    const std::string report = line_of(slice);
     SceneParts one = none;
     add_slice(one, std::move(slice));
     SLF_TRY(const auto bytes, join(one, true, work.threads));
     SLF_CHECK(write_file(file, bytes.data(), bytes.size()));
     parts.slices[s] = std::move(one.slices[s]);
-    if (work.log) work.log(line_of(report, bytes.size(), watch.lap()));
+    if (work.log) {
+      char end[64];
+      std::snprintf(end, sizeof end, ", %zu bytes, %.1f s", bytes.size(), watch.lap());
+      work.log(report + end);
+    }
   }
   if (progress) progress("slices", 1);
   return join(parts, true, work.threads);

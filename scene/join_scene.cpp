@@ -7,6 +7,7 @@
 #include "codec/assemble.h"
 #include "codec/base_decoder.h"
 #include "codec/base_encoder.h"
+#include "codec/decode_cost.h"
 #include "codec/scene_frame.h"
 #include "codec/sequence_plan.h"
 #include "geometry/weight_classes.h"
@@ -99,6 +100,8 @@ Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, bool
   auto known = scene ? decode_base_geometry(scene->base, *plan) : Result<Base>(scene.error());
   if (!known) return damaged(known.error());
   if (!known->is_known(*plan)) return damaged({Errc::kTruncated, "gu_occupancy"});
+  if (auto bounded = check_level(*plan, known->cells.size()); !bounded)
+    return damaged(bounded.error());
   const SceneLayout layout = layout_of(parts, *std::move(known), *plan);
   const TextureSettings no_texture;
   const SliceCoding coding{parts.set,  plan->groups, plan->steps,   true,
