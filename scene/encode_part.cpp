@@ -121,6 +121,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
           DepthMaps::in(work.directory, capture, scene->cells, plan, scene->settings));
   const SceneParts none = parts_of(*scene);
   SceneParts parts = none;
+  SLF_TRY(const SceneBase no_base, code_base(none, work.threads));  // of files that we read again
   const auto [first, last] = slices_of(plan, part);
   for (std::size_t s = first; s < last; ++s) {
     const fs::path file = scene->directory / ("slice-" + std::to_string(s) + ".slf");
@@ -136,7 +137,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
     const std::string report = line_of(slice);
     SceneParts one = none;
     add_slice(one, std::move(slice));
-    SLF_TRY(const auto bytes, join(one, true, work.threads));
+    const auto bytes = join(one, no_base, true);
     SLF_CHECK(write_file(file, bytes.data(), bytes.size()));
     parts.slices[s] = std::move(one.slices[s]);
     if (work.log) {
@@ -146,7 +147,8 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
     }
   }
   if (progress) progress("slices", 1);
-  return join(parts, true, work.threads);
+  SLF_TRY(const SceneBase base, code_base(parts, work.threads));
+  return join(parts, base, true);
 }
 
 Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, bool allow_missing,
@@ -169,7 +171,8 @@ Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, b
     cause.append(std::to_string(merged.missing.size())).append(" are missing:").append(list);
     return InputError{Errc::kInvalidInput, std::move(cause)};
   }
-  SLF_TRY(merged.stream, join(parts, false, threads));
+  SLF_TRY(const SceneBase base, code_base(parts, threads));
+  merged.stream = join(parts, base, false);
   return merged;
 }
 

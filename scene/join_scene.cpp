@@ -89,8 +89,7 @@ CodedUnit part_of(const SceneParts& parts) {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, bool as_part,
-                                                   int threads) {
+Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
   const std::vector<std::uint8_t> head = beginning(parts);
   const auto read = split_units(head);
   if (!read) return damaged(read.error());
@@ -102,23 +101,29 @@ Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, bool
   if (!known->is_known(*plan)) return damaged({Errc::kTruncated, "gu_occupancy"});
   if (auto bounded = check_level(*plan, known->cells.size()); !bounded)
     return damaged(bounded.error());
-  const SceneLayout layout = layout_of(parts, *std::move(known), *plan);
   const TextureSettings no_texture;
   const SliceCoding coding{parts.set,  plan->groups, plan->steps,   true,
                            no_texture, parts.rdo,    parts.matrices};
-  EncodedBase base{OccupancyStates(1), parts.base, {}, {}, {}, {}};
-  encode_base_components(coding, layout, base_input(parts, layout, coding.planes()), threads, base);
+  SceneBase base{layout_of(parts, *std::move(known), *plan), coding.planes(), {}};
+  EncodedBase coded{OccupancyStates(1), parts.base, {}, {}, {}, {}};
+  encode_base_components(coding, base.layout, base_input(parts, base.layout, base.planes), threads,
+                         coded);
+  base.units = std::move(coded.units);
+  return base;
+}
+
+std::vector<std::uint8_t> join(const SceneParts& parts, const SceneBase& base, bool as_part) {
   const bool partial = as_part || !parts.missing().empty();
-  std::vector<CodedUnit> body = std::move(base.units);
+  std::vector<CodedUnit> body = base.units;
   add_slices(parts, !partial, body);
   std::vector<CodedUnit> units = parts.head;
-  add_filler(units, body, layout.cells.size(), parts.table.num_points(), coding.planes());
+  add_filler(units, body, base.layout.cells.size(), parts.table.num_points(), base.planes);
   std::move(body.begin(), body.end(), std::back_inserter(units));
   if (!parts.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parts.metadata), {}});
   if (as_part) units.push_back(part_of(parts));
   std::optional<std::vector<CellBox>> boxes;
-  if (!as_part) boxes = boxes_of(layout);
+  if (!as_part) boxes = boxes_of(base.layout);
   return assemble(partial ? cut_slices(parts.set) : parts.set, units, boxes);
 }
 
