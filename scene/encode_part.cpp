@@ -122,7 +122,8 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
   const SceneParts none = parts_of(*scene);
   SceneParts parts = none;
   SLF_TRY(const SceneBase no_base, code_base(none, work.threads));  // of files that we read again
-  const auto [first, last] = slices_of(plan, part);
+  const auto slices = slices_of(plan, part);
+  const std::size_t first = slices[0], last = slices[1];
   for (std::size_t s = first; s < last; ++s) {
     const fs::path file = scene->directory / ("slice-" + std::to_string(s) + ".slf");
     const auto tell = [&](const char* stage, double fraction) {
