@@ -8,6 +8,10 @@
 
 #include "slf/slf.h"
 
+#ifndef SLF_ROUNDS
+#define SLF_ROUNDS 20
+#endif
+
 static size_t blocks = 0, fail_after = (size_t)-1;
 
 static void* allocate(void* user, size_t bytes) {
@@ -137,7 +141,7 @@ int main(int argc, char** argv) {
     uint64_t first = 0, sum = 0;
     expect(file.bytes != NULL, "cannot be read", argv[i]);
     if (file.bytes == NULL) continue;
-    for (round = 0; round < 20; ++round) {
+    for (round = 0; round < SLF_ROUNDS; ++round) {
       const slf_code code = decode_once(&file, round % 2, &sum);
       expect(decodes == (code == SLF_OK), decodes ? "was refused" : "was decoded", argv[i]);
       if (round == 0) first = sum;
