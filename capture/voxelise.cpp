@@ -93,9 +93,20 @@ Vec3 mean_of(const std::vector<std::array<T, 3>>& values, const std::vector<Cell
   return sum;
 }
 
+/// Of unit length; of two sides of a sheet in one voxel the first point's.
+std::array<float, 3> mean_normal(const std::vector<std::array<float, 3>>& normals,
+                                 const std::vector<Cell>& cells, std::size_t begin,
+                                 std::size_t end) {
+  Vec3 normal = mean_of(normals, cells, begin, end);
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  if (!(length > 1e-6)) return normals[cells[begin].point];
+  for (double& n : normal) n /= length;
+  return to_float(normal);
+}
+
 }  // namespace
 
-Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size) {
+Result<Grid, InputError> grid_of(const PointCloud& cloud, int bits, double voxel_size) {
   const auto argument = [](const std::string& cause) {
     return InputError{Errc::kInvalidArgument, cause};
   };
@@ -108,35 +119,40 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
   if ((!cloud.normals.empty() && cloud.normals.size() != count) ||
       (!cloud.colours.empty() && cloud.colours.size() != count))
     return argument("point cloud: as many normals and colours as positions are needed");
-
   SLF_TRY(const Box box, bounding_box(cloud));
-  SLF_TRY(const Grid grid, choose_grid(box, count, bits, voxel_size));
+  return choose_grid(box, count, bits, voxel_size);
+}
+
+Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size) {
+  SLF_TRY(const Grid grid, grid_of(cloud, bits, voxel_size));
   VoxelCloud voxels = voxelise_on(cloud, grid);
   voxels.grid = moved(grid, cloud.origin);
   return voxels;
 }
 
-VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid) {
+void for_each_voxel(const PointCloud& cloud, const Grid& grid,
+                    const std::function<void(const OccupiedVoxel&)>& take) {
   const std::size_t count = cloud.positions.size();
-  VoxelCloud voxels;
-  voxels.grid = grid;
   const auto cells = sorted_cells(cloud, grid);
+  OccupiedVoxel voxel;
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     while (end < count && cells[end].code == cells[begin].code) ++end;
-    voxels.positions.push_back(from_morton(cells[begin].code));
-    if (!cloud.colours.empty())
-      voxels.colours.push_back(to_float(mean_of(cloud.colours, cells, begin, end)));
-    if (cloud.normals.empty()) continue;
-    Vec3 normal = mean_of(cloud.normals, cells, begin, end);
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    if (length > 1e-6) {
-      for (double& n : normal) n /= length;
-      voxels.normals.push_back(to_float(normal));
-    } else {  // two sides of a sheet in one voxel: the first point's
-      voxels.normals.push_back(cloud.normals[cells[begin].point]);
-    }
+    voxel.code = cells[begin].code;
+    if (!cloud.colours.empty()) voxel.colour = to_float(mean_of(cloud.colours, cells, begin, end));
+    if (!cloud.normals.empty()) voxel.normal = mean_normal(cloud.normals, cells, begin, end);
+    take(voxel);
   }
-  voxels.merged = count - voxels.positions.size();
+}
+
+VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid) {
+  VoxelCloud voxels;
+  voxels.grid = grid;
+  for_each_voxel(cloud, grid, [&](const OccupiedVoxel& voxel) {
+    voxels.positions.push_back(from_morton(voxel.code));
+    if (!cloud.normals.empty()) voxels.normals.push_back(voxel.normal);
+    if (!cloud.colours.empty()) voxels.colours.push_back(voxel.colour);
+  });
+  voxels.merged = cloud.positions.size() - voxels.positions.size();
   return voxels;
 }
 

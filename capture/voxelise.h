@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 
 #include "slf/capture.h"
 
@@ -22,8 +25,23 @@ struct Box {
 Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bits,
                                      double voxel_size);
 
+/// The grid of a cloud, from its origin. Errors as voxelise.
+Result<Grid, InputError> grid_of(const PointCloud& cloud, int bits, double voxel_size);
+
+/// A voxel that has points: means of theirs.
+struct OccupiedVoxel {
+  std::uint64_t code = 0;         ///< Morton
+  std::array<float, 3> normal{};  ///< where the cloud has normals
+  std::array<float, 3> colour{};  ///< where it has colours, 0 .. 255
+};
+
+/// The voxels of a cloud in Morton order, without holding them: 16 bytes a point beside the cloud.
 /// Points outside the grid are moved to its border.
 /// @param grid  from the cloud's origin
+void for_each_voxel(const PointCloud& cloud, const Grid& grid,
+                    const std::function<void(const OccupiedVoxel&)>& take);
+
+/// The same, all of them.
 VoxelCloud voxelise_on(const PointCloud& cloud, const Grid& grid);
 
 }  // namespace slf

@@ -7,6 +7,7 @@
 #include "base/hexadecimal.h"
 #include "base/sha256.h"
 #include "base/vec3.h"
+#include "scene/work_directory.h"
 
 namespace slf {
 namespace {
@@ -45,9 +46,7 @@ Result<DepthMaps, InputError> DepthMaps::in(const std::filesystem::path& work,
     add(camera.translation);
   }
   auto directory = work / ("depth-" + hexadecimal(sha.finish()).substr(0, 16));
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) return InputError{Errc::kUnwritable, directory.string() + ": " + error.message()};
+  SLF_CHECK(make_directory(directory));
   return DepthMaps(capture, scene, depth, std::move(directory));
 }
 
@@ -97,13 +96,9 @@ Result<DepthBuffer, InputError> DepthMaps::of(int index) const {
   const std::filesystem::path file = directory_ / std::to_string(index);
   DepthBuffer buffer(camera, settings_);
   const std::size_t bytes = buffer.depths().size_bytes();
-  std::error_code error;
-  if (std::filesystem::file_size(file, error) == bytes && !error) {
-    SLF_TRY(const auto kept, read_file(file, bytes));
-    if (kept.size() == bytes) {
-      std::memcpy(buffer.depths().data(), kept.data(), bytes);
-      return buffer;
-    }
+  if (const auto kept = read_file(file, bytes); kept && kept->size() == bytes) {
+    std::memcpy(buffer.depths().data(), kept->data(), bytes);
+    return buffer;
   }
   SLF_TRY(buffer, make(camera));
   SLF_CHECK(write_file(file, buffer.depths().data(), bytes));

@@ -3,11 +3,12 @@
 
 #include "base/stopwatch.h"
 #include "base/vec3.h"
-#include "encoder/fit_capture.h"
 #include "scene/depth_maps.h"
 #include "scene/encode_slice.h"
 #include "scene/planned_scene.h"
 #include "scene/scene_parts.h"
+#include "scene/scene_points.h"
+#include "scene/work_directory.h"
 
 namespace slf {
 namespace {
@@ -80,12 +81,10 @@ Result<Done, InputError> restore_points(const Capture& capture, const ScenePlan&
                                                ", and the capture was opened without its own"};
   SLF_TRY(const EncoderSettings settings,
           scene_settings(plan.settings, !plan.cameras.empty(), work.threads));
-  EncoderSettings on_grid = settings;
-  on_grid.grid_bits = 0;
-  on_grid.voxel_size = plan.grid.step;
-  SLF_TRY(const VoxelCloud cloud, voxelise_capture(capture, plan.cameras, on_grid));
-  SLF_TRY(const std::string digest, PointStore::write(work.directory, cloud));
-  if (digest == plan.points_digest) return Done{};
+  SLF_CHECK(check_planning(plan, work));
+  SLF_TRY(const ScenePoints points,
+          store_points(capture, plan.cameras, settings, {0, plan.grid.step}, work.directory));
+  if (points.stored.digest == plan.points_digest) return Done{};
   return InputError{Errc::kInvalidInput, "the capture's points are not those of the plan"};
 }
 
@@ -97,9 +96,8 @@ Result<Done, InputError> check(const Capture& capture, const ScenePlan& plan, co
     return InputError{Errc::kInvalidInput,
                       "the capture has " + std::to_string(capture.cameras.size()) +
                           " cameras, that of the plan " + std::to_string(plan.capture_cameras)};
-  std::error_code error;
-  fs::create_directories(work.directory, error);
-  if (error) return InputError{Errc::kUnwritable, work.directory.string() + ": " + error.message()};
+  SLF_CHECK(check_memory(plan, work));
+  SLF_CHECK(make_directory(work.directory));
   return restore_points(capture, plan, work);
 }
 
@@ -156,10 +154,9 @@ Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, b
                                             int threads) {
   if (given.empty()) return InputError{Errc::kInvalidArgument, "merge: no part is given"};
   SLF_TRY(SceneParts parts, read_part(given[0]));
-  std::vector<std::string> names = {given[0].name};
   for (const PartStream& part : given.subspan(1)) {
     SLF_TRY(SceneParts more, read_part(part));
-    SLF_CHECK(combine(parts, std::move(more), part.name, names));
+    SLF_CHECK(combine(parts, std::move(more)));
   }
   MergedScene merged;
   merged.missing = parts.missing();
@@ -175,28 +172,6 @@ Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, b
   SLF_TRY(const SceneBase base, code_base(parts, threads));
   merged.stream = join(parts, base, false);
   return merged;
-}
-
-SceneCost cost_of(const ScenePlan& plan) {
-  constexpr double kObservation = 2 * 24, kViews = 40, kWithAround = 1.4, kBlockPoints = 24;
-  SceneCost cost;
-  cost.points = plan.points();
-  cost.slices = plan.slices.size();
-  cost.cameras = plan.cameras.size();
-  std::uint32_t largest = 0;
-  for (const PlannedSlice& slice : plan.slices) largest = std::max(largest, slice.points);
-  const double points = std::max(kWithAround * largest, 2.0 * kPlanSample),
-               functions = plan.fit.basis.num_functions();
-  double bytes = double(64 << 20) + 16.0 * double(cost.points) +  // codes, cells
-                 points * (64 + 12 * 4 * functions);              // coefficients, planes, rows
-  if (!plan.cameras.empty()) {
-    bytes += points * kObservation * std::min(kViews, double(cost.cameras)) +
-             points / kBlockPoints * 4 * functions * functions;  // blocks' sums
-    if (plan.fit.pictures.rounds > 0) bytes += double{3 << 28};  // fit/picture_views.cpp
-  }
-  cost.memory = static_cast<std::uint64_t>(bytes);
-  cost.disk = cost.points * 32;
-  return cost;
 }
 
 }  // namespace slf

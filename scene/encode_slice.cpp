@@ -8,7 +8,6 @@
 #include "codec/use_transforms.h"
 #include "encoder/component_planes.h"
 #include "encoder/fit_capture.h"
-#include "geometry/morton.h"
 #include "lightfield/octahedral.h"
 #include "slf/camera_trust.h"
 
@@ -17,37 +16,6 @@ namespace {
 
 constexpr float kUnknown = 127.5f;  // of what no photograph and no colour tells
 
-/// [P][3 K] coefficients of points that no camera sees: the cloud's own colours, or grey.
-std::vector<float> unseen_coefficients(const VoxelCloud& cloud, std::size_t functions) {
-  std::vector<float> coefficients(cloud.positions.size() * functions * 3, 0.0f);
-  for (std::size_t p = 0; p < cloud.positions.size(); ++p)
-    for (std::size_t c = 0; c < 3; ++c)
-      coefficients[3 * functions * p + c] = cloud.colours.empty() ? kUnknown : cloud.colours[p][c];
-  return coefficients;
-}
-
-/// The cameras that no check left out.
-std::vector<int> kept_cameras(const ScenePlan& plan, std::span<const int> cameras) {
-  std::vector<int> kept;
-  for (const int camera : cameras)
-    if (std::none_of(plan.trust.begin(), plan.trust.end(), [&](const CameraTrust& t) {
-          return t.camera == camera && t.verdict == CameraVerdict::kDropped;
-        }))
-      kept.push_back(camera);
-  return kept;
-}
-
-/// [own][3 K] of what was fitted to a region.
-std::vector<float> own_rows(const Region& region, std::span<const float> of_all, std::size_t row) {
-  std::vector<float> rows;
-  rows.reserve(region.own.size() * row);
-  for (const std::uint32_t p : region.own) {
-    const auto begin = of_all.begin() + static_cast<std::ptrdiff_t>(p * row);
-    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
-  }
-  return rows;
-}
-
 /// View maps of the slice's own points, [own][3 K], in R, G, B.
 Result<std::vector<float>, InputError> fit_region(const PlannedScene& scene, const Capture& capture,
                                                   const DepthMaps& depth, const Region& region,
@@ -55,8 +23,7 @@ Result<std::vector<float>, InputError> fit_region(const PlannedScene& scene, con
                                                   const Progress& progress, CodedSlice& report) {
   const ScenePlan& plan = scene.plan;
   const std::size_t functions = static_cast<std::size_t>(plan.fit.basis.num_functions());
-  const std::vector<int> cameras =
-      kept_cameras(plan, cameras_of(capture, plan.cameras, scene.cells, cells));
+  const std::vector<int> cameras = cameras_of(capture, plan.cameras, scene.cells, cells);
   report.cameras = cameras.size();
   const DepthOfCamera depth_of = [&](int camera) { return depth.of(camera); };
   SLF_TRY(SeenPoints seen, observe_points(capture, cameras, world_points(region.cloud), depth_of,
@@ -65,7 +32,7 @@ Result<std::vector<float>, InputError> fit_region(const PlannedScene& scene, con
   report.observations = world.colour.size();
   if (world.colour.empty()) {
     report.unobserved = region.own.size();
-    return own_rows(region, unseen_coefficients(region.cloud, functions), 3 * functions);
+    return region.own_rows(unseen_coefficients(region.cloud, functions), 3 * functions);
   }
   CaptureFit fit;
   fit.chosen.settings = scene.settings.fit;
@@ -73,7 +40,7 @@ Result<std::vector<float>, InputError> fit_region(const PlannedScene& scene, con
   SLF_CHECK(fit_chosen({capture, cameras, region.cloud, depth_of}, std::move(world), scene.settings,
                        progress, fit));
   report.unobserved = fit.unobserved_points;
-  return own_rows(region, fit.coefficients, 3 * functions);
+  return region.own_rows(fit.coefficients, 3 * functions);
 }
 
 /// Values that a transform of the whole scene can hold: what a fit of few views runs away to is
@@ -94,33 +61,49 @@ std::vector<std::array<std::uint16_t, 2>> own_normals(const Region& region, int 
   return normals;
 }
 
+/// A slice without the cells of others.
+SceneLayout alone(const SceneLayout& scene, std::size_t slice) {
+  const SliceCut& cut = scene.cuts[slice];
+  const std::size_t first = cut.first_cell, cells = scene.table.slices[slice].cells();
+  SceneLayout layout;
+  layout.base_levels = scene.base_levels;
+  layout.first_slice = slice;
+  layout.cells.assign(scene.cells.begin() + std::ptrdiff_t(first),
+                      scene.cells.begin() + std::ptrdiff_t(first + cells));
+  for (std::size_t c = 0; c <= cells; ++c)
+    layout.weight_before.push_back(scene.weight_before[first + c] - scene.weight_before[first]);
+  layout.cuts = {{0, 0, cut.end - cut.begin}};
+  return layout;
+}
+
 Result<Done, InputError> code(const PlannedScene& scene, const Region& region,
                               std::vector<std::int32_t> components, CodedSlice& coded) {
-  std::vector<std::uint64_t> codes;
+  const std::vector<std::uint64_t> codes = region.own_codes();
   std::vector<Voxel> positions;
-  for (const std::uint32_t p : region.own) {
-    positions.push_back(region.cloud.positions[p]);
-    codes.push_back(morton(positions.back()));
-  }
+  for (const std::uint32_t p : region.own) positions.push_back(region.cloud.positions[p]);
   const auto normals = own_normals(region, scene.settings.normal_bits);
-  const SceneLayout& layout = scene.cells.layout;
-  const std::size_t planes = scene.coding->planes(), begin = layout.cuts[coded.slice].first_cell,
-                    cells = scene.plan.slices[coded.slice].cells;
-  std::vector<std::int32_t> sums(layout.cells.size() * planes);
+  const SceneLayout layout = alone(scene.cells.layout, coded.slice);
+  coded.sums.resize(layout.cells.size() * scene.coding->planes());
   SliceEncoder encoder(*scene.coding, layout, coded.slice, {codes, positions, components, normals},
                        nullptr);
   SLF_CHECK(encoder.encode_geometry(nullptr));
   encoder.encode_normals();
-  SLF_CHECK(encoder.transform(sums, scene.settings.threads));
+  SLF_CHECK(encoder.transform(coded.sums, scene.settings.threads));
   SLF_CHECK(encoder.encode_components(nullptr, scene.settings.threads));
   encoder.encode_digest();
   coded.units = encoder.take_units();
-  coded.sums.assign(sums.begin() + static_cast<std::ptrdiff_t>(begin * planes),
-                    sums.begin() + static_cast<std::ptrdiff_t>((begin + cells) * planes));
   return Done{};
 }
 
 }  // namespace
+
+std::vector<float> unseen_coefficients(const VoxelCloud& cloud, std::size_t functions) {
+  std::vector<float> coefficients(cloud.positions.size() * functions * 3, 0.0f);
+  for (std::size_t p = 0; p < cloud.positions.size(); ++p)
+    for (std::size_t c = 0; c < 3; ++c)
+      coefficients[3 * functions * p + c] = cloud.colours.empty() ? kUnknown : cloud.colours[p][c];
+  return coefficients;
+}
 
 Result<CodedSlice, InputError> encode_slice(const PlannedScene& scene, const Capture& capture,
                                             const DepthMaps& depth, std::size_t slice,

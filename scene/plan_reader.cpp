@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "capture/json.h"
-#include "slf/scene.h"
+#include "scene/planned_scene.h"
 
 namespace slf {
 namespace {
 
 constexpr std::uint64_t kMostPlanBytes = std::uint64_t{64} << 20;
-constexpr double kPlanVersion = 1;
 
 using Numbers = Result<std::vector<double>, InputError>;
 
@@ -69,13 +68,14 @@ Result<Metadata, InputError> read_pairs(const JsonView& json, const char* name) 
   return all;
 }
 
-constexpr double kLarge = 1e300;
+constexpr double kLarge = 1e300, kMostLight = 1e6, kMostGain = 100;
 
 Result<FitSettings, InputError> read_fit(const JsonView& json) {
   FitSettings fit;
   SLF_TRY(const int hierarchical, integer(json, "hierarchical", 0, 1));
   fit.method = hierarchical != 0 ? FitMethod::kHierarchical : FitMethod::kPaper;
-  SLF_TRY(const auto basis, numbers(json, "basis", 5, 0, 10));
+  SLF_TRY(const auto basis, whole(json, "basis", 0, 10));
+  if (basis.size() != 5) return json.at("basis")->error("5 numbers are expected");
   fit.basis = {static_cast<BasisId>(basis[0] != 0), int(basis[1]), int(basis[2]), int(basis[3]),
                int(basis[4])};
   SLF_TRY(const int reflected, integer(json, "reflected", 0, 1));
@@ -87,9 +87,10 @@ Result<FitSettings, InputError> read_fit(const JsonView& json) {
   fit.environment = {int(e[0]), e[1], e[2], {}};
   SLF_TRY(const auto box, numbers(json, "box", 4, -kLarge, kLarge));
   fit.environment.known = {{box[0], box[1], box[2]}, box[3], {}};
-  SLF_TRY(const auto light, numbers(json, "light", -1e30, 1e30));
+  SLF_TRY(const auto light, numbers(json, "light", -kMostLight, kMostLight));
   for (const double x : light) fit.environment.known.light.push_back(static_cast<float>(x));
-  if (box[3] > 0 && light.size() != std::size_t(3 * (e[0] + 1) * (e[0] + 1) + 0.5))
+  const bool lit = box[3] > 0 && e[0] > 0;
+  if (light.size() != (lit ? std::size_t(3 * (e[0] + 1) * (e[0] + 1)) : 0))
     return json.at("light")->error("not of the environment's degree");
   SLF_TRY(const auto p, numbers(json, "pictures", 6, 0, 1e9));
   fit.pictures = {int(p[0]), int(p[1]), p[2], p[3], p[4], p[5]};
@@ -110,7 +111,10 @@ Result<std::vector<CameraTrust>, InputError> read_trust(const JsonView& json, st
     CameraTrust trust;
     trust.camera = int(v[0]);
     trust.verdict = static_cast<CameraVerdict>(int(v[1]));
-    for (std::size_t c = 0; c < 3; ++c) trust.gain[c] = static_cast<float>(v[2 + c]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!(v[2 + c] >= 0 && v[2 + c] <= kMostGain)) return item.error("out of range");
+      trust.gain[c] = static_cast<float>(v[2 + c]);
+    }
     all.push_back(trust);
   }
   return all;
@@ -152,6 +156,8 @@ Result<Done, InputError> read_scene(const JsonView& json, ScenePlan& plan) {
   if (!(plan.grid.step > 0)) return json.at("grid")->error("the step is not above 0");
   SLF_TRY(plan.grid.bits, integer(json, "grid_bits", 2, 21));
   SLF_TRY(plan.spacing, number(json, "spacing", plan.grid.step, kLarge));
+  SLF_TRY(const double planning, number(json, "planning_bytes", 0, 1e15));
+  plan.planning_bytes = static_cast<std::uint64_t>(planning);
   SLF_TRY(const JsonView digest, json.at("points_sha256"));
   SLF_TRY(plan.points_digest, digest.string());
   if (plan.points_digest.size() != 64 ||

@@ -14,35 +14,25 @@
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
 #include "fit/environment_fit.h"
-#include "geometry/morton.h"
 #include "geometry/weight_classes.h"
 #include "scene/depth_maps.h"
+#include "scene/encode_slice.h"
 #include "scene/planned_scene.h"
+#include "scene/scene_points.h"
+#include "scene/work_directory.h"
 
 namespace slf {
 namespace {
 
-constexpr std::size_t kSample = kPlanSample;  // points that everything is chosen on, about
 constexpr std::size_t kSpacingRun = 30000;  // points in Morton order that the spacing is taken from
 /// Components of the scene may be so much larger than those of the sample.
 constexpr float kMargin = 2;
 
-/// The grid: as given, or what the photographs resolve, however many points that makes.
-Result<VoxelCloud, InputError> voxelise_scene(const Capture& capture, std::span<const int> cameras,
-                                              EncoderSettings settings, Density& density) {
-  if (settings.grid_bits == 0 && settings.voxel_size == 0) {
-    density = choose_density(capture, cameras);
-    settings.voxel_size = density.voxel_size;
-    if (settings.voxel_size == 0) settings.grid_bits = 1;
-  }
-  return voxelise_capture(capture, cameras, settings);
-}
-
-/// Cells spread over the scene, of about kSample points.
+/// Cells spread over the scene, of about kPlanSample points.
 std::vector<std::size_t> sample_cells(const SceneCells& cells) {
   const auto points = static_cast<double>(cells.store.size());
-  const auto every =
-      static_cast<std::size_t>(std::max(1.0, std::floor(points / static_cast<double>(kSample))));
+  const auto every = static_cast<std::size_t>(
+      std::max(1.0, std::floor(points / static_cast<double>(kPlanSample))));
   std::vector<std::size_t> sample;
   for (std::size_t c = every / 2; c < cells.count(); c += every) sample.push_back(c);
   return sample;
@@ -56,18 +46,22 @@ class Planner {
       : capture_(capture), settings_(settings), work_(work), progress_(progress), plan_(plan) {}
 
   Result<Done, InputError> plan_points() {
-    SLF_TRY(VoxelCloud cloud, voxelise_scene(capture_, plan_.cameras, settings_, density_));
-    encoded_.merged = cloud.merged;
-    plan_.grid = cloud.grid;
-    SLF_TRY(plan_.points_digest, PointStore::write(work_.directory, cloud));
-    const std::uint64_t points = cloud.positions.size();
-    cloud = {};
-    SLF_TRY(cells_.store, PointStore::open(work_.directory, plan_.points_digest, points));
-    cells_.grid = plan_.grid;
-    SLF_TRY(const auto codes, cells_.store.codes(0, points));
+    GridWanted wanted{settings_.grid_bits, settings_.voxel_size};
+    if (wanted.bits == 0 && wanted.voxel_size == 0) {  // what the photographs resolve
+      density_ = choose_density(capture_, plan_.cameras);
+      wanted.voxel_size = density_.voxel_size;
+      if (wanted.voxel_size == 0) wanted.bits = 1;
+    }
+    SLF_TRY(const ScenePoints points,
+            store_points(capture_, plan_.cameras, settings_, wanted, work_.directory));
+    encoded_.merged = points.merged;
+    plan_.grid = points.grid;
+    plan_.points_digest = points.stored.digest;
+    SLF_TRY(cells_, SceneCells::open(work_.directory, plan_.points_digest, points.stored.points,
+                                     plan_.grid));
+    SLF_TRY(const auto codes, cells_.store.codes(0, points.stored.points));
     plan_.spacing = spacing_of(codes);
-    SLF_TRY(cells_.layout, lay_out_scene(codes, plan_.grid, plan_.spacing, settings_));
-    cells_.first = first_points(cells_.layout, codes, plan_.grid.bits);
+    SLF_CHECK(lay_out_scene(codes, plan_.spacing, settings_, cells_));
     plan_.base_levels = cells_.layout.base_levels;
     for (const SliceEntry& slice : cells_.layout.table.slices)
       plan_.slices.push_back(
@@ -81,7 +75,7 @@ class Planner {
     SLF_TRY(region_, read_region(cells_, sample_, around));
     if (plan_.cameras.empty()) {
       plan_.fit = settings_.fit;
-      coefficients_ = colours();
+      coefficients_ = unseen_coefficients(region_.cloud, 1);
       return Done{};
     }
     SLF_CHECK(fit_sample());
@@ -95,7 +89,9 @@ class Planner {
   }
 
   Result<Done, InputError> plan_coding() {
-    take_own();
+    coefficients_ = region_.own_rows(
+        coefficients_,
+        coefficients_.size() / std::max<std::size_t>(region_.cloud.positions.size(), 1));
     to_coded_channels(coefficients_, settings_.colour, settings_.threads);
     const auto functions = static_cast<std::size_t>(plan_.fit.basis.num_functions());
     std::vector<float> larger = coefficients_;
@@ -112,17 +108,12 @@ class Planner {
     encoded_.cameras = plan_.trust;
     settings.metadata = plan_.metadata;
     plan_.metadata = encoder_metadata(settings, encoded_, plan_.cameras.size());
-    return settings_.transform == TransformMode::kNone ? Result<Done, InputError>(Done{})
-                                                       : plan_transforms(settings);
+    for (const CameraTrust& t : plan_.trust)
+      if (t.verdict == CameraVerdict::kDropped) std::erase(plan_.cameras, t.camera);
+    return plan_transforms(settings);
   }
 
  private:
-  std::vector<float> colours() const {
-    std::vector<float> all;
-    for (const auto& rgb : region_.cloud.colours) all.insert(all.end(), rgb.begin(), rgb.end());
-    return all;
-  }
-
   /// The median of three places: what is typical needs no tree of all points.
   double spacing_of(std::span<const std::uint64_t> codes) const {
     std::array<double, 3> spacing{};
@@ -170,29 +161,19 @@ class Planner {
     return Done{};
   }
 
-  /// Coefficients and positions of the sampled cells alone.
-  void take_own() {
-    const std::size_t row =
-        coefficients_.size() / std::max<std::size_t>(region_.cloud.positions.size(), 1);
-    std::vector<float> own;
-    for (const std::uint32_t p : region_.own) {
-      const auto begin = coefficients_.begin() + static_cast<std::ptrdiff_t>(p * row);
-      own.insert(own.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
-      codes_.push_back(morton(region_.cloud.positions[p]));
-    }
-    coefficients_ = std::move(own);
-  }
-
   Result<Done, InputError> plan_transforms(const EncoderSettings& settings) {
     LightField field = scene_header(plan_, settings);
-    const CodingParameters parameters = coding_parameters(field, settings);
+    CodingParameters parameters = coding_parameters(field, settings);
+    parameters.metadata = plan_.metadata;
     SLF_TRY(const SequenceParameterSet set, sequence_of(field, parameters));
+    if (settings.transform == TransformMode::kNone) return Done{};
     const auto components = to_components(coefficients_, plan_.shift, settings.threads);
-    const std::vector<SliceCut> cuts = {{0, 0, codes_.size()}};
+    const std::vector<std::uint64_t> codes = region_.own_codes();
+    const std::vector<SliceCut> cuts = {{0, 0, codes.size()}};
     const double scale = static_cast<double>(cells_.store.size()) /
-                         static_cast<double>(std::max<std::size_t>(codes_.size(), 1));
+                         static_cast<double>(std::max<std::size_t>(codes.size(), 1));
     for (const ForwardTransform& t : derive_transforms(
-             {codes_, components, cuts, scale}, plane_groups(set), error_weights(field.header),
+             {codes, components, cuts, scale}, plane_groups(set), error_weights(field.header),
              plane_steps(set), settings.transform, settings.threads)) {
       plan_.transforms.push_back({t.inverse, t.precision});
       plan_.transforms.back().coded.components.clear();
@@ -211,20 +192,8 @@ class Planner {
   std::vector<std::size_t> sample_;
   Region region_;
   CaptureFit fit_;
-  std::vector<float> coefficients_;   // [points of the region][3 K], later of own ones
-  std::vector<std::uint64_t> codes_;  // of own ones
+  std::vector<float> coefficients_;  // [points of the region][3 K], later of own ones
 };
-
-Result<Done, InputError> check_memory(const ScenePlan& plan, const SceneWork& work,
-                                      std::uint32_t slice_points) {
-  if (const SceneCost cost = cost_of(plan); cost.memory > work.memory)
-    return InputError{Errc::kLimitExceeded,
-                      "a slice takes " + std::to_string(cost.memory >> 20) + " MiB, more than " +
-                          std::to_string(work.memory >> 20) +
-                          " of --memory: fewer --slice-points than " +
-                          std::to_string(slice_points) + ", or more memory, would do"};
-  return Done{};
-}
 
 }  // namespace
 
@@ -234,9 +203,7 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   SLF_TRY(const EncoderSettings settings,
           scene_settings(given, !capture.cameras.empty(), work.threads));
   SLF_CHECK(check_settings(settings));
-  std::error_code error;
-  std::filesystem::create_directories(work.directory, error);
-  if (error) return InputError{Errc::kUnwritable, work.directory.string() + ": " + error.message()};
+  SLF_CHECK(make_directory(work.directory));
   ScenePlan plan;
   plan.settings = given;
   plan.metadata = metadata;
@@ -248,10 +215,12 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   if (cameras.empty() && capture.cloud.colours.empty())
     return InputError{Errc::kInvalidInput,
                       "the capture has no cameras and its points have no colours"};
+  plan.planning_bytes = memory_of_points(capture, cameras, settings);
+  SLF_CHECK(check_planning(plan, work));
   Planner planner(capture, settings, work, progress, plan);
   SLF_CHECK(planner.plan_points());
   plan.fit = settings.fit;
-  SLF_CHECK(check_memory(plan, work, settings.max_slice_points));
+  SLF_CHECK(check_memory(plan, work));
   SLF_CHECK(planner.plan_fit());
   SLF_CHECK(planner.plan_coding());
   return plan;

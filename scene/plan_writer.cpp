@@ -2,12 +2,10 @@
 #include <array>
 #include <charconv>
 
-#include "slf/scene.h"
+#include "scene/planned_scene.h"
 
 namespace slf {
 namespace {
-
-constexpr double kPlanVersion = 1;
 
 /// The shortest form that reads back as the same number.
 std::string text(double value) {
@@ -107,6 +105,7 @@ std::string write_plan(const ScenePlan& plan) {
          ", \"up\": " + text(int(plan.up)) + ", \"grid\": " +
          list(std::array<double, 4>{origin[0], origin[1], origin[2], plan.grid.step}) +
          ", \"grid_bits\": " + text(plan.grid.bits) + ", \"spacing\": " + text(plan.spacing) +
+         ", \"planning_bytes\": " + text(double(plan.planning_bytes)) +
          ",\n  \"points_sha256\": " + text(plan.points_digest) +
          ",\n  \"base_levels\": " + text(plan.base_levels) + ", \"slices\": " + list(slices) +
          ",\n  \"fit\": " + fit_text(plan.fit) + ",\n  \"trust\": " + trust_text(plan.trust) +

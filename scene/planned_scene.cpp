@@ -12,6 +12,8 @@
 #include "codec/transform_units.h"
 #include "codec/use_transforms.h"
 #include "encoder/coding_parameters.h"
+#include "fit/fit_settings.h"
+#include "scene/work_directory.h"
 
 namespace slf {
 namespace {
@@ -22,6 +24,8 @@ InputError refused(const char* what) {
   return {Errc::kInvalidArgument, std::string(what) + " needs the whole scene at once"};
 }
 
+InputError wrong_plan(const std::string& cause) { return {Errc::kInvalidInput, "plan: " + cause}; }
+
 /// Nodes of a level, of codes in ascending order.
 std::size_t nodes_at(std::span<const std::uint64_t> codes, int below) {
   std::size_t nodes = codes.empty() ? 0 : 1;
@@ -30,15 +34,40 @@ std::size_t nodes_at(std::span<const std::uint64_t> codes, int below) {
   return nodes;
 }
 
-CodingParameters scene_parameters(const LightField& field, const EncoderSettings& settings) {
+CodingParameters scene_parameters(const LightField& field, const ScenePlan& plan,
+                                  const EncoderSettings& settings) {
   CodingParameters parameters = coding_parameters(field, settings);
   parameters.slice_start = SliceStart::kApart;
+  parameters.metadata = plan.metadata;
   return parameters;
+}
+
+/// A plan may come from anywhere: of what was read as numbers, whether they go together.
+Result<ForwardTransform, InputError> transform_of(const PlannedTransform& planned,
+                                                  const PlaneGroups& groups, std::size_t free_group,
+                                                  const std::vector<double>& weights) {
+  PlaneTransform coded = planned.coded;
+  if (coded.first_group < free_group || coded.num_groups < 1 ||
+      coded.first_group + coded.num_groups > groups.size())
+    return wrong_plan("transforms: groups that there are not, or twice");
+  coded.functions = functions_of_groups(groups, coded.first_group, coded.num_groups);
+  if (coded.rank > coded.functions.size())
+    return wrong_plan("transforms: a rank above the functions of its groups");
+  if (coded.matrix.size() != coded.rows() * coded.columns() ||
+      planned.precision.size() != coded.columns())
+    return wrong_plan("transforms: a matrix of another size");
+  ForwardTransform forward = forward_transform(std::move(coded), planned.precision, weights);
+  const auto finite = [](double x) { return std::isfinite(x); };
+  bool invertible = std::all_of(forward.matrix.begin(), forward.matrix.end(), finite);
+  for (const auto& row : forward.colour)
+    invertible = invertible && std::all_of(row.begin(), row.end(), finite);
+  if (!invertible) return wrong_plan("transforms: colours that cannot be told apart");
+  return forward;
 }
 
 Result<Done, InputError> set_up_coding(PlannedScene& scene) {
   const LightField field = scene_header(scene.plan, scene.settings);
-  const CodingParameters parameters = scene_parameters(field, scene.settings);
+  const CodingParameters parameters = scene_parameters(field, scene.plan, scene.settings);
   const SceneLayout& layout = scene.cells.layout;
   SLF_TRY(scene.set, sequence_of(field, parameters));
   set_base(layout, scene.set);
@@ -47,14 +76,11 @@ Result<Done, InputError> set_up_coding(PlannedScene& scene) {
   scene.coded.resize(static_cast<std::size_t>(field.header.num_functions));
   std::iota(scene.coded.begin(), scene.coded.end(), std::uint16_t{0});
   const std::vector<double> weights = error_weights(field.header);
+  std::size_t free_group = 0;
   for (const PlannedTransform& planned : scene.plan.transforms) {
-    PlaneTransform coded = planned.coded;
-    coded.functions =
-        functions_of_groups(scene.coding->groups, coded.first_group, coded.num_groups);
-    if (coded.matrix.size() != coded.rows() * coded.columns() ||
-        planned.precision.size() != coded.columns())
-      return InputError{Errc::kInvalidInput, "plan: transforms: a matrix of another size"};
-    scene.transforms.push_back(forward_transform(std::move(coded), planned.precision, weights));
+    SLF_TRY(auto transform, transform_of(planned, scene.coding->groups, free_group, weights));
+    free_group = planned.coded.first_group + planned.coded.num_groups;
+    scene.transforms.push_back(std::move(transform));
   }
   if (!scene.transforms.empty()) {
     SLF_TRY(scene.coded, use_transforms(field, layout, parameters, scene.transforms, scene.set,
@@ -99,10 +125,12 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (settings.preset == Preset::kPaper) return refused("--preset paper");
   if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");
   if (settings.base_levels == 0) return refused("--base-levels 0");
-  const bool given_points = std::any_of(given.begin(), given.end(), [](const auto& setting) {
-    return setting.first == "slice-points";
-  });
-  if (!given_points) settings.max_slice_points = kScenePoints;
+  const auto is_given = [&](const char* name) {
+    return std::any_of(given.begin(), given.end(), [&](const auto& s) { return s.first == name; });
+  };
+  if (is_given("slice-start") && settings.slice_start != SliceStart::kApart)
+    return refused("a --slice-start but apart");
+  if (!is_given("slice-points")) settings.max_slice_points = kScenePoints;
   settings.refine_geometry = RefineGeometry::kOff;
   settings.densify.mode = Densify::kOff;
   settings.threads = settings.fit.threads = settings.observe.threads = threads;
@@ -115,9 +143,9 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   return settings;
 }
 
-Result<SceneLayout, InputError> lay_out_scene(std::span<const std::uint64_t> codes,
-                                              const Grid& grid, double spacing,
-                                              const EncoderSettings& settings) {
+Result<Done, InputError> lay_out_scene(std::span<const std::uint64_t> codes, double spacing,
+                                       const EncoderSettings& settings, SceneCells& cells) {
+  const Grid& grid = cells.grid;
   CodingParameters parameters;
   parameters.slice_start = SliceStart::kApart;
   // Two at least: one alone would start from the base.
@@ -135,24 +163,19 @@ Result<SceneLayout, InputError> lay_out_scene(std::span<const std::uint64_t> cod
   }
   const InputError too_small{Errc::kInvalidInput, "the scene is too small to be coded in parts"};
   if (grid.bits < 2) return too_small;
-  SLF_TRY(SceneLayout layout, lay_out(codes, grid.bits, parameters));
-  if (layout.cuts.size() < 2) return too_small;
-  return layout;
+  SLF_TRY(cells.layout, lay_out(codes, grid.bits, parameters));
+  if (cells.layout.cuts.size() < 2) return too_small;
+  const int below = 3 * cells.cell_bits();
+  cells.first.clear();
+  for (std::size_t p = 0; p < codes.size(); ++p)
+    if (p == 0 || codes[p] >> below != codes[p - 1] >> below) cells.first.push_back(p);
+  cells.first.push_back(codes.size());
+  return Done{};
 }
 
 int voxels_around(const SceneCells& scene, double spacing) {
   const double wanted = std::ceil(kAround * spacing / scene.grid.step);
   return static_cast<int>(std::min(wanted, std::ldexp(1, scene.cell_bits())));
-}
-
-std::vector<std::uint64_t> first_points(const SceneLayout& layout,
-                                        std::span<const std::uint64_t> codes, int grid_bits) {
-  const int below = 3 * (grid_bits - layout.base_levels);
-  std::vector<std::uint64_t> first;
-  for (std::size_t p = 0; p < codes.size(); ++p)
-    if (p == 0 || codes[p] >> below != codes[p - 1] >> below) first.push_back(p);
-  first.push_back(codes.size());
-  return first;
 }
 
 LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings) {
@@ -190,20 +213,16 @@ Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& pl
   FitSettings& fit = scene->settings.fit;
   fit = plan.fit;
   fit.threads = work.threads;
+  if (const auto sound = check_fit_settings(fit); !sound)
+    return wrong_plan("fit: " + sound.error().message);
   scene->settings.search = FitSearch::none();
   scene->directory = work.directory / hexadecimal(digest_of(plan)).substr(0, 16);
-  std::error_code error;
-  std::filesystem::create_directories(scene->directory, error);
-  if (error)
-    return InputError{Errc::kUnwritable, scene->directory.string() + ": " + error.message()};
-  SLF_TRY(scene->cells.store, PointStore::open(work.directory, plan.points_digest, plan.points()));
+  SLF_CHECK(make_directory(scene->directory));
   SceneCells& cells = scene->cells;
+  SLF_TRY(cells, SceneCells::open(work.directory, plan.points_digest, plan.points(), plan.grid));
   SLF_TRY(const auto codes, cells.store.codes(0, cells.store.size()));
-  cells.grid = plan.grid;
-  SLF_TRY(cells.layout, lay_out_scene(codes, plan.grid, plan.spacing, scene->settings));
-  if (!same_slices(plan, cells.layout))
-    return InputError{Errc::kInvalidInput, "plan: slices: not those of its points"};
-  cells.first = first_points(cells.layout, codes, plan.grid.bits);
+  SLF_CHECK(lay_out_scene(codes, plan.spacing, scene->settings, cells));
+  if (!same_slices(plan, cells.layout)) return wrong_plan("slices: not those of its points");
   SLF_CHECK(set_up_coding(*scene));
   return scene;
 }

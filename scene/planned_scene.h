@@ -29,6 +29,9 @@ struct PlannedScene {
   std::vector<std::size_t> cells_of(std::size_t slice) const;
 };
 
+/// Of the JSON.
+inline constexpr int kPlanVersion = 2;
+
 /// Points of the sample that a plan is made on, about, with what is around them.
 inline constexpr std::size_t kPlanSample = 24000;
 
@@ -44,17 +47,13 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
                                                    int threads);
 
 /// Cells and slices, with a base whose cells are not smaller than what slices see around them.
+/// @param codes  of all points
 /// @errors those of lay_out; kInvalidInput: too few points
-Result<SceneLayout, InputError> lay_out_scene(std::span<const std::uint64_t> codes,
-                                              const Grid& grid, double spacing,
-                                              const EncoderSettings& settings);
+Result<Done, InputError> lay_out_scene(std::span<const std::uint64_t> codes, double spacing,
+                                       const EncoderSettings& settings, SceneCells& cells);
 
 /// Voxels of kAround, at most the side of a cell.
 int voxels_around(const SceneCells& scene, double spacing);
-
-/// @param points  how many there are of each cell
-std::vector<std::uint64_t> first_points(const SceneLayout& layout,
-                                        std::span<const std::uint64_t> codes, int grid_bits);
 
 /// A field of one point of nothing, with the header of the scene's.
 LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings);
@@ -62,7 +61,14 @@ LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings);
 /// SHA-256 of the plan as JSON.
 std::array<std::uint8_t, 32> digest_of(const ScenePlan& plan);
 
-/// @errors kUnreadable: the points are not in the directory; kInvalidInput: they are not the plan's
+/// Whether there is memory for a slice, or for all points on their way to the grid.
+/// @errors kLimitExceeded: says what would do
+Result<Done, InputError> check_memory(const ScenePlan& plan, const SceneWork& work);
+Result<Done, InputError> check_planning(const ScenePlan& plan, const SceneWork& work);
+
+/// @errors kUnreadable: the points are not in the directory; kInvalidInput: they are not the
+/// plan's,
+///         or the plan's numbers do not go together; kUnwritable
 Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& plan,
                                                              const SceneWork& work);
 

@@ -1,10 +1,17 @@
 #include "scene/point_store.h"
 
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <span>
 
 #include "base/hexadecimal.h"
 #include "base/sha256.h"
+#include "capture/voxelise.h"
 #include "geometry/morton.h"
 
 namespace slf {
@@ -12,17 +19,93 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCodes = "points.codes";
-constexpr const char* kNormals = "points.normals";
-constexpr const char* kColours = "points.colours";
-constexpr const char* kDigest = "points.sha256";  // written last: the others are whole
+constexpr const char* kCodes = ".codes";  // appears last: the others are there
+constexpr const char* kNormals = ".normals";
+constexpr const char* kColours = ".colours";
+constexpr std::uint64_t kTriple = sizeof(std::array<float, 3>);
 
-template <class T>
-std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
+fs::path file_of(const fs::path& directory, const std::string& digest, const char* what) {
+  return directory / ("points-" + digest.substr(0, 16) + what);
 }
 
-InputError unreadable(const fs::path& file) {
+/// A file that has another name until it is whole.
+class GrowingFile {
+ public:
+  explicit GrowingFile(const fs::path& directory) {
+    static std::atomic<int> files{0};
+    name_ = directory / ("points.tmp" + std::to_string(::getpid()) + "-" + std::to_string(files++));
+    file_ = std::fopen(name_.c_str(), "wbe");
+    if (file_ == nullptr) error_ = errno;
+  }
+  ~GrowingFile() {
+    if (file_ == nullptr) return;
+    std::fclose(file_);
+    std::remove(name_.c_str());
+  }
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  template <class T>
+  void put(const T& value) {
+    if (error_ != 0) return;
+    bytes_ += sizeof value;
+    sha_.update({reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
+    if (std::fwrite(&value, sizeof value, 1, file_) != 1) error_ = errno;
+  }
+
+  bool empty() const { return bytes_ == 0; }
+  std::array<std::uint8_t, 32> digest() { return sha_.finish(); }
+
+  Result<Done, InputError> appear_as(const fs::path& name) {
+    if (error_ == 0 && (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0)) error_ = errno;
+    if (error_ == 0 && std::rename(name_.c_str(), name.c_str()) != 0) error_ = errno;
+    if (error_ != 0)
+      return InputError{Errc::kUnwritable,
+                        name.string() + ": cannot be written: " + std::strerror(error_)};
+    std::fclose(file_);
+    file_ = nullptr;
+    return Done{};
+  }
+
+ private:
+  fs::path name_;
+  std::FILE* file_ = nullptr;
+  int error_ = 0;
+  std::uint64_t bytes_ = 0;
+  Sha256 sha_;
+};
+
+class StoreWriter {
+ public:
+  explicit StoreWriter(const fs::path& directory)
+      : directory_(directory), codes_(directory), normals_(directory), colours_(directory) {}
+
+  void put(std::uint64_t code, const std::array<float, 3>* normal,
+           const std::array<float, 3>* colour) {
+    codes_.put(code);
+    if (normal != nullptr) normals_.put(*normal);
+    if (colour != nullptr) colours_.put(*colour);
+    ++written_.points;
+  }
+
+  Result<PointStore::Written, InputError> finish() {
+    Sha256 sha;
+    for (GrowingFile* file : {&codes_, &normals_, &colours_}) sha.update(file->digest());
+    written_.digest = hexadecimal(sha.finish());
+    const auto name = [&](const char* what) { return file_of(directory_, written_.digest, what); };
+    if (!normals_.empty()) SLF_CHECK(normals_.appear_as(name(kNormals)));
+    if (!colours_.empty()) SLF_CHECK(colours_.appear_as(name(kColours)));
+    SLF_CHECK(codes_.appear_as(name(kCodes)));
+    return written_;
+  }
+
+ private:
+  const fs::path& directory_;
+  GrowingFile codes_, normals_, colours_;
+  PointStore::Written written_;
+};
+
+InputError not_the_plans(const fs::path& file) {
   return {Errc::kInvalidInput, file.string() + ": not of as many points as the plan has"};
 }
 
@@ -34,7 +117,7 @@ Result<std::vector<T>, InputError> read_values(const fs::path& file, std::uint64
   in.seekg(static_cast<std::streamoff>(first * sizeof(T)));
   in.read(reinterpret_cast<char*>(values.data()),
           static_cast<std::streamsize>(values.size() * sizeof(T)));
-  if (!in) return unreadable(file);
+  if (!in) return InputError{Errc::kUnreadable, file.string() + ": points are missing"};
   return values;
 }
 
@@ -45,61 +128,59 @@ bool has_size(const fs::path& file, std::uint64_t bytes) {
 
 }  // namespace
 
-Result<std::string, InputError> PointStore::write(const fs::path& directory,
-                                                  const VoxelCloud& cloud) {
-  std::error_code ignored;
-  for (const char* name : {kDigest, kNormals, kColours}) fs::remove(directory / name, ignored);
-  std::vector<std::uint64_t> codes;
-  codes.reserve(cloud.positions.size());
-  for (const Voxel& voxel : cloud.positions) codes.push_back(morton(voxel));
-  Sha256 sha;
-  const auto put = [&](const char* name,
-                       std::span<const std::uint8_t> bytes) -> Result<Done, InputError> {
-    if (bytes.empty()) return Done{};
-    sha.update({reinterpret_cast<const std::uint8_t*>(name), std::char_traits<char>::length(name)});
-    sha.update(bytes);
-    return write_file(directory / name, bytes.data(), bytes.size());
-  };
-  SLF_CHECK(put(kCodes, bytes_of(codes)));
-  SLF_CHECK(put(kNormals, bytes_of(cloud.normals)));
-  SLF_CHECK(put(kColours, bytes_of(cloud.colours)));
-  std::string digest = hexadecimal(sha.finish());
-  SLF_CHECK(write_file(directory / kDigest, digest.data(), digest.size()));
-  return digest;
+Result<PointStore::Written, InputError> PointStore::write(const fs::path& directory,
+                                                          const PointCloud& cloud,
+                                                          const Grid& grid) {
+  StoreWriter writer(directory);
+  for_each_voxel(cloud, grid, [&](const OccupiedVoxel& voxel) {
+    writer.put(voxel.code, cloud.normals.empty() ? nullptr : &voxel.normal,
+               cloud.colours.empty() ? nullptr : &voxel.colour);
+  });
+  return writer.finish();
+}
+
+Result<PointStore::Written, InputError> PointStore::write(const fs::path& directory,
+                                                          const VoxelCloud& cloud) {
+  StoreWriter writer(directory);
+  for (std::size_t p = 0; p < cloud.positions.size(); ++p)
+    writer.put(morton(cloud.positions[p]), cloud.normals.empty() ? nullptr : &cloud.normals[p],
+               cloud.colours.empty() ? nullptr : &cloud.colours[p]);
+  return writer.finish();
 }
 
 Result<PointStore, InputError> PointStore::open(const fs::path& directory,
                                                 const std::string& digest, std::uint64_t points) {
-  SLF_TRY(const auto there, read_file(directory / kDigest, 64));
-  if (std::string(there.begin(), there.end()) != digest)
-    return InputError{Errc::kUnreadable, (directory / kDigest).string() + ": of another plan"};
-  PointStore store(directory, points);
-  if (!has_size(directory / kCodes, points * sizeof(std::uint64_t)))
-    return unreadable(directory / kCodes);
-  store.normals_ = fs::exists(directory / kNormals);
-  store.colours_ = fs::exists(directory / kColours);
-  constexpr std::uint64_t kTriple = sizeof(std::array<float, 3>);
-  if (store.normals_ && !has_size(directory / kNormals, points * kTriple))
-    return unreadable(directory / kNormals);
-  if (store.colours_ && !has_size(directory / kColours, points * kTriple))
-    return unreadable(directory / kColours);
+  PointStore store;
+  store.points_ = points;
+  store.codes_ = file_of(directory, digest, kCodes);
+  if (!fs::exists(store.codes_))
+    return InputError{Errc::kUnreadable, store.codes_.string() + ": no such file"};
+  if (!has_size(store.codes_, points * sizeof(std::uint64_t))) return not_the_plans(store.codes_);
+  const std::array<std::pair<fs::path*, const char*>, 2> optional{
+      {{&store.normals_, kNormals}, {&store.colours_, kColours}}};
+  for (const auto& [file, what] : optional) {
+    const fs::path name = file_of(directory, digest, what);
+    if (!fs::exists(name)) continue;
+    if (!has_size(name, points * kTriple)) return not_the_plans(name);
+    *file = name;
+  }
   return store;
 }
 
 Result<std::vector<std::uint64_t>, InputError> PointStore::codes(std::uint64_t first,
                                                                  std::uint64_t count) const {
-  return read_values<std::uint64_t>(directory_ / kCodes, first, count);
+  return read_values<std::uint64_t>(codes_, first, count);
 }
 
 Result<StoredPoints, InputError> PointStore::read(std::uint64_t first, std::uint64_t count) const {
   StoredPoints points;
   SLF_TRY(points.codes, codes(first, count));
   using Triple = std::array<float, 3>;
-  if (normals_) {
-    SLF_TRY(points.normals, read_values<Triple>(directory_ / kNormals, first, count));
+  if (!normals_.empty()) {
+    SLF_TRY(points.normals, read_values<Triple>(normals_, first, count));
   }
-  if (colours_) {
-    SLF_TRY(points.colours, read_values<Triple>(directory_ / kColours, first, count));
+  if (!colours_.empty()) {
+    SLF_TRY(points.colours, read_values<Triple>(colours_, first, count));
   }
   return points;
 }

@@ -18,19 +18,26 @@ struct StoredPoints {
   std::vector<std::array<float, 3>> colours;  ///< or empty, 0 .. 255
 };
 
-/// Files of one machine type: raw arrays, checked by their size and by the digest beside them.
-/// Thread-safe.
+/// Raw arrays of one machine type, in files that are named after what is in them: processes and
+/// plans share a directory. Thread-safe.
 class PointStore {
  public:
+  struct Written {
+    std::string digest;  ///< of all points: 64 hexadecimal digits
+    std::uint64_t points = 0;
+  };
+
   PointStore() = default;
 
-  /// @return the digest: SHA-256 of all points, hexadecimal
+  /// The voxels of a cloud, 16 bytes a point beside the cloud.
+  /// @param grid  from the cloud's origin
   /// @errors kUnwritable
-  static Result<std::string, InputError> write(const std::filesystem::path& directory,
-                                               const VoxelCloud& cloud);
+  static Result<Written, InputError> write(const std::filesystem::path& directory,
+                                           const PointCloud& cloud, const Grid& grid);
+  static Result<Written, InputError> write(const std::filesystem::path& directory,
+                                           const VoxelCloud& cloud);
 
-  /// @param digest  of the points that are wanted
-  /// @errors kUnreadable: they are not there, or others are; kInvalidInput: not as many
+  /// @errors kUnreadable: they are not there; kInvalidInput: not as many
   static Result<PointStore, InputError> open(const std::filesystem::path& directory,
                                              const std::string& digest, std::uint64_t points);
 
@@ -41,12 +48,8 @@ class PointStore {
   Result<StoredPoints, InputError> read(std::uint64_t first, std::uint64_t count) const;
 
  private:
-  PointStore(std::filesystem::path directory, std::uint64_t points)
-      : directory_(std::move(directory)), points_(points) {}
-
-  std::filesystem::path directory_;
+  std::filesystem::path codes_, normals_, colours_;  // empty where there are none
   std::uint64_t points_ = 0;
-  bool normals_ = false, colours_ = false;
 };
 
 }  // namespace slf

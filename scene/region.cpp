@@ -62,6 +62,32 @@ Result<Done, InputError> add_cell(const SceneCells& scene, std::size_t cell, con
 
 }  // namespace
 
+Result<SceneCells, InputError> SceneCells::open(const std::filesystem::path& directory,
+                                                const std::string& digest, std::uint64_t points,
+                                                const Grid& grid) {
+  SceneCells cells;
+  SLF_TRY(cells.store, PointStore::open(directory, digest, points));
+  cells.grid = grid;
+  return cells;
+}
+
+std::vector<std::uint64_t> Region::own_codes() const {
+  std::vector<std::uint64_t> codes;
+  codes.reserve(own.size());
+  for (const std::uint32_t p : own) codes.push_back(morton(cloud.positions[p]));
+  return codes;
+}
+
+std::vector<float> Region::own_rows(std::span<const float> of_all, std::size_t row) const {
+  std::vector<float> rows;
+  rows.reserve(own.size() * row);
+  for (const std::uint32_t p : own) {
+    const auto begin = of_all.begin() + static_cast<std::ptrdiff_t>(p * row);
+    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+  }
+  return rows;
+}
+
 Vec3 SceneCells::middle(std::size_t cell) const {
   const Voxel cube = from_morton(layout.cells[cell]);
   const double side = std::ldexp(1, cell_bits());

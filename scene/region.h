@@ -18,6 +18,12 @@ struct SceneCells {
   SceneLayout layout;
   std::vector<std::uint64_t> first;  ///< [cells + 1] first point of each
 
+  /// The points of a directory, on a grid; not laid out.
+  /// @errors those of PointStore::open
+  static Result<SceneCells, InputError> open(const std::filesystem::path& directory,
+                                             const std::string& digest, std::uint64_t points,
+                                             const Grid& grid);
+
   std::size_t count() const { return layout.cells.size(); }
   int cell_bits() const { return grid.bits - layout.base_levels; }
   /// The middle of a cell's cube, from Capture::origin.
@@ -29,6 +35,10 @@ struct SceneCells {
 struct Region {
   VoxelCloud cloud;                ///< Morton order
   std::vector<std::uint32_t> own;  ///< points of the cells themselves, ascending
+
+  std::vector<std::uint64_t> own_codes() const;
+  /// [own][row] of [points][row].
+  std::vector<float> own_rows(std::span<const float> of_all, std::size_t row) const;
 };
 
 /// @param cells   ascending

@@ -53,6 +53,8 @@ class PartReader {
     parts_.plan = sums_.plan;
     parts_.rdo = sums_.rdo;
     if (plan.set.sps_transform_flag != 0) parts_.matrices.resize(plan.groups.size());
+    if (scene_.base.size() < PartList(parts_.set, true).size())
+      return Error{Errc::kTruncated, "slice_id"};  // matrices, too, stand there
     for (const PartUnit& unit : scene_.base) {
       if (unit.type == UnitType::kGeometry)
         parts_.base.push_back({unit.type, payload_at(unit), unit.header});
@@ -78,6 +80,7 @@ class PartReader {
         piece.digest = part_unit(UnitType::kDigest, header, sums.digest, parts_.set);
       }
       piece.sums = std::move(sums.sums);
+      piece.from = part_.name;
       parts_.slices[sums.slice] = std::move(piece);
     }
     return Done{};
@@ -85,8 +88,9 @@ class PartReader {
 
   /// The payload of the whole unit that a part unit was read from.
   std::vector<std::uint8_t> payload_at(const PartUnit& part) const {
-    const auto unit = std::find_if(units_.units.begin(), units_.units.end(),
-                                   [&](const Unit& u) { return u.offset == part.offset; });
+    const auto unit =
+        std::lower_bound(units_.units.begin(), units_.units.end(), part.offset,
+                         [](const Unit& u, std::size_t offset) { return u.offset < offset; });
     return {unit->payload.begin(), unit->payload.end()};
   }
 
@@ -141,6 +145,7 @@ void add_slice(SceneParts& parts, CodedSlice slice) {
 
 Result<SceneParts, InputError> read_part(const PartStream& part) {
   SceneParts parts;
+  parts.name = part.name;
   if (const auto read = PartReader(part, parts).read(); !read) {
     const bool other = std::string_view(read.error().element) == "part_plan";
     return wrong(part.name, other ? "not a part of a scene" : to_string(read.error()));
@@ -148,24 +153,18 @@ Result<SceneParts, InputError> read_part(const PartStream& part) {
   return parts;
 }
 
-Result<Done, InputError> combine(SceneParts& parts, SceneParts more, const std::string& name,
-                                 std::vector<std::string>& names) {
+Result<Done, InputError> combine(SceneParts& parts, SceneParts more) {
   if (parts.plan != more.plan || parts.slices.size() != more.slices.size() ||
       !same_units(parts.head, more.head) || !same_units(parts.base, more.base) ||
       parts.matrices != more.matrices || parts.metadata != more.metadata)
-    return wrong(name, "a part of another plan than " + names.front());
+    return wrong(more.name, "a part of another plan than " + parts.name);
   for (std::size_t s = 0; s < more.slices.size(); ++s) {
     if (!more.slices[s]) continue;
-    if (parts.slices[s]) {
-      const auto has = [&](const std::string& other) { return other != name; };
-      const auto first = std::find_if(names.begin(), names.end(), has);
-      return wrong(name, "slice " + std::to_string(s) + " is in " +
-                             (first == names.end() ? std::string("another part") : *first) +
-                             " too");
-    }
+    if (parts.slices[s])
+      return wrong(more.name,
+                   "slice " + std::to_string(s) + " is in " + parts.slices[s]->from + " too");
     parts.slices[s] = std::move(more.slices[s]);
   }
-  names.push_back(name);
   return Done{};
 }
 

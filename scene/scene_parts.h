@@ -20,10 +20,12 @@ struct ScenePiece {
   std::vector<CodedUnit> units;  ///< without the digest
   std::optional<CodedUnit> digest;
   std::vector<std::int32_t> sums;  ///< [its cells][planes]
+  std::string from;                ///< the name of its part, where it was read
 };
 
 /// What parts of one plan have in common, and the slices that are there.
 struct SceneParts {
+  std::string name;                     ///< where it was read
   std::array<std::uint8_t, 32> plan{};  ///< its digest
   double rdo = 0;
   SequenceParameterSet set;  ///< of the whole: not cut
@@ -64,7 +66,6 @@ Result<SceneParts, InputError> read_part(const PartStream& part);
 
 /// Adds the slices of another part of the same plan.
 /// @errors kInvalidInput: of another plan, or a slice is in both
-Result<Done, InputError> combine(SceneParts& parts, SceneParts more, const std::string& name,
-                                 std::vector<std::string>& names);
+Result<Done, InputError> combine(SceneParts& parts, SceneParts more);
 
 }  // namespace slf

@@ -108,6 +108,18 @@ TEST_F(SceneTest, ADirectoryWithoutItsPointsIsFilledFromTheCapture) {
   EXPECT_EQ(read("there.slf"), read("here.slf"));
 }
 
+TEST_F(SceneTest, PlansShareADirectory) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/2", "first.slf").code, 0);
+  const std::string settings = " --slice-points 2500 --effort 1 --degree 3 --grid-bits 8 --quiet";
+  ASSERT_EQ(slf("plan street -o coarse.json --work work" + settings).code, 0);
+  fs::remove(path("street/points.ply"));  // the directory has what both need
+  ASSERT_EQ(part("1/2", "second.slf").code, 0);
+  EXPECT_EQ(read("second.slf"), read("first.slf"));
+  const Ran coarse = slf("encode street --plan coarse.json --work work --part 1/2 -o coarse.slf");
+  EXPECT_EQ(coarse.code, 0) << coarse.err;
+}
+
 TEST_F(SceneTest, PartsThatDoNotFitTogetherAreRefusedByName) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("1/2", "a.slf").code, 0);
@@ -116,6 +128,7 @@ TEST_F(SceneTest, PartsThatDoNotFitTogetherAreRefusedByName) {
   ASSERT_EQ(plan(" -q 30").code, 0);
   ASSERT_EQ(part("2/2", "other.slf").code, 0);
   expect_failure(slf("merge a.slf all.slf -o x.slf"), 4, "all.slf", "a.slf");
+  expect_failure(slf("merge b.slf a.slf all.slf -o x.slf"), 4, "all.slf", "slice 0 is in a.slf");
   expect_failure(slf("merge a.slf other.slf -o x.slf"), 4, "other.slf", "another plan");
   expect_failure(slf("merge a.slf -o x.slf"), 4, "x.slf", "missing");
   expect_failure(slf("merge street/points.ply -o x.slf"), 4, "points.ply", "");
@@ -154,6 +167,11 @@ TEST_F(SceneTest, WrongOptionsSayWhatWouldDo) {
   expect_failure(part("3/2", "x.slf"), 2, "3/2", "I/N");
   expect_failure(part("1/2", "x.slf", " -q 20"), 2, "quality", "plan");
   expect_failure(slf("encode street -o x.slf --plan plan.json --part 1/2"), 2, "--work", "");
+  expect_failure(part("1/2", "x.slf", " --split all"), 2, "split", "plan");
+  expect_failure(part("1/2", "x.slf", " --metadata a=b"), 2, "metadata", "plan");
+  expect_failure(part("1/2", "x.slf", " --up +y"), 2, "up", "plan");
+  expect_failure(slf("plan street -o y.json --work work --slice-start shared"), 2, "slice-start",
+                 "");
   expect_failure(slf("plan street -o y.json --work work --target-bytes 1000"), 2, "target", "");
   expect_failure(slf("plan street -o y.json --work work --coefficients texture"), 2, "texture", "");
   expect_failure(slf("encode street -o x.slf --memory 256M --grid-bits 9 --fit-to pictures"), 5,
@@ -174,6 +192,18 @@ TEST_F(SceneTest, ADamagedPlanIsRefusedByItsElement) {
   expect_failure(part("1/1", "x.slf"), 4, "", "");
   with("\"matrix\": [", "\"matrix\": [1.5,");
   expect_failure(part("1/1", "x.slf"), 4, "plan.json", "matrix");
+  with("\"matrix\": [", "\"matrix\": [1,");
+  expect_failure(part("1/1", "x.slf"), 4, "plan", "matrix");
+  with("\"groups\": [", "\"groups\": [9,1], \"others\": [");
+  expect_failure(part("1/1", "x.slf"), 4, "plan", "groups");
+  with("\"rank\": ", "\"rank\": 4");
+  expect_failure(part("1/1", "x.slf"), 4, "plan", "rank");
+  with("\"colour\": [", "\"colour\": [0,0,0,0,0,0,0,0,0], \"others\": [");
+  expect_failure(part("1/1", "x.slf"), 4, "plan", "colours");
+  with("\"blocks\": [", "\"blocks\": [30,0,0,0,0], \"others\": [");
+  expect_failure(part("1/1", "x.slf"), 4, "plan", "fit");
+  with("\"trust\": [", "\"trust\": [[0,1,1000,1,1],");
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "trust");
   write("plan.json", whole.substr(0, whole.size() / 2));
   expect_failure(part("1/1", "x.slf"), 4, "plan.json", "");
 }

@@ -25,18 +25,11 @@ Result<ScenePart, Failure> part_of(const std::string& text) {
   return part;
 }
 
-nlohmann::ordered_json cost_json(const SceneCost& cost) {
-  return {{"points", cost.points},
-          {"slices", cost.slices},
-          {"cameras", cost.cameras},
-          {"memory", cost.memory},
-          {"disk", cost.disk}};
-}
-
 std::string cost_text(const SceneCost& cost) {
   return text("points        %s in %zu slices\n", grouped(cost.points).c_str(), cost.slices) +
          text("cameras       %zu\n", cost.cameras) +
-         text("memory        %.0f MiB at the most\n", double(cost.memory) / (1 << 20)) +
+         text("memory        %.0f MiB at the most for a slice, %.0f while points are sorted\n",
+              double(cost.memory) / (1 << 20), double(cost.planning) / (1 << 20)) +
          text("disk          %.0f MiB for the work, and depth maps\n",
               double(cost.disk) / (1 << 20));
 }
@@ -82,12 +75,19 @@ class SceneRun {
     SLF_CHECK(check_output(given_.output));
     if (!scene_.part.empty() && scene_.plan.empty())
       return Failure{kUsage, "encode: --part needs --plan (slf plan)"};
-    if (!scene_.plan.empty() && !given_.given.empty())
-      return Failure{kUsage, "encode: --" + given_.given.front().first +
-                                 " is in the plan: give it to slf plan"};
+    if (!scene_.plan.empty()) SLF_CHECK(check_left_to_plan());
     if (!scene_.plan.empty() && scene_.work.empty())
       return Failure{kUsage, "encode: --plan needs --work, the directory of slf plan"};
     return Done{};
+  }
+
+  Outcome check_left_to_plan() const {
+    std::string name = given_.given.empty() ? "" : given_.given.front().first;
+    if (!given_.split.empty()) name = "split";
+    if (given_.up_given) name = "up";
+    if (!given_.metadata.empty()) name = "metadata";
+    if (name.empty()) return Done{};
+    return Failure{kUsage, "encode: --" + name + " is in the plan: give it to slf plan"};
   }
 
   /// The plan, and as much of the capture as is needed for it.

@@ -6,6 +6,7 @@
 
 #include "tools/interrupt.h"
 #include "tools/options.h"
+#include "tools/output.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -86,6 +87,15 @@ Progress SceneLog::progress() {
     if (std::chrono::duration<double>(time - last_).count() < kSecondsOfLine) return;
     write(text("%s %.0f %%", stage, 100 * fraction));
   };
+}
+
+nlohmann::ordered_json cost_json(const SceneCost& cost) {
+  return {{"points", cost.points},
+          {"slices", cost.slices},
+          {"cameras", cost.cameras},
+          {"memory", cost.memory},
+          {"planning_memory", cost.planning},
+          {"disk", cost.disk}};
 }
 
 SceneWork scene_work(const SceneOptions& options, const std::string& directory, int threads,

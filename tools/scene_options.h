@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "slf/scene.h"
@@ -54,6 +55,8 @@ class SceneLog {
 
 SceneWork scene_work(const SceneOptions& options, const std::string& directory, int threads,
                      SceneLog& log);
+
+nlohmann::ordered_json cost_json(const SceneCost& cost);
 
 /// slf encode, of a scene.
 Outcome encode_scene(const EncodeOptions& given, const SceneOptions& scene);

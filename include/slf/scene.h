@@ -35,18 +35,19 @@ struct PlannedSlice {
 
 /// What all parts share. Small, and the same for the same capture, settings and binary.
 struct ScenePlan {
-  GivenSettings settings;   ///< of the encoder, as they were given
-  Metadata metadata;        ///< of the file: what the encoder records, then what the caller gave
-  std::vector<int> cameras;  ///< the input cameras; empty: a coloured cloud
+  GivenSettings settings;    ///< of the encoder, as they were given
+  Metadata metadata;         ///< of the file: what the encoder records, then what the caller gave
+  std::vector<int> cameras;  ///< ascending: those that no check left out; empty: a coloured cloud
   std::size_t capture_cameras = 0;  ///< how many the capture has
-  Vec3 origin{};            ///< Capture::origin
+  Vec3 origin{};                    ///< Capture::origin
   UpAxis up = UpAxis::kPlusZ;
-  Grid grid;                ///< from the origin
-  double spacing = 0;       ///< between points, world units
-  std::string points_digest;  ///< SHA-256, hexadecimal, of all points on the grid
+  Grid grid;                         ///< from the origin
+  double spacing = 0;                ///< between points, world units
+  std::string points_digest;         ///< SHA-256, hexadecimal, of all points on the grid
+  std::uint64_t planning_bytes = 0;  ///< what putting them there takes
   int base_levels = 0;
   std::vector<PlannedSlice> slices;
-  FitSettings fit;  ///< nothing is left to choose in it
+  FitSettings fit;                 ///< nothing is left to choose in it
   std::vector<CameraTrust> trust;  ///< of the cameras that see the sample, ascending
   int gamma_min_q7 = -127, gamma_max_q7 = 127;
   std::vector<int> shift;  ///< [K]
@@ -75,8 +76,10 @@ struct ScenePart {
 struct SceneCost {
   std::uint64_t points = 0;
   std::size_t slices = 0, cameras = 0;
-  std::uint64_t memory = 0;      ///< bytes that a slice takes at the most, and the plan
-  std::uint64_t disk = 0;        ///< bytes of the work directory
+  std::uint64_t memory = 0;    ///< bytes that a slice takes at the most
+  std::uint64_t planning = 0;  ///< bytes while points are put on the grid: by plan_scene, and by
+                               ///< encode_part where has_points is false
+  std::uint64_t disk = 0;      ///< bytes of the work directory
 };
 
 /// Chooses everything that slices must agree on: the grid, the slices, and from a sample of the
@@ -84,8 +87,9 @@ struct SceneCost {
 /// Writes the points into the work directory.
 /// @param cameras  the input cameras; empty only where the capture has none
 /// @errors those of voxelise, observe, choose_fit. kInvalidArgument: settings that need the whole
-///         scene at once: targets, textures, Draco, mended geometry, a paper preset. kLimitExceeded:
-///         a slice does not fit into the memory; says what would do. kUnreadable, kWriteFailed.
+///         scene at once: targets, textures, Draco, mended geometry, a paper preset.
+///         kLimitExceeded: a slice or the points do not fit into the memory; says what would do.
+///         kUnreadable, kUnwritable.
 Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const int> cameras,
                                          const GivenSettings& settings, const Metadata& metadata,
                                          const SceneWork& work, const Progress& progress = {});
