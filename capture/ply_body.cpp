@@ -1,10 +1,29 @@
 #include "capture/ply_body.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 
 namespace slf {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 18;
+constexpr std::size_t kLongestNumber = 1024;  // characters
+
+}  // namespace
+
+bool PlyBody::fill(std::size_t bytes) {
+  if (ended_) return false;
+  std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes_.end(), bytes_.begin());
+  const std::size_t kept = left();
+  at_ = 0;
+  bytes_.resize(std::max(kBlock, bytes));
+  const auto count = file_.read(std::span(bytes_).subspan(kept));
+  ended_ = !count || *count < bytes_.size() - kept;  // a disk that fails is a file that is cut off
+  bytes_.resize(kept + (count ? *count : 0));
+  return left() >= bytes;
+}
 
 bool PlyBody::list_length(const PlyProperty& property, std::uint64_t& items) {
   double count = 0;
@@ -25,7 +44,11 @@ bool PlyBody::skip_list(const PlyProperty& property) {
 }
 
 bool PlyBody::skip(std::uint64_t bytes) {
-  if (bytes > bytes_.size() - at_) return false;
+  while (bytes > left()) {
+    bytes -= left();
+    at_ = bytes_.size();
+    if (!fill(1)) return false;
+  }
   at_ += static_cast<std::size_t>(bytes);
   return true;
 }
@@ -43,7 +66,7 @@ bool PlyBody::skip_element(const PlyElement& element) {
 
 bool PlyBody::binary(PlyType type, double& out) {
   const std::size_t size = size_of(type);
-  if (size > bytes_.size() - at_) return false;
+  if (!has(size)) return false;
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const std::size_t from = format_ == PlyFormat::kBigEndian ? i : size - 1 - i;
@@ -78,7 +101,8 @@ bool PlyBody::binary(PlyType type, double& out) {
 // Rows of an ascii file are lines, but only white space is relied on.
 bool PlyBody::text(double& out) {
   const auto is_space = [](std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
-  while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
+  while (has(1) && is_space(bytes_[at_])) ++at_;
+  has(kLongestNumber);
   std::size_t end = at_;
   while (end < bytes_.size() && !is_space(bytes_[end])) ++end;
   if (end - at_ > 1 && bytes_[at_] == '+') ++at_;  // from_chars does not know it

@@ -184,10 +184,11 @@ std::uint64_t PlyElement::min_row_bytes(PlyFormat format) const {
 }
 
 Result<PlyHeader, InputError> parse_ply_header(const std::string& name,
-                                               std::span<const std::uint8_t> file) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+                                               std::span<const std::uint8_t> head,
+                                               std::uint64_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
   SLF_TRY(PlyHeader header, HeaderParser(name, text).parse());
-  std::uint64_t left = file.size() - header.body;
+  std::uint64_t left = std::max<std::uint64_t>(size, head.size()) - header.body;
   for (const auto& element : header.elements) {
     const std::uint64_t row = element.min_row_bytes(header.format);
     if (row == 0) continue;

@@ -51,8 +51,11 @@ struct PlyHeader {
 
 /// Every count is checked against the bytes that follow the header.
 /// @param name  for messages
+/// @param head  the beginning of the file, in which the header has to end
+/// @param size  bytes of the file
 /// @errors kInvalidInput
 Result<PlyHeader, InputError> parse_ply_header(const std::string& name,
-                                               std::span<const std::uint8_t> file);
+                                               std::span<const std::uint8_t> head,
+                                               std::uint64_t size);
 
 }  // namespace slf

@@ -17,6 +17,7 @@ namespace {
 constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
                                              "nz", "red", "green", "blue"};
 constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
+constexpr std::size_t kMostHeader = std::size_t{1} << 20;
 using Row = std::array<double, kWanted.size()>;
 
 // Where each property of the vertex goes; which of the optional groups are there in full.
@@ -179,9 +180,12 @@ class VertexReader {
 Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool with_faces,
                                        std::vector<std::string>* warnings) {
   const std::string name = file == "-" ? "standard input" : file.string();
-  SLF_TRY(const auto bytes, read_file(file));
-  SLF_TRY(const auto header, parse_ply_header(name, bytes));
-  PlyBody body(std::span<const std::uint8_t>(bytes).subspan(header.body), header.format);
+  SLF_TRY(InputFile input, InputFile::open(file));
+  std::vector<std::uint8_t> head(kMostHeader);
+  SLF_TRY(const std::size_t count, input.read(head));
+  head.resize(count);
+  SLF_TRY(const auto header, parse_ply_header(name, head, input.size()));
+  PlyBody body(input, std::move(head), header.body, header.format);
   std::optional<PointCloud> cloud;
   Mesh mesh;
   for (const auto& element : header.elements) {
