@@ -31,6 +31,14 @@ Vec3 Camera::centre() const {
   return c;
 }
 
+Vec3 Camera::in_camera(const Vec3& at) const {
+  Vec3 p{};
+  for (std::size_t i = 0; i < 3; ++i)
+    p[i] =
+        rotation[i][0] * at[0] + rotation[i][1] * at[1] + rotation[i][2] * at[2] + translation[i];
+  return p;
+}
+
 Camera moved(Camera camera, const Vec3& by) {
   for (std::size_t i = 0; i < 3; ++i)
     camera.translation[i] -= camera.rotation[i][0] * by[0] + camera.rotation[i][1] * by[1] +
@@ -38,11 +46,16 @@ Camera moved(Camera camera, const Vec3& by) {
   return camera;
 }
 
+Camera reduced(Camera camera, int log2) {
+  const double scale = std::ldexp(1, -log2);
+  for (double* x : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *x *= scale;
+  for (int* side : {&camera.width, &camera.height})
+    *side = static_cast<int>(std::ceil(*side * scale));
+  return camera;
+}
+
 std::optional<std::array<double, 2>> Camera::project(const Vec3& world, double* z) const {
-  Vec3 p{};
-  for (std::size_t i = 0; i < 3; ++i)
-    p[i] = rotation[i][0] * world[0] + rotation[i][1] * world[1] + rotation[i][2] * world[2] +
-           translation[i];
+  const Vec3 p = in_camera(world);
   if (z != nullptr) *z = p[2];
   if (!(p[2] > 0)) return std::nullopt;
   double x = p[0] / p[2], y = p[1] / p[2];

@@ -39,7 +39,16 @@ Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file)
 /// @param name  for messages
 Result<Image, InputError> decode_png(const std::string& name, Bytes file);
 /// To RGB. EXIF orientation is ignored: a calibration refers to the stored pixels.
-Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file);
+/// @param reduction  0 .. kMostJpegReduction: sides of a 2^reduction-th, rounded up
+/// @param size       receives that of the file
+Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int reduction,
+                                      ImageSize& size);
+inline constexpr int kMostJpegReduction = 3;
+
+/// read_image of a file that is made smaller.
+/// @param size  receives that of the file
+Result<Image, InputError> read_image_reduced(const std::filesystem::path& file, int reduction,
+                                             ImageSize& size);
 
 /// 8-bit RGB or RGBA. The image's fields fit together (write_png has checked).
 Result<std::vector<std::uint8_t>, InputError> encode_png(const std::string& name,

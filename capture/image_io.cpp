@@ -1,13 +1,30 @@
 // Images by content, out through write_file.
+#include <algorithm>
+#include <utility>
+
 #include "capture/image_formats.h"
+#include "capture/image_reduction.h"
 
 namespace slf {
 
 Result<Image, InputError> read_image(const std::filesystem::path& file) {
+  ImageSize ignored;
+  return read_image_reduced(file, 0, ignored);
+}
+
+Result<Image, InputError> read_image_reduced(const std::filesystem::path& file, int reduction,
+                                             ImageSize& size) {
   SLF_TRY(const auto bytes, read_file(file));
-  if (is_png(bytes)) return decode_png(file.string(), bytes);
-  if (is_jpeg(bytes)) return decode_jpeg(file.string(), bytes);
-  return InputError{Errc::kInvalidInput, file.string() + ": neither PNG nor JPEG"};
+  if (is_png(bytes)) {
+    SLF_TRY(Image image, decode_png(file.string(), bytes));
+    size = {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height)};
+    return reduced(std::move(image), reduction);
+  }
+  if (!is_jpeg(bytes))
+    return InputError{Errc::kInvalidInput, file.string() + ": neither PNG nor JPEG"};
+  const int at_once = std::min(reduction, kMostJpegReduction);
+  SLF_TRY(Image image, decode_jpeg(file.string(), bytes, at_once, size));
+  return reduced(std::move(image), reduction - at_once);
 }
 
 Result<Done, InputError> write_png(const std::filesystem::path& file, const Image& image) {

@@ -80,10 +80,19 @@ bool read_header(Reader& reader, Bytes file) {
   return true;
 }
 
-bool read_rows(Reader& reader, std::uint8_t* data, std::size_t stride) {
+/// The size of the output is known then.
+bool prepare(Reader& reader, int reduction) {
   if (setjmp(reader.errors.jump) != 0) return false;
   reader.info.out_color_space = JCS_RGB;
   reader.info.dct_method = JDCT_ISLOW;  // the accurate one, the same on every machine
+  reader.info.scale_num = 1;
+  reader.info.scale_denom = 1u << reduction;
+  jpeg_calc_output_dimensions(&reader.info);
+  return true;
+}
+
+bool read_rows(Reader& reader, std::uint8_t* data, std::size_t stride) {
+  if (setjmp(reader.errors.jump) != 0) return false;
   jpeg_start_decompress(&reader.info);
   while (reader.info.output_scanline < reader.info.output_height) {
     JSAMPROW row = data + reader.info.output_scanline * stride;
@@ -95,7 +104,8 @@ bool read_rows(Reader& reader, std::uint8_t* data, std::size_t stride) {
 
 }  // namespace
 
-Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file) {
+Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int reduction,
+                                      ImageSize& size) {
   const auto invalid = [&](const std::string& cause) {
     return InputError{Errc::kInvalidInput, name + ": " + cause};
   };
@@ -103,7 +113,7 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file) {
   const auto damaged = [&] { return invalid(std::string("damaged JPEG: ") + reader.errors.text); };
   if (!read_header(reader, file)) return damaged();
 
-  const ImageSize size{reader.info.image_width, reader.info.image_height};
+  size = {reader.info.image_width, reader.info.image_height};
   if (const auto problem = image_size_problem(size)) return invalid(*problem);
   if (std::uint64_t{size.width} * size.height / kMaxPixelsPerByte > file.size())
     return invalid("damaged JPEG: larger than its bytes can hold");
@@ -111,12 +121,13 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file) {
   if (space != JCS_GRAYSCALE && space != JCS_YCbCr && space != JCS_RGB)
     return invalid("JPEG that is neither grey nor RGB (CMYK?)");
 
+  if (!prepare(reader, reduction)) return damaged();
   Image image;
-  image.width = static_cast<int>(size.width);
-  image.height = static_cast<int>(size.height);
+  image.width = static_cast<int>(reader.info.output_width);
+  image.height = static_cast<int>(reader.info.output_height);
   image.channels = 3;
-  const std::size_t stride = std::size_t{3} * size.width;
-  image.data.resize(stride * size.height);
+  const std::size_t stride = std::size_t{3} * reader.info.output_width;
+  image.data.resize(stride * reader.info.output_height);
   if (!read_rows(reader, image.data.data(), stride) || reader.errors.damaged) return damaged();
   return image;
 }

@@ -1,25 +1,24 @@
 // One photograph of a capture, its mask in the alpha channel.
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "capture/image_cache.h"
+#include "capture/image_formats.h"
+#include "capture/image_reduction.h"
 #include "slf/capture.h"
 
 namespace slf {
 
 namespace {
 
-Result<Image, InputError> of_size(Image image, const std::string& name, const Camera& camera) {
-  if (image.width == camera.width && image.height == camera.height) return image;
-  return InputError{Errc::kInvalidInput,
-                    name + ": image of " + std::to_string(image.width) + " x " +
-                        std::to_string(image.height) + " pixels, calibrated as " +
-                        std::to_string(camera.width) + " x " + std::to_string(camera.height)};
-}
-
-Result<Image, InputError> read_of_size(const std::filesystem::path& file, const Camera& camera) {
-  SLF_TRY(Image image, read_image(file));
-  return of_size(std::move(image), file.string(), camera);
+InputError other_size(const std::string& name, std::uint32_t width, std::uint32_t height,
+                      const Camera& camera) {
+  return {Errc::kInvalidInput, name + ": image of " + std::to_string(width) + " x " +
+                                   std::to_string(height) + " pixels, calibrated as " +
+                                   std::to_string(camera.width) + " x " +
+                                   std::to_string(camera.height)};
 }
 
 // Alpha where both say so; masks are grey, so any of their colour channels will do.
@@ -37,6 +36,32 @@ Image with_mask(const Image& image, const Image& mask) {
   return merged;
 }
 
+Result<Image, InputError> load(const Capture& capture, std::size_t i) {
+  const Camera& camera = capture.cameras[i];
+  const int reduction = capture.reduction.empty() ? 0 : capture.reduction[i];
+  if (!capture.images.empty()) {
+    const Image& given = capture.images[i];
+    Image image = reduced(given, reduction);
+    if (image.width == camera.width && image.height == camera.height) return image;
+    return other_size(camera.name, static_cast<std::uint32_t>(given.width),
+                      static_cast<std::uint32_t>(given.height), camera);
+  }
+  const auto fits = [&](const Image& x) {
+    return x.width == camera.width && x.height == camera.height;
+  };
+  ImageSize size;
+  SLF_TRY(Image image, read_image_reduced(capture.image_files[i], reduction, size));
+  if (!fits(image))
+    return other_size(capture.image_files[i].string(), size.width, size.height, camera);
+  if (i >= capture.mask_files.size() || capture.mask_files[i].empty()) return image;
+  SLF_TRY(Image whole, read_image(capture.mask_files[i]));
+  size = {static_cast<std::uint32_t>(whole.width), static_cast<std::uint32_t>(whole.height)};
+  const Image mask = reduced_mask(std::move(whole), reduction);
+  if (!fits(mask))
+    return other_size(capture.mask_files[i].string(), size.width, size.height, camera);
+  return with_mask(image, mask);
+}
+
 }  // namespace
 
 Result<Image, InputError> load_image(const Capture& capture, int camera) {
@@ -47,12 +72,11 @@ Result<Image, InputError> load_image(const Capture& capture, int camera) {
     return InputError{Errc::kInvalidArgument, "camera " + std::to_string(camera) +
                                                   ": the capture has " +
                                                   std::to_string(capture.cameras.size())};
-  if (!capture.images.empty())
-    return of_size(capture.images[i], capture.cameras[i].name, capture.cameras[i]);
-  SLF_TRY(Image image, read_of_size(capture.image_files[i], capture.cameras[i]));
-  if (i >= capture.mask_files.size() || capture.mask_files[i].empty()) return image;
-  SLF_TRY(const Image mask, read_of_size(capture.mask_files[i], capture.cameras[i]));
-  return with_mask(image, mask);
+  if (!capture.cache) return load(capture, i);
+  if (const auto kept = capture.cache->find(camera)) return *kept;
+  SLF_TRY(Image image, load(capture, i));
+  capture.cache->keep(camera, std::make_shared<const Image>(image));
+  return image;
 }
 
 }  // namespace slf

@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "base/stopwatch.h"
-#include "base/vec3.h"
 #include "scene/depth_maps.h"
 #include "scene/encode_slice.h"
 #include "scene/planned_scene.h"
+#include "scene/scene_cameras.h"
 #include "scene/scene_parts.h"
 #include "scene/scene_points.h"
 #include "scene/work_directory.h"
@@ -49,20 +49,6 @@ std::string line_of(const CodedSlice& slice) {
   return text;
 }
 
-/// The cameras of a capture, from the plan's origin.
-Capture cameras_from(const Capture& capture, const Vec3& origin) {
-  Capture cameras;
-  cameras.root = capture.root;
-  cameras.origin = origin;
-  for (const Camera& camera : capture.cameras)
-    cameras.cameras.push_back(moved(camera, minus(capture.origin, origin)));
-  cameras.image_files = capture.image_files;
-  cameras.images = capture.images;
-  cameras.mask_files = capture.mask_files;
-  cameras.up = capture.up;
-  return cameras;
-}
-
 /// How far a slice is, in a stage of it.
 double done_of_slice(const std::string& stage, double fraction) {
   if (stage == "observe") return 0.2 * fraction;
@@ -96,6 +82,8 @@ Result<Done, InputError> check(const Capture& capture, const ScenePlan& plan, co
     return InputError{Errc::kInvalidInput,
                       "the capture has " + std::to_string(capture.cameras.size()) +
                           " cameras, that of the plan " + std::to_string(plan.capture_cameras)};
+  if (plan.reduction.size() != plan.capture_cameras)
+    return InputError{Errc::kInvalidInput, "plan: reduction: not of as many cameras"};
   SLF_CHECK(check_memory(plan, work));
   SLF_CHECK(make_directory(work.directory));
   return restore_points(capture, plan, work);
@@ -113,7 +101,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
                                                           const SceneWork& work,
                                                           const Progress& progress) {
   SLF_CHECK(check(given, plan, part, work));
-  const Capture capture = cameras_from(given, plan.origin);
+  const Capture capture = scene_cameras(given, plan, cache_of(plan, work));
   SLF_TRY(const auto scene, open_scene(plan, work));
   SLF_TRY(const DepthMaps depth,
           DepthMaps::in(work.directory, capture, scene->cells, plan, scene->settings));

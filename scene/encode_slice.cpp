@@ -9,6 +9,7 @@
 #include "encoder/component_planes.h"
 #include "encoder/fit_capture.h"
 #include "lightfield/octahedral.h"
+#include "scene/scene_cameras.h"
 #include "slf/camera_trust.h"
 
 namespace slf {

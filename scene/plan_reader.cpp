@@ -146,6 +146,10 @@ Result<Done, InputError> read_scene(const JsonView& json, ScenePlan& plan) {
   plan.capture_cameras = std::size_t(cameras);
   SLF_TRY(const auto used, whole(json, "cameras", 0, cameras - 1));
   for (const double c : used) plan.cameras.push_back(int(c));
+  SLF_TRY(const auto reduction, whole(json, "reduction", 0, 6));
+  if (reduction.size() != plan.capture_cameras)
+    return json.at("reduction")->error("one for every camera is expected");
+  for (const double r : reduction) plan.reduction.push_back(int(r));
   SLF_TRY(const auto origin, numbers(json, "origin", 3, -kLarge, kLarge));
   plan.origin = {origin[0], origin[1], origin[2]};
   SLF_TRY(const int up, integer(json, "up", 0, 6));

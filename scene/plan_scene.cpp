@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/stopwatch.h"
 #include "capture/density.h"
 #include "capture/spacing.h"
 #include "codec/derive_transforms.h"
@@ -18,6 +19,7 @@
 #include "scene/depth_maps.h"
 #include "scene/encode_slice.h"
 #include "scene/planned_scene.h"
+#include "scene/scene_cameras.h"
 #include "scene/scene_points.h"
 #include "scene/work_directory.h"
 
@@ -27,6 +29,7 @@ namespace {
 constexpr std::size_t kSpacingRun = 30000;  // points in Morton order that the spacing is taken from
 /// Components of the scene may be so much larger than those of the sample.
 constexpr float kMargin = 2;
+constexpr double kWithAround = 1.3;  // points that a slice sees, of its own; about
 
 /// Cells spread over the scene, of about kPlanSample points.
 std::vector<std::size_t> sample_cells(const SceneCells& cells) {
@@ -78,7 +81,8 @@ class Planner {
       coefficients_ = unseen_coefficients(region_.cloud, 1);
       return Done{};
     }
-    SLF_CHECK(fit_sample());
+    plan_.reduction = choose_reduction(capture_, plan_.cameras, cells_, plan_.spacing);
+    SLF_CHECK(fit_sample(scene_cameras(capture_, plan_, cache_of(plan_, work_))));
     const PictureFitSettings& pictures = plan_.fit.pictures;
     if (pictures.rounds > 0 && fit_.pictures.pull == 0) plan_.fit.pictures.rounds = 0;
     if (pictures.rounds > 0) {  // what was found once holds for every slice
@@ -127,14 +131,17 @@ class Planner {
   }
 
   /// Cameras, settings, light and coefficients of the sample.
-  Result<Done, InputError> fit_sample() {
+  Result<Done, InputError> fit_sample(const Capture& capture) {
     const VoxelCloud& cloud = region_.cloud;
     SLF_TRY(const DepthMaps maps,
-            DepthMaps::in(work_.directory, capture_, cells_, plan_, settings_));
+            DepthMaps::in(work_.directory, capture, cells_, plan_, settings_));
     const DepthOfCamera depth_of = [&](int camera) { return maps.of(camera); };
-    const std::vector<int> cameras = cameras_of(capture_, plan_.cameras, cells_, sample_);
-    SLF_TRY(SeenPoints seen, observe_points(capture_, cameras, world_points(cloud), depth_of,
+    const std::vector<int> cameras = cameras_of(capture, plan_.cameras, cells_, sample_);
+    Stopwatch watch;
+    SLF_TRY(SeenPoints seen, observe_points(capture, cameras, world_points(cloud), depth_of,
                                             settings_.observe, progress_));
+    const double observing =
+        watch.lap() / static_cast<double>(std::max<std::size_t>(cameras.size(), 1));
     Observations world = std::move(seen.observations);
     if (world.colour.empty())
       return InputError{Errc::kInvalidInput, "no camera sees any point of a sample of the scene"};
@@ -152,13 +159,32 @@ class Planner {
         in_frame(world, chosen.frame, cloud.positions, chosen.normal_cell_log2, settings_.threads);
     chosen.environment.known = known_light(framed, cloud.positions, chosen);
     if (chosen.environment.known.half == 0) chosen.environment.degree = 0;
-    SLF_CHECK(fit_chosen({capture_, cameras, cloud, depth_of}, std::move(world), settings_,
+    watch.lap();
+    SLF_CHECK(fit_chosen({capture, cameras, cloud, depth_of}, std::move(world), settings_,
                          progress_, fit_));
+    plan_.seconds = seconds_of_slices(observing, watch.lap(), capture);
     plan_.fit = chosen;
     plan_.gamma_min_q7 = fit_.gamma_min_q7;
     plan_.gamma_max_q7 = fit_.gamma_max_q7;
     coefficients_ = std::move(fit_.coefficients);
     return Done{};
+  }
+
+  /// @param observing  seconds for a camera of the sample
+  /// @param fitting    seconds for the sample
+  double seconds_of_slices(double observing, double fitting, const Capture& capture) const {
+    double seconds = 0;
+    std::size_t cell = 0;
+    for (const SliceEntry& slice : cells_.layout.table.slices) {
+      std::vector<std::size_t> cells(slice.cells());
+      std::iota(cells.begin(), cells.end(), cell);
+      cell += slice.cells();
+      const double samples = kWithAround * static_cast<double>(slice.points()) /
+                             static_cast<double>(region_.cloud.positions.size());
+      const std::size_t cameras = cameras_of(capture, plan_.cameras, cells_, cells).size();
+      seconds += samples * (fitting + observing * static_cast<double>(cameras));
+    }
+    return seconds;
   }
 
   Result<Done, InputError> plan_transforms(const EncoderSettings& settings) {

@@ -101,8 +101,8 @@ std::string write_plan(const ScenePlan& plan) {
   return "{\"slf_plan\": " + text(kPlanVersion) + ",\n  \"settings\": " + pairs(plan.settings) +
          ",\n  \"metadata\": " + pairs(plan.metadata) +
          ",\n  \"capture_cameras\": " + text(double(plan.capture_cameras)) +
-         ", \"cameras\": " + list(plan.cameras) + ",\n  \"origin\": " + list(plan.origin) +
-         ", \"up\": " + text(int(plan.up)) + ", \"grid\": " +
+         ", \"cameras\": " + list(plan.cameras) + ",\n  \"reduction\": " + list(plan.reduction) +
+         ", \"origin\": " + list(plan.origin) + ", \"up\": " + text(int(plan.up)) + ", \"grid\": " +
          list(std::array<double, 4>{origin[0], origin[1], origin[2], plan.grid.step}) +
          ", \"grid_bits\": " + text(plan.grid.bits) + ", \"spacing\": " + text(plan.spacing) +
          ", \"planning_bytes\": " + text(double(plan.planning_bytes)) +

@@ -35,6 +35,7 @@ SceneCost cost_of(const ScenePlan& plan) {
   }
   cost.memory = static_cast<std::uint64_t>(bytes);
   cost.planning = plan.planning_bytes;
+  cost.seconds = plan.seconds;
   cost.disk = cost.points * 32;
   return cost;
 }

@@ -108,6 +108,30 @@ TEST_F(SceneTest, ADirectoryWithoutItsPointsIsFilledFromTheCapture) {
   EXPECT_EQ(read("there.slf"), read("here.slf"));
 }
 
+TEST_F(SceneTest, PhotographsAreReadNoLargerThanPointsNeed) {
+  ASSERT_EQ(slf("synth terrace -o large --houses 1 --points 15000 --cameras 6 --size 480x360 "
+                "--quiet")
+                .code,
+            0);
+  const std::string settings =
+      " --slice-points 2500 --effort 1 --degree 2 --grid-bits 7 --work work --quiet";
+  ASSERT_EQ(slf("plan large -o plan.json" + settings).code, 0);
+  const auto reduction = parsed(read("plan.json"))["reduction"].get<std::vector<int>>();
+  EXPECT_EQ(reduction.size(), 6u);
+  EXPECT_GT(*std::max_element(reduction.begin(), reduction.end()), 0);
+  const auto held_out = [&](const std::string& file) {
+    EXPECT_EQ(slf("encode large --plan plan.json --work work --quiet -o " + file).code, 0);
+    const auto eval = parsed(slf("eval " + file + " large --json").out);
+    return eval["held_out"]["image"]["psnr"].get<double>();
+  };
+  const double small = held_out("small.slf");
+  std::string plan = read("plan.json");
+  const std::size_t begin = plan.find("\"reduction\": ["), end = plan.find(']', begin);
+  plan.replace(begin, end - begin, "\"reduction\": [0,0,0,0,0,0");
+  write("plan.json", plan);
+  EXPECT_GT(small, held_out("whole.slf") - 0.1);
+}
+
 TEST_F(SceneTest, PlansShareADirectory) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("1/2", "first.slf").code, 0);
@@ -155,8 +179,9 @@ TEST_F(SceneTest, ADryRunSaysWhatItWouldTakeAndWritesNothing) {
       slf(std::string("encode street -o x.slf --dry-run --memory 1G --json") + kSettings);
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto cost = parsed(ran.out);
-  for (const char* key : {"points", "slices", "cameras", "memory", "disk"})
+  for (const char* key : {"points", "slices", "cameras", "memory", "planning_memory", "disk"})
     EXPECT_GT(cost[key].get<std::uint64_t>(), 0u) << key;
+  EXPECT_GT(cost["estimated_seconds"].get<double>(), 0);
   EXPECT_FALSE(exists("x.slf"));
   EXPECT_FALSE(exists("x.slf.work"));
 }

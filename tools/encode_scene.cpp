@@ -110,8 +110,10 @@ class SceneRun {
     Metadata metadata = input_.metadata;
     SLF_TRY(const EncoderSettings settings, resolved(given_));
     metadata.insert(metadata.end(), settings.metadata.begin(), settings.metadata.end());
-    SLF_TRY(plan_, from(given_.capture, plan_scene(input_.capture, input_.cameras, given_.given,
-                                                   metadata, work_, log_->progress())));
+    auto plan =
+        plan_scene(input_.capture, input_.cameras, given_.given, metadata, work_, log_->progress());
+    if (!plan) clean();
+    SLF_TRY(plan_, from(given_.capture, std::move(plan)));
     input_.capture.cloud = {};
     return Done{};
   }
@@ -121,6 +123,9 @@ class SceneRun {
     clean();
     if (given_.common.json) return print(cost_json(cost));
     std::fputs(cost_text(cost).c_str(), stdout);
+    if (cost.seconds > 0)
+      std::printf("time          some %.1f minutes for the slices, in one process here\n",
+                  cost.seconds / 60);
     return Done{};
   }
 

@@ -50,7 +50,7 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
       ->type_name("I/N");
   verb.add_flag("--resume", o.resume, "Go on where an earlier run with the same --work was ended");
   verb.add_flag("--dry-run", o.dry_run,
-                "Say points, slices, memory and disk that it would take, and stop");
+                "Say points, slices, memory, disk and time that it would take, and stop");
   for (const char* name :
        {"--memory", "--work", "--log", "--plan", "--part", "--resume", "--dry-run"})
     verb.get_option(name)->group(group);
@@ -95,7 +95,8 @@ nlohmann::ordered_json cost_json(const SceneCost& cost) {
           {"cameras", cost.cameras},
           {"memory", cost.memory},
           {"planning_memory", cost.planning},
-          {"disk", cost.disk}};
+          {"disk", cost.disk},
+          {"estimated_seconds", cost.seconds > 0 ? nlohmann::ordered_json(cost.seconds) : nullptr}};
 }
 
 SceneWork scene_work(const SceneOptions& options, const std::string& directory, int threads,

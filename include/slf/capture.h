@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,7 +34,8 @@ struct Camera {
   std::array<std::array<double, 3>, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Vec3 translation{0, 0, 0};
 
-  Vec3 centre() const;  ///< -R^T t
+  Vec3 centre() const;                   ///< -R^T t
+  Vec3 in_camera(const Vec3& at) const;  ///< R at + t
   /// Image point of a world point, with distortion; nothing if it is not in front of the camera.
   /// z receives the depth along the optical axis.
   std::optional<std::array<double, 2>> project(const Vec3& world, double* z = nullptr) const;
@@ -41,6 +43,8 @@ struct Camera {
 
 /// The camera, moved with all that it sees by a vector of the world.
 Camera moved(Camera camera, const Vec3& by);
+/// The camera of the same photograph with sides of a 2^log2-th, rounded up.
+Camera reduced(Camera camera, int log2);
 inline Grid moved(Grid grid, const Vec3& by) {
   for (std::size_t k = 0; k < 3; ++k) grid.origin[k] += by[k];
   return grid;
@@ -61,6 +65,8 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [F] vertices, counter-clockwise outside
 };
 
+class ImageCache;
+
 /// Cameras and cloud are in memory; images are read when they are needed (load_image), or in memory
 /// too where `images` has them.
 struct Capture {
@@ -74,6 +80,10 @@ struct Capture {
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
   std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
   std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: 8-bit, 0 = not the object
+  /// [cameras] or empty: photographs and masks are made smaller as they are read, as reduced() has
+  /// it; `cameras` are reduced already.
+  std::vector<int> reduction;
+  std::shared_ptr<ImageCache> cache;               ///< what load_image keeps; or none
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;
   std::vector<std::string> warnings;  ///< one line each, for the person to read
@@ -104,6 +114,8 @@ Result<Capture, InputError> load_capture(const std::filesystem::path& path,
 /// The image of camera i with three channels, or four where the file has alpha or a mask exists
 /// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an
 /// error. Thread-safe on a const capture.
+/// Reduced ones: each pixel is the mean of those that it takes the place of, its alpha the least of
+/// theirs; JPEG is decoded to that size.
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 
 /// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else

@@ -35,9 +35,11 @@ struct PlannedSlice {
 
 /// What all parts share. Small, and the same for the same capture, settings and binary.
 struct ScenePlan {
-  GivenSettings settings;    ///< of the encoder, as they were given
-  Metadata metadata;         ///< of the file: what the encoder records, then what the caller gave
-  std::vector<int> cameras;  ///< ascending: those that no check left out; empty: a coloured cloud
+  GivenSettings settings;      ///< of the encoder, as they were given
+  Metadata metadata;           ///< of the file: what the encoder records, then what the caller gave
+  std::vector<int> cameras;    ///< ascending: those that no check left out; empty: a coloured cloud
+  std::vector<int> reduction;  ///< [capture_cameras] log2: photographs are read so much smaller,
+                               ///< where points need no more of them
   std::size_t capture_cameras = 0;  ///< how many the capture has
   Vec3 origin{};                    ///< Capture::origin
   UpAxis up = UpAxis::kPlusZ;
@@ -52,6 +54,10 @@ struct ScenePlan {
   int gamma_min_q7 = -127, gamma_max_q7 = 127;
   std::vector<int> shift;  ///< [K]
   std::vector<PlannedTransform> transforms;
+
+  /// Of coding all slices in one process, about, as the sample took here; 0: nobody measured it.
+  /// Not written.
+  double seconds = 0;
 
   std::uint64_t points() const;
 };
@@ -80,6 +86,7 @@ struct SceneCost {
   std::uint64_t planning = 0;  ///< bytes while points are put on the grid: by plan_scene, and by
                                ///< encode_part where has_points is false
   std::uint64_t disk = 0;      ///< bytes of the work directory
+  double seconds = 0;          ///< ScenePlan::seconds
 };
 
 /// Chooses everything that slices must agree on: the grid, the slices, and from a sample of the
