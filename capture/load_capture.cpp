@@ -124,12 +124,23 @@ Result<Done, InputError> crop_or_warn(const std::string& name, const CaptureOpti
   return Done{};
 }
 
+// Scanners' programs write it beside the cloud.
+void take_crs(fs::path file, Capture& capture) {
+  file.replace_extension(".prj");
+  if (!is_file(file)) return;
+  if (auto crs = read_crs(file))
+    capture.crs = *std::move(crs);
+  else
+    capture.warnings.push_back(crs.error().message + ": ignored");
+}
+
 // Reads the cloud from where it is; returns its name for messages.
 Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import& import) {
   auto& capture = import.capture;
   const fs::path file = !options.points.empty() ? options.points : geometry_file(import);
   if (!file.empty()) {
     SLF_TRY(Mesh mesh, read_mesh(file, &capture.warnings));
+    take_crs(file, capture);
     take_origin(mesh.vertices, capture);
     SLF_CHECK(crop_or_warn(file.string(), options, capture, mesh));
     if (mesh.triangles.empty())

@@ -8,9 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto small = [](const auto& s) { return s && s->width <= 512 && s->height <= 512; };
   if (slf::is_png(file) && small(png)) (void)slf::decode_png("fuzz.png", file);
   if (slf::is_jpeg(file) && small(jpeg)) {
-    slf::ImageSize size;
+    slf::ImageSize read;
     for (int r = 0; r <= slf::kMostJpegReduction; ++r)
-      (void)slf::decode_jpeg("fuzz.jpg", file, r, size);
+      (void)slf::decode_jpeg("fuzz.jpg", file, r, read);
   }
   return 0;
 }

@@ -45,6 +45,37 @@ TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
   expect_failure(slf("encode tiny -o a.slf --grid-bits 0"), 2, "--grid-bits", "1 to 21");
 }
 
+TEST_F(TinyCaptureTest, WhatCoordinatesMeanIsKeptAsWellKnownText) {
+  const std::string wkt = "PROJCS[\"ETRS89 / UTM 33N\",AUTHORITY[\"EPSG\",\"25833\"]]";
+  const std::string how = "encode tiny -o a.slf --effort 1 --grid-bits 5 --quiet";
+  const auto crs = [&] {
+    std::string found;
+    const auto info = parsed(slf("info a.slf --json").out);
+    for (const auto& pair : info["metadata"])
+      if (pair["key"] == "crs") found = pair["value"];
+    return found;
+  };
+  ASSERT_EQ(slf(how).code, 0);
+  EXPECT_EQ(crs(), "");
+  write("given.wkt", "\n" + wkt + "\r\n");
+  ASSERT_EQ(slf(how + " --crs given.wkt").code, 0);
+  EXPECT_EQ(crs(), wkt);
+  write("tiny/points.prj", "GEOGCS[\"WGS 84\"]");  // beside the cloud
+  ASSERT_EQ(slf(how).code, 0);
+  EXPECT_EQ(crs(), "GEOGCS[\"WGS 84\"]");
+  EXPECT_NE(slf("info a.slf").out.find("WGS 84"), std::string::npos);
+  for (const char* none : {"", "WGS 84", "PROJCS[\"x\"", "PROJCS]x[", "POINT(1 2)",
+                           "PROJCS[\"x\x1b\"]", "PROJCS[\"x]"}) {
+    write("given.wkt", none);
+    expect_failure(slf(how + " --crs given.wkt"), 4, "given.wkt", "well-known text");
+  }
+  write("tiny/points.prj", "no");
+  const Ran warned = slf("encode tiny -o a.slf --effort 1 --grid-bits 5");
+  EXPECT_EQ(warned.code, 0);
+  EXPECT_NE(warned.err.find("points.prj"), std::string::npos) << warned.err;
+  EXPECT_EQ(crs(), "");
+}
+
 TEST_F(TinyCaptureTest, SameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2", "7"})
     ASSERT_EQ(

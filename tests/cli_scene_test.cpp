@@ -240,6 +240,20 @@ TEST_F(SceneTest, AScanIsRefusedWithTheCommandThatMakesAPlyOfIt) {
   EXPECT_NE(ran.err.find("pdal translate scan.laz"), std::string::npos) << ran.err;
 }
 
+TEST_F(SceneTest, TwoProcessesOnOnePartDoNotDisturbEachOther) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/1", "alone.slf").code, 0);
+  fs::remove_all(path("work"));  // the points, too, are made by both
+  const std::string one =
+      "'" SLF_PROGRAM "' encode street --plan plan.json --work work --quiet -o ";
+  const Ran both = shell(one + "a.slf & first=$!; " + one + "b.slf && wait $first");
+  ASSERT_EQ(both.code, 0) << both.err;
+  ASSERT_EQ(slf("merge alone.slf -o merged.slf --quiet").code, 0);
+  EXPECT_EQ(read("a.slf"), read("merged.slf"));
+  EXPECT_EQ(read("b.slf"), read("merged.slf"));
+  EXPECT_TRUE(leftovers().empty());
+}
+
 TEST_F(SceneTest, APhotographThatDisappearsIsNamedAndNothingIsLost) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("1/2", "a.slf").code, 0);

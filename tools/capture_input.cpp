@@ -51,6 +51,10 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   input.metadata.emplace_back("source", last_name(given.capture));
   if (!input.cameras.empty())
     input.metadata.emplace_back("split", split_name(input.capture, given.split));
+  if (!given.crs.empty()) {
+    SLF_TRY(input.capture.crs, from(given.crs, read_crs(given.crs)));
+  }
+  if (!input.capture.crs.empty()) input.metadata.emplace_back("crs", input.capture.crs);
   input.seconds = watch.lap();
   return input;
 }

@@ -26,6 +26,10 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
       ->delimiter(',')
       ->expected(6)
       ->check(range(-1e300, 1e300));
+  verb.add_option("--crs", o.crs,
+                  "Coordinate reference system, as the well-known text of a .prj file, kept as "
+                  "metadata. None: the .prj beside the cloud, where there is one")
+      ->type_name("FILE");
   verb.add_option(
       "--split", o.split,
       "Input images: dense, intermediate, sparse, all, or a name of the capture's. None: "

@@ -86,6 +86,7 @@ struct Capture {
   std::shared_ptr<ImageCache> cache;               ///< what load_image keeps; or none
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;
+  std::string crs;  ///< what coordinates mean, as WKT: of a .prj beside the cloud; or empty
   std::vector<std::string> warnings;  ///< one line each, for the person to read
 };
 
@@ -110,6 +111,11 @@ struct CaptureOptions {
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
+
+/// A coordinate reference system as well-known text (OGC 01-009, ISO 19162), of a .prj or .wkt
+/// file.
+/// @errors kUnreadable; kInvalidInput: something else, or over 64 KiB
+Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 
 /// The image of camera i with three channels, or four where the file has alpha or a mask exists
 /// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an
