@@ -80,7 +80,8 @@ std::optional<Vec3> weights_at(const Corners& c, std::size_t across, std::size_t
 
 class Sampler {
  public:
-  Sampler(const Mesh& mesh, const Grid& grid) : mesh_(mesh), grid_(grid) {}
+  Sampler(const Mesh& mesh, const Grid& grid, const MeshWindow* window = nullptr)
+      : mesh_(mesh), grid_(grid), window_(window) {}
 
   /// Refuses what would take too long before it begins.
   Result<Done, InputError> check_size() const {
@@ -91,17 +92,35 @@ class Sampler {
       for (std::size_t k = 0; k < 3; ++k) lines += rows_of(c, k).count();
     }
     if (points <= kMostPoints && lines <= kMostLines) return Done{};
-    return InputError{Errc::kInvalidInput, "mesh: a voxel size of " + std::to_string(grid_.step) +
-                                               " takes more points than the 2^24 accepted"};
+    return too_many();
   }
 
-  PointCloud run() {
-    for (const bool overlap : {false, true})
-      for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) add_triangle(f, overlap);
+  Result<PointCloud, InputError> run() {
+    for (const bool overlap : {false, true}) {
+      if (window_ != nullptr) {
+        for (const std::uint32_t f : window_->triangles) add_triangle(f, overlap);
+      } else {
+        for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) add_triangle(f, overlap);
+      }
+    }
+    if (double(cloud_.positions.size()) > kMostPoints) return too_many();
     return std::move(cloud_);
   }
 
  private:
+  InputError too_many() const {
+    return {Errc::kInvalidInput, "mesh: a voxel size of " + std::to_string(grid_.step) +
+                                     " takes more points than the 2^24 accepted"};
+  }
+
+  /// Lines through the window, and one voxel around it: whether a voxel is free depends on all that
+  /// lies in it, and floats may move a point over its border.
+  Range clipped(Range range, std::size_t axis) const {
+    if (window_ == nullptr) return range;
+    return {std::max(range.first, double(window_->low[axis]) - 1),
+            std::min(range.last, double(window_->high[axis]) + 1)};
+  }
+
   void add_triangle(std::size_t f, bool overlap) {
     const Corners corners = on_grid(corners_of(mesh_, f), grid_);
     const auto normal = normal_of(corners);
@@ -119,9 +138,9 @@ class Sampler {
   void add_crossings(std::size_t f, const Corners& c, const Vec3& normal, std::size_t axis,
                      bool if_free) {
     const std::size_t across = (axis + 1) % 3, up = (axis + 2) % 3;
-    const Range rows = rows_of(c, up);
+    const Range rows = clipped(rows_of(c, up), up);
     for (double v = rows.first; v <= rows.last; ++v) {
-      const Range columns = columns_of(c, across, up, v);
+      const Range columns = clipped(columns_of(c, across, up, v), across);
       for (double u = columns.first; u <= columns.last; ++u) {
         const auto weights = weights_at(c, across, up, u, v);
         if (!weights) continue;
@@ -129,6 +148,8 @@ class Sampler {
         at[across] = u;
         at[up] = v;
         for (std::size_t i = 0; i < 3; ++i) at[axis] += (*weights)[i] * c[i][axis];
+        const double depth = std::floor(at[axis] + 0.5);
+        if (clipped({depth, depth}, axis).count() == 0) continue;
         if (taken_.insert(voxel_number(at)).second || !if_free) add_point(f, at, normal, *weights);
       }
     }
@@ -145,7 +166,10 @@ class Sampler {
   void add_point(std::size_t f, const Vec3& at, const Vec3& face, const Vec3& weights) {
     Vec3 world{};
     for (std::size_t k = 0; k < 3; ++k) world[k] = grid_.origin[k] + grid_.step * at[k];
-    cloud_.positions.push_back(to_float(world));
+    const std::array<float, 3> position = to_float(world);
+    if (window_ != nullptr && !is_inside(voxel_at(position, grid_), *window_)) return;
+    if (double(cloud_.positions.size()) > kMostPoints) return;  // run() says so
+    cloud_.positions.push_back(position);
     const PointCloud& vertices = mesh_.vertices;
     const auto mixed = [&](const auto& values) {
       Vec3 sum{};
@@ -164,8 +188,15 @@ class Sampler {
       stored[k] = static_cast<std::uint8_t>(std::lround(std::clamp(colour[k], 0.0, 255.0)));
   }
 
+  static bool is_inside(const Voxel& voxel, const MeshWindow& window) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (voxel[k] < window.low[k] || voxel[k] > window.high[k]) return false;
+    return true;
+  }
+
   const Mesh& mesh_;
   const Grid& grid_;
+  const MeshWindow* window_;                 // or all
   std::unordered_set<std::uint64_t> taken_;  // asked, never iterated
   PointCloud cloud_;
 };
@@ -181,6 +212,11 @@ Result<PointCloud, InputError> sample_mesh(const Mesh& mesh, const Grid& grid) {
   Sampler sampler(mesh, grid);
   SLF_CHECK(sampler.check_size());
   return sampler.run();
+}
+
+Result<PointCloud, InputError> sample_mesh_in(const Mesh& mesh, const Grid& grid,
+                                              const MeshWindow& window) {
+  return Sampler(mesh, grid, &window).run();
 }
 
 Result<PointCloud, InputError> sample_for_cameras(const Capture& capture, const Mesh& mesh) {

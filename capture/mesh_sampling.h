@@ -1,6 +1,7 @@
 // Points of a mesh, as many as a grid has voxels on it.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -20,6 +21,17 @@ namespace slf {
 /// @errors kInvalidInput: more than 2^24 points or 2^27 lines to look at: the step is too small.
 /// The same on every run. O(points + F).
 Result<PointCloud, InputError> sample_mesh(const Mesh& mesh, const Grid& grid);
+
+/// A cube of a grid's voxels, with the triangles that may have points in it.
+struct MeshWindow {
+  Voxel low{}, high{};                       ///< both belong to it
+  std::span<const std::uint32_t> triangles;  ///< ascending
+};
+
+/// Those points of sample_mesh whose voxels are in the window.
+/// @errors kInvalidInput: more than 2^24 points
+Result<PointCloud, InputError> sample_mesh_in(const Mesh& mesh, const Grid& grid,
+                                              const MeshWindow& window);
 
 /// The step of a mesh's automatic grid: kPixelsPerVoxel pixels, or what kMostAutomaticPoints take.
 double automatic_step(const Mesh& mesh, double pixel);

@@ -69,15 +69,9 @@ struct Cell {
 };
 
 std::vector<Cell> sorted_cells(const PointCloud& cloud, const Grid& grid) {
-  const double last = double((1 << grid.bits) - 1);
   std::vector<Cell> cells(cloud.positions.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    Voxel voxel{};
-    for (std::size_t k = 0; k < 3; ++k)
-      voxel[k] = static_cast<std::int32_t>(
-          std::clamp(cell_of(double{cloud.positions[i][k]}, grid.origin[k], grid.step), 0.0, last));
-    cells[i] = {morton(voxel), static_cast<std::uint32_t>(i)};
-  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[i] = {morton(voxel_at(cloud.positions[i], grid)), static_cast<std::uint32_t>(i)};
   std::sort(cells.begin(), cells.end());
   return cells;
 }
@@ -105,6 +99,15 @@ std::array<float, 3> mean_normal(const std::vector<std::array<float, 3>>& normal
 }
 
 }  // namespace
+
+Voxel voxel_at(const std::array<float, 3>& at, const Grid& grid) {
+  const double last = double((1 << grid.bits) - 1);
+  Voxel voxel{};
+  for (std::size_t k = 0; k < 3; ++k)
+    voxel[k] = static_cast<std::int32_t>(
+        std::clamp(cell_of(double{at[k]}, grid.origin[k], grid.step), 0.0, last));
+  return voxel;
+}
 
 Result<Grid, InputError> grid_of(const PointCloud& cloud, int bits, double voxel_size) {
   const auto argument = [](const std::string& cause) {

@@ -35,6 +35,10 @@ struct OccupiedVoxel {
   std::array<float, 3> colour{};  ///< where it has colours, 0 .. 255
 };
 
+/// Where a point is on the grid; outside of it the nearest voxel of its border.
+/// @param at  from the grid's origin's own
+Voxel voxel_at(const std::array<float, 3>& at, const Grid& grid);
+
 /// The voxels of a cloud in Morton order, without holding them: 16 bytes a point beside the cloud.
 /// Points outside the grid are moved to its border.
 /// @param grid  from the cloud's origin

@@ -53,6 +53,8 @@ class Planner {
     if (wanted.bits == 0 && wanted.voxel_size == 0) {  // what the photographs resolve
       density_ = choose_density(capture_, plan_.cameras);
       wanted.voxel_size = density_.voxel_size;
+      if (!capture_.mesh.triangles.empty() && density_.pixel > 0)  // as many points as it takes
+        density_.voxel_size = wanted.voxel_size = kPixelsPerVoxel * density_.pixel;
       if (wanted.voxel_size == 0) wanted.bits = 1;
     }
     SLF_TRY(const ScenePoints points,

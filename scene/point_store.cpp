@@ -11,8 +11,6 @@
 
 #include "base/hexadecimal.h"
 #include "base/sha256.h"
-#include "capture/voxelise.h"
-#include "geometry/morton.h"
 
 namespace slf {
 namespace {
@@ -48,12 +46,10 @@ class GrowingFile {
   template <class T>
   void put(const T& value) {
     if (error_ != 0) return;
-    bytes_ += sizeof value;
     sha_.update({reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
     if (std::fwrite(&value, sizeof value, 1, file_) != 1) error_ = errno;
   }
 
-  bool empty() const { return bytes_ == 0; }
   std::array<std::uint8_t, 32> digest() { return sha_.finish(); }
 
   Result<Done, InputError> appear_as(const fs::path& name) {
@@ -71,38 +67,7 @@ class GrowingFile {
   fs::path name_;
   std::FILE* file_ = nullptr;
   int error_ = 0;
-  std::uint64_t bytes_ = 0;
   Sha256 sha_;
-};
-
-class StoreWriter {
- public:
-  explicit StoreWriter(const fs::path& directory)
-      : directory_(directory), codes_(directory), normals_(directory), colours_(directory) {}
-
-  void put(std::uint64_t code, const std::array<float, 3>* normal,
-           const std::array<float, 3>* colour) {
-    codes_.put(code);
-    if (normal != nullptr) normals_.put(*normal);
-    if (colour != nullptr) colours_.put(*colour);
-    ++written_.points;
-  }
-
-  Result<PointStore::Written, InputError> finish() {
-    Sha256 sha;
-    for (GrowingFile* file : {&codes_, &normals_, &colours_}) sha.update(file->digest());
-    written_.digest = hexadecimal(sha.finish());
-    const auto name = [&](const char* what) { return file_of(directory_, written_.digest, what); };
-    if (!normals_.empty()) SLF_CHECK(normals_.appear_as(name(kNormals)));
-    if (!colours_.empty()) SLF_CHECK(colours_.appear_as(name(kColours)));
-    SLF_CHECK(codes_.appear_as(name(kCodes)));
-    return written_;
-  }
-
- private:
-  const fs::path& directory_;
-  GrowingFile codes_, normals_, colours_;
-  PointStore::Written written_;
 };
 
 InputError not_the_plans(const fs::path& file) {
@@ -128,24 +93,25 @@ bool has_size(const fs::path& file, std::uint64_t bytes) {
 
 }  // namespace
 
-Result<PointStore::Written, InputError> PointStore::write(const fs::path& directory,
-                                                          const PointCloud& cloud,
-                                                          const Grid& grid) {
-  StoreWriter writer(directory);
-  for_each_voxel(cloud, grid, [&](const OccupiedVoxel& voxel) {
-    writer.put(voxel.code, cloud.normals.empty() ? nullptr : &voxel.normal,
-               cloud.colours.empty() ? nullptr : &voxel.colour);
-  });
-  return writer.finish();
-}
-
-Result<PointStore::Written, InputError> PointStore::write(const fs::path& directory,
-                                                          const VoxelCloud& cloud) {
-  StoreWriter writer(directory);
-  for (std::size_t p = 0; p < cloud.positions.size(); ++p)
-    writer.put(morton(cloud.positions[p]), cloud.normals.empty() ? nullptr : &cloud.normals[p],
-               cloud.colours.empty() ? nullptr : &cloud.colours[p]);
-  return writer.finish();
+Result<PointStore::Written, InputError> PointStore::write(
+    const fs::path& directory, bool normals, bool colours,
+    const std::function<Result<Done, InputError>(const Take&)>& give) {
+  GrowingFile of_codes(directory), of_normals(directory), of_colours(directory);
+  Written written;
+  SLF_CHECK(give([&](const OccupiedVoxel& voxel) {
+    of_codes.put(voxel.code);
+    if (normals) of_normals.put(voxel.normal);
+    if (colours) of_colours.put(voxel.colour);
+    ++written.points;
+  }));
+  Sha256 sha;
+  for (GrowingFile* file : {&of_codes, &of_normals, &of_colours}) sha.update(file->digest());
+  written.digest = hexadecimal(sha.finish());
+  const auto name = [&](const char* what) { return file_of(directory, written.digest, what); };
+  if (normals) SLF_CHECK(of_normals.appear_as(name(kNormals)));
+  if (colours) SLF_CHECK(of_colours.appear_as(name(kColours)));
+  SLF_CHECK(of_codes.appear_as(name(kCodes)));
+  return written;
 }
 
 Result<PointStore, InputError> PointStore::open(const fs::path& directory,

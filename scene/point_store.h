@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "capture/voxelise.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -29,13 +31,13 @@ class PointStore {
 
   PointStore() = default;
 
-  /// The voxels of a cloud, 16 bytes a point beside the cloud.
-  /// @param grid  from the cloud's origin
-  /// @errors kUnwritable
-  static Result<Written, InputError> write(const std::filesystem::path& directory,
-                                           const PointCloud& cloud, const Grid& grid);
-  static Result<Written, InputError> write(const std::filesystem::path& directory,
-                                           const VoxelCloud& cloud);
+  using Take = std::function<void(const OccupiedVoxel&)>;
+  /// @param give  gives all voxels in Morton order
+  /// @param normals, colours  whether voxels have them
+  /// @errors kUnwritable, those of give
+  static Result<Written, InputError> write(
+      const std::filesystem::path& directory, bool normals, bool colours,
+      const std::function<Result<Done, InputError>(const Take&)>& give);
 
   /// @errors kUnreadable: they are not there; kInvalidInput: not as many
   static Result<PointStore, InputError> open(const std::filesystem::path& directory,

@@ -1,16 +1,27 @@
 #include "scene/scene_points.h"
 
-#include "capture/voxelise.h"
-#include "encoder/fit_capture.h"
+#include <optional>
+
+#include "capture/mesh_parts.h"
+#include "capture/mesh_triangles.h"
 
 namespace slf {
 namespace {
 
-/// Whether the cloud goes to the grid as it is.
-bool is_ready(const Capture& capture, std::span<const int> cameras,
-              const EncoderSettings& settings) {
-  const bool needs_normals = !cameras.empty() || settings.normal_bits > 0;
-  return capture.mesh.triangles.empty() && (!needs_normals || !capture.cloud.normals.empty());
+bool needs_normals(std::span<const int> cameras, const EncoderSettings& settings) {
+  return !cameras.empty() || settings.normal_bits > 0;
+}
+
+Result<ScenePoints, InputError> store_mesh(const Mesh& mesh, const GridWanted& wanted,
+                                           const std::filesystem::path& directory) {
+  ScenePoints points;
+  SLF_TRY(points.grid,
+          choose_grid(bounding_box(mesh), mesh.triangles.size(), wanted.bits, wanted.voxel_size));
+  SLF_TRY(points.stored, PointStore::write(directory, true, !mesh.vertices.colours.empty(),
+                                           [&](const PointStore::Take& take) {
+                                             return for_each_mesh_voxel(mesh, points.grid, take);
+                                           }));
+  return points;
 }
 
 }  // namespace
@@ -19,33 +30,43 @@ Result<ScenePoints, InputError> store_points(const Capture& capture, std::span<c
                                              const EncoderSettings& settings,
                                              const GridWanted& wanted,
                                              const std::filesystem::path& directory) {
-  ScenePoints points;
-  if (is_ready(capture, cameras, settings)) {  // nothing but the cloud is held
-    SLF_TRY(points.grid, grid_of(capture.cloud, wanted.bits, wanted.voxel_size));
-    SLF_TRY(points.stored, PointStore::write(directory, capture.cloud, points.grid));
-    points.merged = capture.cloud.positions.size() - points.stored.points;
-    return points;
+  if (!capture.mesh.triangles.empty()) return store_mesh(capture.mesh, wanted, directory);
+  std::optional<PointCloud> with_normals;
+  if (needs_normals(cameras, settings) && capture.cloud.normals.empty()) {
+    with_normals = capture.cloud;
+    std::vector<Vec3> viewpoints;
+    for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
+    with_normals->normals = estimate_normals(*with_normals, viewpoints, 16, settings.threads);
   }
-  EncoderSettings on_grid = settings;
-  on_grid.grid_bits = wanted.bits;
-  on_grid.voxel_size = wanted.voxel_size;
-  SLF_TRY(const VoxelCloud cloud, voxelise_capture(capture, cameras, on_grid));
-  SLF_TRY(points.stored, PointStore::write(directory, cloud));
-  points.grid = cloud.grid;
-  points.merged = cloud.merged;
+  const PointCloud& cloud = with_normals ? *with_normals : capture.cloud;
+  ScenePoints points;
+  SLF_TRY(points.grid, grid_of(cloud, wanted.bits, wanted.voxel_size));
+  SLF_TRY(points.stored,
+          PointStore::write(directory, !cloud.normals.empty(), !cloud.colours.empty(),
+                            [&](const PointStore::Take& take) -> Result<Done, InputError> {
+                              for_each_voxel(cloud, points.grid, take);
+                              return Done{};
+                            }));
+  points.merged = cloud.positions.size() - points.stored.points;
   return points;
 }
 
 std::uint64_t memory_of_points(const Capture& capture, std::span<const int> cameras,
                                const EncoderSettings& settings) {
-  constexpr std::uint64_t kSorted = 16, kTriple = 12, kColour = 3, kVoxels = 48, kTree = 24;
-  const PointCloud& cloud = capture.cloud;
-  std::uint64_t bytes = kTriple + kSorted;
-  if (!cloud.normals.empty()) bytes += kTriple;
-  if (!cloud.colours.empty()) bytes += kColour;
-  if (!is_ready(capture, cameras, settings)) bytes += kVoxels + kTriple + kTree;
-  return (std::uint64_t{64} << 20) + bytes * cloud.positions.size() +
-         kTriple * (capture.mesh.triangles.size() + 3 * capture.mesh.vertices.positions.size());
+  constexpr std::uint64_t kSorted = 16, kTriple = 12, kColour = 3, kTree = 24;
+  constexpr std::uint64_t kProgram = std::uint64_t{64} << 20, kCube = std::uint64_t{256} << 20;
+  const auto of_cloud = [](const PointCloud& cloud) {
+    return kTriple * (cloud.positions.size() + cloud.normals.size()) +
+           kColour * cloud.colours.size();
+  };
+  const std::uint64_t points = capture.cloud.positions.size();
+  std::uint64_t bytes = kProgram + of_cloud(capture.cloud);
+  if (const Mesh& mesh = capture.mesh; !mesh.triangles.empty())
+    return bytes + kCube + of_cloud(mesh.vertices) + (kTriple + kSorted) * mesh.triangles.size();
+  bytes += kSorted * points;
+  if (needs_normals(cameras, settings) && capture.cloud.normals.empty())
+    bytes += of_cloud(capture.cloud) + (kTriple + kTree) * points;
+  return bytes;
 }
 
 }  // namespace slf

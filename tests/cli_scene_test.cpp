@@ -132,6 +132,20 @@ TEST_F(SceneTest, PhotographsAreReadNoLargerThanPointsNeed) {
   EXPECT_GT(small, held_out("whole.slf") - 0.1);
 }
 
+TEST_F(SceneTest, AMeshHasThePointsThatItHasInOnePiece) {
+  ASSERT_EQ(slf("synth can -o can --mesh --size 48x48 --circles 5 --per-circle 8 --quiet").code, 0);
+  const std::string how = "encode can --points can/mesh.obj --effort 1 --degree 2 --quiet ";
+  const auto points = [&](const std::string& file) {
+    return parsed(slf("info " + file + " --json").out)["points"].get<int>();
+  };
+  ASSERT_EQ(slf(how + "--grid-bits 7 -o piece.slf").code, 0);
+  ASSERT_EQ(slf(how + "--grid-bits 7 --memory 1G -o parts.slf").code, 0);
+  EXPECT_EQ(points("parts.slf"), points("piece.slf"));
+  ASSERT_EQ(slf(how + "-o piece.slf").code, 0);  // at the photographs' density
+  ASSERT_EQ(slf(how + "--memory 1G -o parts.slf").code, 0);
+  EXPECT_EQ(points("parts.slf"), points("piece.slf"));
+}
+
 TEST_F(SceneTest, PlansShareADirectory) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("1/2", "first.slf").code, 0);
