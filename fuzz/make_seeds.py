@@ -4,7 +4,7 @@
     fuzz/make_seeds.py OUT [--slf build/bin/slf]
 
 Streams are conformance streams below 4 kB, and refused ones; the rest is written here, byte by byte.
-With --slf there are .igc files too.
+With --slf there are .igc files, plans and parts of scenes too.
 """
 import argparse
 import json
@@ -126,10 +126,28 @@ def igc(program):
         return out.read_bytes()
 
 
+def scene(program):
+    """A plan, and its two parts: of some 400 coloured points on a saddle."""
+    rows = [b"%d %d %d %d %d 90\n" % (x, y, x * y // 40, 8 * x, 8 * y) for x in range(32) for y in range(32)
+            if (7 * x + 3 * y) % 5 < 2]
+    head = ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(rows) + "".join(f"property float {k}\n" for k in "xyz") +
+            "".join(f"property uchar {k}\n" for k in ("red", "green", "blue")) + "end_header\n")
+    with tempfile.TemporaryDirectory() as scratch:
+        at = pathlib.Path(scratch)
+        (at / "c.ply").write_bytes(head.encode() + b"".join(rows))
+        work = ["--work", scratch + "/work", "--quiet"]
+        subprocess.run([program, "plan", scratch + "/c.ply", "-o", scratch + "/plan", "--grid-bits", "5", *work], check=True)
+        for part in "12":
+            subprocess.run([program, "encode", scratch + "/c.ply", "--plan", scratch + "/plan", "--part", part + "/2",
+                            "-o", scratch + "/" + part, *work], check=True)
+        first, second = (at / "1").read_bytes(), (at / "2").read_bytes()
+        return (at / "plan").read_bytes(), {"first": first, "second": second, "both": MARK.join([first, second])}
+
+
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode render truncate hevc npy ply obj glb image cameras colmap igc".split()}
+            "decode render truncate hevc npy ply obj glb image cameras colmap igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
         made["truncate"][name] = b"\x03\x01" + stream
@@ -151,6 +169,7 @@ def seeds(program):
     made["colmap"] = colmap()
     if program:
         made["igc"]["can"] = igc(program)
+        made["plan"]["saddle"], made["part"] = scene(program)
     return made
 
 

@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:?seconds for all targets together}
 shift
-all=(decode render truncate hevc npy ply obj glb image cameras colmap igc)
+all=(decode render truncate hevc npy ply obj glb image cameras colmap igc part plan)
 targets=("$@")
 [[ $# -gt 0 ]] || targets=("${all[@]}")
 build=${BUILD_DIR:-build-fuzz}

@@ -15,14 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slices [first, last) of a part: its share of the points.
+/// Slices [first, last) of a part: those whose middle points are in its share.
 std::array<std::size_t, 2> slices_of(const ScenePlan& plan, const ScenePart& part) {
   const auto share = [&](int index) {
     std::uint64_t before = 0;
     std::size_t slice = 0;
     const std::uint64_t wanted =
         plan.points() * static_cast<std::uint64_t>(index) / static_cast<std::uint64_t>(part.count);
-    while (slice < plan.slices.size() && before < wanted) before += plan.slices[slice++].points;
+    while (slice < plan.slices.size() && before + plan.slices[slice].points / 2 < wanted)
+      before += plan.slices[slice++].points;
     return slice;
   };
   return {share(part.index), share(part.index + 1)};

@@ -1,0 +1,11 @@
+// Parts of a scene: one alone, and two files as parts of one.
+#include "fuzz/fuzz.h"
+#include "slf/scene.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<slf::PartStream> parts;
+  for (const auto part : slf::fuzz::parts_of({data, size}))
+    parts.push_back({"part", slf::fuzz::with_sound_crcs(part)});
+  (void)slf::merge_parts(parts, true, 1);
+  return 0;
+}
