@@ -9,7 +9,6 @@
 #include "codec/slice_digest.h"
 #include "entropy/range_decoder.h"
 #include "geometry/draco_decoder.h"
-#include "geometry/morton.h"
 #include "geometry/octree_decoder.h"
 
 namespace slf {
@@ -63,11 +62,7 @@ Result<Done> SliceDecoder::decode_draco_unit() {
   offset = unit.offset;
   SLF_CHECK(plan_->begin_unit(unit.payload.size()));
   level_ = plan_->grid_bits();
-  SLF_TRY(const auto voxels, in_unit(unit, decode_draco(unit.payload, level_, points())));
-  for (const Voxel& v : voxels) codes_.push_back(morton(v));
-  std::sort(codes_.begin(), codes_.end());
-  if (std::adjacent_find(codes_.begin(), codes_.end()) != codes_.end())
-    return in_unit(unit, Error{Errc::kOutOfRange, "gu_draco"});
+  SLF_TRY(codes_, in_unit(unit, decode_draco(unit.payload, level_, points())));
   return Done{};
 }
 

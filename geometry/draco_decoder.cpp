@@ -8,6 +8,8 @@
 #if SLF_WITH_DRACO
 #include <draco/compression/decode.h>
 #include <draco/point_cloud/point_cloud.h>
+
+#include "geometry/morton.h"
 #endif
 
 namespace slf {
@@ -34,8 +36,8 @@ bool is_cloud_of_positions(std::span<const std::uint8_t> payload, std::uint64_t 
 
 }  // namespace
 
-Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, int bits,
-                                        std::uint64_t max_points) {
+Result<std::vector<std::uint64_t>> decode_draco(std::span<const std::uint8_t> payload, int bits,
+                                                std::uint64_t max_points) {
   const Error damaged{Errc::kOutOfRange, "gu_draco"};
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(payload.data()), payload.size());
@@ -51,21 +53,26 @@ Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, i
   if (position == nullptr || position->num_components() != 3 ||
       position->data_type() != draco::DT_UINT32 || cloud.num_points() > max_points)
     return damaged;
-  std::vector<Voxel> voxels(cloud.num_points());
+  std::vector<std::uint64_t> codes;
+  codes.reserve(cloud.num_points());
   for (std::uint32_t i = 0; i < cloud.num_points(); ++i) {
     std::uint32_t xyz[3];
     if (!position->ConvertValue<std::uint32_t>(position->mapped_index(draco::PointIndex(i)), 3,
                                                xyz))
       return damaged;
+    Voxel voxel;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (xyz[axis] >> bits != 0) return damaged;
-      voxels[i][axis] = static_cast<std::int32_t>(xyz[axis]);
+      voxel[axis] = static_cast<std::int32_t>(xyz[axis]);
     }
+    codes.push_back(morton(voxel));
   }
-  return voxels;
+  std::sort(codes.begin(), codes.end());
+  if (std::adjacent_find(codes.begin(), codes.end()) != codes.end()) return damaged;
+  return codes;
 }
 #else
-Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t>, int, std::uint64_t) {
+Result<std::vector<std::uint64_t>> decode_draco(std::span<const std::uint8_t>, int, std::uint64_t) {
   return of_sequence(Errc::kUnsupported, "sps_geometry_coder");
 }
 #endif

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "slf/error.h"
-#include "slf/types.h"
 
 namespace slf {
 
-/// Positions in Draco's own order.
+/// Morton codes of the positions, ascending.
 /// @errors kOutOfRange: not a point cloud of at most max_points unsigned integer positions below
-///         2^bits. kUnsupported: this build has no Draco.
-Result<std::vector<Voxel>> decode_draco(std::span<const std::uint8_t> payload, int bits,
-                                        std::uint64_t max_points);
+///         2^bits, or one twice. kUnsupported: this build has no Draco.
+Result<std::vector<std::uint64_t>> decode_draco(std::span<const std::uint8_t> payload, int bits,
+                                                std::uint64_t max_points);
 
 }  // namespace slf

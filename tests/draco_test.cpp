@@ -3,6 +3,7 @@
 
 #include "geometry/draco_decoder.h"
 #include "geometry/draco_encoder.h"
+#include "geometry/morton.h"
 
 namespace slf {
 namespace {
@@ -31,7 +32,14 @@ class Draco : public testing::Test {
 TEST_F(Draco, PositionsComeBack) {
   const auto decoded = decode_draco(payload_, kBits, 3);
   ASSERT_TRUE(decoded);
-  EXPECT_EQ(decoded->size(), 3u);
+  const std::vector<std::uint64_t> codes = {morton({1, 2, 3}), morton({4, 5, 6}),
+                                            morton({15, 0, 15})};
+  EXPECT_EQ(*decoded, codes);
+}
+
+TEST_F(Draco, APositionTwiceIsRefused) {
+  payload_ = payload_of({{1, 2, 3}, {1, 2, 3}, {4, 5, 6}});
+  expect_refused();
 }
 
 // By the number, type and length of attributes 70 bytes could ask for gigabytes.
