@@ -87,7 +87,7 @@ class CoefficientModels {
   }
 
   CoefficientNeighbours neighbours_;
-  std::vector<bool> empty_;                 // groups without functions to code
+  std::vector<std::uint8_t> empty_;         // groups without functions to code
   std::vector<VectorCoefficients> vector_;  // layer by layer; one of the two is empty
   std::vector<IndependentCoefficients> independent_;
 };

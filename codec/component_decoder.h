@@ -20,7 +20,7 @@ struct BaseComponents {
   std::vector<CoefficientStates> states;  ///< [layers][groups]
   std::vector<std::int32_t> values;       ///< [cells][planes] mean * sqrt(its weight); the mean
                                           ///< where slices are apart
-  std::vector<bool> any;                  ///< [groups] not all of its values are zero
+  std::vector<std::uint8_t> any;          ///< [groups] not all of its values are zero
   const PartUnit* last = nullptr;         ///< unit that was decoded last
 };
 
@@ -79,7 +79,7 @@ class ComponentDecoder {
   CoefficientModels models_;
   SliceCells cells_;                                // of a slice with a base; else empty
   std::vector<std::uint8_t> nonzero_, of_unit_;     // [rows]
-  std::vector<bool> any_;                           // [groups] a value or coefficient is not zero
+  std::vector<std::uint8_t> any_;                   // [groups] a value or coefficient is not zero
   std::vector<std::vector<std::uint8_t>> modes_;    // [groups][levels from start] cu_prediction
   std::vector<std::vector<std::uint32_t>> layers_;  // [groups][coefficient ranges] decoded so far
   const PartUnit* last_ = nullptr;                  // decoded, here or in the base

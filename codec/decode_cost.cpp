@@ -252,7 +252,7 @@ bool waits_for_base(const SequencePlan& plan) {
 }  // namespace
 
 Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
-                                    const std::vector<bool>& chosen) {
+                                    const std::vector<std::uint8_t>& chosen) {
   if (!waits_for_base(plan)) return Done{};
   DecodeShape shape = shape_of(plan);
   shape.slices.clear();

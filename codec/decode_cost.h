@@ -52,6 +52,6 @@ Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options
 
 /// The same of slices that meet a region. chosen: [slices]
 Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
-                                    const std::vector<bool>& chosen);
+                                    const std::vector<std::uint8_t>& chosen);
 
 }  // namespace slf

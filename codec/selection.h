@@ -21,7 +21,7 @@ class Selection {
   void choose_slices(std::span<const CellBox> boxes);
 
   bool all_slices() const;
-  const std::vector<bool>& slices() const { return slice_; }  ///< kept
+  const std::vector<std::uint8_t>& slices() const { return slice_; }  ///< kept
 
   /// Does what was asked for need this unit of a slice, or of the base? Never a digest, which is of
   /// the whole.
@@ -29,7 +29,7 @@ class Selection {
 
  private:
   const SequencePlan& plan_;
-  std::vector<bool> slice_;  // [slices] kept
+  std::vector<std::uint8_t> slice_;  // [slices] kept
 };
 
 /// What the sequence says of a stream with so much in it.

@@ -117,7 +117,7 @@ CodedFunctions code_functions(PlaneGroups groups, std::vector<PlaneTransform>& t
       here.insert(here.end(), groups[g].begin(), groups[g].end());
     }
   }
-  std::vector<bool> is_coded;
+  std::vector<std::uint8_t> is_coded;
   for (const auto& functions : groups)
     for (const std::uint16_t k : functions) {
       if (is_coded.size() <= k) is_coded.resize(std::size_t{k} + 1);

@@ -1,6 +1,7 @@
 #include "render/render_surfels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -31,9 +32,7 @@ class CellTree {
     std::transform(positions.begin(), positions.end(), codes.begin(), morton);
     order_.resize(positions.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!std::is_sorted(codes.begin(), codes.end()))
-      std::stable_sort(order_.begin(), order_.end(),
-                       [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+    if (!std::is_sorted(codes.begin(), codes.end())) sort_by(codes);
     codes_.reserve(codes.size());
     for (const std::uint32_t p : order_) codes_.push_back(codes[p]);
     cell_log2_.resize(positions.size());
@@ -83,6 +82,19 @@ class CellTree {
   }
 
  private:
+  /// Byte by byte from the lowest: fewer bytes of a program than a sort of the library's, and no
+  /// slower.
+  void sort_by(std::span<const std::uint64_t> codes) {
+    std::vector<std::uint32_t> sorted(order_.size());
+    const std::uint64_t most = *std::max_element(codes.begin(), codes.end());
+    for (int shift = 0; shift < std::bit_width(most); shift += 8) {
+      std::array<std::uint32_t, 257> begin{};
+      for (const std::uint64_t code : codes) ++begin[(code >> shift & 255) + 1];
+      std::partial_sum(begin.begin(), begin.end(), begin.begin());
+      for (const std::uint32_t p : order_) sorted[begin[codes[p] >> shift & 255]++] = p;
+      order_.swap(sorted);
+    }
+  }
   static constexpr int kRootLevel = 21;
   static constexpr std::size_t kMeasured = 512;  // points of a node whose density is measured
   static constexpr int kHysteresis = 2;  // levels; what differs less has the cells around it

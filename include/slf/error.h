@@ -3,9 +3,10 @@
 
 #include <cassert>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace slf {
 
@@ -60,27 +61,29 @@ std::string to_string(const Error& error);
 template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-  Result(E error) : state_(std::in_place_index<1>, std::move(error)) {}
+  Result(T value) : value_(std::move(value)) {}
+  Result(E error) : error_(std::move(error)) {}
 
-  explicit operator bool() const { return state_.index() == 0; }
-  T& operator*() & { return *value(state_); }
-  const T& operator*() const& { return *value(state_); }
-  T&& operator*() && { return std::move(*value(state_)); }
-  T* operator->() { return value(state_); }
-  const T* operator->() const { return value(state_); }
+  explicit operator bool() const { return value_.has_value(); }
+  T& operator*() & { return *pointer(*this); }
+  const T& operator*() const& { return *pointer(*this); }
+  T&& operator*() && { return std::move(*pointer(*this)); }
+  T* operator->() { return pointer(*this); }
+  const T* operator->() const { return pointer(*this); }
   const E& error() const {
-    assert(state_.index() == 1);
-    return *std::get_if<1>(&state_);
+    assert(!value_);
+    return error_;
   }
 
  private:
-  template <class State>
-  static auto* value(State& state) {
-    assert(state.index() == 0);
-    return std::get_if<0>(&state);
+  template <class Self>
+  static auto* pointer(Self& self) {
+    assert(self.value_);
+    return std::addressof(*self.value_);
   }
-  std::variant<T, E> state_;
+  // Side by side: a variant's moves go through tables, which is code for every type.
+  std::optional<T> value_;
+  E error_{};
 };
 
 /// What a step that yields nothing returns on success.
