@@ -29,8 +29,18 @@ _LIBCPP_END_NAMESPACE_STD
 // behind.
 extern "C" [[noreturn]] void abort_message(const char*, ...) { __builtin_trap(); }
 extern "C" [[noreturn]] void __cxa_pure_virtual() { __builtin_trap(); }
-// Sine and cosine of arguments above 10^6, 5 kB of them: angles here are below 2 pi.
-extern "C" int __rem_pio2_large(double*, double*, int, int, int) { __builtin_trap(); }
+// JavaScript has these, the C library's take 5 kB. No integer that is decoded depends on them.
+#define SLF_IMPORT(name) __attribute__((import_module("Math"), import_name(#name))) double js_##name
+extern "C" {
+SLF_IMPORT(sin)(double);
+SLF_IMPORT(cos)(double);
+SLF_IMPORT(acos)(double);
+SLF_IMPORT(atan2)(double, double);
+double sin(double x) { return js_sin(x); }
+double cos(double x) { return js_cos(x); }
+double acos(double x) { return js_acos(x); }
+double atan2(double y, double x) { return js_atan2(y, x); }
+}
 
 #if defined(__wasm_bulk_memory__)
 // One instruction each, where the C library has loops.
