@@ -41,6 +41,8 @@ export interface SlfInfo {
   slices: number;
   /** What options.groups counts. */
   groups: number;
+  /** Of quality, of the group that has most: what options.layers counts; 1 .. 4. */
+  layers: number;
   /** Of coded normals; 0: none. */
   normalBits: number;
   grid: SlfGrid;

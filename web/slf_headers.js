@@ -41,14 +41,14 @@ export function readInfo(instance, stream) {
   const w = instance.wasm;
   if (w.slfw_info(stream) !== 0) instance.fail();
   const [format, bytes, points, slices, groups, levels, functions, components, normalBits, x, y, z, step, metres, up,
-    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex] =
-    instance.numbers(26);
+    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers] =
+    instance.numbers(27);
   const metadata = {};
   for (let i = 0; i < pairs; ++i)
     metadata[instance.text(w.slfw_metadata(stream, i, 0))] = instance.text(w.slfw_metadata(stream, i, 1));
   return {
     version: `${format >>> 16}.${format & 0xffff}`, profile: PROFILES[profile], bytes, points, functions, components,
-    bits: levels, levels, slices, groups, normalBits, grid: { origin: [x, y, z], step, bits: levels },
+    bits: levels, levels, slices, groups, layers, normalBits, grid: { origin: [x, y, z], step, bits: levels },
     metresPerUnit: metres, up: UP[up], rightHanded: leftHanded === 0, hasBasis: hasBasis !== 0,
     basis: basis === 0 ? 'bspline' : 'harmonics', frame: FRAMES[frame], transfer: TRANSFERS[transfer],
     gamma: [gammaMin, gammaMax], complete: complete !== 0, hasIndex: hasIndex !== 0, metadata,

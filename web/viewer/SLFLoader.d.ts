@@ -12,8 +12,8 @@ export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
   /** Bytes that decoding may take; more is refused as 'too-large'. 2 GiB. */
   maxMemory: number;
 
-  /** Fewer octree levels or plane groups than the file has; 0, the default: all. */
-  setPart(part: { levels?: number; groups?: number }): this;
+  /** Fewer octree levels, plane groups or quality layers than the file has; 0, the default: all. */
+  setPart(part: { levels?: number; groups?: number; layers?: number }): this;
 
   /** Coarse objects first: `onCoarse` is called with each, which the next one replaces. */
   stream(url: string, onCoarse: (field: SurfaceLightField) => void): Promise<SurfaceLightField>;

@@ -19,9 +19,9 @@ export class SLFLoader extends Loader {
     this.maxMemory = 2 ** 31;
   }
 
-  /** Fewer octree levels or plane groups than the file has; 0: all. */
-  setPart({ levels = 0, groups = 0 }) {
-    this.part = { levels, groups };
+  /** Fewer octree levels, plane groups or quality layers than the file has; 0: all. */
+  setPart({ levels = 0, groups = 0, layers = 0 }) {
+    this.part = { levels, groups, layers };
     return this;
   }
 

@@ -42,11 +42,11 @@ export class DecodeSession {
   }
 
   /**
-   * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups: 0 is all;
-   *   maxMemory: bytes that a decode may take; tableSize
+   * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups, layers: 0 is
+   *   all; maxMemory: bytes that a decode may take; tableSize
    * @returns {{packed?: object, info?: object, end?: number}} without `packed` where a prefix shows nothing yet
    */
-  async decode({ prefix = 0, levels = 0, groups = 0, maxMemory = 2 ** 31, tableSize = 65 }) {
+  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, tableSize = 65 }) {
     let bytes = this.bytes.subarray(0, this.length);
     const units = walkUnits(prefix ? bytes.subarray(0, prefix) : bytes);
     if (units.foreign || this.length === 0) throw new ViewerError('damaged', 'This is not an .slf file.');
@@ -60,7 +60,7 @@ export class DecodeSession {
       throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(info.decodeBytes / 2 ** 20)} MiB.`);
     if (info.hasBasis === false)
       throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
-    const field = this.run(decoder, bytes, { levels, groups, maxMemory });
+    const field = this.run(decoder, bytes, { levels, groups, layers, maxMemory });
     try {
       return { packed: packField(field, tableSize), info: JSON.parse(JSON.stringify(info)), end: bytes.length };
     } finally {

@@ -46,6 +46,7 @@ export function writeOutputs() {
   set('points', `${value('points')} %`);
   set('levels', `${value('levels')} of ${at('levels').max}`);
   set('groups', `${value('groups')} of ${at('groups').max}`);
+  set('layers', `${value('layers')} of ${at('layers').max}`);
   set('resolution', `${value('resolution')} %`);
   set('fov', `${value('fov')}°`);
 }

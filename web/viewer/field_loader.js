@@ -27,7 +27,7 @@ export class FieldLoader {
    * Loads and decodes; a load that is going on is given up.
    * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
    * @param {object} on  progress(received, total or 0), field(packed, info, final)
-   * @param {object} options  levels, groups, signal
+   * @param {object} options  levels, groups, layers, signal
    * @returns {Promise<{packed, info, bytes}>} of the whole file
    * @throws {ViewerError}
    */
@@ -69,12 +69,12 @@ export class FieldLoader {
     return { ...result, bytes: received };
   }
 
-  /** Decodes what is loaded once more, with other levels or groups. */
-  async decode({ prefix = 0, levels = 0, groups = 0 } = {}) {
+  /** Decodes what is loaded once more, with other levels, groups or layers. */
+  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0 } = {}) {
     if (this.stopped) throw this.stopped;
     const id = this.next++;
     const answered = new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
-    this.worker.postMessage({ id, decode: { prefix, levels, groups, maxMemory: this.maxMemory } });
+    this.worker.postMessage({ id, decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
     return answered;
   }
 

@@ -40,6 +40,7 @@ export function readOptions(query, page = {}) {
     points: number('points', 1, 100, 100),
     levels: number('levels', 0, 21, 0),
     groups: number('groups', 0, 4096, 0),
+    layers: number('layers', 0, 4, 0),
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
     memory: number('memory', 16, 3500, 2048) * 2 ** 20,
   };

@@ -9,6 +9,7 @@ export interface ViewerPage {
   embed?: boolean;
   levels?: number;
   groups?: number;
+  layers?: number;
   /** Bytes of a file that is shown at once, and its name. */
   file?: Uint8Array;
   name?: string;

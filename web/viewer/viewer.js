@@ -77,14 +77,14 @@ export class Viewer {
     at('title').textContent = this.titleText();
     this.arriving(0, 0);
     try {
-      const { levels, groups } = this.options;
+      const { levels, groups, layers } = this.options;
       const { bytes } = await this.loader.load(
         source,
         {
           progress: (received, total) => this.arriving(received, total),
           field: (packed, info, final) => this.show(packed, info, final, begin),
         },
-        { levels, groups },
+        { levels, groups, layers },
       );
       this.facts.bytes = bytes;
       this.facts.loaded = performance.now() - begin;
@@ -113,7 +113,7 @@ export class Viewer {
     document.body.dataset.state = final ? 'ready' : 'coarse';
   }
 
-  /** Decodes the same file with other levels or groups. */
+  /** Decodes the same file with other levels, groups or layers. */
   async decodeAgain(part) {
     Object.assign(this.options, part);
     this.say('Decoding …');
@@ -198,6 +198,8 @@ export class Viewer {
     slider('levels', 1, info.bits, this.options.levels || info.bits);
     slider('groups', 1, Math.max(1, info.groups), this.options.groups || info.groups);
     at('groups-row').hidden = !(info.groups > 1);
+    slider('layers', 1, Math.max(1, info.layers), this.options.layers || info.layers);
+    at('layers-row').hidden = !(info.layers > 1);
     writeOutputs();
     writeFacts(this.facts, field);
   }

@@ -136,6 +136,8 @@ export class Wiring {
     on('levels', 'change', (e) => this.viewer.decodeAgain({ levels: e.value === e.max ? 0 : Number(e.value) }));
     on('groups', 'input', () => {});
     on('groups', 'change', (e) => this.viewer.decodeAgain({ groups: e.value === e.max ? 0 : Number(e.value) }));
+    on('layers', 'input', () => {});
+    on('layers', 'change', (e) => this.viewer.decodeAgain({ layers: e.value === e.max ? 0 : Number(e.value) }));
     on('fov', 'input', (e) => this.viewer.setFov(Number(e.value)));
     on('cameras', 'change', (e) =>
       e.value === '' ? this.viewer.reset() : this.viewer.comparison.lookThrough(Number(e.value)),

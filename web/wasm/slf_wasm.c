@@ -62,7 +62,7 @@ void EXPORT(slfw_release_stream)(slf_stream* stream) { slf_release_stream(stream
 
 /* format version, bytes, points, slices, groups, levels, K, R, normal bits, origin[3], step, metres
  * per unit, up, left-handed, has basis, basis, frame, transfer, gamma min, max, complete, pairs,
- * profile, has index */
+ * profile, has index, layers */
 int EXPORT(slfw_info)(const slf_stream* stream) {
   slf_info i = {sizeof i};
   const slf_code code = slf_get_info(stream, &i, error());
@@ -70,7 +70,7 @@ int EXPORT(slfw_info)(const slf_stream* stream) {
                         i.levels, i.functions, i.components, i.normal_bits, i.origin[0],
                         i.origin[1], i.origin[2], i.step, i.metres_per_unit, i.up, i.left_handed,
                         i.has_basis, i.basis, i.frame, i.transfer, i.gamma_min, i.gamma_max,
-                        i.complete, i.metadata_pairs, i.profile, i.has_index};
+                        i.complete, i.metadata_pairs, i.profile, i.has_index, i.layers};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }

@@ -1,7 +1,8 @@
 // What a person does with the viewer: opening, turning, sliders, comparing.
 import assert from 'node:assert/strict';
+import { join } from 'node:path';
 import { test } from 'node:test';
-import { pictureOf, psnr, settled, skip } from './support.mjs';
+import { pictureOf, psnr, settled, skip, slf } from './support.mjs';
 import { viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
@@ -112,6 +113,23 @@ test('mouse, wheel, touch and keys move the camera; reset brings it back', { ski
   await page.keyboard.up('w');
   assert.deepEqual(page.wrong, []);
   await page.close();
+});
+
+test('layers can be chosen where a file has several, by a slider and by the address', { skip }, async () => {
+  slf('encode', here.can.capture, '-o', join(here.can.dir, 'layered.slf'), '--effort', 1, '--quality-layers', 2, '--quiet');
+  const page = await here.opened('src=/files/layered.slf&layers=1&background=808080');
+  assert.ok(await page.evaluate(() => !document.getElementById('layers-row').hidden));
+  assert.equal(await page.inputValue('#layers'), '1');
+  const first = psnr(await pictureOf(page, here.can.views[0], here.can.size), here.can.pictures[0]);
+  await slide(page, 'layers', 2);
+  await page.waitForFunction(() => document.getElementById('status').textContent === 'Decoded.');
+  const both = psnr(await pictureOf(page, here.can.views[0], here.can.size), here.can.pictures[0]);
+  assert.ok(both > first + 1, `${first} and ${both} dB`);
+  assert.deepEqual(page.wrong, []);
+  await page.close();
+  const plain = await here.opened('src=/files/can.slf');
+  assert.ok(await plain.evaluate(() => document.getElementById('layers-row').hidden));
+  await plain.close();
 });
 
 test('sliders change what is drawn: points, levels, groups, exposure, resolution, mean colour', { skip }, async () => {

@@ -18,6 +18,16 @@ test('info says what the headers say', () => {
   assert.equal(info.complete, true);
   assert.ok(info.decodeBytes > info.points * info.components * 12);
   assert.equal(decoder.info(basis.bytes).metadata.note, 'größer');
+  assert.equal(info.layers, 1);
+  assert.equal(decoder.info(caseOf('layers-four').bytes).layers, 4);
+});
+
+test('no more layers than the group that has most', () => {
+  const { bytes } = caseOf('layers');
+  const first = decoder.decode(bytes, { layers: 1 });
+  assert.ok(first.partial);
+  first.release();
+  assert.throws(() => decoder.decode(bytes, { layers: 3 }), code('INVALID_ARGUMENT'));
 });
 
 test('arguments of a wrong kind are refused before anything is done', () => {

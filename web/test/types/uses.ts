@@ -7,7 +7,7 @@ import { Viewer } from 'slf-decoder/viewer/viewer.js';
 import { ViewerError, packField } from 'slf-decoder/viewer/packed_field.js';
 
 export async function scene(file: File, bytes: ArrayBuffer) {
-  const loader = new SLFLoader().setPart({ levels: 7 });
+  const loader = new SLFLoader().setPart({ levels: 7, layers: 1 });
   loader.maxMemory = 1e9;
   const field: SurfaceLightField = await loader.loadAsync('can.slf', (event) => event.loaded);
   const whole = await loader.stream('can.slf', (coarse) => coarse.dispose());
