@@ -82,8 +82,7 @@ class CellTree {
   }
 
  private:
-  /// Byte by byte from the lowest: fewer bytes of a program than a sort of the library's, and no
-  /// slower.
+  /// Byte by byte from the lowest: fewer bytes of a program than a sort of the library's.
   void sort_by(std::span<const std::uint64_t> codes) {
     std::vector<std::uint32_t> sorted(order_.size());
     const std::uint64_t most = *std::max_element(codes.begin(), codes.end());
@@ -95,6 +94,7 @@ class CellTree {
       order_.swap(sorted);
     }
   }
+
   static constexpr int kRootLevel = 21;
   static constexpr std::size_t kMeasured = 512;  // points of a node whose density is measured
   static constexpr int kHysteresis = 2;  // levels; what differs less has the cells around it
