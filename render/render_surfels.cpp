@@ -86,7 +86,8 @@ class CellTree {
   void sort_by(std::span<const std::uint64_t> codes) {
     std::vector<std::uint32_t> sorted(order_.size());
     const std::uint64_t most = *std::max_element(codes.begin(), codes.end());
-    for (int shift = 0; shift < std::bit_width(most); shift += 8) {
+    const int bits = static_cast<int>(std::bit_width(most));
+    for (int shift = 0; shift < bits; shift += 8) {
       std::array<std::uint32_t, 257> begin{};
       for (const std::uint64_t code : codes) ++begin[(code >> shift & 255) + 1];
       std::partial_sum(begin.begin(), begin.end(), begin.begin());
