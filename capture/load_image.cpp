@@ -39,16 +39,16 @@ Image with_mask(const Image& image, const Image& mask) {
 Result<Image, InputError> load(const Capture& capture, std::size_t i) {
   const Camera& camera = capture.cameras[i];
   const int reduction = capture.reduction.empty() ? 0 : capture.reduction[i];
-  if (!capture.images.empty()) {
-    const Image& given = capture.images[i];
-    Image image = reduced(given, reduction);
-    if (image.width == camera.width && image.height == camera.height) return image;
-    return other_size(camera.name, static_cast<std::uint32_t>(given.width),
-                      static_cast<std::uint32_t>(given.height), camera);
-  }
   const auto fits = [&](const Image& x) {
     return x.width == camera.width && x.height == camera.height;
   };
+  if (!capture.images.empty()) {
+    const Image& given = capture.images[i];
+    Image image = reduced(given, reduction);
+    if (fits(image)) return image;
+    return other_size(camera.name, static_cast<std::uint32_t>(given.width),
+                      static_cast<std::uint32_t>(given.height), camera);
+  }
   ImageSize size;
   SLF_TRY(Image image, read_image_reduced(capture.image_files[i], reduction, size));
   if (!fits(image))

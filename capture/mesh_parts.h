@@ -10,9 +10,8 @@ namespace slf {
 
 /// voxelise_on(sample_mesh(mesh, grid), grid), voxel by voxel in Morton order, while no more than
 /// the points of a cube of 2^kCubeLog2 voxels a side are held.
-/// @errors kInvalidInput: faces meet 2^24 of these cubes or more, or have more than 2^24 points
-/// in
-///         one: the step is too small
+/// @errors kInvalidInput: the step is too small: faces meet 2^24 of these cubes or more, or have
+///         more than 2^24 points in one or 2^30 together
 Result<Done, InputError> for_each_mesh_voxel(const Mesh& mesh, const Grid& grid,
                                              const std::function<void(const OccupiedVoxel&)>& take);
 

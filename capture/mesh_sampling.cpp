@@ -122,6 +122,7 @@ class Sampler {
   }
 
   void add_triangle(std::size_t f, bool overlap) {
+    if (double(cloud_.positions.size()) > kMostPoints) return;  // run() says so
     const Corners corners = on_grid(corners_of(mesh_, f), grid_);
     const auto normal = normal_of(corners);
     if (!normal) return;
@@ -168,7 +169,6 @@ class Sampler {
     for (std::size_t k = 0; k < 3; ++k) world[k] = grid_.origin[k] + grid_.step * at[k];
     const std::array<float, 3> position = to_float(world);
     if (window_ != nullptr && !is_inside(voxel_at(position, grid_), *window_)) return;
-    if (double(cloud_.positions.size()) > kMostPoints) return;  // run() says so
     cloud_.positions.push_back(position);
     const PointCloud& vertices = mesh_.vertices;
     const auto mixed = [&](const auto& values) {

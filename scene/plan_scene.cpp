@@ -29,7 +29,6 @@ namespace {
 constexpr std::size_t kSpacingRun = 30000;  // points in Morton order that the spacing is taken from
 /// Components of the scene may be so much larger than those of the sample.
 constexpr float kMargin = 2;
-constexpr double kWithAround = 1.3;  // points that a slice sees, of its own; about
 
 /// Cells spread over the scene, of about kPlanSample points.
 std::vector<std::size_t> sample_cells(const SceneCells& cells) {

@@ -41,6 +41,9 @@ inline constexpr std::uint32_t kScenePoints = 1u << 16;
 /// Points of other cells that a fit sees beside those of its own, in spacings.
 inline constexpr double kAround = 8;
 
+/// Points that a slice sees, of its own; about.
+inline constexpr double kWithAround = 1.4;
+
 /// The settings of a plan, and whether a scene can be coded in parts with them.
 /// @errors kInvalidArgument
 Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, bool cameras,
@@ -66,9 +69,8 @@ std::array<std::uint8_t, 32> digest_of(const ScenePlan& plan);
 Result<Done, InputError> check_memory(const ScenePlan& plan, const SceneWork& work);
 Result<Done, InputError> check_planning(const ScenePlan& plan, const SceneWork& work);
 
-/// @errors kUnreadable: the points are not in the directory; kInvalidInput: they are not the
-/// plan's,
-///         or the plan's numbers do not go together; kUnwritable
+/// @errors kUnreadable: the points are not in the directory; kInvalidInput: others are, or the
+///         plan's numbers do not go together; kUnwritable
 Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& plan,
                                                              const SceneWork& work);
 

@@ -17,7 +17,7 @@ InputError too_little(const char* what, std::uint64_t bytes, const SceneWork& wo
 }  // namespace
 
 SceneCost cost_of(const ScenePlan& plan) {
-  constexpr double kObservation = 2 * 24, kViews = 40, kWithAround = 1.4, kBlockPoints = 24;
+  constexpr double kObservation = 2 * 24, kViews = 40, kBlockPoints = 24;
   SceneCost cost;
   cost.points = plan.points();
   cost.slices = plan.slices.size();

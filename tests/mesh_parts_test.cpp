@@ -65,5 +65,14 @@ TEST(MeshParts, FacesTooLargeForTheirGridAreRefusedBeforeTheyAreSampled) {
   EXPECT_THAT(done.error().message, HasSubstr("too small for its faces"));
 }
 
+TEST(MeshParts, FacesOnTopOfEachOtherAreRefusedBeforeTheyAreSampled) {
+  Mesh mesh = torus(4);
+  const Grid grid = *choose_grid(bounding_box(mesh), mesh.triangles.size(), 10, 0);
+  mesh.triangles.assign(100000, mesh.triangles.front());
+  const auto done = for_each_mesh_voxel(mesh, grid, [](const OccupiedVoxel&) { FAIL(); });
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("too small for its faces"));
+}
+
 }  // namespace
 }  // namespace slf
