@@ -16,8 +16,6 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kLanes = kPredictionLanes;
-
 /// Spec 8.8.1 of one row pair.
 SLF_MULTIVERSION
 void inverse_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
@@ -73,7 +71,7 @@ class LevelQuantiser {
     for (std::size_t g = 0; g < modes.size(); ++g)
       for (const std::size_t j : planes_of(input_.groups[g])) of_plane[j] = modes[g];
     if (!needs_whole_rows()) {
-      parallel_ranges(planes_, kLanes, threads_, [&](std::size_t begin, std::size_t end) {
+      parallel_ranges(planes_, kPredictionLanes, threads_, [&](std::size_t begin, std::size_t end) {
         code(begin, end, of_plane, nullptr);
       });
     } else {
@@ -131,7 +129,7 @@ class LevelQuantiser {
     for (std::uint8_t mode = 0; mode < kPredictionModes; ++mode) {
       tried[mode].resize(planes_);
       const std::vector<std::uint8_t> same(planes_, mode);
-      parallel_ranges(planes_, kLanes, threads_, [&](std::size_t begin, std::size_t end) {
+      parallel_ranges(planes_, kPredictionLanes, threads_, [&](std::size_t begin, std::size_t end) {
         code(begin, end, same, tried[mode].data());
         for (std::size_t n = 0; n < level_->nodes.size(); ++n)
           std::copy_n(
@@ -161,7 +159,7 @@ class LevelQuantiser {
     };
     const std::size_t lanes = end - begin;
     std::vector<std::int32_t> transformed(8 * lanes);  // predicted coefficients
-    std::vector<Corrections> corrections((lanes + kLanes - 1) / kLanes);
+    std::vector<Corrections> corrections((lanes + kPredictionLanes - 1) / kPredictionLanes);
     for (std::size_t n = 0, merge = 0, mean = 0; n < level_->nodes.size(); ++n) {
       if (!level_->branches(n)) continue;
       if (input_.predict)
@@ -182,9 +180,10 @@ class LevelQuantiser {
         inverse_rows(m, values_.data() + m.left * planes_ + begin,
                      values_.data() + m.right * planes_ + begin, lanes);
       if (predicted)
-        for (std::size_t j = 0; j < lanes; j += kLanes)
-          add_corrections(plan, corrections[j / kLanes], {values_.data() + begin + j, planes_},
-                          std::min(kLanes, lanes - j));
+        for (std::size_t j = 0; j < lanes; j += kPredictionLanes)
+          add_corrections(plan, corrections[j / kPredictionLanes],
+                          {values_.data() + begin + j, planes_},
+                          std::min(kPredictionLanes, lanes - j));
     }
   }
 
@@ -203,8 +202,8 @@ class LevelQuantiser {
     for (auto& block : corrections)
       for (auto& child : block) child.fill(0);
     for (std::size_t block = 0; block < corrections.size(); ++block) {
-      const std::size_t block_end = std::min(end, begin + (block + 1) * kLanes);
-      std::size_t j = begin + block * kLanes;
+      const std::size_t block_end = std::min(end, begin + (block + 1) * kPredictionLanes);
+      std::size_t j = begin + block * kPredictionLanes;
       while (j < block_end) {  // lanes of one mode
         const std::size_t first = j;
         while (j < block_end && modes[j] == modes[first]) ++j;
@@ -216,7 +215,7 @@ class LevelQuantiser {
         for (std::size_t i = 0; i < plan.children; ++i)
           std::copy_n(some[i].begin(), j - first,
                       corrections[block][i].begin() +
-                          static_cast<std::ptrdiff_t>(first - begin - block * kLanes));
+                          static_cast<std::ptrdiff_t>(first - begin - block * kPredictionLanes));
       }
     }
     return true;
@@ -227,7 +226,7 @@ class LevelQuantiser {
                  std::vector<std::int32_t>& transformed) const {
     for (std::size_t i = 0; i < plan.children; ++i)
       for (std::size_t j = 0; j < lanes; ++j)
-        transformed[i * lanes + j] = corrections[j / kLanes][i][j % kLanes];
+        transformed[i * lanes + j] = corrections[j / kPredictionLanes][i][j % kPredictionLanes];
     for (std::size_t m = own.size(); m-- > 0;)
       forward_rows(own[m], &transformed[child_of(plan, own[m].left) * lanes],
                    &transformed[child_of(plan, own[m].right) * lanes], lanes);

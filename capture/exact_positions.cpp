@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kMostLost = 1e-7;  // of the extent; a voxel of the finest grid is 4.8e-7
 
-struct Survey {
+struct Spread {
   Box box;
   double magnitude = 0;
   double lost = 0;  // by a coordinate, as a float
   bool finite = true;
 };
 
-Survey survey(std::span<const Vec3> exact) {
-  Survey found;
+Spread spread_of(std::span<const Vec3> exact) {
+  Spread found;
   if (!exact.empty()) found.box = {exact[0], exact[0]};
   for (const Vec3& v : exact)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ Survey survey(std::span<const Vec3> exact) {
   return found;
 }
 
-Vec3 origin_of(const Survey& all) {
+Vec3 origin_of(const Spread& all) {
   const double extent = all.box.largest_extent();
   const double scale = extent > 0 ? extent : 1;  // a single place: of a unit
   if (!all.finite || !(all.lost > kMostLost * scale)) return {0, 0, 0};
@@ -49,7 +49,7 @@ Vec3 origin_of(const Survey& all) {
 }  // namespace
 
 void set_positions(std::span<const Vec3> exact, PointCloud& cloud) {
-  const Vec3 origin = cloud.origin = origin_of(survey(exact));
+  const Vec3 origin = cloud.origin = origin_of(spread_of(exact));
   cloud.positions.clear();
   cloud.positions.reserve(exact.size());
   for (const Vec3& v : exact)

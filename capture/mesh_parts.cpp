@@ -10,7 +10,7 @@
 namespace slf {
 namespace {
 
-constexpr double kMostPairs = 1 << 24, kMostPoints = 1 << 30;
+constexpr double kMostPairs = 1 << 24, kMostPointsOfMesh = 1 << 30;
 constexpr double kBorder = 2;  // voxels beyond a triangle where points of it may come to lie
 
 /// A triangle, and a cube that it may have points in.
@@ -51,7 +51,7 @@ Result<std::vector<Pair>, InputError> pairs_of(const Mesh& mesh, const Grid& gri
   double count = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     count += cubes_about(corners_of(mesh, f), grid).count();
-  if (count > kMostPairs || sampled_area(mesh) / (grid.step * grid.step) > kMostPoints)
+  if (count > kMostPairs || sampled_area(mesh) / (grid.step * grid.step) > kMostPointsOfMesh)
     return InputError{Errc::kInvalidInput, "mesh: a voxel size of " + std::to_string(grid.step) +
                                                " is too small for its faces"};
   std::vector<Pair> pairs;

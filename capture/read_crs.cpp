@@ -8,7 +8,7 @@
 namespace slf {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 16;
+constexpr std::uint64_t kMostBytesOfCrs = std::uint64_t{1} << 16;
 
 /// Of what a text may be about, in both versions.
 constexpr std::array<std::string_view, 18> kKeywords{
@@ -37,7 +37,7 @@ bool is_wkt(std::string_view text) {
 }  // namespace
 
 Result<std::string, InputError> read_crs(const std::filesystem::path& file) {
-  SLF_TRY(const auto bytes, read_file(file, kMostBytes));
+  SLF_TRY(const auto bytes, read_file(file, kMostBytesOfCrs));
   std::string text(bytes.begin(), bytes.end());
   constexpr const char* kSpace = " \t\r\n";
   text.erase(0, text.find_first_not_of(kSpace));

@@ -10,7 +10,7 @@ namespace slf {
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;  // of an OBJ or GLB file
+constexpr std::uint64_t kMostBytesOfMesh = std::uint64_t{1} << 31;  // of an OBJ or GLB file
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -29,7 +29,7 @@ Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
                           "translate " + file.filename().string() +
                           " points.ply --writers.ply.precision=6f they become a PLY, which is"};
   if (extension != ".obj" && extension != ".glb") return read_ply_mesh(file, true, warnings);
-  SLF_TRY(const auto bytes, read_file(file, kMostBytes));
+  SLF_TRY(const auto bytes, read_file(file, kMostBytesOfMesh));
   if (extension == ".obj") return parse_obj(file.string(), bytes);
   return parse_glb(file.string(), bytes, warnings);
 }

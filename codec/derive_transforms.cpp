@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "attributes/raht_forward.h"
+#include "base/signed_index.h"
 #include "codec/forward_columns.h"
 #include "codec/transform_units.h"
 #include "entropy/range_encoder.h"
@@ -27,8 +28,6 @@ constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
 constexpr double kSquaredStepsPerMatrixBit = 0.05;
 /// Quantised to zero below this many steps, about.
 constexpr double kZeroBelow = 0.6;
-
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// What one transform is derived from, in units of the step.
 struct Statistics {
@@ -99,7 +98,8 @@ class Derivation {
                                               std::sqrt(weights[i] / (p == 0 ? s.scale : 1)) /
                                               step_));
     }
-    s.samples = Eigen::Map<const Samples>(rows.data(), index(rows.size() / n), index(n));
+    s.samples =
+        Eigen::Map<const Samples>(rows.data(), signed_index(rows.size() / n), signed_index(n));
     return s;
   }
 
@@ -144,7 +144,7 @@ class Derivation {
   void choose_columns(ForwardTransform& forward, const Statistics& s) const {
     PlaneTransform& t = forward.inverse;
     const std::size_t n = t.rows(), per_function = 3 / t.lanes;
-    Square covariance = Square::Zero(index(n), index(n));
+    Square covariance = Square::Zero(signed_index(n), signed_index(n));
     constexpr Eigen::Index kBlock = 512;
     for (Eigen::Index r = 0; r < s.samples.rows(); r += kBlock) {
       const auto block = s.samples.middleRows(r, std::min(kBlock, s.samples.rows() - r));
@@ -159,7 +159,7 @@ class Derivation {
     reach = std::sqrt(reach);
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < n; ++c) {
-      const double energy = std::max(s.scale * solver.eigenvalues()(index(n - 1 - c)), 1e-9);
+      const double energy = std::max(s.scale * solver.eigenvalues()(signed_index(n - 1 - c)), 1e-9);
       // The rounding of a column costs about a squared step over all rows, or an eighth of what is
       // in it, whichever is finer.
       const int finest = static_cast<int>(std::ceil(std::log2(reach * std::sqrt(energy)))) - 1;
@@ -182,7 +182,8 @@ class Derivation {
     for (std::size_t c = 0; c < kept.size(); ++c)
       for (std::size_t i = 0; i < n; ++i) {
         const int bits = forward.precision[c];
-        const double entry = vectors(index(i), index(kept[c])) / std::sqrt(forward.weights[i]);
+        const double entry =
+            vectors(signed_index(i), signed_index(kept[c])) / std::sqrt(forward.weights[i]);
         const double limit = std::ldexp(64, bits);
         const auto m = static_cast<std::int32_t>(
             std::lround(std::clamp(std::ldexp(entry, bits), -limit, limit)));

@@ -62,7 +62,7 @@ void add_whole(std::vector<Case>& cases) {
   cases.push_back(order);
 }
 
-void add_cuts(std::vector<Case>& cases) {
+void add_cuts_apart(std::vector<Case>& cases) {
   const auto add = [&](const char* id, const char* purpose, int levels, int groups,
                        std::optional<VoxelBox> region) {
     Case c = apart(id, purpose);
@@ -112,7 +112,7 @@ void digest_sums(std::vector<EditableUnit>& units, const LightField& sums,
 std::vector<Case> apart_cases() {
   std::vector<Case> cases;
   add_whole(cases);
-  add_cuts(cases);
+  add_cuts_apart(cases);
   add_prefixes(cases);
   return cases;
 }

@@ -50,7 +50,7 @@ Case even() {
   return c;
 }
 
-void add_cuts(std::vector<Case>& cases) {
+void add_layer_cuts(std::vector<Case>& cases) {
   const auto add = [&](const char* id, const char* purpose, int levels, int groups, int layers) {
     Case c = layered(id, purpose, {3, 2, 3}, 2, 500);
     c.truncated.emplace();
@@ -121,7 +121,7 @@ std::vector<Case> layer_cases() {
     c.keep_units = units;
     cases.push_back(c);
   }
-  add_cuts(cases);
+  add_layer_cuts(cases);
   return cases;
 }
 

@@ -15,8 +15,6 @@ std::vector<int> level_ends(int bits) {
   return {bits - 2, bits - 1, bits};
 }
 
-constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
-
 }  // namespace
 
 CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {

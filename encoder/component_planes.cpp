@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kMostShift = 6;
 constexpr double kTransformLimit = 1 << 27;  // attributes/quantiser.h
-constexpr double kMostStep = (1 << 27) - 1;  // range of sps_plane_step
 constexpr std::size_t kPointGrain = 2048;
 
 /// 1, 8, 27, and the rest of the harmonics.

@@ -9,6 +9,8 @@
 
 namespace slf {
 
+inline constexpr double kMostStep = (1 << 27) - 1;  ///< range of sps_plane_step
+
 /// Turns R, G, B coefficients [P][K][3] into the channels of `transform`, in place.
 void to_coded_channels(std::span<float> coefficients, ColourTransform transform, int threads);
 

@@ -12,9 +12,10 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kDirections = 233;  // another number and turn than the fit's: none in common
+constexpr std::size_t kLossDirections =
+    233;  // another number and turn than the fit's: none in common
 constexpr double kTurn = 1;
-constexpr std::size_t kPointsPerRange = 256;
+constexpr std::size_t kLossPointsPerRange = 256;
 
 /// Of a run of points, weighted.
 struct Sums {
@@ -89,16 +90,18 @@ double psnr(double squares, double weight) {
 }  // namespace
 
 SplatLoss splat_loss(const ViewMaps& maps, const SplatCloud& splats, int threads) {
-  const std::vector<Vec3> directions = even_directions(kDirections, kTurn);
+  const std::vector<Vec3> directions = even_directions(kLossDirections, kTurn);
   const DirectionSampler sampler(maps, directions);
   const LossOfPoint loss(splats, directions);
-  std::vector<Sums> parts((splats.size() + kPointsPerRange - 1) / kPointsPerRange);
-  parallel_ranges(splats.size(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::array<float, 3>> colours;
-    sampler.sample(begin, end, colours);
-    for (std::size_t p = begin; p < end; ++p)
-      loss.add(p, &colours[(p - begin) * directions.size()], parts[begin / kPointsPerRange]);
-  });
+  std::vector<Sums> parts((splats.size() + kLossPointsPerRange - 1) / kLossPointsPerRange);
+  parallel_ranges(splats.size(), kLossPointsPerRange, threads,
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<std::array<float, 3>> colours;
+                    sampler.sample(begin, end, colours);
+                    for (std::size_t p = begin; p < end; ++p)
+                      loss.add(p, &colours[(p - begin) * directions.size()],
+                               parts[begin / kLossPointsPerRange]);
+                  });
   Sums all;
   for (const Sums& part : parts) all += part;
   SplatLoss out;

@@ -24,7 +24,7 @@ constexpr double kMostColourRatio = 16;      // 7.4 at most of cameras that belo
 constexpr double kLeastLogGain = 0.08, kLeastGainOverSpread = 0.6;
 constexpr std::size_t kLeastGainSamples = 100;
 constexpr double kMostClipped = 0.5, kMostClippedOfOthers = 0.25;
-constexpr std::size_t kLeastCameras = 4;
+constexpr std::size_t kLeastTrustedCameras = 4;
 constexpr double kLeastSupport = 0.4;  // agreement of the median camera with the others
 
 /// One of each camera that sees anything, ascending, with what of it is clipped.
@@ -139,7 +139,7 @@ std::optional<double> support(const std::vector<CameraAgreement>& agreement) {
   std::vector<double> values;
   for (const CameraAgreement& a : agreement)
     if (a.patches >= kLeastPatches) values.push_back(a.agreement);
-  if (values.size() < kLeastCameras) return std::nullopt;
+  if (values.size() < kLeastTrustedCameras) return std::nullopt;
   return median(std::move(values));
 }
 
@@ -171,7 +171,7 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
 
 Result<std::vector<CameraTrust>, InputError> check_cameras(const Observations& seen, int threads) {
   std::vector<CameraTrust> trust = cameras_that_see(seen);
-  if (trust.size() < kLeastCameras) return trust;
+  if (trust.size() < kLeastTrustedCameras) return trust;
   const auto count = static_cast<std::size_t>(trust.back().camera) + 1;
   Check check{seen,
               choose_patches(seen),

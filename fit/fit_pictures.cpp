@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kPulls = {1.0, 8.0};
 constexpr int kTriedSteps = 5;
-constexpr std::size_t kLeastCameras = 8;
+constexpr std::size_t kLeastSearchedCameras = 8;
 
 using Which = std::function<bool(std::size_t view)>;
 
@@ -91,7 +91,7 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   };
   next();
   system.set_trust(colours, s.outlier);
-  if (search && input.cameras.size() >= kLeastCameras) {
+  if (search && input.cameras.size() >= kLeastSearchedCameras) {
     choose_pull(
         system, colours, [&](std::size_t v) { return fold[v] == 0; }, fit);
     done = 2;

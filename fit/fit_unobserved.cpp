@@ -7,7 +7,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kPointsPerRange = 256;
+constexpr std::size_t kUnobservedPerRange = 256;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ UnobservedPoints::UnobservedPoints(const Observations& observations,
 
 void UnobservedPoints::fill(float* coefficients, std::size_t size, int threads) const {
   parallel_ranges(
-      points_.size(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
+      points_.size(), kUnobservedPerRange, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t u = begin; u < end; ++u) {
           const auto donors =
               std::span(donors_).subspan(first_donor_[u], first_donor_[u + 1] - first_donor_[u]);

@@ -11,7 +11,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kPointsPerRange = 256;
+constexpr std::size_t kSystemPointsPerRange = 256;
 constexpr std::size_t kRaysPerRange = 1 << 15;
 
 /// [K] of functions of mean square 1.
@@ -247,7 +247,7 @@ std::vector<float> PictureSystem::rows_of(std::size_t point, std::size_t from,
 /// body(point, first ray, last ray) of every point that is seen.
 template <class Body>
 void PictureSystem::each_point(const Body& body) const {
-  parallel_ranges(positions_.size(), kPointsPerRange, threads_,
+  parallel_ranges(positions_.size(), kSystemPointsPerRange, threads_,
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t p = begin; p < end; ++p) {
                       const auto from = static_cast<std::size_t>(pictures_.rays.first[p]),

@@ -93,9 +93,9 @@ Unit unit_of(const std::array<std::int64_t, 3>& n) {
 }
 
 /// Finds the cells around a cell.
-class Surroundings {
+class NearCells {
  public:
-  explicit Surroundings(std::span<const std::uint64_t> codes)
+  explicit NearCells(std::span<const std::uint64_t> codes)
       : codes_(codes),
         grid_(codes, codes.empty() ? 0 : (static_cast<int>(std::bit_width(codes.back())) + 2) / 3) {
   }
@@ -164,7 +164,7 @@ std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> 
                                                          int cell_log2, int threads) {
   constexpr std::size_t kGrain = 4096;
   const Cells cells = cells_of(positions, cell_log2);
-  const Surroundings near(cells.codes);
+  const NearCells near(cells.codes);
   std::vector<Unit> plane(cells.size());
   parallel_ranges(cells.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

@@ -9,8 +9,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::size_t kLengthBytes = 8, kCrcBytes = 4;
-static_assert(kLengthBytes + kCrcBytes == kIgcSectionBytes);
+constexpr std::size_t kSectionLengthBytes = 8, kCrcBytes = 4;
+static_assert(kSectionLengthBytes + kCrcBytes == kIgcSectionBytes);
 
 void append_number(std::vector<std::uint8_t>& out, std::uint64_t value, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; ++i) out.push_back(static_cast<std::uint8_t>(value >> 8 * i));
@@ -26,11 +26,11 @@ Result<Bytes> take_section(Bytes stream, std::size_t& at, const char* element) {
   const Error truncated{Errc::kTruncated, element, at * 8};
   Bytes rest = stream.subspan(at);
   if (rest.size() < kIgcSectionBytes) return truncated;
-  const std::uint64_t length = number(rest.first(kLengthBytes));
+  const std::uint64_t length = number(rest.first(kSectionLengthBytes));
   if (length > rest.size() - kIgcSectionBytes) return truncated;
   const auto size = static_cast<std::size_t>(length);
-  const Bytes payload = rest.subspan(kLengthBytes, size);
-  if (crc32(payload) != number(rest.subspan(kLengthBytes + size, kCrcBytes)))
+  const Bytes payload = rest.subspan(kSectionLengthBytes, size);
+  if (crc32(payload) != number(rest.subspan(kSectionLengthBytes + size, kCrcBytes)))
     return Error{Errc::kChecksum, element, at * 8};
   at += kIgcSectionBytes + size;
   return payload;
@@ -41,7 +41,7 @@ Result<Bytes> take_section(Bytes stream, std::size_t& at, const char* element) {
 std::vector<std::uint8_t> write_igc_file(const IgcSections& sections) {
   std::vector<std::uint8_t> out(kIgcSignature.begin(), kIgcSignature.end());
   for (const Bytes payload : {sections.parameters, sections.geometry, sections.images}) {
-    append_number(out, payload.size(), kLengthBytes);
+    append_number(out, payload.size(), kSectionLengthBytes);
     out.insert(out.end(), payload.begin(), payload.end());
     append_number(out, crc32(payload), kCrcBytes);
   }

@@ -15,7 +15,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kPointsPerRange = 512;
+constexpr std::size_t kMapsPerRange = 512;
 
 bool is_joint(const PlaneTransform& transform) { return transform.lanes == 1; }
 
@@ -62,7 +62,7 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
   const Dequantiser dequantiser(header_, table_ == nullptr);
   assert(components.size() == num_points() * 3 * coded);
   nodes_.resize(num_points() * 3 * width_);
-  parallel_ranges(num_points(), kPointsPerRange, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(num_points(), kMapsPerRange, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> rgb(3 * coded), coefficients(3 * width_), scratch(3 * width_);
     for (std::size_t p = begin; p < end; ++p) {
       float* nodes = nodes_.data() + p * 3 * width_;

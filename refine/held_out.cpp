@@ -66,14 +66,14 @@ ObservedPoints every_nth(const SurfacePoints& points, std::size_t every) {
 }
 
 /// An observation's terms, and the cosine between normal and view.
-struct View {
+struct HeldOutView {
   Row row{};
   double cosine = 0;
 };
 
-View view_of(const std::array<float, 2>& direction, const Float3& normal) {
+HeldOutView view_of(const std::array<float, 2>& direction, const Float3& normal) {
   const Vec3 d = vector_of(direction);
-  View view;
+  HeldOutView view;
   view.row[0] = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     view.cosine += d[a] * double(normal[a]);
@@ -95,14 +95,14 @@ PointError error_of(const Observations& seen, std::size_t p, const Float3& norma
   Equations equations;
   for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i)
     if (held[seen.camera[i]] == 0) {
-      const View view = view_of(seen.direction[i], normal);
+      const HeldOutView view = view_of(seen.direction[i], normal);
       equations.add(view.row, seen.colour[i], view.cosine);
     }
   if (equations.count < 2) return sum;
   equations.solve();
   for (std::uint64_t i = seen.first[p]; i < seen.first[p + 1]; ++i) {
     if (held[seen.camera[i]] == 0) continue;
-    const View view = view_of(seen.direction[i], normal);
+    const HeldOutView view = view_of(seen.direction[i], normal);
     double squares = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       double error = -double(seen.colour[i][c]);

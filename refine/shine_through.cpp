@@ -17,15 +17,15 @@ constexpr float kLeastCosine = 0.3f;  // of a view that counts
 constexpr double kLeastShare = 0.1;   // of the views of a point
 constexpr double kSide = 4;           // spacings: of the cubes that are kept whole
 
-using Image = std::array<double, 2>;
+using Pixel = std::array<double, 2>;
 
 /// Whether any point is drawn there.
-bool covered(const DepthBuffer& buffer, const Camera& camera, const Image& at) {
+bool covered(const DepthBuffer& buffer, const Camera& camera, const Pixel& at) {
   if (!(at[0] >= 0 && at[0] < camera.width && at[1] >= 0 && at[1] < camera.height)) return false;
   return buffer.hides(at, 1e30, 1);
 }
 
-bool inside_outline(const DepthBuffer& buffer, const Camera& camera, const Image& at,
+bool inside_outline(const DepthBuffer& buffer, const Camera& camera, const Pixel& at,
                     double pixels) {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)

@@ -14,7 +14,7 @@
 namespace slf {
 namespace {
 
-using Image2 = std::array<double, 2>;
+using Pixel = std::array<double, 2>;
 
 constexpr std::uint8_t kObject = 24;      // grey levels from the background: shows the object
 constexpr double kMostUnlike = 0.1;       // of the border beside the object, for a plain background
@@ -29,11 +29,11 @@ constexpr double kInside = 1.5;           // spacings, and pixels: nearer to the
 /// As fat as closes the holes between points, and no fatter.
 DepthSettings coverage_settings(double spacing) { return {1, 0.6 * spacing, 2.5}; }
 
-bool inside(const Camera& camera, const Image2& at) {
+bool inside(const Camera& camera, const Pixel& at) {
   return at[0] >= 0 && at[0] < camera.width && at[1] >= 0 && at[1] < camera.height;
 }
 
-bool covered(const DepthBuffer& buffer, const Image2& at) { return buffer.hides(at, 1e30, 1); }
+bool covered(const DepthBuffer& buffer, const Pixel& at) { return buffer.hides(at, 1e30, 1); }
 
 std::vector<std::uint8_t> outline_of(const Camera& camera, const SurfacePoints& points,
                                      double spacing) {
@@ -89,8 +89,8 @@ Silhouette silhouette_of(const Camera& camera, const Image& image, bool alpha_is
 
 /// A point at the outline of the surface, in a picture.
 struct RimPoint {
-  Image2 at{};
-  Image2 outwards{};  ///< unit: where its normal points to
+  Pixel at{};
+  Pixel outwards{};   ///< unit: where its normal points to
   double pixels = 0;  ///< that it moves by, moved along its normal by a spacing
 };
 
@@ -110,7 +110,7 @@ std::optional<RimPoint> at_rim(const Camera& camera, const DepthBuffer& buffer,
   if (!(rim.pixels > 0)) return {};
   for (double& x : rim.outwards) x /= rim.pixels;
   const double beyond = kRim * rim.pixels + 0.5;
-  const Image2 outside{(*at)[0] + beyond * rim.outwards[0], (*at)[1] + beyond * rim.outwards[1]};
+  const Pixel outside{(*at)[0] + beyond * rim.outwards[0], (*at)[1] + beyond * rim.outwards[1]};
   if (!inside(camera, outside) || covered(buffer, outside)) return {};
   return rim;
 }
@@ -130,7 +130,7 @@ std::optional<double> photographed_outline(const Silhouette& silhouette, const R
 }
 
 /// The least of the differences around: 0 at the object's outline.
-float least_around(const Silhouette& silhouette, const Image2& at, double pixels) {
+float least_around(const Silhouette& silhouette, const Pixel& at, double pixels) {
   std::uint8_t least = 255;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)

@@ -15,8 +15,8 @@
 namespace slf {
 namespace {
 
-constexpr const ReferenceKernel& kKernel = kReferenceKernel;
-constexpr double kFilterSquare = kKernel.filter_pixels * kKernel.filter_pixels;
+constexpr const ReferenceKernel& kSplatKernel = kReferenceKernel;
+constexpr double kFilterPixelsSquare = kSplatKernel.filter_pixels * kSplatKernel.filter_pixels;
 constexpr double kLargestPixels = 512;  // half width of an ellipse; bounds the work of a close
                                         // camera
 constexpr double kSteepestPlane =
@@ -26,19 +26,21 @@ Vec3 rotate(const Camera& camera, const Vec3& v) {
   return {dot(camera.rotation[0], v), dot(camera.rotation[1], v), dot(camera.rotation[2], v)};
 }
 
-/// The normal in camera axes, turned to the viewer and at least kKernel.flattest towards the eye.
+/// The normal in camera axes, turned to the viewer and at least kSplatKernel.flattest towards the
+/// eye.
 Vec3 facing_normal(const Vec3& normal, const Vec3& to_eye) {
   double cosine = dot(normal, to_eye);
   if (!(dot(normal, normal) > 0.5)) return to_eye;
   const double sign = cosine < 0 ? -1 : 1;
   cosine = std::abs(cosine);
-  if (cosine >= kKernel.flattest) return {sign * normal[0], sign * normal[1], sign * normal[2]};
+  if (cosine >= kSplatKernel.flattest)
+    return {sign * normal[0], sign * normal[1], sign * normal[2]};
   // What is across the view keeps its direction and gets the length that is left.
   Vec3 n;
   const double across = std::sqrt(std::max(1 - cosine * cosine, 1e-12));
-  const double scale = std::sqrt(1 - kKernel.flattest * kKernel.flattest) / across;
+  const double scale = std::sqrt(1 - kSplatKernel.flattest * kSplatKernel.flattest) / across;
   for (std::size_t k = 0; k < 3; ++k)
-    n[k] = scale * (sign * normal[k] - cosine * to_eye[k]) + kKernel.flattest * to_eye[k];
+    n[k] = scale * (sign * normal[k] - cosine * to_eye[k]) + kSplatKernel.flattest * to_eye[k];
   return n;
 }
 
@@ -72,7 +74,8 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   const double cosine = dot(n, to_eye);
 
   const Spread disc_spread = image_spread(camera, p, n, disc.radius);
-  const Spread s{disc_spread.uu + kFilterSquare, disc_spread.uv, disc_spread.vv + kFilterSquare};
+  const Spread s{disc_spread.uu + kFilterPixelsSquare, disc_spread.uv,
+                 disc_spread.vv + kFilterPixelsSquare};
   const double half_width = std::sqrt(s.uu), half_height = std::sqrt(s.vv);
   const auto [u, v] = *image;
   if (!(half_width < kLargestPixels && half_height < kLargestPixels)) return std::nullopt;
@@ -87,9 +90,9 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
       std::sqrt(std::max(0.0, du * du * s.uu + 2 * du * dv * s.uv + dv * dv * s.vv));
   const double tame = std::min(1.0, kSteepestPlane / (z * std::max(change, 1e-300)));
   const double pixel = z / camera.fx;  // in world units
-  const double band = kKernel.band *
-                      std::sqrt(disc.radius * disc.radius + kFilterSquare * pixel * pixel) /
-                      std::max(cosine, kKernel.steepest);
+  const double band = kSplatKernel.band *
+                      std::sqrt(disc.radius * disc.radius + kFilterPixelsSquare * pixel * pixel) /
+                      std::max(cosine, kSplatKernel.steepest);
   const double inverse = 1 / s.determinant();
   Splat splat;
   splat.u = static_cast<float>(u);
@@ -107,8 +110,9 @@ std::optional<Splat> project_disc(const Camera& camera, const Disc& disc, std::u
   splat.inverse_depth_change = static_cast<float>(tame * change);
   splat.fade = static_cast<float>(z * z / band);
   // Area of the surface over that of the disc, times that of the disc over that of the ellipse.
-  const double share = disc.area > 0 ? disc.area / (disc.radius * disc.radius)
-                                     : 1 / (kKernel.spacing_reach * kKernel.spacing_reach);
+  const double share = disc.area > 0
+                           ? disc.area / (disc.radius * disc.radius)
+                           : 1 / (kSplatKernel.spacing_reach * kSplatKernel.spacing_reach);
   splat.weight =
       static_cast<float>(share * std::sqrt(std::max(disc_spread.determinant() * inverse, 1e-9)));
   splat.point = point;

@@ -9,20 +9,20 @@
 namespace slf::tools {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr int kMostPixels = 16384;  // per side
 constexpr double kOrthonormalTolerance = 1e-3;
 
 /// A number at rows[i][j]; NaN, which no check lets through, where there is none.
-double number_at(const json& rows, std::size_t i, std::size_t j) {
+double number_at(const Json& rows, std::size_t i, std::size_t j) {
   if (!rows.is_array() || i >= rows.size() || !rows[i].is_array() || j >= rows[i].size() ||
       !rows[i][j].is_number())
     return std::nan("");
   return rows[i][j].get<double>();
 }
 
-int pixels(const json& entry, const char* key) {
+int pixels(const Json& entry, const char* key) {
   const auto found = entry.find(key);
   if (found == entry.end() || !found->is_number()) return 0;
   const double value = found->get<double>();
@@ -43,10 +43,10 @@ bool is_rotation(const std::array<std::array<double, 3>, 3>& r) {
 }
 
 /// Empty if the camera can be used, else the cause.
-std::string parse(const json& entry, Camera& camera) {
+std::string parse(const Json& entry, Camera& camera) {
   if (!entry.is_object()) return "is not an object";
-  const json none;
-  const auto part = [&](const char* key) -> const json& {
+  const Json none;
+  const auto part = [&](const char* key) -> const Json& {
     const auto found = entry.find(key);
     return found == entry.end() ? none : *found;
   };
@@ -54,7 +54,7 @@ std::string parse(const json& entry, Camera& camera) {
   camera.width = pixels(entry, "width");
   camera.height = pixels(entry, "height");
   if (camera.width == 0 || camera.height == 0) return "width and height are not 1 to 16384";
-  const json &k = part("K"), &r = part("R"), &t = part("t");
+  const Json &k = part("K"), &r = part("R"), &t = part("t");
   camera.fx = number_at(k, 0, 0);
   camera.fy = number_at(k, 1, 1);
   camera.cx = number_at(k, 0, 2);
@@ -62,7 +62,7 @@ std::string parse(const json& entry, Camera& camera) {
   if (!(camera.fx > 0 && camera.fy > 0)) return "K has no positive focal lengths";
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) camera.rotation[i][j] = number_at(r, i, j);
-    camera.translation[i] = number_at(json::array({t}), 0, i);
+    camera.translation[i] = number_at(Json::array({t}), 0, i);
   }
   if (!is_rotation(camera.rotation)) return "R is not a rotation";
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy, camera.translation[0],
@@ -95,11 +95,11 @@ Result<Camera, Failure> read_camera(const std::string& reference) {
     name = reference.substr(colon + 1);
   }
   SLF_TRY(const auto bytes, from(file, read_file(file)));
-  const json root = json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  const Json root = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (!root.is_object() || !root.contains("cameras") || !root["cameras"].is_array() ||
       root["cameras"].empty())
     return Failure{kInputInvalid, file + ": is not a cameras.json"};
-  const json& list = root["cameras"];
+  const Json& list = root["cameras"];
   std::size_t chosen = list.size();
   for (std::size_t i = 0; i < list.size() && chosen == list.size() && !name.empty(); ++i)
     if (list[i].is_object() && list[i].contains("image") && list[i]["image"] == name) chosen = i;

@@ -18,7 +18,7 @@ if [[ ! -e web/dist/one_file.html ]] && command -v npm >/dev/null && command -v 
   web/build.sh >&2 || say "the viewer could not be built"
 fi
 say "building (build/)"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
 cmake --build build --target slf_program >&2
 slf=build/bin/slf
 out=build/demo

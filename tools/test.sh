@@ -8,7 +8,7 @@ tools/setup.sh lab
 build=${BUILD_DIR:-build}
 # First the page that the program takes in for `slf html`; without it the tests of that say so.
 BUILD_DIR=$PWD/$build/wasm web/build.sh || [[ $? -eq 77 ]]
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLF_TESTS=ON -DSLF_X265=ON -DSLF_AV1=ON \
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DSLF_TESTS=ON -DSLF_X265=ON -DSLF_AV1=ON \
   -DSLF_PYTHON=ON "$@"
 cmake --build "$build"
 # Readers of exported files that are not ours; without them their test is skipped.

@@ -77,7 +77,7 @@ DecodeCost cost_with_file(const StreamInfo& info, std::uint64_t bytes, int threa
   return cost;
 }
 
-nlohmann::ordered_json cost_json(const DecodeCost& cost) {
+nlohmann::ordered_json decode_cost_json(const DecodeCost& cost) {
   return {{"memory", cost.memory}, {"memory_most", cost.memory_most}, {"work", cost.work}};
 }
 
@@ -95,7 +95,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes, in
   json["level"] = info.level;
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
-  json["decode"] = cost_json(cost_with_file(info, bytes, threads));
+  json["decode"] = decode_cost_json(cost_with_file(info, bytes, threads));
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["slice_start"] = start_name(info.slice_start);

@@ -13,9 +13,9 @@ constexpr double kHalf = 0.5, kRounding = 0.11;
 constexpr double kTransmittance = 0.2;
 constexpr double kPipRadius = 0.092, kPipOffset = 0.24;
 
-constexpr std::array<Lamp, 3> kLamps{{{{4, -4, 4.5}, {0.9, 0.88, 0.84}},
-                                      {{-5, -2, 1}, {0.6, 0.62, 0.66}},
-                                      {{1, 5, -3}, {0.62, 0.62, 0.62}}}};
+constexpr std::array<Lamp, 3> kDieLamps{{{{4, -4, 4.5}, {0.9, 0.88, 0.84}},
+                                         {{-5, -2, 1}, {0.6, 0.62, 0.66}},
+                                         {{1, 5, -3}, {0.62, 0.62, 0.62}}}};
 constexpr Material kPlastic{0.8, 0.5, 50, {0.26, 0.26, 0.26}};
 
 double square(double x) { return x * x; }
@@ -127,10 +127,10 @@ class Die final : public Scene {
     const Vec3 to_eye = -1 * ray.direction;
     // The far wall glows with the light that falls on it from outside.
     const Colour far = shade(passage->out, die_albedo(passage->out), to_eye,
-                             Material{kPlastic.diffuse, 0, 0, kPlastic.ambient}, kLamps);
+                             Material{kPlastic.diffuse, 0, 0, kPlastic.ambient}, kDieLamps);
     const Material wall{kPlastic.diffuse * (1 - kTransmittance), kPlastic.specular,
                         kPlastic.exponent, kPlastic.ambient};
-    light = shade(passage->in, die_albedo(passage->in), to_eye, wall, kLamps) +
+    light = shade(passage->in, die_albedo(passage->in), to_eye, wall, kDieLamps) +
             kTransmittance * (1 - kTransmittance) * far;
     transmittance = kTransmittance * kTransmittance;
     return true;

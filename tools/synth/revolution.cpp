@@ -6,29 +6,29 @@
 namespace slf::synth {
 namespace {
 
-struct Vec2 {
+struct Across {
   double r, z;
 };
 
-Vec2 unit(double r, double z) {
+Across unit_across(double r, double z) {
   const double scale = 1 / std::hypot(r, z);
   return {r * scale, z * scale};
 }
 
 /// Angle of the outward normal of a profile that runs along (r, z): the direction turned right.
-double normal_angle(const Vec2& along) { return std::atan2(-along.r, along.z); }
+double normal_angle(const Across& along) { return std::atan2(-along.r, along.z); }
 
 /// An arc that replaces a corner.
 struct Fillet {
-  Vec2 centre;
+  Across centre;
   double signed_radius;   // > 0 where the corner is convex
   double angle0, angle1;  // of the outward normal
 };
 
 Fillet round_corner(const ProfileCorner& before, const ProfileCorner& at,
                     const ProfileCorner& after) {
-  const Vec2 in = unit(at.r - before.r, at.z - before.z);
-  const Vec2 out = unit(after.r - at.r, after.z - at.z);
+  const Across in = unit_across(at.r - before.r, at.z - before.z);
+  const Across out = unit_across(after.r - at.r, after.z - at.z);
   const double turn = std::atan2(in.r * out.z - in.z * out.r, in.r * out.r + in.z * out.z);
   const double angle0 = normal_angle(in);
   const double reach = at.fillet / std::cos(turn / 2);  // corner to centre of the arc
@@ -52,7 +52,7 @@ Revolution::Revolution(std::span<const ProfileCorner> corners) {
   double r = corners.front().r, z = corners.front().z;
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const ProfileCorner& corner = corners[i];
-    const Vec2 along = unit(corner.r - corners[i - 1].r, corner.z - corners[i - 1].z);
+    const Across along = unit_across(corner.r - corners[i - 1].r, corner.z - corners[i - 1].z);
     if (i + 1 == corners.size()) {
       add(r, z, corner.r, corner.z, normal_angle(along), normal_angle(along));
       break;

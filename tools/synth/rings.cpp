@@ -64,7 +64,7 @@ std::map<std::string, std::set<int>> split_numbers(int circles, int per_circle) 
   return splits;
 }
 
-std::string image_name(int number) {
+std::string ring_image(int number) {
   const std::string digits = std::to_string(number + 1);
   return "images/" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".png";
 }
@@ -84,7 +84,7 @@ Rings make_rings(int circles, int per_circle, int width, int height, double radi
     const double at = circles > 1 ? kLowest - 2 * kLowest * circle / (circles - 1) : 0;
     const double azimuth = 2 * std::numbers::pi * index / per_circle;
     rings.cameras.push_back(ring_camera(at, azimuth, width, height, radius));
-    rings.cameras.back().name = image_name(number);
+    rings.cameras.back().name = ring_image(number);
     rings.circle.push_back(circle);
     rings.index.push_back(index);
   }

@@ -21,7 +21,7 @@ Lean lean(const Vec3& n, std::size_t axis) {
   return {std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}), std::abs(n[axis])};
 }
 
-struct Lattice {
+struct PointLattice {
   Vec3 low;
   double step;
 
@@ -36,7 +36,8 @@ struct Lattice {
 
 /// Drops crossings of the overlap whose voxel has a point without them.
 std::vector<SurfacePoint> thin(const std::vector<SurfacePoint>& certain,
-                               const std::vector<SurfacePoint>& overlap, const Lattice& lattice) {
+                               const std::vector<SurfacePoint>& overlap,
+                               const PointLattice& lattice) {
   std::vector<SurfacePoint> kept = certain;
   std::unordered_set<std::uint64_t> taken;  // asked, never iterated
   for (const SurfacePoint& point : certain) taken.insert(lattice.voxel_of(point.position));

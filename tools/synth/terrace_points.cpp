@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kTileLines = 1 << 13;   // lattice lines of a tile, about
 constexpr std::size_t kPieceLines = 1 << 20;  // of the tiles that are sampled at once
 /// As in sample_points.cpp: round solids have crossings a little past the turn from axis to axis.
-constexpr double kOverlap = 0.88;
+constexpr double kRoundOverlap = 0.88;
 constexpr double kCalibration = 4e5;  // points at least that a step is measured with
 
 /// Rows of the lattice lines along `axis` that meet a solid; of a round one all three axes at once.
@@ -141,7 +141,7 @@ class Sampler {
     const Vec3& n = point.normal;
     const double largest = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
     const double along = std::abs(n[axis]);
-    if (along < kOverlap * largest || !terrace_.exposed(point)) return;
+    if (along < kRoundOverlap * largest || !terrace_.exposed(point)) return;
     (along >= largest ? certain : overlap).push_back(point);
   }
 

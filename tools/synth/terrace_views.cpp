@@ -74,7 +74,7 @@ Camera drone(const Plan& plan, int i, int count, int width, int height) {
   return camera_at(at, target, width, height);
 }
 
-std::string image_name(int number) {
+std::string terrace_image(int number) {
   const std::string digits = std::to_string(number + 1);
   return "images/" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".png";
 }
@@ -90,7 +90,7 @@ Rings make_terrace_views(const Plan& plan, int cameras, int width, int height) {
     const int index = flies ? i - walking : i;
     views.cameras.push_back(flies ? drone(plan, index, flying, width, height)
                                   : walker(plan, index, walking, width, height));
-    views.cameras.back().name = image_name(i);
+    views.cameras.back().name = terrace_image(i);
     views.circle.push_back(flies);
     views.index.push_back(index);
     if (i % 8 == 4 || (cameras <= 4 && i == cameras - 1)) {

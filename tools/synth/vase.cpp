@@ -10,26 +10,26 @@ namespace slf::synth {
 namespace {
 
 // Foot, belly, neck, lip, and down inside to a floor.
-constexpr std::array<ProfileCorner, 16> kProfile{{{0, -0.76, 0},
-                                                  {0.17, -0.76, 0.01},
-                                                  {0.17, -0.8, 0.004},
-                                                  {0.26, -0.8, 0.03},
-                                                  {0.24, -0.7, 0.05},
-                                                  {0.56, -0.12, 0.42},
-                                                  {0.3, 0.36, 0.18},
-                                                  {0.11, 0.5, 0.16},
-                                                  {0.16, 0.7, 0.12},
-                                                  {0.28, 0.78, 0.008},
-                                                  {0.29, 0.8, 0.006},
-                                                  {0.25, 0.782, 0.02},
-                                                  {0.12, 0.7, 0.05},
-                                                  {0.06, 0.5, 0.03},
-                                                  {0.06, 0.3, 0.02},
-                                                  {0, 0.3, 0}}};
+constexpr std::array<ProfileCorner, 16> kVaseProfile{{{0, -0.76, 0},
+                                                      {0.17, -0.76, 0.01},
+                                                      {0.17, -0.8, 0.004},
+                                                      {0.26, -0.8, 0.03},
+                                                      {0.24, -0.7, 0.05},
+                                                      {0.56, -0.12, 0.42},
+                                                      {0.3, 0.36, 0.18},
+                                                      {0.11, 0.5, 0.16},
+                                                      {0.16, 0.7, 0.12},
+                                                      {0.28, 0.78, 0.008},
+                                                      {0.29, 0.8, 0.006},
+                                                      {0.25, 0.782, 0.02},
+                                                      {0.12, 0.7, 0.05},
+                                                      {0.06, 0.5, 0.03},
+                                                      {0.06, 0.3, 0.02},
+                                                      {0, 0.3, 0}}};
 
-constexpr std::array<Lamp, 3> kLamps{{{{5, -3, 5}, {0.6, 0.58, 0.54}},
-                                      {{-5, -2, 2}, {0.3, 0.32, 0.38}},
-                                      {{0, 6, 3}, {0.4, 0.4, 0.4}}}};
+constexpr std::array<Lamp, 3> kVaseLamps{{{{5, -3, 5}, {0.6, 0.58, 0.54}},
+                                          {{-5, -2, 2}, {0.3, 0.32, 0.38}},
+                                          {{0, 6, 3}, {0.4, 0.4, 0.4}}}};
 constexpr Material kGlaze{0.8, 0.6, 90, {0.2, 0.2, 0.22}};
 
 /// A soft-edged window of the room: directions within `half_angle` of `towards`.
@@ -101,7 +101,7 @@ class Vase final : public Scene {
     const Vec3 reflected = 2 * facing * hit->normal - to_eye;
     // The inside sees the room only through the opening.
     const double open = is_inside(*hit) ? smoothstep(0.45, 0.8, hit->position[2]) : 1;
-    light = (1 - mirror) * shade(*hit, vase_albedo(*hit), to_eye, kGlaze, kLamps) +
+    light = (1 - mirror) * shade(*hit, vase_albedo(*hit), to_eye, kGlaze, kVaseLamps) +
             2 * mirror * room(reflected);
     light = open * light;
     transmittance = 0;
@@ -109,7 +109,7 @@ class Vase final : public Scene {
   }
 
  private:
-  Revolution shape_{kProfile};
+  Revolution shape_{kVaseProfile};
 };
 
 }  // namespace
