@@ -78,8 +78,8 @@ std::vector<Cell> sorted_cells(const PointCloud& cloud, const Grid& grid) {
 
 // Mean over the points of one voxel, in the order of their indices.
 template <class T>
-Vec3 mean_of(const std::vector<std::array<T, 3>>& values, const std::vector<Cell>& cells,
-             std::size_t begin, std::size_t end) {
+Vec3 mean_over(const std::vector<std::array<T, 3>>& values, const std::vector<Cell>& cells,
+               std::size_t begin, std::size_t end) {
   Vec3 sum{0, 0, 0};
   for (std::size_t i = begin; i < end; ++i)
     for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(values[cells[i].point][k]);
@@ -91,7 +91,7 @@ Vec3 mean_of(const std::vector<std::array<T, 3>>& values, const std::vector<Cell
 std::array<float, 3> mean_normal(const std::vector<std::array<float, 3>>& normals,
                                  const std::vector<Cell>& cells, std::size_t begin,
                                  std::size_t end) {
-  Vec3 normal = mean_of(normals, cells, begin, end);
+  Vec3 normal = mean_over(normals, cells, begin, end);
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   if (!(length > 1e-6)) return normals[cells[begin].point];
   for (double& n : normal) n /= length;
@@ -141,7 +141,8 @@ void for_each_voxel(const PointCloud& cloud, const Grid& grid,
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     while (end < count && cells[end].code == cells[begin].code) ++end;
     voxel.code = cells[begin].code;
-    if (!cloud.colours.empty()) voxel.colour = to_float(mean_of(cloud.colours, cells, begin, end));
+    if (!cloud.colours.empty())
+      voxel.colour = to_float(mean_over(cloud.colours, cells, begin, end));
     if (!cloud.normals.empty()) voxel.normal = mean_normal(cloud.normals, cells, begin, end);
     take(voxel);
   }

@@ -43,7 +43,8 @@ def compiled():
         return pathlib.Path(built) / 'python' / 'slf'
     build = pathlib.Path(os.environ.get('SLF_PIP_BUILD', ROOT / 'build' / 'pip'))
     subprocess.run(['cmake', '-S', str(ROOT), '-B', str(build), '-DCMAKE_BUILD_TYPE=Release',
-                    '-DSLF_PYTHON=ON', '-DSLF_TESTS=OFF', '-DSLF_BENCH=OFF', '-DSLF_TOOLS=OFF',
+                    '-DCMAKE_UNITY_BUILD=ON', '-DSLF_PYTHON=ON', '-DSLF_TESTS=OFF',
+                    '-DSLF_BENCH=OFF', '-DSLF_TOOLS=OFF',
                     f'-DPYTHON_EXECUTABLE={sys.executable}',
                     *shlex.split(os.environ.get('SLF_CMAKE_ARGS', ''))], check=True)
     subprocess.run(['cmake', '--build', str(build), '--target', 'slf_python', '--parallel',
