@@ -7,22 +7,22 @@
 namespace slf {
 namespace {
 
-constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
+constexpr std::uint32_t kLeaf = 0xFFFFFFFFu;
 constexpr int kSplits = 64;
 
 /// Rows joined below each row's merge on either side; the tree is the Cartesian tree of the splits.
 struct Children {
-  std::vector<std::uint32_t> left, right;  ///< [P] row of the merge, kNoNode for a point
-  std::uint32_t root = kNoNode;
+  std::vector<std::uint32_t> left, right;  ///< [P] row of the merge, kLeaf for a point
+  std::uint32_t root = kLeaf;
 };
 
 Children cartesian_tree(const std::vector<std::uint8_t>& split) {
   const std::size_t count = split.size();
-  Children tree{std::vector<std::uint32_t>(count, kNoNode),
-                std::vector<std::uint32_t>(count, kNoNode), kNoNode};
+  Children tree{std::vector<std::uint32_t>(count, kLeaf), std::vector<std::uint32_t>(count, kLeaf),
+                kLeaf};
   std::vector<std::uint32_t> spine;  // rows whose right side is still open, splits descending
   for (std::uint32_t row = 1; row < count; ++row) {
-    std::uint32_t below = kNoNode;
+    std::uint32_t below = kLeaf;
     while (!spine.empty() && split[spine.back()] < split[row]) {
       below = spine.back();
       spine.pop_back();
@@ -92,7 +92,7 @@ void add_merges(RahtTree& tree, std::span<const std::uint32_t> first, const Code
   };
   std::vector<Open> open;
   Shares shares;
-  if (children.root != kNoNode) open.push_back({children.root, 0, count});
+  if (children.root != kLeaf) open.push_back({children.root, 0, count});
   while (!open.empty()) {
     const Open node = open.back();
     open.pop_back();
@@ -102,11 +102,11 @@ void add_merges(RahtTree& tree, std::span<const std::uint32_t> first, const Code
     const auto [cosine, sine] =
         shares.of(weight(node.first, node.merge), weight(node.merge, node.end));
     tree.merges[place[level_of(tree.split[node.merge])]++] = {node.first, node.merge, cosine, sine};
-    if (const std::uint32_t below = children.right[node.merge]; below != kNoNode) {
+    if (const std::uint32_t below = children.right[node.merge]; below != kLeaf) {
       tree.parent[below] = node.merge;
       open.push_back({below, node.merge, node.end});
     }
-    if (const std::uint32_t below = children.left[node.merge]; below != kNoNode) {
+    if (const std::uint32_t below = children.left[node.merge]; below != kLeaf) {
       tree.parent[below] = node.merge;
       open.push_back({below, node.first, node.merge});
     }

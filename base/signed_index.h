@@ -6,6 +6,6 @@
 namespace slf {
 
 /// As Eigen::Index is by default.
-constexpr std::ptrdiff_t signed_index(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+constexpr std::ptrdiff_t index(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
 }  // namespace slf

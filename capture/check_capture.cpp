@@ -11,9 +11,9 @@ namespace slf {
 
 namespace {
 
-constexpr double kMaxRotationError = 1e-3;       // of an entry of R R^T - I
-constexpr double kMaxPrincipalOffset = 0.1;      // of the image's size; more is suspicious
-constexpr std::size_t kPointsOfWarnings = 4096;  // for warnings; an error looks at all points
+constexpr double kMaxRotationError = 1e-3;    // of an entry of R R^T - I
+constexpr double kMaxPrincipalOffset = 0.1;   // of the image's size; more is suspicious
+constexpr std::size_t kCheckedPoints = 4096;  // for warnings; an error looks at all points
 
 InputError invalid(const std::string& where, const std::string& cause) {
   return {Errc::kInvalidInput, where + ": " + cause};
@@ -175,7 +175,7 @@ Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_
     warnings.push_back(cloud_name + ": no normals: they are estimated");
   if (capture.cameras.empty()) return Done{};
 
-  const Survey sample = survey(capture, std::max<std::size_t>(count / kPointsOfWarnings, 1));
+  const Survey sample = survey(capture, std::max<std::size_t>(count / kCheckedPoints, 1));
   if (sample.in_view == 0) {
     const Survey all = survey(capture, 1);
     if (all.in_view == 0) return outside_error(all, cloud_name);

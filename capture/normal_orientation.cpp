@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kMaxViewpoints = 32;  // more add time, not knowledge
 constexpr std::size_t kMaxSide = 2048;      // of a depth map, cells
-constexpr std::size_t kPointsAtOnce = 4096;
+constexpr std::size_t kBatch = 4096;
 constexpr int kMaxRounds = 64;    // of asking the neighbours
 constexpr double kGrazing = 0.3;  // cosine; just behind a silhouette points still count as seen
 constexpr double kSure = 0.25;    // mean cosine towards the viewpoints that decides alone
 
 using Floats = std::array<float, 3>;
 
-double cosine_of(const Floats& a, const Floats& b) {
+double product(const Floats& a, const Floats& b) {
   return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
 }
 
@@ -59,10 +59,9 @@ class DepthAround {
     const double cells = 3.54 * far / (2 * spacing_);
     side_ = cells < kMaxSide ? static_cast<std::size_t>(std::max(cells, 8.0)) : kMaxSide;
     tolerance_ = to_float(2 * std::max(spacing_, 3.54 * far / (2 * double(side_))));
-    parallel_ranges(positions_.size(), kPointsAtOnce, threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t i = begin; i < end; ++i) place(viewpoint, i);
-                    });
+    parallel_ranges(positions_.size(), kBatch, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) place(viewpoint, i);
+    });
     nearest_.assign(side_ * side_, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < depth_.size(); ++i) cover(i);
   }
@@ -133,19 +132,18 @@ std::vector<Vote> votes_of(std::span<const Floats> positions, std::span<const Ve
   for (std::size_t c = 0; c < chosen; ++c) {
     const Vec3& viewpoint = viewpoints[c * viewpoints.size() / chosen];
     around.look_from(viewpoint, threads);
-    parallel_ranges(
-        positions.size(), kPointsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (!around.sees(i)) continue;
-            double cosine = 0;
-            for (std::size_t k = 0; k < 3; ++k)
-              cosine += double{normals[i][k]} * (viewpoint[k] - double{positions[i][k]});
-            cosine /= around.depth(i);
-            if (std::abs(cosine) < kGrazing) continue;
-            votes[i].towards += cosine;
-            ++votes[i].seen;
-          }
-        });
+    parallel_ranges(positions.size(), kBatch, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!around.sees(i)) continue;
+        double cosine = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+          cosine += double{normals[i][k]} * (viewpoint[k] - double{positions[i][k]});
+        cosine /= around.depth(i);
+        if (std::abs(cosine) < kGrazing) continue;
+        votes[i].towards += cosine;
+        ++votes[i].seen;
+      }
+    });
   }
   return votes;
 }
@@ -175,7 +173,7 @@ void orient_towards(std::span<const Floats> positions, std::span<const Vec3> vie
       if (decided[i]) continue;
       double agreement = 0;
       for (std::size_t j = i * k; j < (i + 1) * k; ++j)
-        if (decided[neighbours[j]]) agreement += cosine_of(normals[i], normals[neighbours[j]]);
+        if (decided[neighbours[j]]) agreement += product(normals[i], normals[neighbours[j]]);
       if (agreement != 0) newly.emplace_back(static_cast<std::uint32_t>(i), agreement < 0);
     }
     if (newly.empty()) break;

@@ -10,7 +10,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kNodesAtOnce = 1024;
+constexpr std::size_t kNodes = 1024;
 constexpr int kNeighbours = 16;
 
 using Node = std::array<std::int32_t, 3>;
@@ -109,40 +109,38 @@ SurfacePoints resample(const SurfacePoints& points, const Lattice& lattice,
   std::vector<Float3> position(nodes.size()), normal(nodes.size());
   std::vector<std::uint32_t> source(nodes.size());
   std::vector<std::uint8_t> kept(nodes.size(), 0);
-  parallel_ranges(
-      nodes.size(), kNodesAtOnce, settings.threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> near(static_cast<std::size_t>(k));
-        std::vector<float> squared(static_cast<std::size_t>(k));
-        for (std::size_t i = begin; i < end; ++i) {
-          bool inside = true;
-          Float3 query{};
-          for (std::size_t a = 0; a < 3; ++a) {
-            query[a] = float(lattice.origin[a] + lattice.step * nodes[i][a]);
-            inside = inside &&
-                     (lattice.size[a] == 0 || (nodes[i][a] >= 0 && nodes[i][a] < lattice.size[a]));
-          }
-          if (!inside) continue;
-          tree.nearest(query, k, near.data(), squared.data());
-          if (double(squared[0]) > support * support) continue;
-          const Surface at = surface_at(points, query, near, squared, reach);
-          const float steepest =
-              std::max({std::abs(at.normal[0]), std::abs(at.normal[1]), std::abs(at.normal[2])});
-          // Half open, so that a line that passes midway between two nodes keeps one of them.
-          const double half = 0.5 * lattice.step * double(steepest);
-          if (!(at.distance > -half && at.distance <= half)) continue;
-          const Float3 foot = along(query, -float(at.distance), at.normal);
-          // Beyond the rim: no point on all sides.
-          const Float3 beside = minus(foot, points.positions[near[0]]),
-                       off = minus(foot, at.centre);
-          if (double(dot(beside, beside)) > rim * rim ||
-              double(dot(off, off)) > off_centre * off_centre)
-            continue;
-          position[i] = settings.on_lattice ? query : foot;
-          normal[i] = at.normal;
-          source[i] = points.source[near[0]];
-          kept[i] = 1;
-        }
-      });
+  parallel_ranges(nodes.size(), kNodes, settings.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> near(static_cast<std::size_t>(k));
+    std::vector<float> squared(static_cast<std::size_t>(k));
+    for (std::size_t i = begin; i < end; ++i) {
+      bool inside = true;
+      Float3 query{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        query[a] = float(lattice.origin[a] + lattice.step * nodes[i][a]);
+        inside =
+            inside && (lattice.size[a] == 0 || (nodes[i][a] >= 0 && nodes[i][a] < lattice.size[a]));
+      }
+      if (!inside) continue;
+      tree.nearest(query, k, near.data(), squared.data());
+      if (double(squared[0]) > support * support) continue;
+      const Surface at = surface_at(points, query, near, squared, reach);
+      const float steepest =
+          std::max({std::abs(at.normal[0]), std::abs(at.normal[1]), std::abs(at.normal[2])});
+      // Half open, so that a line that passes midway between two nodes keeps one of them.
+      const double half = 0.5 * lattice.step * double(steepest);
+      if (!(at.distance > -half && at.distance <= half)) continue;
+      const Float3 foot = along(query, -float(at.distance), at.normal);
+      // Beyond the rim: no point on all sides.
+      const Float3 beside = minus(foot, points.positions[near[0]]), off = minus(foot, at.centre);
+      if (double(dot(beside, beside)) > rim * rim ||
+          double(dot(off, off)) > off_centre * off_centre)
+        continue;
+      position[i] = settings.on_lattice ? query : foot;
+      normal[i] = at.normal;
+      source[i] = points.source[near[0]];
+      kept[i] = 1;
+    }
+  });
   SurfacePoints sampled;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (kept[i] != 0) {

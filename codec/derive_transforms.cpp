@@ -98,8 +98,7 @@ class Derivation {
                                               std::sqrt(weights[i] / (p == 0 ? s.scale : 1)) /
                                               step_));
     }
-    s.samples =
-        Eigen::Map<const Samples>(rows.data(), signed_index(rows.size() / n), signed_index(n));
+    s.samples = Eigen::Map<const Samples>(rows.data(), index(rows.size() / n), index(n));
     return s;
   }
 
@@ -144,7 +143,7 @@ class Derivation {
   void choose_columns(ForwardTransform& forward, const Statistics& s) const {
     PlaneTransform& t = forward.inverse;
     const std::size_t n = t.rows(), per_function = 3 / t.lanes;
-    Square covariance = Square::Zero(signed_index(n), signed_index(n));
+    Square covariance = Square::Zero(index(n), index(n));
     constexpr Eigen::Index kBlock = 512;
     for (Eigen::Index r = 0; r < s.samples.rows(); r += kBlock) {
       const auto block = s.samples.middleRows(r, std::min(kBlock, s.samples.rows() - r));
@@ -159,7 +158,7 @@ class Derivation {
     reach = std::sqrt(reach);
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < n; ++c) {
-      const double energy = std::max(s.scale * solver.eigenvalues()(signed_index(n - 1 - c)), 1e-9);
+      const double energy = std::max(s.scale * solver.eigenvalues()(index(n - 1 - c)), 1e-9);
       // The rounding of a column costs about a squared step over all rows, or an eighth of what is
       // in it, whichever is finer.
       const int finest = static_cast<int>(std::ceil(std::log2(reach * std::sqrt(energy)))) - 1;
@@ -182,8 +181,7 @@ class Derivation {
     for (std::size_t c = 0; c < kept.size(); ++c)
       for (std::size_t i = 0; i < n; ++i) {
         const int bits = forward.precision[c];
-        const double entry =
-            vectors(signed_index(i), signed_index(kept[c])) / std::sqrt(forward.weights[i]);
+        const double entry = vectors(index(i), index(kept[c])) / std::sqrt(forward.weights[i]);
         const double limit = std::ldexp(64, bits);
         const auto m = static_cast<std::int32_t>(
             std::lround(std::clamp(std::ldexp(entry, bits), -limit, limit)));

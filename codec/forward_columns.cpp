@@ -16,10 +16,10 @@ using Square3 = Eigen::Matrix3d;
 /// Weighted least squares of the columns.
 std::vector<double> invert_columns(const PlaneTransform& t, const std::vector<double>& weights) {
   const std::size_t n = t.rows();
-  Square coded(signed_index(n), signed_index(t.columns()));
+  Square coded(index(n), index(t.columns()));
   for (std::size_t c = 0; c < t.columns(); ++c)
     for (std::size_t i = 0; i < n; ++i)
-      coded(signed_index(i), signed_index(c)) =
+      coded(index(i), index(c)) =
           std::ldexp(t.matrix[c * n + i], -PlaneTransform::kFractionBits) * std::sqrt(weights[i]);
   const Square inverse = Eigen::CompleteOrthogonalDecomposition<Square>(coded).pseudoInverse();
   std::vector<double> matrix;
@@ -50,12 +50,10 @@ ForwardTransform forward_transform(PlaneTransform coded, std::vector<std::uint8_
   Square3 colour;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t d = 0; d < 3; ++d)
-      colour(signed_index(i), signed_index(d)) =
-          t.colour[i][d] / double{1 << PlaneTransform::kColourBits};
+      colour(index(i), index(d)) = t.colour[i][d] / double{1 << PlaneTransform::kColourBits};
   const Square3 inverse = colour.inverse();
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t d = 0; d < 3; ++d)
-      forward.colour[i][d] = inverse(signed_index(i), signed_index(d));
+    for (std::size_t d = 0; d < 3; ++d) forward.colour[i][d] = inverse(index(i), index(d));
   return forward;
 }
 

@@ -12,10 +12,9 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kLossDirections =
-    233;  // another number and turn than the fit's: none in common
+constexpr std::size_t kProbes = 233;  // another number and turn than the fit's: none in common
 constexpr double kTurn = 1;
-constexpr std::size_t kLossPointsPerRange = 256;
+constexpr std::size_t kSplatsPerRange = 256;
 
 /// Of a run of points, weighted.
 struct Sums {
@@ -90,18 +89,16 @@ double psnr(double squares, double weight) {
 }  // namespace
 
 SplatLoss splat_loss(const ViewMaps& maps, const SplatCloud& splats, int threads) {
-  const std::vector<Vec3> directions = even_directions(kLossDirections, kTurn);
+  const std::vector<Vec3> directions = even_directions(kProbes, kTurn);
   const DirectionSampler sampler(maps, directions);
   const LossOfPoint loss(splats, directions);
-  std::vector<Sums> parts((splats.size() + kLossPointsPerRange - 1) / kLossPointsPerRange);
-  parallel_ranges(splats.size(), kLossPointsPerRange, threads,
-                  [&](std::size_t begin, std::size_t end) {
-                    std::vector<std::array<float, 3>> colours;
-                    sampler.sample(begin, end, colours);
-                    for (std::size_t p = begin; p < end; ++p)
-                      loss.add(p, &colours[(p - begin) * directions.size()],
-                               parts[begin / kLossPointsPerRange]);
-                  });
+  std::vector<Sums> parts((splats.size() + kSplatsPerRange - 1) / kSplatsPerRange);
+  parallel_ranges(splats.size(), kSplatsPerRange, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::array<float, 3>> colours;
+    sampler.sample(begin, end, colours);
+    for (std::size_t p = begin; p < end; ++p)
+      loss.add(p, &colours[(p - begin) * directions.size()], parts[begin / kSplatsPerRange]);
+  });
   Sums all;
   for (const Sums& part : parts) all += part;
   SplatLoss out;

@@ -50,16 +50,14 @@ BlockPrior::BlockPrior(std::span<const Voxel> positions, int block_log2, std::si
 
 void BlockPrior::add(std::size_t b, const PointRows& rows) {
   if (rows.count == 0) return;
-  const Eigen::Map<const Matrix> g(rows.functions.data(), signed_index(rows.count),
-                                   signed_index(functions_));
-  const Eigen::Map<const Columns> c(rows.colours.data(), signed_index(rows.count), 3);
-  const Matrix centred = (g.rowwise() - g.colwise().mean()).rightCols(signed_index(functions_ - 1));
+  const Eigen::Map<const Matrix> g(rows.functions.data(), index(rows.count), index(functions_));
+  const Eigen::Map<const Columns> c(rows.colours.data(), index(rows.count), 3);
+  const Matrix centred = (g.rowwise() - g.colwise().mean()).rightCols(index(functions_ - 1));
   const Columns residual = c.rowwise() - c.colwise().mean();
   Sums& sums = sums_.front()[b];
-  Eigen::Map<Matrix> a(sums.matrix.data(), signed_index(functions_ - 1),
-                       signed_index(functions_ - 1));
+  Eigen::Map<Matrix> a(sums.matrix.data(), index(functions_ - 1), index(functions_ - 1));
   a.selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose());
-  Eigen::Map<Columns> r(sums.right.data(), signed_index(functions_ - 1), 3);
+  Eigen::Map<Columns> r(sums.right.data(), index(functions_ - 1), 3);
   r.noalias() += centred.transpose() * residual;
   sums.observations += static_cast<double>(rows.count);
 }
@@ -83,7 +81,7 @@ std::vector<float> BlockPrior::solve(double strength, std::span<const double> pe
   const std::size_t unknowns = functions_ - 1;
   using Square = Eigen::MatrixXd;
   using Solution = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  std::vector<Solution> above(1, Solution::Zero(signed_index(unknowns), 3));  // of the level above
+  std::vector<Solution> above(1, Solution::Zero(index(unknowns), 3));  // of the level above
   std::vector<std::size_t> parent(sums_.back().size(), 0);
   for (std::size_t level = sums_.size(); level-- > 0;) {
     std::vector<Solution> here(sums_[level].size());
@@ -92,13 +90,12 @@ std::vector<float> BlockPrior::solve(double strength, std::span<const double> pe
         const Sums& sums = sums_[level][b];
         here[b] = above[parent[b]];
         if (sums.observations == 0 || unknowns == 0) continue;
-        const Eigen::Map<const Matrix> a(sums.matrix.data(), signed_index(unknowns),
-                                         signed_index(unknowns));
-        const Eigen::Map<const Columns> r(sums.right.data(), signed_index(unknowns), 3);
+        const Eigen::Map<const Matrix> a(sums.matrix.data(), index(unknowns), index(unknowns));
+        const Eigen::Map<const Columns> r(sums.right.data(), index(unknowns), 3);
         Square m = a.cast<double>().selfadjointView<Eigen::Lower>();
         const Solution residual = r.cast<double>() - m * here[b];
         for (std::size_t k = 0; k < unknowns; ++k)
-          m(signed_index(k), signed_index(k)) += strength * sums.observations * penalty[k + 1];
+          m(index(k), index(k)) += strength * sums.observations * penalty[k + 1];
         here[b] += m.llt().solve(residual);
       }
     });
@@ -114,7 +111,7 @@ std::vector<float> BlockPrior::solve(double strength, std::span<const double> pe
     for (std::size_t k = 0; k < unknowns; ++k)
       for (std::size_t c = 0; c < 3; ++c)
         solution[(b * functions_ + k + 1) * 3 + c] =
-            static_cast<float>(above[b](signed_index(k), signed_index(c)));
+            static_cast<float>(above[b](index(k), index(c)));
   return solution;
 }
 

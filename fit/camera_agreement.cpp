@@ -14,15 +14,15 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kPatchPoints = 64;
-constexpr std::size_t kLeastPatchesOfPair = 60, kMostPatches = 120;
-constexpr double kPairs = 2.5e7;        // about so many are looked at, kLeastPatchesOfPair apart
-constexpr double kLeastPoints = 21;     // of a patch that a camera sees
-constexpr double kLeastContrast = 6;    // grey levels rms of a pattern
-constexpr double kNoise = 2;            // grey levels rms that a camera's own pattern may lack
-constexpr double kMostDifference = 48;  // grey levels; greater ones count as that
-constexpr double kTrim = 0.8;           // share of the squared differences, the smallest
+constexpr std::size_t kLeastPatches = 60, kMostPatches = 120;
+constexpr double kPairs = 2.5e7;            // about so many are looked at, kLeastPatches apart
+constexpr double kLeastPoints = 21;         // of a patch that a camera sees
+constexpr double kLeastContrast = 6;        // grey levels rms of a pattern
+constexpr double kNoise = 2;                // grey levels rms that a camera's own pattern may lack
+constexpr double kMostDifference = 48;      // grey levels; greater ones count as that
+constexpr double kTrim = 0.8;               // share of the squared differences, the smallest
 constexpr double kDark = 8, kBright = 247;  // grey levels between which ratios are taken
-const double kNearestRay = std::pow(3 * std::numbers::pi / 180, 2);  // squared radians
+const double kNearest = std::pow(3 * std::numbers::pi / 180, 2);  // squared radians
 
 /// Values of one patch, or of all, for one camera.
 struct Samples {
@@ -85,7 +85,7 @@ class PointViews {
         const Vec3 &a = directions_[i], &b = directions_[j];
         // Squared chord, the squared angle where it is small.
         const double apart =
-            std::max(0.0, 2 - 2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])) + kNearestRay;
+            std::max(0.0, 2 - 2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])) + kNearest;
         const double w = 1 / (apart * apart);
         weight_[i * n + j] = w;
         sum_[i] += w;
@@ -218,8 +218,7 @@ std::vector<std::size_t> choose_patches(const Observations& seen) {
     pairs += views * views;
   }
   const double of_patch = pairs / static_cast<double>(std::max<std::size_t>(patches, 1));
-  const double wanted =
-      std::clamp(kPairs / of_patch, double{kLeastPatchesOfPair}, double{kMostPatches});
+  const double wanted = std::clamp(kPairs / of_patch, double{kLeastPatches}, double{kMostPatches});
   const auto stride = std::max<std::size_t>(1, patches / static_cast<std::size_t>(wanted));
   std::vector<std::size_t> chosen;
   for (std::size_t patch = stride / 2; patch < patches; patch += stride) chosen.push_back(patch);

@@ -19,7 +19,7 @@ namespace {
 // 16 times as much.
 constexpr double kLeastShare = 0.65;         // of the peers' agreement that is enough
 constexpr double kLeastPeerAgreement = 0.7;  // of peers that can be judged by
-constexpr std::size_t kLeastPatches = 24;    // that have a pattern; of fewer, chance decides
+constexpr std::size_t kEnoughPatches = 24;   // that have a pattern; of fewer, chance decides
 constexpr double kMostColourRatio = 16;      // 7.4 at most of cameras that belong: highlights
 constexpr double kLeastLogGain = 0.08, kLeastGainOverSpread = 0.6;
 constexpr std::size_t kLeastGainSamples = 100;
@@ -58,7 +58,7 @@ bool is_burnt_out(const CameraTrust& camera, const std::vector<CameraTrust>& all
 }
 
 bool can_be_judged(const CameraAgreement& a) {
-  return a.patches >= kLeastPatches && a.peer_agreement >= kLeastPeerAgreement;
+  return a.patches >= kEnoughPatches && a.peer_agreement >= kLeastPeerAgreement;
 }
 
 /// How far beyond the threshold a camera is; above 1 it is dropped.
@@ -138,7 +138,7 @@ std::optional<std::size_t> most_foreign(const Check& check) {
 std::optional<double> support(const std::vector<CameraAgreement>& agreement) {
   std::vector<double> values;
   for (const CameraAgreement& a : agreement)
-    if (a.patches >= kLeastPatches) values.push_back(a.agreement);
+    if (a.patches >= kEnoughPatches) values.push_back(a.agreement);
   if (values.size() < kLeastTrustedCameras) return std::nullopt;
   return median(std::move(values));
 }

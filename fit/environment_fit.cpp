@@ -32,8 +32,8 @@ struct Normal {
   std::size_t views = 0;
 
   explicit Normal(std::size_t functions)
-      : matrix(Eigen::MatrixXf::Zero(signed_index(functions), signed_index(functions))),
-        right(Eigen::MatrixXf::Zero(signed_index(functions), 3)) {}
+      : matrix(Eigen::MatrixXf::Zero(index(functions), index(functions))),
+        right(Eigen::MatrixXf::Zero(index(functions), 3)) {}
 
   void add(const Matrix& functions, const Columns& colours) {
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(functions.transpose());
@@ -62,21 +62,21 @@ Matrix functions_of(const ReflectedViews& views, std::size_t begin, std::size_t 
   const Harmonics harmonics(degree);
   const std::size_t first = views.first[begin];
   std::vector<Vec3> places;
-  Matrix rows, out(signed_index(views.first[end] - first), signed_index(unknowns(degree)));
+  Matrix rows, out(index(views.first[end] - first), index(unknowns(degree)));
   for (std::size_t p = begin; p < end; ++p) {
     places.clear();
     for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
       places.push_back(place_on_sphere(views.position[p], views.reflected[j], radius));
-    rows.resize(signed_index(places.size()), out.cols() + 1);
+    rows.resize(index(places.size()), out.cols() + 1);
     harmonics.evaluate(places, rows.data());
-    out.middleRows(signed_index(views.first[p] - first), rows.rows()) = rows.rightCols(out.cols());
+    out.middleRows(index(views.first[p] - first), rows.rows()) = rows.rightCols(out.cols());
   }
   return out;
 }
 
 Columns colours_of(const ReflectedViews& views, std::size_t begin, std::size_t end) {
   return Eigen::Map<const Columns>(views.colour.front().data() + 3 * views.first[begin],
-                                   signed_index(views.first[end] - views.first[begin]), 3);
+                                   index(views.first[end] - views.first[begin]), 3);
 }
 
 /// Squared error on the views of each fold, of light fitted to the others. [0] without any light.
@@ -94,14 +94,14 @@ std::array<double, 2> held_out_error(const ReflectedViews& views, const CameraFo
     for (std::size_t p = 0; p < points; ++p) {
       std::vector<Eigen::Index> of_point;
       for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
-        if (folds.of_camera[views.camera[j]] != held_out) of_point.push_back(signed_index(j));
+        if (folds.of_camera[views.camera[j]] != held_out) of_point.push_back(index(j));
       if (of_point.empty()) continue;
       const Eigen::RowVectorXf f_mean = functions(of_point, Eigen::all).colwise().mean();
       const Eigen::RowVector3f c_mean = colours(of_point, Eigen::all).colwise().mean();
       for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j) {
-        f.row(signed_index(j)) -= f_mean;
-        c.row(signed_index(j)) -= c_mean;
-        if (folds.of_camera[views.camera[j]] == held_out) tested.push_back(signed_index(j));
+        f.row(index(j)) -= f_mean;
+        c.row(index(j)) -= c_mean;
+        if (folds.of_camera[views.camera[j]] == held_out) tested.push_back(index(j));
       }
       kept.insert(kept.end(), of_point.begin(), of_point.end());
     }
@@ -162,8 +162,8 @@ std::vector<float> solve_environment(const ReflectedViews& views, double radius,
       Matrix f = functions_of(views, from, to, radius, settings.degree);
       Columns c = colours_of(views, from, to);
       for (std::size_t p = from; p < to; ++p) {
-        const Eigen::Index at = signed_index(views.first[p] - views.first[from]),
-                           n = signed_index(views.first[p + 1] - views.first[p]);
+        const Eigen::Index at = index(views.first[p] - views.first[from]),
+                           n = index(views.first[p + 1] - views.first[p]);
         f.middleRows(at, n).rowwise() -= f.middleRows(at, n).colwise().mean().eval();
         c.middleRows(at, n).rowwise() -= c.middleRows(at, n).colwise().mean().eval();
       }
@@ -178,8 +178,7 @@ std::vector<float> solve_environment(const ReflectedViews& views, double radius,
   const Eigen::MatrixXf solution = parts[0].solve(settings);
   std::vector<float> light(3 * (k + 1), 0.0f);
   for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      light[3 * (i + 1) + c] = solution(signed_index(i), signed_index(c));
+    for (std::size_t c = 0; c < 3; ++c) light[3 * (i + 1) + c] = solution(index(i), index(c));
   return light;
 }
 

@@ -59,10 +59,10 @@ std::vector<float> project_environment(const Environment& environment,
   const std::size_t k = basis.size(), count = 4 * k;
   const auto directions = spread_directions(count);
   std::vector<Vec3> vectors;
-  Matrix rows(signed_index(count), signed_index(k));
+  Matrix rows(index(count), index(k));
   for (std::size_t q = 0; q < count; ++q) {
     vectors.push_back(vector_of(directions[q]));
-    basis.evaluate(directions[q], rows.row(signed_index(q)).data());
+    basis.evaluate(directions[q], rows.row(index(q)).data());
   }
   const auto bins = bins_of(normals);
   std::vector<float> out(positions.size() * k * 3);
@@ -71,21 +71,21 @@ std::vector<float> project_environment(const Environment& environment,
       const auto& n = normals[bins[b].front()];
       Matrix weighted = rows;
       for (std::size_t q = 0; q < count; ++q)
-        if (dot(n, vectors[q]) <= kLeastCosine) weighted.row(signed_index(q)) *= kBehind;
+        if (dot(n, vectors[q]) <= kLeastCosine) weighted.row(index(q)) *= kBehind;
       Eigen::MatrixXf gram = rows.transpose() * weighted / static_cast<float>(count);
-      gram.diagonal().tail(signed_index(k - 1)).array() += kRidge;
+      gram.diagonal().tail(index(k - 1)).array() += kRidge;
       const Eigen::MatrixXf solver =
           Eigen::LLT<Eigen::MatrixXf>(gram).solve(weighted.transpose()) / static_cast<float>(count);
-      Columns light(signed_index(count), 3);
+      Columns light(index(count), 3);
       for (const std::size_t p : bins[b]) {
         const Vec3& at = positions[p];
         for (std::size_t q = 0; q < count; ++q) {
           const auto seen = environment(at, frame == FrameId::kReflected
                                                 ? vectors[q]
                                                 : vector_of(to_frame(normals, p, directions[q])));
-          for (std::size_t c = 0; c < 3; ++c) light(signed_index(q), signed_index(c)) = seen[c];
+          for (std::size_t c = 0; c < 3; ++c) light(index(q), index(c)) = seen[c];
         }
-        Eigen::Map<Columns>(out.data() + p * k * 3, signed_index(k), 3).noalias() = solver * light;
+        Eigen::Map<Columns>(out.data() + p * k * 3, index(k), 3).noalias() = solver * light;
       }
     }
   });

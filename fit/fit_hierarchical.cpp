@@ -42,13 +42,13 @@ class PointSystem {
  public:
   /// @param inverse_root  of the penalties; [0] is 0; kept by reference, as rows
   PointSystem(const PointRows& rows, std::span<const float> inverse_root)
-      : g_(rows.functions.data(), signed_index(rows.count), signed_index(inverse_root.size())),
-        c_(rows.colours.data(), signed_index(rows.count), 3),
-        root_(inverse_root.data(), signed_index(inverse_root.size())),
+      : g_(rows.functions.data(), index(rows.count), index(inverse_root.size())),
+        c_(rows.colours.data(), index(rows.count), 3),
+        root_(inverse_root.data(), index(inverse_root.size())),
         scaled_(g_ * root_.asDiagonal()),
         s_(one_plus_square(scaled_)),
         factor_(s_),
-        w_(factor_.solve(Eigen::VectorXf::Ones(signed_index(rows.count)))) {}
+        w_(factor_.solve(Eigen::VectorXf::Ones(index(rows.count)))) {}
 
   /// @param coefficients  [K][3] m before, a after
   void solve(float* coefficients) const {

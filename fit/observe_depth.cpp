@@ -29,10 +29,10 @@ struct Before {
 };
 
 Before before_camera(const Camera& camera, const std::array<Vec3, 3>& triangle) {
-  constexpr double kNearest = 1e-3;  // of the farthest corner's depth
+  constexpr double kNearestShare = 1e-3;  // of the farthest corner's depth
   std::array<double, 3> depth{};
   for (std::size_t i = 0; i < 3; ++i) depth[i] = depth_of(camera, triangle[i]);
-  const double near = kNearest * *std::max_element(depth.begin(), depth.end());
+  const double near = kNearestShare * *std::max_element(depth.begin(), depth.end());
   Before part;
   if (!(near > 0)) return part;
   for (std::size_t i = 0; i < 3; ++i) {

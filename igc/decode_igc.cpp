@@ -22,9 +22,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-InputError damaged_file(const std::string& what) {
-  return {Errc::kInvalidInput, "IGC file: " + what};
-}
+InputError corrupt(const std::string& what) { return {Errc::kInvalidInput, "IGC file: " + what}; }
 
 /// The result of a bitstream call, its error as a person reads it.
 template <class T>
@@ -41,11 +39,10 @@ Result<Capture, InputError> file_cameras(const IgcParameters& parameters, const 
     index.emplace(given.cameras[i].name, static_cast<int>(i));
   for (const std::string& name : parameters.cameras) {
     const auto found = index.find(name);
-    if (found == index.end())
-      return damaged_file("camera " + name + " is not the capture's, or twice");
+    if (found == index.end()) return corrupt("camera " + name + " is not the capture's, or twice");
     const Camera& camera = given.cameras[static_cast<std::size_t>(found->second)];
     if (camera.width != parameters.width || camera.height != parameters.height)
-      return damaged_file("camera " + name + " has another size in the capture");
+      return corrupt("camera " + name + " has another size in the capture");
     order.push_back(found->second);
     index.erase(found);
   }
@@ -119,7 +116,7 @@ Result<LightField, InputError> decode_geometry(Bytes section, const IgcDecodeOpt
   decode_options.threads = options.threads;
   SLF_TRY(LightField geometry, from(decode(section, decode_options)));
   if (geometry.partial || geometry.header.num_functions != 0 || geometry.positions.empty())
-    return damaged_file("geometry is not a whole cloud without functions");
+    return corrupt("geometry is not a whole cloud without functions");
   return geometry;
 }
 

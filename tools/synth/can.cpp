@@ -16,22 +16,22 @@ constexpr double kLabelWidth = 2 * std::numbers::pi * kRadius;
 constexpr double kLabelHeight = kLabelTop - kLabelBottom;
 constexpr double kTexelsPerUnit = 640;  // two per sample of a 256-pixel image
 
-constexpr std::array<ProfileCorner, 11> kCanProfile{{{0, -0.745, 0},
-                                                     {0.2, -0.775, 0.1},
-                                                     {0.24, -0.8, 0.015},
-                                                     {0.27, -0.8, 0.02},
-                                                     {kRadius, -0.7, 0.08},
-                                                     {kRadius, 0.6, 0.1},
-                                                     {0.275, 0.755, 0.01},
-                                                     {0.292, 0.768, 0.008},
-                                                     {0.292, 0.8, 0.01},
-                                                     {0.262, 0.765, 0.008},
-                                                     {0, 0.765, 0}}};
+constexpr std::array<ProfileCorner, 11> kProfile{{{0, -0.745, 0},
+                                                  {0.2, -0.775, 0.1},
+                                                  {0.24, -0.8, 0.015},
+                                                  {0.27, -0.8, 0.02},
+                                                  {kRadius, -0.7, 0.08},
+                                                  {kRadius, 0.6, 0.1},
+                                                  {0.275, 0.755, 0.01},
+                                                  {0.292, 0.768, 0.008},
+                                                  {0.292, 0.8, 0.01},
+                                                  {0.262, 0.765, 0.008},
+                                                  {0, 0.765, 0}}};
 
-constexpr std::array<Lamp, 4> kCanLamps{{{{5, -3, 1.8}, {0.72, 0.7, 0.66}},
-                                         {{-4, -4, 0.3}, {0.46, 0.48, 0.52}},
-                                         {{-3, 5, 3}, {0.62, 0.6, 0.57}},
-                                         {{3, 4, -2.5}, {0.4, 0.42, 0.46}}}};
+constexpr std::array<Lamp, 4> kLamps{{{{5, -3, 1.8}, {0.72, 0.7, 0.66}},
+                                      {{-4, -4, 0.3}, {0.46, 0.48, 0.52}},
+                                      {{-3, 5, 3}, {0.62, 0.6, 0.57}},
+                                      {{3, 4, -2.5}, {0.4, 0.42, 0.46}}}};
 const Colour kAluminium = from_hex(0xc9ced4);
 constexpr Material kPaint{0.8, 0.5, 50, {0.13, 0.135, 0.145}};
 constexpr Material kMetal{0.8, 0.6, 36, {0.13, 0.135, 0.145}};
@@ -165,8 +165,7 @@ class Can final : public Scene {
   bool radiance(const Ray& ray, Colour& light, double& transmittance) const override {
     const auto hit = shape_.nearest(ray);
     if (!hit) return false;
-    light =
-        shade(*hit, albedo(*hit), -1 * ray.direction, is_label(*hit) ? kPaint : kMetal, kCanLamps);
+    light = shade(*hit, albedo(*hit), -1 * ray.direction, is_label(*hit) ? kPaint : kMetal, kLamps);
     transmittance = 0;
     return true;
   }
@@ -176,7 +175,7 @@ class Can final : public Scene {
     return p.position[2] > kLabelBottom && p.position[2] < kLabelTop;
   }
 
-  Revolution shape_{kCanProfile};
+  Revolution shape_{kProfile};
   Canvas label_ = paint_label();
 };
 
