@@ -27,15 +27,6 @@ bool is_partial(const Units& units, const SequencePlan& plan) {
   return !units.complete || !plan.whole || plan.set.sps_cut_flag || plan.region;
 }
 
-/// Limits of what the slices that meet the region take.
-Result<Done> check_region(const SequencePlan& plan, const DecodeOptions& options,
-                          const Base& base) {
-  if (!plan.region) return Done{};
-  Selection selection(plan);
-  selection.choose_slices(base);
-  return check_limits_of_region(plan, options, selection.slices());
-}
-
 /// The points of the scene, with what goes with them.
 Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const SequencePlan& plan,
                           const DecodeOptions& options, DecodeSeconds& seconds, LightField& field) {
@@ -49,11 +40,13 @@ Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Seq
     seconds.coefficients += watch.lap();
     return Done{};
   }
-  SLF_CHECK(check_region(plan, options, base));                                // 9
+  Selection selection(plan);
+  selection.choose_slices(base);                                               // 8.9
+  SLF_CHECK(check_limits_of_region(plan, options, selection.slices()));        // 9
   SLF_CHECK(decode_base_components(scene.base, plan, options.threads, base));  // 8.6 - 8.8
   seconds.coefficients += watch.lap();
-  SLF_TRY(const bool partial,
-          decode_slices(scene, plan, base, options.threads, seconds, field));  // 8.2
+  SLF_TRY(const bool partial, decode_slices(scene, plan, base, selection.slices(), options.threads,
+                                            seconds, field));  // 8.2
   field.partial = field.partial || partial;
   return Done{};
 }

@@ -8,7 +8,6 @@
 #include "base/stopwatch.h"
 #include "codec/decode_cost.h"
 #include "codec/slice_decoder.h"
-#include "geometry/morton.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -40,8 +39,8 @@ struct AtEnd {
 
 class SceneDecoder {
  public:
-  SceneDecoder(const SceneUnits& units, const SequencePlan& plan, const Base& base, int threads,
-               LightField& field)
+  SceneDecoder(const SceneUnits& units, const SequencePlan& plan, const Base& base,
+               const std::vector<std::uint8_t>& chosen, int threads, LightField& field)
       : plan_(plan),
         base_cells_(plan.has_base() ? base.cells.size() : 0),
         threads_(threads),
@@ -49,7 +48,7 @@ class SceneDecoder {
         lead_(PartList(plan.set, false).size()) {
     SliceLead* lead = plan.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < units.slices.size(); ++s)
-      if ((lead != nullptr && s == 0) || meets_region(base, s))
+      if (chosen[s])
         tasks_.push_back({SliceDecoder(plan, base, units.slices[s], s, lead), 0, 0, {}});
   }
 
@@ -72,14 +71,6 @@ class SceneDecoder {
   }
 
  private:
-  bool meets_region(const Base& base, std::size_t slice) const {
-    if (!plan_.region) return true;
-    const auto cells = base.cells_of(plan_.table, slice);
-    return std::any_of(cells.begin(), cells.end(), [&](std::uint64_t cell) {
-      return plan_.meets_region(from_morton(cell), base.level);
-    });
-  }
-
   std::size_t batch_size(std::size_t begin) const {
     std::size_t count = 0, points = 0;
     const auto least = static_cast<std::size_t>(thread_count(threads_, tasks_.size() - begin));
@@ -191,8 +182,9 @@ void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field)
 }
 
 Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan, const Base& base,
-                           int threads, DecodeSeconds& seconds, LightField& field) {
-  SceneDecoder decoder(units, plan, base, threads, field);
+                           const std::vector<std::uint8_t>& chosen, int threads,
+                           DecodeSeconds& seconds, LightField& field) {
+  SceneDecoder decoder(units, plan, base, chosen, threads, field);
   return decoder.decode(seconds);
 }
 

@@ -13,11 +13,13 @@ namespace slf {
 inline constexpr std::size_t kBatchPoints = std::size_t{1} << 19;
 
 /// Appends their points to `field`, in order.
+/// @param chosen   [slices] the others are passed over
 /// @param seconds  receives what geometry and components took
 /// @return is something missing?
 /// @errors that of the unit which stands first in the stream, for any number of threads.
 Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan, const Base& base,
-                           int threads, DecodeSeconds& seconds, LightField& field);
+                           const std::vector<std::uint8_t>& chosen, int threads,
+                           DecodeSeconds& seconds, LightField& field);
 
 /// Leaves points from `begin` on that are in the region.
 void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field);

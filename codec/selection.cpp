@@ -7,6 +7,7 @@
 namespace slf {
 
 void Selection::choose_slices(const Base& base) {
+  if (!plan_.region) return;
   for (std::size_t s = 0; s < slice_.size(); ++s) {
     const auto cells = base.cells_of(plan_.table, s);
     slice_[s] = std::any_of(cells.begin(), cells.end(), [&](std::uint64_t cell) {

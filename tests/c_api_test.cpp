@@ -217,7 +217,7 @@ TEST(CApi, LimitsAndThePreflightHold) {
   EXPECT_EQ(estimate.points, field.shape.points);
   EXPECT_EQ(estimate.components, field.shape.components);
   EXPECT_GE(estimate.memory_bytes, estimate.field_bytes);
-  EXPECT_EQ(estimate.memory_bytes, decode_cost(*read_info(stream.held)).memory_most);
+  EXPECT_EQ(estimate.memory_bytes, decode_cost(stream.held)->memory_most);
   slf_options options = SLF_OPTIONS_INIT;
   options.limits.max_memory_bytes = estimate.memory_bytes;
   EXPECT_EQ(Field(stream.handle, &options).code, SLF_OK);

@@ -215,19 +215,18 @@ TEST(Spec_9_Level, BoundsWhatAPartOfAStreamTakes) {
   const auto coarse = decode(stream, options);
   ASSERT_TRUE(coarse) << to_string(coarse.error());
   EXPECT_EQ(coarse->num_points(), 512u);
-  const auto info = read_info(stream);
-  ASSERT_TRUE(info);
   for (const int threads : {1, 2, 0}) {
-    const DecodeCost cost = decode_cost(*info, threads);
-    EXPECT_LE(cost.memory, cost.memory_most);
     options = {};
     options.threads = threads;
-    options.limits.max_memory = cost.memory_most;
-    options.limits.max_work = cost.work;
+    const auto cost = decode_cost(stream, options);
+    ASSERT_TRUE(cost);
+    EXPECT_LE(cost->memory, cost->memory_most);
+    options.limits.max_memory = cost->memory_most;
+    options.limits.max_work = cost->work;
     EXPECT_TRUE(decode(stream, options));
     --options.limits.max_memory;
     EXPECT_FALSE(decode(stream, options));
-    options.limits.max_memory = cost.memory_most;
+    options.limits.max_memory = cost->memory_most;
     --options.limits.max_work;
     EXPECT_FALSE(decode(stream, options));
   }

@@ -101,25 +101,26 @@ DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
   return options;
 }
 
-Failure decode_failure(const std::string& file, const Error& error, const StreamInfo& info,
+Failure decode_failure(const std::string& file, const Error& error, const StreamFile& stream,
                        const DecodeOptions& options) {
-  const DecodeCost cost = decode_cost(info, options.threads);
+  const auto cost = decode_cost(stream.bytes, options);
   const auto beyond = [&](const char* limit) {
-    return error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
+    return cost && error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
   };
   const std::string name = input_name(file) + ": ";
   if (options.region && beyond("max_memory"))
     return {kLimitExceeded, name + "what the region meets takes more than the " +
                                 mebibytes(options.limits.max_memory) + " MiB of --max-memory"};
   if (beyond("max_memory"))
-    return {kLimitExceeded, name + "decoding takes up to " + mebibytes(cost.memory_most) +
+    return {kLimitExceeded, name + "decoding takes up to " + mebibytes(cost->memory_most) +
                                 " MiB, more than the " + mebibytes(options.limits.max_memory) +
                                 " MiB of --max-memory"};
   if (beyond("max_points"))
-    return {kLimitExceeded, name + "holds " + grouped(info.num_points) + " points, more than the " +
-                                grouped(options.limits.max_points) + " of --max-points"};
+    return {kLimitExceeded, name + "holds " + grouped(stream.info.num_points) +
+                                " points, more than the " + grouped(options.limits.max_points) +
+                                " of --max-points"};
   if (beyond("max_work"))
-    return {kLimitExceeded, name + "decoding takes up to " + grouped(cost.work) +
+    return {kLimitExceeded, name + "decoding takes up to " + grouped(cost->work) +
                                 " steps, more than the " + grouped(options.limits.max_work) +
                                 " of --max-work"};
   return failure_of(error, input_name(file));
@@ -131,7 +132,7 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
   const DecodeOptions options = decode_options(stream.info, part, given, common);
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
-  if (!field) return decode_failure(file, field.error(), stream.info, options);
+  if (!field) return decode_failure(file, field.error(), stream, options);
   return DecodedFile{*std::move(field), std::move(stream.info), stream.bytes.size(), watch.lap()};
 }
 

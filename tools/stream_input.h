@@ -44,7 +44,7 @@ DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
                              const LimitOptions& given, const CommonOptions& common);
 
 /// A limit is named with what the file would take, every other error as it is.
-Failure decode_failure(const std::string& file, const Error& error, const StreamInfo& info,
+Failure decode_failure(const std::string& file, const Error& error, const StreamFile& stream,
                        const DecodeOptions& options);
 
 struct DecodedFile {

@@ -77,7 +77,7 @@ Result<Subject, Failure> decode_slf(const EvalOptions& given, const std::string&
   options.seconds = &seconds;
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
-  if (!field) return decode_failure(input, field.error(), info, options);
+  if (!field) return decode_failure(input, field.error(), stream, options);
   const nlohmann::ordered_json decode_seconds = {{"threads", given.common.threads},
                                                  {"geometry", seconds.geometry},
                                                  {"coefficients", seconds.coefficients},

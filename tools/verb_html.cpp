@@ -132,7 +132,7 @@ Outcome run_html(const HtmlOptions& given) {
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);
-  if (!decoded) return decode_failure(name, decoded.error(), input.info, options);
+  if (!decoded) return decode_failure(name, decoded.error(), input, options);
   const LightField& field = *decoded;
   SLF_CHECK(require_view_maps(field, given.input));
   std::string poster;

@@ -70,10 +70,11 @@ nlohmann::ordered_json transforms_json(const StreamInfo& info) {
 }
 
 /// What decoding the whole file takes, the file itself included.
-DecodeCost cost_with_file(const StreamInfo& info, std::uint64_t bytes, int threads) {
-  DecodeCost cost = decode_cost(info, threads);
-  cost.memory += bytes;
-  cost.memory_most += bytes;
+Result<DecodeCost, Failure> cost_with_file(const StreamFile& file, const InfoOptions& given) {
+  const DecodeOptions options = decode_options(file.info, {}, given.limits, given.common);
+  SLF_TRY(DecodeCost cost, from(input_name(given.input), decode_cost(file.bytes, options)));
+  cost.memory += file.bytes.size();
+  cost.memory_most += file.bytes.size();
   return cost;
 }
 
@@ -87,7 +88,8 @@ std::string cost_text(const DecodeCost& cost) {
               grouped(cost.work).c_str());
 }
 
-nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes, int threads) {
+nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
+                                 const DecodeCost& cost) {
   nlohmann::ordered_json json;
   json["bytes"] = bytes;
   json["version"] = {info.version_major, info.version_minor};
@@ -95,7 +97,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes, in
   json["level"] = info.level;
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
-  json["decode"] = decode_cost_json(cost_with_file(info, bytes, threads));
+  json["decode"] = decode_cost_json(cost);
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["slice_start"] = start_name(info.slice_start);
@@ -195,7 +197,7 @@ std::string slices_text(const StreamInfo& info) {
 }
 
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t bytes,
-                      bool units, int threads) {
+                      bool units, const DecodeCost& cost) {
   std::string out = printable(input_name(file)) + ": " + grouped(bytes) + " bytes, .slf version " +
                     text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
                          info.profile, info.level) +
@@ -205,7 +207,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
               info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
   if (info.base_levels > 0) out += base_text(info);
   if (info.cut) out += cut_text(*info.cut);
-  out += cost_text(cost_with_file(info, bytes, threads));
+  out += cost_text(cost);
   out += header_text(info.header);
   out += text("  coders        %s geometry", info.geometry_coder.c_str());
   out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";
@@ -229,9 +231,9 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
 Outcome run_info(const InfoOptions& given) {
   SLF_TRY(const StreamFile file, read_stream(given.input, given.limits, given.common));
   if (given.syntax) return print_syntax(file.bytes, given.input, given.common.json);
-  const int threads = given.common.threads;
-  if (given.common.json) return print(info_json(file.info, file.bytes.size(), threads));
-  return print(info_text(file.info, given.input, file.bytes.size(), given.units, threads));
+  SLF_TRY(const DecodeCost cost, cost_with_file(file, given));
+  if (given.common.json) return print(info_json(file.info, file.bytes.size(), cost));
+  return print(info_text(file.info, given.input, file.bytes.size(), given.units, cost));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Outcome run_truncate(const TruncateOptions& given) {
   SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
   const DecodeOptions options = decode_options(stream.info, given.part, given.limits, given.common);
   const auto cut = truncate(stream.bytes, options);
-  if (!cut) return decode_failure(given.input, cut.error(), stream.info, options);
+  if (!cut) return decode_failure(given.input, cut.error(), stream, options);
   SLF_CHECK(save(given.output, cut->data(), cut->size()));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},

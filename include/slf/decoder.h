@@ -114,7 +114,7 @@ struct StreamInfo {
 /// Reads headers and walks the units without decoding geometry or coefficients. Errors as decode.
 Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeLimits& limits = {});
 
-/// What decode() of a whole stream takes, as its headers tell: before any of it is allocated.
+/// What decode() takes, as headers tell: before any of it is allocated.
 struct DecodeCost {
   /// Bytes at a time, the light field included, the stream itself not. Of scenes like those of
   /// docs/limits.md within 10 %; a hostile stream may need up to memory_most.
@@ -123,11 +123,11 @@ struct DecodeCost {
   std::uint64_t work = 0;         ///< steps as DecodeLimits::max_work counts them, at most
 };
 
-/// @param threads  as in DecodeOptions: more slices are in flight on more of them; 0: all cores
-/// O(slices).
-DecodeCost decode_cost(const StreamInfo& info, int threads = 1);
-
-/// DecodeCost::memory: what `slf info` calls memory.
-std::uint64_t decode_memory(const StreamInfo& info, int threads = 1);
+/// Of what is asked for: levels, groups, layers, max_bytes; on so many threads, which have as many
+/// slices in flight. A region counts as the whole: what it meets is known when the base is decoded.
+/// Thread-safe. O(units).
+/// @errors as decode; of the limits those of the stream's own length and of planes alone
+Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream,
+                               const DecodeOptions& options = {});
 
 }  // namespace slf

@@ -1,0 +1,45 @@
+// What a decode is said to take is what it is refused for.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "slf/decoder.h"
+
+namespace slf {
+namespace {
+
+std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Spec_9_DecodeCost, OfWholeCutAndPartialStreamsIsTheLimitThatLetsThemPass) {
+  int compared = 0;
+  const auto streams = std::filesystem::path(SLF_CONFORMANCE) / "streams";
+  for (const auto& folder : std::filesystem::directory_iterator(streams)) {
+    const auto stream = bytes_of(folder.path() / "stream.slf");
+    for (const int part : {0, 1}) {
+      DecodeOptions options;
+      options.levels = options.groups = part;
+      if (!decode(stream, options)) continue;  // Draco, textures: left out of some builds
+      const auto cost = decode_cost(stream, options);
+      ASSERT_TRUE(cost) << folder;
+      options.limits.max_memory = cost->memory_most;
+      options.limits.max_work = cost->work;
+      EXPECT_TRUE(decode(stream, options)) << folder;
+      if (cost->work == 0) continue;  // a scene without points
+      --options.limits.max_work;
+      EXPECT_FALSE(decode(stream, options)) << folder;
+      options.limits.max_work = cost->work;
+      --options.limits.max_memory;
+      EXPECT_FALSE(decode(stream, options)) << folder;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
+}
+
+}  // namespace
+}  // namespace slf
