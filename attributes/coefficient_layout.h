@@ -33,12 +33,4 @@ inline bool has_any(const std::int32_t* row, const std::vector<std::uint16_t>& f
 /// Values before a refinement are below this in magnitude, and so below 2^27 after it. Spec 8.7.7.
 inline constexpr std::int32_t kRefinedLimit = 1 << 26;
 
-/// The levels a row's difference belongs to, finest 0; the mean of all has a class of its own.
-inline constexpr std::uint32_t kLevelClasses = 13;
-inline std::uint32_t level_class(const RahtTree& tree, std::uint32_t row) {
-  if (row == 0) return kLevelClasses - 1;
-  const std::uint32_t level = tree.split[row] / 3u;
-  return level < kLevelClasses - 2 ? level : kLevelClasses - 2;
-}
-
 }  // namespace slf

@@ -63,9 +63,8 @@ class CoefficientMagnitudeModel {
  private:
   static constexpr std::uint32_t kUnary = 15;  // decisions "more than 0" to "more than 14"
   static constexpr std::uint32_t kLimit = 255;
-  static constexpr std::size_t kModels = 6;
 
-  static std::array<std::uint32_t, kModels> contexts_of(const MagnitudeEvidence& e) {
+  static std::array<std::uint32_t, 6> contexts_of(const MagnitudeEvidence& e) {
     const std::uint32_t c = e.channel;
     const std::uint32_t other =
         c == 0   ? e.functions_before
@@ -85,7 +84,7 @@ class CoefficientMagnitudeModel {
     return {Split::index(e.split, e.scale_class, c, 0),
             Other::index(other, c, 0),
             Sides::index(log_class(e.parents >> 4, 39) / 2, log_class(e.beside >> 4, 39) / 2, c, 0),
-            Expected::index(std::min(size / 2, 19u), other, c, 0),
+            Expected::index(std::min(size / 2, Expected::kMost<0>), other, c, 0),
             Channels::index(ratios[0], ratios[1], c, 0),
             Ratio::index(e.vector_ratio / 3, size / 3, c, 0)};
   }
@@ -98,9 +97,11 @@ class CoefficientMagnitudeModel {
   using Channels = ContextShape<24, 24, 3, 16>;  // of earlier channels to their expectation
   using Ratio = ContextShape<16, 16, 3, 16>;     // of the vector so far; magnitude
   using Set = ContextShape<2, 3, 16>;            // first of the vector; as above
-  MixedBit<kModels, Set::kCount> more_{{Split::kCount, Other::kCount, Sides::kCount,
-                                        Expected::kCount, Channels::kCount, Ratio::kCount}};
+  MixedBit<Set::kCount, Split, Other, Sides, Expected, Channels, Ratio> more_;
   std::array<PrefixContexts, 12> prefix_;
+
+ public:
+  static constexpr std::size_t kBytes = decltype(more_)::kBytes + sizeof(prefix_);
 };
 
 }  // namespace slf

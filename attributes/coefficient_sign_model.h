@@ -56,8 +56,10 @@ class CoefficientSignModel {
   using Channels = ContextShape<3, 3, 3, 3, 3, 3>;
   using Strong = ContextShape<5, 5, 5, 3, 3, 3>;
   using Set = ContextShape<3, 3>;  // channel; the sign of the first
-  MixedBit<4, Set::kCount> negative_{
-      {Above::kCount, Faces::kCount, Channels::kCount, Strong::kCount}};
+  MixedBit<Set::kCount, Above, Faces, Channels, Strong> negative_;
+
+ public:
+  static constexpr std::size_t kBytes = decltype(negative_)::kBytes;
 };
 
 }  // namespace slf

@@ -26,8 +26,6 @@ struct IndependentStates {
 
 class IndependentCoefficients {
  public:
-  using States = IndependentStates;
-
   explicit IndependentCoefficients(std::vector<std::uint16_t> functions)
       : functions_(std::move(functions)) {}
 

@@ -48,8 +48,8 @@ class AdaptiveCost {
   std::uint32_t one_;
 };
 
-/// Statistics of one plane group, in the shape of the vector coder (8.7.2): is a node zero, a block
-/// of eight functions, a value; then its magnitude.
+/// Statistics of one plane group, much as the vector coder's (8.7.2): is a node zero, a block of
+/// eight functions (of four, there), a value; then its magnitude.
 class RateModel {
  public:
   static constexpr std::size_t kBlock = 24;  // planes

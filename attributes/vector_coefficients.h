@@ -24,8 +24,6 @@ namespace slf {
 
 class VectorCoefficients {
  public:
-  using States = VectorStates;
-
   /// functions: the group's, ascending. refines: units hold one bit more of values that are there.
   VectorCoefficients(std::vector<std::uint16_t> functions, std::size_t num_points,
                      bool refines = false)
@@ -50,7 +48,9 @@ class VectorCoefficients {
       const std::uint32_t row = rows.tree.order[i];
       const Around around = around_of(neighbours.rows, kept_, i);
       const std::uint32_t below =
-          lower != nullptr ? log_class(lower->kept_.sum(static_cast<std::uint32_t>(i)), 15) : 0;
+          lower != nullptr
+              ? log_class(lower->kept_.sum(static_cast<std::uint32_t>(i)), Node::Expected::kMost<1>)
+              : 0;
       const bool any = !Coder::kDecodes && any_in_row_[row] != 0;
       if (known_.refines() && i + kRowsAhead < end)
         prefetch(rows.row(rows.tree.order[i + kRowsAhead]) + 3u * functions_.front());
@@ -71,6 +71,9 @@ class VectorCoefficients {
   }
 
  private:
+  using Node = VectorStates::Node;
+  using Rest = VectorStates::Rest;
+  using Any = VectorStates::Any;
   static constexpr std::size_t kRun = VectorExpectation::kRun;
   static constexpr std::size_t kRowsAhead = 8;  // asked for before they are needed
   static constexpr std::int32_t kLargest = KeptVectors::kLargest;
@@ -92,21 +95,21 @@ class VectorCoefficients {
 
   template <class Coder>
   bool code_node(Coder& coder, const Around& around, std::uint32_t below, bool any) {
-    using Node = VectorStates::Node;
     std::uint32_t parents = 0, beside = 0;
     std::array<std::uint32_t, Around::kRows> size;
     for (std::size_t k = 0; k < Around::kRows; ++k) {
       const std::uint32_t sum = kept_.sum(around.row[k]);
       (k < Around::kParents ? parents : beside) +=
           around.weight[k] * std::min<std::uint32_t>(sum, kLargest);
-      size[k] = std::min<std::uint32_t>(sum, 4);
+      size[k] = std::min<std::uint32_t>(sum, Node::Above::kMost<0>);
     }
     const std::uint32_t expected = (parents + (around.any_beside ? beside : parents)) / 2;
     const std::array<std::uint32_t, 4> contexts = {
-        Node::Expected::index(log_class(expected >> 4, 47), below),
+        Node::Expected::index(log_class(expected >> 4, Node::Expected::kMost<0>), below),
         Node::Split::index(around.split, around.scale_class),
         Node::Above::index(size[0], size[1], size[2], size[6], around.axis),
-        Node::Beside::index(size[3], size[4], size[5], around.axis, std::min(below, 3u))};
+        Node::Beside::index(size[3], size[4], size[5], around.axis,
+                            std::min(below, Node::Beside::kMost<4>))};
     return states_->node.code(coder, contexts, around.split, any) != 0;
   }
 
@@ -155,17 +158,17 @@ class VectorCoefficients {
   template <class Coder>
   bool code_rest(Coder& coder, const Around& around, std::size_t f, const Progress& progress,
                  bool any) {
-    using Rest = VectorStates::Rest;
-    const auto run = static_cast<std::uint32_t>(std::min<std::size_t>(f / kRun, 31));
+    const auto run = std::min(static_cast<std::uint32_t>(f / kRun), Rest::Run::kMost<0>);
     const auto ahead = [&](std::size_t k) {  // how far on a vector around goes
       const std::uint32_t there = kept_.runs(around.row[k]);
-      return there <= run ? 0u : std::min(there - run, 3u);
+      return there <= run ? 0u : std::min(there - run, Rest::Ahead::kMost<0>);
     };
-    const std::uint32_t size = log_class(expected_.rest(f / kRun) >> 4, 47);
+    const std::uint32_t size = log_class(expected_.rest(f / kRun) >> 4, Rest::Expected::kMost<1>);
     const std::array<std::uint32_t, 4> contexts = {
         Rest::Expected::index(run, size),
         Rest::Ahead::index(ahead(0), ahead(3), ahead(4), ahead(5), ahead(6)),
-        Rest::Before::index(log_class(progress.sum, 23), progress.recent, size / 4),
+        Rest::Before::index(log_class(progress.sum, Rest::Before::kMost<0>), progress.recent,
+                            size / 4),
         Rest::Run::index(run, progress.recent, ahead(0), ahead(6))};
     return states_->rest.code(coder, contexts, run, any) != 0;
   }
@@ -247,13 +250,15 @@ class VectorCoefficients {
         expected_.beside(j) + expected_.beside(j + 1) + expected_.beside(j + 2);
     const auto activity = static_cast<std::uint32_t>(
         states_->activity[j] + states_->activity[j + 1] + states_->activity[j + 2]);
-    const std::uint32_t size = log_class(((up + side) / 2 + (activity >> 5)) >> 4, 47);
-    const std::uint32_t ratio = log_class(
-        (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 55);
-    const std::uint32_t act = log_class(activity >> 2, 47);
-    using Any = VectorStates::Any;
+    const std::uint32_t size =
+        log_class(((up + side) / 2 + (activity >> 5)) >> 4, Any::Expected::kMost<0>);
+    const std::uint32_t ratio =
+        log_class((std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256),
+                  Any::Ratio::kMost<0>);
+    const std::uint32_t act = log_class(activity >> 2, Any::Activity::kMost<1>);
     const std::array<std::uint32_t, 5> contexts = {
-        Any::Activity::index(std::min(around.split, 24u), act), Any::Expected::index(size, before),
+        Any::Activity::index(std::min(around.split, Any::Activity::kMost<0>), act),
+        Any::Expected::index(size, before),
         Any::Sides::index(log_class(up >> 4, 39) / 2, log_class(side >> 4, 39) / 2),
         Any::Ratio::index(ratio, size / 2), Any::Scale::index(act, around.scale_class)};
     const std::uint32_t set = Any::Set::index(progress.sum == 0, before);

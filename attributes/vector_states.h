@@ -21,7 +21,7 @@ struct VectorStates {
       : activity(3 * functions, functions > 1 ? kFirstActivity : 0) {}
 
   static constexpr std::int32_t kFirstActivity = 16;
-  static constexpr std::uint32_t kTopSplit = 44;
+  static constexpr std::uint32_t kTopSplit = 44, kRuns = 32;
 
   /// Is a vector other than 0?
   struct Node {
@@ -32,10 +32,10 @@ struct VectorStates {
   };
   /// Has it a value other than 0 from a run of functions on?
   struct Rest {
-    using Expected = ContextShape<32, 48>;      // run; magnitude
+    using Expected = ContextShape<kRuns, 48>;   // run; magnitude
     using Ahead = ContextShape<4, 4, 4, 4, 4>;  // how far on the vectors around go
     using Before = ContextShape<24, 5, 12>;     // sum so far; functions of the run; magnitude
-    using Run = ContextShape<32, 5, 4, 4>;      // run; its functions; parent, previous ahead
+    using Run = ContextShape<kRuns, 5, 4, 4>;   // run; its functions; parent, previous ahead
   };
   /// Has a function of it a value other than 0?
   struct Any {
@@ -48,14 +48,16 @@ struct VectorStates {
   };
 
   std::vector<std::int32_t> activity;  ///< [planes] running mean of min(magnitude, 7), in 1/4096
-  MixedBit<4, kTopSplit + 1> node{
-      {Node::Expected::kCount, Node::Split::kCount, Node::Above::kCount, Node::Beside::kCount}};
-  MixedBit<4, 32> rest{
-      {Rest::Expected::kCount, Rest::Ahead::kCount, Rest::Before::kCount, Rest::Run::kCount}};
-  MixedBit<5, Any::Set::kCount> any{{Any::Activity::kCount, Any::Expected::kCount,
-                                     Any::Sides::kCount, Any::Ratio::kCount, Any::Scale::kCount}};
+  MixedBit<kTopSplit + 1, Node::Expected, Node::Split, Node::Above, Node::Beside> node;
+  MixedBit<kRuns, Rest::Expected, Rest::Ahead, Rest::Before, Rest::Run> rest;
+  MixedBit<Any::Set::kCount, Any::Activity, Any::Expected, Any::Sides, Any::Ratio, Any::Scale> any;
   CoefficientMagnitudeModel magnitude;
   CoefficientSignModel sign;
+
+  /// Of what it holds, but for `activity`.
+  static constexpr std::size_t kBytes = decltype(node)::kBytes + decltype(rest)::kBytes +
+                                        decltype(any)::kBytes + CoefficientMagnitudeModel::kBytes +
+                                        CoefficientSignModel::kBytes;
 };
 
 }  // namespace slf

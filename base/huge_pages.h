@@ -25,13 +25,4 @@ inline void advise_huge_pages([[maybe_unused]] const void* memory,
 #endif
 }
 
-/// `values` becomes `size` zeros.
-template <class T>
-void assign_zeros(std::vector<T>& values, std::size_t size) {
-  values.clear();
-  values.reserve(size);
-  advise_huge_pages(values.data(), size * sizeof(T));
-  values.resize(size);
-}
-
 }  // namespace slf

@@ -44,7 +44,7 @@ Result<std::optional<Index>> find_index(const Units& units, const SequenceParame
 /// @param slices  0: not known
 Result<Done> check_index(const Units& units, const SequenceParameterSet& set, std::size_t slices);
 
-/// Do they name the same slice, range and group?
+/// Do they name the same slice, range, group and layer?
 bool same_ids(const SliceUnitHeader& a, const SliceUnitHeader& b);
 
 /// The ids that a unit begins with.

@@ -1,4 +1,4 @@
-// The headers of the format, each written once: visited to parse and to write. Spec 7.2 - 7.9.
+// The sequence header, written once: visited to parse and to write. Spec 7.2.
 #pragma once
 
 #include <algorithm>
@@ -65,6 +65,7 @@ struct SequenceParameterSet {
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
+  bool has_draco() const { return sps_geometry_coder == 1; }
   bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }
   /// Vectors, in one layer or several.
   bool has_vectors() const {
@@ -91,7 +92,6 @@ struct SequenceParameterSet {
   std::uint32_t num_groups() const {
     return sps_num_functions == 0 ? 0 : sps_num_groups_minus1 + 1;
   }
-  std::uint32_t base_levels() const { return sps_base_levels; }
   /// Level ranges. The last ends at grid_bits; a range begins where the one before ends.
   std::uint32_t geometry_end(std::uint32_t range) const {
     return range < sps_geometry_range_end.size() ? sps_geometry_range_end[range] : grid_bits();
@@ -235,7 +235,7 @@ void sequence_parameter_set(V& v, Set& s) {
   v.u(1, "sps_metres_flag", s.sps_metres_flag, Range{0, 1});
   if (s.sps_metres_flag) v.f64("sps_metres_per_unit", s.sps_metres_per_unit, true);
   v.u(2, "sps_geometry_coder", s.sps_geometry_coder, Range{0, 1});
-  v.require((s.sps_geometry_coder == 1) == (s.sps_profile == kDracoProfile), Errc::kOutOfRange,
+  v.require(s.has_draco() == (s.sps_profile == kDracoProfile), Errc::kOutOfRange,
             "sps_geometry_coder");
   v.u(4, "sps_normal_bits", s.sps_normal_bits, Range{0, 12});
   v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kReserved, "sps_normal_bits");
@@ -243,7 +243,7 @@ void sequence_parameter_set(V& v, Set& s) {
   level_ranges(v, "sps_num_geometry_ranges_minus1", "sps_geometry_range_end",
                s.sps_num_geometry_ranges_minus1, s.sps_geometry_range_end, s.grid_bits());
   base_is_end(v, s.sps_base_levels, s.sps_geometry_range_end);
-  v.require(s.sps_geometry_coder == 0 || s.sps_num_geometry_ranges_minus1 == 0, Errc::kOutOfRange,
+  v.require(!s.has_draco() || s.sps_num_geometry_ranges_minus1 == 0, Errc::kOutOfRange,
             "sps_num_geometry_ranges_minus1");
   v.ue("sps_num_functions", s.sps_num_functions, Range{0, 4096});
   if (s.sps_num_functions == 0) return;
@@ -269,30 +269,6 @@ void sequence_parameter_set(V& v, Set& s) {
   v.require(!s.has_texture() || s.sps_num_coefficient_ranges_minus1 == 0, Errc::kOutOfRange,
             "sps_num_coefficient_ranges_minus1");
   plane_table(v, s);
-}
-
-/// Spec 7.11: what stands before the matrix of a transform across planes.
-struct TransformHeader {
-  std::uint32_t tr_first_group = 0, tr_num_groups_minus1 = 0;
-  std::uint32_t tr_joint_flag = 0;
-  std::uint32_t tr_rank_minus1 = 0;
-  std::uint32_t tr_colour_flag = 0;
-  std::array<std::array<std::int32_t, 3>, 3> tr_colour{{{512, 0, 0}, {0, 512, 0}, {0, 0, 512}}};
-};
-
-// Spec 7.11  transform_unit( ). The caller knows the functions of the groups.
-template <class V, class Header>
-void transform_header(V& v, Header& h, std::uint32_t num_groups) {
-  v.ue("tr_first_group", h.tr_first_group, Range{0, std::int64_t{num_groups} - 1});
-  v.ue("tr_num_groups_minus1", h.tr_num_groups_minus1,
-       Range{0, std::int64_t{num_groups} - 1 - h.tr_first_group});
-  v.u(1, "tr_joint_flag", h.tr_joint_flag, Range{0, 1});
-  v.ue("tr_rank_minus1", h.tr_rank_minus1, Range{0, 4095});
-  if (h.tr_joint_flag) return;
-  v.u(1, "tr_colour_flag", h.tr_colour_flag, Range{0, 1});
-  if (!h.tr_colour_flag) return;
-  for (auto& row : h.tr_colour)
-    for (auto& entry : row) v.se("tr_colour", entry, Range{-512, 512});
 }
 
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);

@@ -10,7 +10,6 @@
 #include "attributes/slice_cells.h"
 #include "codec/scene_units.h"
 #include "codec/sequence_plan.h"
-#include "codec/shared_states.h"
 
 namespace slf {
 
@@ -44,13 +43,13 @@ class ComponentDecoder {
                        std::size_t first_cell, std::span<std::int32_t> components);
   /// A slice apart, of which the base tells the cells alone.
   void start_apart();
-  /// Entropy decoding of units[place]. components: [rows][planes], coefficients after.
+  /// Entropy decoding of a unit. components: [rows][planes], coefficients after.
   Result<Done> decode(const PartUnit& unit, std::span<std::int32_t> components);
   /// Dequantisation and inverse transform, when all units are decoded. An error is of the last.
   Result<Done> reconstruct(std::span<std::int32_t> components, int threads);
   /// The mean of each node, of what reconstruct() left.
   void to_means(std::span<std::int32_t> components) const;
-  /// What the rows of `other` have in common with these, which are finer.
+  /// What the rows of `finer`, which has these and more, have in common with these.
   void take_rows(const ComponentDecoder& finer, std::span<const std::int32_t> from,
                  std::span<std::int32_t> to);
 

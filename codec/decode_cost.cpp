@@ -1,8 +1,8 @@
 #include "codec/decode_cost.h"
 
 #include <algorithm>
-#include <bit>
 
+#include "attributes/vector_states.h"
 #include "codec/scene_decoder.h"
 #include "geometry/occupancy_model.h"
 #include "slf/parallel.h"
@@ -46,18 +46,9 @@ constexpr double kUsualMeans = 0.02;  // of all rows, whose means are needed at 
 constexpr double kSample = 2, kPicturesMost = 17, kPictures = 4, kSamplesMost = 16, kSamples = 2;
 constexpr double kCellOfAtlas = 60;
 
-/// Contexts of a group of vectors: five mixed decisions, nearly all of it magnitudes.
-constexpr double kCoefficientStates = 350e3;
-constexpr double kIndependentStates = 300;  // a plane
-constexpr double kHistory = 3 << 18;        // of columns, while an octree is decoded
-
-double octree_states(std::uint64_t points) {
-  const int bits = std::min(OccupancyStates::kMostHashedBits,
-                            std::max(static_cast<int>(std::bit_width(points)) + 4, 10));
-  constexpr double kWeights = 8 * 2 * (256 * 8 + 27 * 22 + 27 * 8);
-  return 2.0 * (1 << OccupancyStates::kFacesBits) + 2.0 * (1 << OccupancyStates::kCornerBits) +
-         2.0 * OccupancyStates::kHashed * (1 << bits) + kWeights;
-}
+constexpr double kCoefficientStates = VectorStates::kBytes;  // a group
+constexpr double kIndependentStates = 300;                   // a plane
+constexpr double kHistory = 3 << 18;  // of columns, while an octree is decoded
 
 class Model {
  public:
@@ -146,7 +137,8 @@ class Model {
   double states_of_octrees(double at_work) const {
     if (shape_.draco) return 0;
     const double handed = shape_.shared_states ? static_cast<double>(shape_.geometry_units) : 0;
-    return (1 + handed + at_work) * octree_states(points_) + at_work * kHistory;
+    return (1 + handed + at_work) * static_cast<double>(OccupancyStates::bytes(points_)) +
+           at_work * kHistory;
   }
 
   /// The same of coefficients.
@@ -210,7 +202,7 @@ DecodeShape shape_of(const SequencePlan& plan) {
   shape.base_alone = plan.base_alone();
   shape.vector = set.has_vectors();
   shape.prediction = set.sps_prediction_flag != 0;
-  shape.draco = set.sps_geometry_coder == 1;
+  shape.draco = set.has_draco();
   shape.texture = set.has_texture();
   shape.normals = set.sps_normal_bits > 0;
   shape.shared_states = plan.table.shared();
@@ -272,7 +264,7 @@ Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options
   SLF_CHECK(check_shape(shape, points, options));
   // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
   const bool told = plan.complete && plan.whole && !plan.region;
-  if (told || plan.set.sps_geometry_coder == 1)
+  if (told || plan.set.has_draco())
     return check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan)));
   return Done{};
 }

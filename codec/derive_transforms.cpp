@@ -8,6 +8,7 @@
 
 #include "attributes/raht_forward.h"
 #include "base/signed_index.h"
+#include "bitstream/transform_header.h"
 #include "codec/forward_columns.h"
 #include "codec/transform_units.h"
 #include "entropy/range_encoder.h"

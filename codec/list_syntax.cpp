@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "bitstream/index.h"
+#include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
 #include "texture/texture_header.h"

@@ -86,7 +86,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
                                static_cast<int>(t.first_group + t.num_groups - 1),
                                static_cast<int>(t.functions.size()), static_cast<int>(t.rank),
                                t.lanes == 1, t.colour != PlaneTransform::kNoColour});
-  info.geometry_coder = set.sps_geometry_coder == 0 ? "octree" : "draco";
+  info.geometry_coder = set.has_draco() ? "draco" : "octree";
   info.coefficient_coder =
       std::array{"vector", "independent", "texture", "vector"}[set.sps_coefficient_coder];
   for (std::uint32_t g = 0; g < set.num_groups(); ++g)

@@ -30,13 +30,6 @@ struct Task {
   }
 };
 
-/// Also where a step throws: others would wait for ever.
-template <void (SliceDecoder::*close)()>
-struct AtEnd {
-  SliceDecoder& slice;
-  ~AtEnd() { (slice.*close)(); }
-};
-
 class SceneDecoder {
  public:
   SceneDecoder(const SceneUnits& units, const SequencePlan& plan, const Base& base,
@@ -93,13 +86,15 @@ class SceneDecoder {
                     });
   }
 
-  static void decode_geometry(Task& task) {
-    const AtEnd<&SliceDecoder::close_geometry> close{task.slice};
+  bool is_first(const Task& task) const { return &task == &tasks_.front(); }
+
+  void decode_geometry(Task& task) {
+    const CloseAtEnd<OccupancyStates> close{lead_.geometry, is_first(task)};
     task.run([&] { return task.slice.decode_geometry(); });
   }
 
   void decode_values(Task& task, int plane_threads) {
-    const AtEnd<&SliceDecoder::close_coefficients> close{task.slice};
+    const CloseAtEnd<CoefficientStates> close{lead_.coefficients, is_first(task)};
     const std::size_t count = task.end - task.begin, planes = plan_.planes();
     const auto components =
         std::span(field_.components).subspan(task.begin * planes, count * planes);

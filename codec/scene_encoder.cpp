@@ -10,16 +10,6 @@
 namespace slf {
 namespace {
 
-/// Also where a step throws: others would wait for ever.
-template <class States>
-struct CloseAtEnd {
-  SharedStates<States>& states;
-  bool leads;
-  ~CloseAtEnd() {
-    if (leads) states.close();
-  }
-};
-
 class SceneEncoder {
  public:
   SceneEncoder(const SliceCoding& coding, const SceneLayout& layout,

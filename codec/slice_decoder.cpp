@@ -75,7 +75,7 @@ Result<Done> SliceDecoder::check_count() const {
 
 Result<Done> SliceDecoder::decode_geometry() {
   partial = units_->empty();
-  if (!partial && plan_->set.sps_geometry_coder == 1) {
+  if (!partial && plan_->set.has_draco()) {
     SLF_CHECK(decode_draco_unit());
     SLF_CHECK(check_count());
   } else if (!partial) {
@@ -235,14 +235,6 @@ void SliceDecoder::drop() {
   positions = {};
   codes_ = {};
   top_ = {};
-}
-
-void SliceDecoder::close_geometry() {
-  if (leads()) lead_->geometry.close();
-}
-
-void SliceDecoder::close_coefficients() {
-  if (leads()) lead_->coefficients.close();
 }
 
 }  // namespace slf

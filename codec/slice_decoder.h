@@ -10,20 +10,13 @@
 #include "codec/base_decoder.h"
 #include "codec/scene_units.h"
 #include "codec/sequence_plan.h"
-#include "codec/shared_states.h"
+#include "codec/slice_lead.h"
 #include "slf/types.h"
 
 namespace slf {
 
-/// What slice 0 hands on, by place in its list of units.
-struct SliceLead {
-  explicit SliceLead(std::size_t units) : geometry(units), coefficients(units) {}
-
-  SharedStates<OccupancyStates> geometry;
-  SharedStates<CoefficientStates> coefficients;
-};
-
-/// A slice on its way. Steps are called in the order of the members below.
+/// A slice on its way. Steps are called in the order of the members below; normals may come before
+/// components.
 class SliceDecoder {
  public:
   /// @param lead  of slices that share states, else nullptr
@@ -42,9 +35,6 @@ class SliceDecoder {
 
   /// Leaves nothing of the slice's points.
   void drop();
-  /// Those that wait for units of this slice need not any longer.
-  void close_geometry();
-  void close_coefficients();
 
   std::size_t points() const { return plan_->table.slices[slice_].points(); }
 

@@ -64,7 +64,7 @@ void SliceEncoder::encode_octree(OccupancyStates states) {
 }
 
 Result<Done, InputError> SliceEncoder::encode_geometry(const EncodedBase* base) {
-  if (coding_->set.sps_geometry_coder == 0) {
+  if (!coding_->set.has_draco()) {
     encode_octree(base != nullptr ? base->geometry : OccupancyStates(input_.morton.size()));
     return Done{};
   }
@@ -104,7 +104,7 @@ Result<Done, InputError> SliceEncoder::transform(std::span<std::int32_t> base_in
 }
 
 Result<Done, InputError> SliceEncoder::encode_texture(int threads) {
-  SLF_TRY(const auto payloads, encode_slice_texture(input_, input_.morton, *coding_, threads));
+  SLF_TRY(const auto payloads, encode_slice_texture(input_, *coding_, threads));
   for (std::uint32_t g = 0; g < payloads.size(); ++g)
     add(UnitType::kCoefficients, 0, g, payloads[g]);
   return Done{};

@@ -9,7 +9,7 @@
 #include "codec/base_encoder.h"
 #include "codec/coded_unit.h"
 #include "codec/scene_layout.h"
-#include "codec/slice_decoder.h"
+#include "codec/slice_lead.h"
 
 namespace slf {
 

@@ -40,11 +40,10 @@ Result<Payload, InputError> encode_group(std::size_t group, const SliceInput& in
 }  // namespace
 
 Result<std::vector<Payload>, InputError> encode_slice_texture(const SliceInput& input,
-                                                              std::span<const std::uint64_t> morton,
                                                               const SliceCoding& coding,
                                                               int threads) {
-  const auto atlas =
-      derive_atlas(morton, coding.grid_bits(), static_cast<int>(coding.set.sps_texture_cell_log2));
+  const auto atlas = derive_atlas(input.morton, coding.grid_bits(),
+                                  static_cast<int>(coding.set.sps_texture_cell_log2));
   if (!atlas)
     return InputError{Errc::kInvalidArgument,
                       "points per slice: a texture would be higher than 8192; fewer are needed"};

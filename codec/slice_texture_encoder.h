@@ -17,7 +17,6 @@ struct SliceCoding;
 /// @errors kInvalidArgument: values too large; an atlas larger than 8192. kUnsupported: x265, or
 ///         libde265 for the digest, is not part of this build.
 Result<std::vector<std::vector<std::uint8_t>>, InputError> encode_slice_texture(
-    const SliceInput& input, std::span<const std::uint64_t> morton, const SliceCoding& coding,
-    int threads);
+    const SliceInput& input, const SliceCoding& coding, int threads);
 
 }  // namespace slf

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error_place.h"
+#include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "entropy/range_decoder.h"
 
@@ -16,9 +17,17 @@ Result<Done> parse_columns(std::span<const std::uint8_t> codeword, ColumnRange c
   return decoder.finish("cu_matrix");
 }
 
+/// Where an element stands that was read.
+std::uint64_t bit_of(std::string_view element, const SyntaxLog& log) {
+  for (const SyntaxEntry& entry : log)
+    if (entry.element == element) return entry.bit;
+  return 0;
+}
+
 Result<PlaneTransform> parse_transform(const Unit& unit, const PlaneGroups& groups) {
   BitReader in(unit.payload);
-  ParseSyntax parse{in};
+  SyntaxLog log;
+  ParseSyntax parse{in, &log};
   TransformHeader header;
   transform_header(parse, header, static_cast<std::uint32_t>(groups.size()));
   in.trailing_bits("tr_trailing_bits");
@@ -31,7 +40,7 @@ Result<PlaneTransform> parse_transform(const Unit& unit, const PlaneGroups& grou
   t.lanes = header.tr_joint_flag ? 1 : 3;
   t.colour = header.tr_colour;
   if (t.rank > t.functions.size() || t.rows() * t.columns() > PlaneTransform::kMaxEntries)
-    return in_unit(unit, Error{Errc::kOutOfRange, "tr_rank_minus1"});
+    return in_unit(unit, Error{Errc::kOutOfRange, "tr_rank_minus1", bit_of("tr_rank_minus1", log)});
   t.matrix.resize(t.rows() * t.columns());
   return t;
 }

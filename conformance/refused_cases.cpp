@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "bitstream/parameter_sets.h"
+#include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"

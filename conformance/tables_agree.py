@@ -2,9 +2,10 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h; unit types; table A-1; sizes of table 8-3; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h; unit types; table A-1; sizes of table 8-3; limits of clause 9; first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
+import math
 import pathlib
 import re
 import sys
@@ -74,7 +75,7 @@ def check_slices():
     text = [pair for pair in elements(section("**7.3 Slices**", "**7.4 Geometry**"), "slice") if pair[0] != "slice_id"]
     agree("elements of 7.3", text, visited(code("bitstream/slice_headers.h"), "slice_table", "slice"))
     text = elements(section("**7.11 Transform**", "## 8 Decoding"), "tr_")
-    agree("elements of 7.11", text, visited(code("bitstream/parameter_sets.h"), "transform_header", "tr_"))
+    agree("elements of 7.11", text, visited(code("bitstream/transform_header.h"), "transform_header", "tr_"))
 
 
 def check_units():
@@ -100,6 +101,9 @@ def check_tables():
     coded = [int(n) for n in re.findall(r"\b\d{5}\b", logistic)]
     agree("A-1 of the code", text, coded[coded.index(32768):][:len(text)])
     sizes = [w for w in re.findall(r"^\| [0-4] \| (\w+) \|", section("Table 8-3", "**8.4.3"), re.M)]
+    shapes = dict(re.findall(r"using (Faces|Corner) = ContextShape<([\d, ]+)>", code("geometry/occupancy_model.h")))
+    coded = [str(math.prod(map(int, shape.split(","))).bit_length() - 1) for shape in shapes.values()]
+    agree("table 8-3 of the code", [size for size in sizes if size.isdigit()], coded)
     agree("table 8-3 of the text decoder", sizes, re.sub(r"self\.hash_bits", "hash", re.search(
         r"widths = \((.*?)\)", DECODER).group(1)).split(", "))
 

@@ -17,20 +17,33 @@ std::vector<int> level_ends(int bits) {
 
 }  // namespace
 
-CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {
-  const LightFieldHeader& header = field.header;
-  const bool texture = settings.coefficients == CoefficientCoder::kTexture;
+CodingParameters coding_parameters(const EncoderSettings& settings) {
   CodingParameters parameters;
   parameters.geometry = settings.geometry;
   parameters.coefficients = settings.coefficients;
   parameters.texture = settings.texture;
+  if (settings.coefficients != CoefficientCoder::kTexture)
+    parameters.transform = settings.transform;
+  parameters.predict = settings.predict;
+  parameters.rdo = settings.rdo;
+  parameters.quality_layers = settings.quality_layers;
+  parameters.base_levels = settings.base_levels;
+  parameters.max_slice_points = settings.max_slice_points;
+  parameters.slice_start = settings.slice_start;
+  parameters.threads = settings.threads;
+  return parameters;
+}
+
+CodingParameters coding_parameters(const LightField& field, const EncoderSettings& settings) {
+  const LightFieldHeader& header = field.header;
+  const bool texture = settings.coefficients == CoefficientCoder::kTexture;
+  CodingParameters parameters = coding_parameters(settings);
   parameters.step =
       texture ? texture_steps(header.basis, header.shift,
                               least_texture_steps(field.components, std::size_t(field.num_planes()),
                                                   settings.texture.bits),
                               settings.steps_by_norm)
               : quantiser_steps(header.basis, header.shift, settings.q, settings.steps_by_norm);
-  if (!texture) parameters.transform = settings.transform;
   for (auto& step : parameters.step)
     for (std::size_t c = texture ? 3 : 1; c < 3; ++c)
       step[c] = static_cast<std::uint32_t>(
@@ -41,13 +54,6 @@ CodingParameters coding_parameters(const LightField& field, const EncoderSetting
     if (settings.geometry == GeometryCoder::kOctree)
       parameters.geometry_level_ends = level_ends(header.grid.bits);
   }
-  parameters.predict = settings.predict;
-  parameters.rdo = settings.rdo;
-  parameters.quality_layers = settings.quality_layers;
-  parameters.base_levels = settings.base_levels;
-  parameters.max_slice_points = settings.max_slice_points;
-  parameters.slice_start = settings.slice_start;
-  parameters.threads = settings.threads;
   return parameters;
 }
 

@@ -107,8 +107,8 @@ void add_coding(std::vector<SettingRow>& rows) {
        number("quality-layers", SLF_AT(quality_layers), 1, 4,
               "Layers in which coefficients are coded, each at half of the step of the one before: "
               "quality is a cut of the file (--layers), for 1 to 2 % more bytes"),
-       number("normal-bits", SLF_AT(normal_bits), 0, 12,
-              "Code normals with 4 to 12 bits per coordinate; 0: not"),
+       number_or("0", 0, "normal-bits", SLF_AT(normal_bits), 4, 12,
+                 "Code normals with so many bits per coordinate; 0: not"),
        number_or("auto", kAutomaticBase, "base-levels", SLF_AT(base_levels), 0, 20,
                  "Octree levels coded once for all slices; 0: none, and one slice; auto: 24 "
                  "points or more in a cell of the base"),

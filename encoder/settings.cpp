@@ -262,8 +262,6 @@ Result<EncoderSettings, InputError> settings_from(const GivenSettings& all) {
   SLF_CHECK(choose_scales(given, settings.fit.basis));
   // More slices than one need a base, whatever the preset has.
   if (given.has("slice-points") && !given.has("base-levels")) settings.base_levels = kAutomaticBase;
-  if (settings.normal_bits > 0 && settings.normal_bits < 4)
-    return wrong("--normal-bits " + std::to_string(settings.normal_bits) + " is not 0, or 4 to 12");
   return settings;
 }
 

@@ -31,9 +31,6 @@ class AdaptiveBit {
     state_ = static_cast<std::uint32_t>(moved) << 10 | (n < limit ? n + 1 : n);
   }
 
-  /// A context never seen may start from what is known elsewhere. p1: 0 .. 65535.
-  void start_at(std::uint32_t p1) { state_ = p1 << 16; }
-
  private:
   /// round(65536 / (n + 1.5)). Spec table 8-1.
   SLF_TABLE_MEMBER std::array<std::uint32_t, 1024> kReciprocal = [] {

@@ -1,7 +1,9 @@
 // The contexts of a decision, declared by what selects them: index and size come from one place.
 #pragma once
 
+#include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 
 namespace slf {
@@ -11,6 +13,9 @@ namespace slf {
 template <std::uint32_t... kSizes>
 struct ContextShape {
   static constexpr std::uint32_t kCount = (1u * ... * kSizes);
+  /// The largest value in a place.
+  template <std::size_t kPlace>
+  static constexpr std::uint32_t kMost = std::array{kSizes...}[kPlace] - 1;
 
   template <class... Values>
   static constexpr std::uint32_t index(Values... values) {

@@ -11,17 +11,20 @@
 
 namespace slf {
 
-/// kModels tables of contexts, and a mixer with kSets sets of weights over them and a constant.
-template <std::size_t kModels, std::size_t kSets>
+/// A model for each shape of contexts, and a mixer with kSets sets of weights over them and a
+/// constant.
+template <std::size_t kSets, class... Shapes>
 class MixedBit {
  public:
-  static_assert(kModels < EightLanes::kCount);
+  static constexpr std::size_t kModels = sizeof...(Shapes);
+  static_assert(kModels < EightLanes::kCount, "a lane is the constant's");
+  /// Of all that it learns.
+  static constexpr std::size_t kBytes =
+      sizeof(ContextBit) * (Shapes::kCount + ...) + sizeof(EightLanes) * kSets;
 
-  /// sizes: number of contexts of each model.
-  explicit MixedBit(const std::array<std::uint32_t, kModels>& sizes)
-      : weights_(kSets, kFirstWeights / static_cast<int>(kModels)) {
-    for (std::size_t i = 0; i < kModels; ++i) models_[i].resize(sizes[i]);
-  }
+  MixedBit()
+      : models_{std::vector<ContextBit>(Shapes::kCount)...},
+        weights_(kSets, kFirstWeights / static_cast<int>(kModels)) {}
 
   /// A context of each model.
   using Contexts = std::array<ContextBit*, kModels>;

@@ -12,6 +12,7 @@
 #include "base/multiversion.h"
 #include "base/prefetch.h"
 #include "entropy/context_bit.h"
+#include "entropy/context_shape.h"
 #include "entropy/mixer.h"
 #include "geometry/occupancy_history.h"
 #include "geometry/occupancy_window.h"
@@ -33,8 +34,14 @@ struct OccupancyStates {
   /// points: of all slices; hashed contexts are as many as they can fill.
   explicit OccupancyStates(std::uint64_t points);
 
-  /// log2 of the number of contexts of each table that is not hashed. Spec table 8-3.
-  static constexpr int kFacesBits = 11, kCornerBits = 15;
+  // Tables that are not hashed. Spec table 8-3.
+  using Faces = ContextShape<256, 8>;     // 27 * 8 of them; child
+  using Corner = ContextShape<128, 256>;  // of the node; siblings
+  // Sets of weights.
+  using BySiblings = ContextShape<8, 256>;  // class of the node's neighbours; siblings
+  using ByDensity = ContextShape<22, 27>;   // level; cells around
+  using ByFaces = ContextShape<27 * 8>;
+
   static constexpr int kMostHashedBits = 18;
   static constexpr std::uint32_t kHashed = 3;
 
@@ -47,9 +54,19 @@ struct OccupancyStates {
   int hashed_bits;  ///< log2 of the number of contexts of a hashed table
   std::vector<ContextBit> faces, corner;
   std::array<std::vector<ContextBit>, kHashed> hashed;
-  WeightSets by_siblings{256 * 8, kFirstWeight};
-  WeightSets by_density{27 * 22, kFirstWeight};
-  WeightSets by_faces{27 * 8, kFirstWeight};
+  WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
+  WeightSets by_density{ByDensity::kCount, kFirstWeight};
+  WeightSets by_faces{ByFaces::kCount, kFirstWeight};
+
+  static constexpr int hashed_bits_of(std::uint64_t points) {
+    return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);
+  }
+  /// Of what states for so many points hold.
+  static constexpr std::size_t bytes(std::uint64_t points) {
+    return sizeof(ContextBit) *
+               (Faces::kCount + Corner::kCount + (std::size_t{kHashed} << hashed_bits_of(points))) +
+           sizeof(EightLanes) * (BySiblings::kCount + ByDensity::kCount + ByFaces::kCount);
+  }
 };
 
 class OccupancyModel {
@@ -112,6 +129,8 @@ class OccupancyModel {
     std::uint32_t next_neighbours_group, next_columns_group;
   };
 
+  using States = OccupancyStates;
+
   /// Rows of table 8-3.
   enum Hashed { kByNeighbours, kByColumns, kByCells };
 
@@ -144,7 +163,7 @@ class OccupancyModel {
       child.faces = outer_faces_of(around, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
       child.corner = corner_of(neighbours, c);
-      if (c < 6) prefetch(&states_.corner[child.corner << 8 | (1u << c)]);
+      if (c < 6) prefetch(&states_.corner[States::Corner::index(child.corner, 1u << c)]);
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
     }
@@ -173,14 +192,17 @@ class OccupancyModel {
     const unsigned in_cells = c < 4 ? coded : coded >> (c - 3);
     const std::array<ContextBit*, 5> selected = {
         // spec table 8-3
-        &states_.faces[faces * 8 + c], &states_.corner[child.corner << 8 | siblings],
+        &states_.faces[States::Faces::index(faces, c)],
+        &states_.corner[States::Corner::index(child.corner, siblings)],
         &states_.hashed[kByNeighbours][node.neighbours_group + in_node],
         &states_.hashed[kByColumns][node.columns_group + in_node],
         &states_.hashed[kByCells][child.group + in_cells]};
     const SelectedContexts<5> contexts(selected);
-    const Mixed<3> mixed(contexts.inputs(),
-                         {&states_.by_siblings[node.neighbours_class * 256 + siblings],
-                          &states_.by_density[level_ * 27 + occupied], &states_.by_faces[faces]});
+    const Mixed<3> mixed(
+        contexts.inputs(),
+        {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
+         &states_.by_density[States::ByDensity::index(level_, occupied)],
+         &states_.by_faces[States::ByFaces::index(faces)]});
     const unsigned bit = coder.bit(mixed.p1(), occupancy >> c & 1u);
     mixed.update(bit, states_.rate);
     contexts.update(bit);

@@ -25,12 +25,9 @@ std::vector<std::uint32_t> weights_before(std::span<const std::uint8_t> classes)
   return before;
 }
 
-WeightClassModel::WeightClassModel(const OctreeLevel& cells)
-    : cells_(&cells),
-      more_({4 * kBesideSums * kMostWeightClass, (1u << kFaces.size()) * kMostWeightClass,
-             256 * kMostWeightClass}) {}
+WeightClassModel::WeightClassModel(const OctreeLevel& cells) : cells_(&cells) {}
 
-std::array<std::uint32_t, WeightClassModel::kModels> WeightClassModel::next_contexts() {
+std::array<std::uint32_t, 3> WeightClassModel::next_contexts() {
   const std::size_t n = classes_.size();
   const auto& codes = cells_->morton;
   if (n == family_end_) {
@@ -45,7 +42,7 @@ std::array<std::uint32_t, WeightClassModel::kModels> WeightClassModel::next_cont
     if (i < 3)
       beside += kBesideSums + classes_[cells_->neighbour(n, static_cast<std::size_t>(kFaces[i]))];
   }
-  return {beside * kMostWeightClass, faces * kMostWeightClass, family_ * kMostWeightClass};
+  return {Beside::index(beside, 0), Faces::index(faces, 0), Family::index(family_, 0)};
 }
 
 }  // namespace slf

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 #include "geometry/octree_levels.h"
 
@@ -43,17 +44,20 @@ class WeightClassModel {
   const std::vector<std::uint8_t>& classes() const { return classes_; }
 
  private:
-  static constexpr std::size_t kModels = 3;
+  /// The last: the class so far.
+  using Beside = ContextShape<4 * (3 * kMostWeightClass + 1), kMostWeightClass>;
+  using Faces = ContextShape<1u << 6, kMostWeightClass>;
+  using Family = ContextShape<1u << 8, kMostWeightClass>;
 
   /// Of the decision whether the next cell's class is more than 0; those of more than k are k
   /// behind.
-  std::array<std::uint32_t, kModels> next_contexts();
+  std::array<std::uint32_t, 3> next_contexts();
 
   const OctreeLevel* cells_;
   std::vector<std::uint8_t> classes_;
   std::size_t family_end_ = 0;  // first cell that has another parent than the latest
   std::uint32_t family_ = 0;    // occupancy of that parent
-  MixedBit<kModels, kMostWeightClass> more_;
+  MixedBit<kMostWeightClass, Beside, Faces, Family> more_;
 };
 
 }  // namespace slf

@@ -32,8 +32,19 @@ LAYERS = {
     'exchange': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'render'],
     'capi': ['slf', 'base', 'bitstream', 'lightfield', 'render', 'codec'],
     'tools': ['slf'],
+    'python': ['slf'],
     'examples': ['slf'],
 }
+
+
+NOT_CODE = {'bench', 'build', 'cmake', 'conformance', 'docs', 'fuzz', 'include', 'spec', 'tests', 'web'}  # or tests of it
+
+
+def unknown_folders(root):
+    for folder in sorted(root.iterdir()):
+        known = folder.name in LAYERS or folder.name in NOT_CODE or folder.name.startswith(('build', '.'))
+        if folder.is_dir() and not known and [*folder.glob('**/*.cpp')]:
+            yield f'{folder.name}: not in LAYERS'
 
 
 def wrong_includes(root):
@@ -47,7 +58,8 @@ def wrong_includes(root):
 
 
 def main():
-    wrong = list(wrong_includes(pathlib.Path(sys.argv[1])))
+    root = pathlib.Path(sys.argv[1])
+    wrong = [*unknown_folders(root), *wrong_includes(root)]
     print('\n'.join(wrong))
     sys.exit(1 if wrong else 0)
 

@@ -11,6 +11,7 @@
 #include "entropy/eight_lanes.h"
 #include "entropy/log_class.h"
 #include "entropy/logistic.h"
+#include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 #include "entropy/mixer.h"
 #include "entropy/range_decoder.h"
@@ -239,12 +240,12 @@ TEST(Spec_8_3_5_MixedDecision, IsCodedByTheModelThatKnows) {
     contexts.push_back({bits.back(), static_cast<std::uint32_t>(random() % 16)});  // truth, noise
   }
   RangeEncoder encoder;
-  MixedBit<2, 1> written({2, 16});
+  MixedBit<1, ContextShape<2>, ContextShape<16>> written;
   for (std::size_t i = 0; i < bits.size(); ++i) written.code(encoder, contexts[i], 0, bits[i]);
   const auto bytes = encoder.finish();
   EXPECT_LT(bytes.size(), 4000 / 8 / 20);
   RangeDecoder decoder(bytes);
-  MixedBit<2, 1> read({2, 16});
+  MixedBit<1, ContextShape<2>, ContextShape<16>> read;
   for (std::size_t i = 0; i < bits.size(); ++i)
     ASSERT_EQ(read.code(decoder, contexts[i], 0, 0), bits[i]);
   EXPECT_TRUE(decoder.finish("test"));

@@ -140,18 +140,8 @@ Result<EncoderSettings, Failure> coding_settings(const PackOptions& given) {
 Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
                                                     const LightField& field) {
   const auto functions = static_cast<std::size_t>(field.header.num_functions);
-  CodingParameters parameters;
   SLF_TRY(const EncoderSettings coding, coding_settings(given));
-  parameters.geometry = coding.geometry;
-  parameters.coefficients = coding.coefficients;
-  parameters.texture = coding.texture;
-  parameters.predict = coding.predict;
-  parameters.rdo = coding.rdo;
-  parameters.quality_layers = coding.quality_layers;
-  parameters.transform = coding.transform;
-  parameters.base_levels = coding.base_levels;
-  parameters.max_slice_points = coding.max_slice_points;
-  parameters.slice_start = coding.slice_start;
+  CodingParameters parameters = coding_parameters(coding);
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
   if (coding.coefficients != CoefficientCoder::kTexture)

@@ -210,7 +210,7 @@ struct VoxelCloud {
 };
 
 /// voxel = floor((x - min) / step + 1/2), step = largest extent / (2^bits - 1), or `voxel_size`
-/// where > 0 (then bits is what it takes). DESIGN section 3, spec 6.1 (informative there).
+/// where > 0 (then bits is what it takes). Spec 6.1 (informative there).
 /// @param bits  1 .. 21; ignored where voxel_size > 0
 /// @errors kInvalidInput: no points; NaN or Inf; all points in one voxel (a cloud of two or more);
 ///         voxel_size so small that more than 21 bits are needed.

@@ -47,9 +47,9 @@ struct DecodeOptions {
 /// @return the light field, bit exact on every platform. A stream cut at a unit boundary gives a
 ///         light field marked partial; any other damage gives nothing.
 /// @errors kNotSlf, kTruncated, kChecksum, kOutOfRange, kReserved: damaged or foreign.
-///         kUnsupported: newer major version, unknown profile. kLimitExceeded: larger than the
-///         limits, by its headers. kInvalidArgument: levels, groups or layers beyond what it has.
-///         kCancelled.
+///         kUnsupported: another version of the format, unknown profile. kLimitExceeded: larger
+///         than the limits, by its headers. kInvalidArgument: levels, groups or layers beyond what
+///         it has. kCancelled.
 /// @throws std::bad_alloc only. Thread-safe: no shared state. O(P * K) time and memory.
 /// Source: spec clause 8.
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options = {});

@@ -79,17 +79,24 @@ struct CodingParameters {
   /// There are as many slices as give this many points each, about. One with Draco or a texture
   std::uint32_t max_slice_points = kDefaultSlicePoints;
   SliceStart slice_start = SliceStart::kShared;
-  bool digest = true;
-  bool index = true;
+  bool digest = true;  ///< a checksum of what each slice decodes to. Spec 7.9
+  bool index = true;   ///< where every unit is, so that a part can be read alone. Spec 7.7
   Metadata metadata;
-  int threads = 0;
+  int threads = 0;  ///< 0: all cores
 };
+
+struct EncoderSettings;
+
+/// Those that the settings of an encoder have, too; steps, groups and level ends follow from the
+/// light field.
+CodingParameters coding_parameters(const EncoderSettings& settings);
 
 /// Codes an integer light field (`slf pack`, and the last step of encode).
 /// Positions may come in any order; they are sorted, components and normals with them.
 /// @errors kInvalidArgument: duplicate or out-of-grid positions, sizes that do not fit together, a
 ///         component too large for its slice (|c| * sqrt(points) must stay below 2^27), a parameter
-///         out of range. kUnsupported: Draco was left out of this build.
+///         out of range. kUnsupported: Draco, or x265 for textures, was left out of this build.
+/// Thread-safe. O(points (levels + planes)).
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& light_field,
                                                    const CodingParameters& parameters = {});
 

@@ -12,13 +12,14 @@ namespace slf {
 
 /// What went wrong. One value per kind of remedy, not per site; the site is in the message.
 enum class Errc : std::uint8_t {
-  kNotSlf,         ///< the signature is missing: another kind of file
-  kTruncated,      ///< the stream ends inside a unit
-  kChecksum,       ///< a CRC-32 or a digest does not match
-  kOutOfRange,     ///< a syntax element is outside the range of its clause
-  kReserved,       ///< a reserved bit or value is in use
-  kUnsupported,    ///< newer major version, unknown profile, or a component left out of this build
-  kLimitExceeded,  ///< sound, but larger than the caller's DecodeLimits
+  kNotSlf,           ///< the signature is missing: another kind of file
+  kTruncated,        ///< the stream ends inside a unit
+  kChecksum,         ///< a CRC-32 or a digest does not match
+  kOutOfRange,       ///< a syntax element is outside the range of its clause
+  kReserved,         ///< a reserved bit or value is in use
+  kUnsupported,      ///< another version of the format, unknown profile, or a component left out of
+                     ///< this build
+  kLimitExceeded,    ///< sound, but larger than the caller's DecodeLimits
   kInvalidArgument,  ///< a setting or an argument outside its documented range
   kUnreadable,       ///< a file is missing or cannot be read
   kInvalidInput,     ///< a file was read and its content cannot be used

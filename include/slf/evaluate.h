@@ -67,8 +67,7 @@ struct Quality {
 
 /// Point PSNR: over every decoded point, every given camera valid under δ′, three channels: mean
 /// squared error of radiance clamped and rounded to 8 bit, peak 255. Normals and visibility are
-/// those of the capture (nearest point), so that all codecs are judged on one set. Spec annex D,
-/// DESIGN 7.
+/// those of the capture (nearest point), so that all codecs are judged on one set. Spec annex D.
 /// @errors kInvalidArgument: no cameras or points, a camera index or δ′ out of range; those of
 ///         observe, load_image and settings.error_map.
 /// The same for any thread count, but for render_seconds.

@@ -5,7 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "attributes/coefficient_decoder.h"
 #include "base/monitor.h"
+#include "geometry/occupancy_model.h"
 
 namespace slf {
 
@@ -36,6 +38,24 @@ class SharedStates {
   std::vector<std::optional<States>> states_;  // [units] once set, never changed
   bool closed_ = false;
   Monitor monitor_;
+};
+
+/// Also where a step throws: others would wait for ever.
+template <class States>
+struct CloseAtEnd {
+  SharedStates<States>& states;
+  bool leads;  ///< is it slice 0 that ends?
+  ~CloseAtEnd() {
+    if (leads) states.close();
+  }
+};
+
+/// By place in the list of slice 0's units.
+struct SliceLead {
+  explicit SliceLead(std::size_t units) : geometry(units), coefficients(units) {}
+
+  SharedStates<OccupancyStates> geometry;
+  SharedStates<CoefficientStates> coefficients;
 };
 
 }  // namespace slf
