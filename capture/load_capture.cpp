@@ -1,28 +1,21 @@
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
 #include "capture/crop.h"
+#include "capture/file_names.h"
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
+#include "capture/mesh_formats.h"
 #include "capture/mesh_sampling.h"
 #include "capture/mesh_sides.h"
+#include "capture/read_scan.h"
+#include "capture/wkt.h"
 
 namespace slf {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 // COLMAP's three files, by the one that cameras are in.
 std::optional<std::string> colmap_extension(const fs::path& directory) {
@@ -47,13 +40,13 @@ Result<Import, InputError> import_json(const fs::path& file) {
 }
 
 Result<Import, InputError> import_file(const fs::path& file) {
-  const std::string extension = lower(file.extension().string());
+  const std::string extension = extension_of(file);
   if (extension == ".json") return import_json(file);
   const std::string stem = file.stem().string();
   const bool colmap = stem == "cameras" || stem == "images" || stem == "points3D";
   if (colmap && (extension == ".bin" || extension == ".txt"))
     return import_colmap(file.parent_path(), extension);
-  if (extension == ".ply") {
+  if (extension == ".ply" || is_scan(file)) {
     Import import;
     import.capture.root = file.parent_path();
     import.cloud_file = file;
@@ -79,7 +72,8 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
 // The file that the format names, else one of a usual name; empty where there is none.
 fs::path geometry_file(const Import& import) {
   if (!import.cloud_file.empty() && is_file(import.cloud_file)) return import.cloud_file;
-  for (const char* name : {"points.ply", "mesh.ply", "mesh.obj", "mesh.glb"})
+  for (const char* name :
+       {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb"})
     if (is_file(import.capture.root / name)) return import.capture.root / name;
   return import.cloud_file;
 }
@@ -124,6 +118,15 @@ Result<Done, InputError> crop_or_warn(const std::string& name, const CaptureOpti
   return Done{};
 }
 
+// Reads the cloud or mesh, and what a scan says of its coordinates.
+Result<Mesh, InputError> read_geometry(const fs::path& file, Capture& capture) {
+  if (!is_scan(file)) return read_mesh(file, &capture.warnings);
+  SLF_TRY(Scan scan, read_scan(file, &capture.warnings));
+  SLF_CHECK(check_mesh(file.string(), scan.points));
+  if (is_wkt(scan.crs)) capture.crs = std::move(scan.crs);
+  return std::move(scan.points);
+}
+
 // Scanners' programs write it beside the cloud.
 void take_crs(fs::path file, Capture& capture) {
   file.replace_extension(".prj");
@@ -139,7 +142,7 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
   auto& capture = import.capture;
   const fs::path file = !options.points.empty() ? options.points : geometry_file(import);
   if (!file.empty()) {
-    SLF_TRY(Mesh mesh, read_mesh(file, &capture.warnings));
+    SLF_TRY(Mesh mesh, read_geometry(file, capture));
     take_crs(file, capture);
     take_origin(mesh.vertices, capture);
     SLF_CHECK(crop_or_warn(file.string(), options, capture, mesh));

@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
                                              "nz", "red", "green", "blue"};
+constexpr std::array<const char*, 9> kAlsoNamed{
+    // PDAL's normals
+    "x", "y", "z", "normalx", "normaly", "normalz", "red", "green", "blue"};
 constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
 constexpr std::size_t kMostHeader = std::size_t{1} << 20;
 using Row = std::array<double, kWanted.size()>;
@@ -35,7 +38,8 @@ Columns columns_of(const PlyElement& vertex) {
   for (const auto& property : vertex.properties) {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < kWanted.size(); ++i)
-      if (!property.is_list && property.name == kWanted[i]) found = i;
+      if (!property.is_list && (property.name == kWanted[i] || property.name == kAlsoNamed[i]))
+        found = i;
     if (found) {
       columns.present[*found] = true;
       columns.type[*found] = property.type;

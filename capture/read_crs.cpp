@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "capture/wkt.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -16,7 +17,8 @@ constexpr std::array<std::string_view, 18> kKeywords{
     "GEODCRS", "GEOGCRS",  "PROJCRS",     "GEODETICCRS",  "VERTCRS",     "GEOGRAPHICCRS",
     "ENGCRS",  "BOUNDCRS", "COMPOUNDCRS", "PROJECTEDCRS", "VERTICALCRS", "ENGINEERINGCRS"};
 
-/// KEYWORD["name", ...], with as many brackets as it takes.
+}  // namespace
+
 bool is_wkt(std::string_view text) {
   const std::size_t end = text.find_first_of("[(");
   if (end == std::string_view::npos) return false;
@@ -33,8 +35,6 @@ bool is_wkt(std::string_view text) {
   }
   return open == 0 && !quoted;
 }
-
-}  // namespace
 
 Result<std::string, InputError> read_crs(const std::filesystem::path& file) {
   SLF_TRY(const auto bytes, read_file(file, kMostBytesOfCrs));

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/file_names.h"
 #include "capture/mesh_formats.h"
 #include "capture/ply_reader.h"
+#include "capture/read_scan.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -12,22 +14,13 @@ namespace {
 
 constexpr std::uint64_t kMostBytesOfMesh = std::uint64_t{1} << 31;  // of an OBJ or GLB file
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
 Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
                                            std::vector<std::string>* warnings) {
   const std::string extension = extension_of(file);
-  if (extension == ".las" || extension == ".laz" || extension == ".e57")
-    return InputError{Errc::kUnsupported,
-                      file.string() +
-                          ": scans of this format are not read here: with PDAL's pdal " +
-                          "translate " + file.filename().string() +
-                          " points.ply --writers.ply.precision=6f they become a PLY, which is"};
+  if (is_scan(file)) {
+    SLF_TRY(Scan scan, read_scan(file, warnings));
+    return std::move(scan.points);
+  }
   if (extension != ".obj" && extension != ".glb") return read_ply_mesh(file, true, warnings);
   SLF_TRY(const auto bytes, read_file(file, kMostBytesOfMesh));
   if (extension == ".obj") return parse_obj(file.string(), bytes);

@@ -247,13 +247,6 @@ TEST_F(SceneTest, ADamagedPlanIsRefusedByItsElement) {
   expect_failure(part("1/1", "x.slf"), 4, "plan.json", "");
 }
 
-TEST_F(SceneTest, AScanIsRefusedWithTheCommandThatMakesAPlyOfIt) {
-  write("scan.laz", "LASF");
-  const Ran ran = slf("encode street -o x.slf --points scan.laz");
-  EXPECT_NE(ran.code, 0);
-  EXPECT_NE(ran.err.find("pdal translate scan.laz"), std::string::npos) << ran.err;
-}
-
 TEST_F(SceneTest, TwoProcessesOnOnePartDoNotDisturbEachOther) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("1/1", "alone.slf").code, 0);

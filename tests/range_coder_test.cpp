@@ -8,10 +8,10 @@
 
 #include "entropy/binarisation.h"
 #include "entropy/context_bit.h"
+#include "entropy/context_shape.h"
 #include "entropy/eight_lanes.h"
 #include "entropy/log_class.h"
 #include "entropy/logistic.h"
-#include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 #include "entropy/mixer.h"
 #include "entropy/range_decoder.h"

@@ -9,15 +9,17 @@ namespace {
 void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   verb.add_option("CAPTURE", o.capture,
                   "Directory with cameras.json, a COLMAP model or transforms.json; or one of those "
-                  "files; or a coloured .ply alone (docs/captures.md)")
+                  "files; or a coloured cloud alone (docs/captures.md)")
       ->type_name("")
       ->required();
   verb.add_option("-o,--output", o.output,
                   std::string("The ") + file + " file; - is standard output")
       ->type_name("FILE")
       ->required();
-  verb.add_option("--points", o.points,
-                  "Cloud (PLY) or mesh (PLY with faces, OBJ, GLB) in place of the capture's own")
+  verb.add_option(
+          "--points", o.points,
+          "Cloud (PLY; LAS, LAZ, E57 with PDAL) or mesh (PLY with faces, OBJ, GLB) in place of the "
+          "capture's own")
       ->type_name("FILE");
   verb.add_option(
           "--crop", o.crop,

@@ -86,7 +86,8 @@ struct Capture {
   std::shared_ptr<ImageCache> cache;               ///< what load_image keeps; or none
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;
-  std::string crs;  ///< what coordinates mean, as WKT: of a .prj beside the cloud; or empty
+  std::string
+      crs;  ///< what coordinates mean, as WKT: of a .prj beside the cloud, of a scan; or empty
   std::vector<std::string> warnings;  ///< one line each, for the person to read
 };
 
@@ -105,9 +106,9 @@ struct CaptureOptions {
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
 /// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0 or sparse), or
-/// transforms.json; or one of those files; or a lone .ply (a cloud without cameras).
-/// Every value is checked as `docs/captures.md` lists; what is suspicious but usable becomes a
-/// warning.
+/// transforms.json; or one of those files; or a lone .ply, .las, .laz or .e57 (a cloud without
+/// cameras). Every value is checked as `docs/captures.md` lists; what is suspicious but usable
+/// becomes a warning.
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
@@ -139,10 +140,11 @@ Result<Done, InputError> write_png(const std::filesystem::path& file, const Imag
 /// one warning appended to `warnings`.
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings = nullptr);
-/// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension. Polygons are taken apart
+/// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension; LAS, LAZ and E57 with the
+/// program `pdal` of PDAL where it is on PATH (docs/captures.md). Polygons are taken apart
 /// into fans; nodes of a GLB are put where they stand; materials, textures and points that no face
 /// has are left out.
-/// @errors kUnreadable. kUnsupported: a scan (LAS, LAZ, E57), and what makes a PLY of it.
+/// @errors kUnreadable. kUnsupported: a scan (LAS, LAZ, E57) without PDAL.
 ///         kInvalidInput: names the file, the face or vertex and the cause: an index
 ///         that is no vertex, a coordinate that is not finite, a damaged file, no vertices.
 ///         Bounded: OBJ and GLB files of up to 2 GiB, scenes of up to 2^24 triangles.

@@ -1,0 +1,28 @@
+// Scanners' own formats, by PDAL. The adapter of its program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+struct Scan {
+  Mesh points;      ///< without faces
+  std::string crs;  ///< as WKT, where the file has one
+};
+
+/// Is it LAS, LAZ or E57, by its name?
+bool is_scan(const std::filesystem::path& file);
+
+/// Reads what `pdal` reads: it makes a PLY of it, in a temporary file of some 40 bytes a point.
+/// Coordinates stay doubles. Colours of 16 bits that are all below 256 are taken for 8 bits.
+/// @errors kUnreadable; kUnsupported: no PDAL on this machine; kInvalidInput: PDAL refuses it,
+/// those
+///         of a PLY
+Result<Scan, InputError> read_scan(const std::filesystem::path& file,
+                                   std::vector<std::string>* warnings);
+
+}  // namespace slf
