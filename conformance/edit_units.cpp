@@ -63,6 +63,18 @@ void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
   unit.payload = out.take();
 }
 
+void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
+               const std::vector<std::uint32_t>& modes) {
+  PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, set);
+  if (part.header.cu_prediction.size() != modes.size()) return;
+  part.header.cu_prediction.assign(modes.begin(), modes.end());
+  BitWriter out;
+  WriteSyntax write{out};
+  slice_unit_header(write, part.header, unit.type, set);
+  out.append(part.payload);
+  unit.payload = out.take();
+}
+
 Bytes packed_bare(const LightField& field, CodingParameters parameters) {
   parameters.index = parameters.digest = false;
   auto stream = pack(field, parameters);

@@ -32,6 +32,10 @@ Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit);
 void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
                 const SequenceParameterSet& after, const Bytes& matrix,
                 std::optional<std::uint32_t> bytes = {});
+/// A coefficient unit of a slice that says of its levels how they are predicted.
+void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
+               const std::vector<std::uint32_t>& modes);
+
 /// Without index and digests.
 Bytes packed_bare(const LightField& field, CodingParameters parameters);
 

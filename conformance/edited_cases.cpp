@@ -38,6 +38,26 @@ LightField heavy_cell() {
   return f;
 }
 
+/// 64 points in one node of every level to 3, and a point apart that moves them beyond the clamp
+/// of their cell row: level 1 is not corrected, level 2 has nodes of a single child alone.
+Bytes with_lone_children() {
+  std::vector<Voxel> voxels = {{8, 15, 15}};
+  for (std::int32_t i = 0; i < 63; ++i) voxels.push_back({i % 4, i / 4 % 4, i / 16});
+  LightField f = field(sorted(std::move(voxels)), 5, 1);
+  for (std::size_t p = 0; p < f.num_points(); ++p)
+    for (std::size_t c = 0; c < 3; ++c)
+      f.components[3 * p + c] = (p + 1 == f.num_points() ? -5000000 : 10000000) >> c;
+  CodingParameters p = with_steps(1, 1);
+  p.base_levels = 1;
+  p.base_weight = 1;
+  p.predict = true;
+  return edited(Bytes(with_greater_steps(f, p, 8)), [](Units& units) {
+    const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
+    for (EditableUnit& unit : units)
+      if (unit.type == UnitType::kCoefficients) set_modes(unit, set, {0, 1, 0, 0});
+  });
+}
+
 void add_clamps(std::vector<Case>& cases) {
   CodingParameters p = with_steps(1, 1);
   p.base_levels = 1;
@@ -46,6 +66,10 @@ void add_clamps(std::vector<Case>& cases) {
                              with_greater_steps(heavy_cell(), p, 8));
   cell.levels = {1, 2, 3};
   cases.push_back(cell);
+  cases.push_back(case_of_stream("lone-children",
+                                 "a value beyond 2^29 that no correction clamps, as its node has "
+                                 "a single child",
+                                 {"8.7.6"}, with_lone_children()));
   LightField greatest = field(scattered(40, 3, 12), 3, 1, 19000000);
   cases.push_back(case_of_stream("greatest-coefficients", "coefficients up to 2^27 - 1",
                                  {"8.7.4", "8.8.2"}, packed_bare(greatest, with_steps(1, 1))));

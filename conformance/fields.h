@@ -42,15 +42,17 @@ inline std::vector<Voxel> lattice(std::int32_t nx, std::int32_t ny, std::int32_t
   return sorted(voxels);
 }
 
-/// Surface voxels of a sphere; every `thin`-th dropped at random.
-inline std::vector<Voxel> sphere(int bits, std::uint32_t thin = 0) {
+/// Surface voxels of a sphere in the middle of the grid; every `thin`-th dropped at random.
+/// radius: 0: as large as the grid
+inline std::vector<Voxel> sphere(int bits, std::uint32_t thin = 0, std::int32_t radius = 0) {
   Random random(11);
-  const std::int32_t side = 1 << bits, r = side / 2 - 1;
+  const std::int32_t side = 1 << bits, middle = side / 2 - 1, r = radius > 0 ? radius : middle;
   std::vector<Voxel> voxels;
   for (std::int32_t z = 0; z < side; ++z)
     for (std::int32_t y = 0; y < side; ++y)
       for (std::int32_t x = 0; x < side; ++x) {
-        const std::int32_t d = (x - r) * (x - r) + (y - r) * (y - r) + (z - r) * (z - r);
+        const std::int32_t d =
+            (x - middle) * (x - middle) + (y - middle) * (y - middle) + (z - middle) * (z - middle);
         if (d <= r * r && d > (r - 1) * (r - 1) && (thin == 0 || random.below(thin) != 0))
           voxels.push_back({x, y, z});
       }

@@ -6,9 +6,9 @@ namespace slf::conformance {
 namespace {
 
 Case slices() {
-  Case c = case_of("slices", "several slices", {"7.3", "8.2"}, field(sphere(6), 6, 3),
+  Case c = case_of("slices", "several slices", {"7.3", "8.2"}, field(sphere(5), 5, 3),
                    with_steps(3, 32));
-  c.parameters.max_slice_points = 1500;
+  c.parameters.max_slice_points = 400;
   return c;
 }
 

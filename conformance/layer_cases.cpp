@@ -121,6 +121,17 @@ std::vector<Case> layer_cases() {
     c.keep_units = units;
     cases.push_back(c);
   }
+  Case runs = layered("layers-of-runs", "a group of three runs", {2, 3}, 0, 1u << 20);
+  runs.field = field(sphere(4), 4, 12);
+  for (std::size_t i = 0; i < runs.field.components.size(); ++i)
+    if (i / 3 % 12 > 5) runs.field.components[i] /= 8;  // less in the last run, often nothing
+  runs.parameters = with_steps(12, 30);
+  runs.parameters.group = {0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  runs.parameters.base_levels = 0;
+  runs.parameters.group_layers = {2, 3};
+  runs.levels = {2};
+  runs.groups = {1};
+  cases.push_back(runs);
   add_layer_cuts(cases);
   return cases;
 }

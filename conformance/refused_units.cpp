@@ -57,7 +57,9 @@ void add_headers(std::vector<RefusedCase>& cases) {
     add(metres == 0  ? "metres-zero"
         : metres < 0 ? "metres-negative"
                      : "metres-infinite",
-        "a unit of no length",
+        metres == 0  ? "a unit of no length"
+        : metres < 0 ? "a unit of less than no length"
+                     : "a unit without end",
         [&](auto& s) { s.sps_metres_flag = 1, s.sps_metres_per_unit = metres; });
   add("functions-too-many", "4097 functions",
       [](auto& s) { s.sps_num_functions = 4097, s.runs[0].sps_run_length_minus1 = 4096; });
@@ -67,8 +69,6 @@ void add_headers(std::vector<RefusedCase>& cases) {
       [](auto& s) { s.runs[0].sps_plane_group = 1; });
   add("geometry-coder", "Draco in the main profile", [](auto& s) { s.sps_geometry_coder = 1; });
   add("geometry-coder-two", "an unknown geometry coder", [](auto& s) { s.sps_geometry_coder = 2; });
-  add("coefficient-coder", "an unknown coefficient coder",
-      [](auto& s) { s.sps_coefficient_coder = 3; });
   add(
       "normal-bits-most", "normals of 13 bits", [](auto& s) { s.sps_normal_bits = 13; }, 2, 12);
   add("cut-levels-most", "a cut to more levels than there are",
@@ -120,7 +120,7 @@ void add_range_without_rows(Units& units) {
   edit_sequence(units, [](SequenceParameterSet& set) {
     set.sps_num_coefficient_ranges_minus1 = 1, set.sps_coefficient_range_end = {2};
   });
-  first_of(units, UnitType::kSlices).payload = bits("1");  // one point: row 0 alone
+  first_of(units, UnitType::kSlices).payload = bits("11");  // one point: row 0 alone
   units.erase(units.begin() + 2, units.end() - 1);
   const std::string numbers[] = {"1", "1", "111", "01011"};
   const UnitType types[] = {UnitType::kGeometry, UnitType::kNormals, UnitType::kCoefficients,
@@ -139,6 +139,10 @@ void add_range_without_rows(Units& units) {
   }
 }
 
+const char* clause_of(UnitType type) {
+  return type == UnitType::kGeometry ? "7.4" : type == UnitType::kNormals ? "7.5" : "7.6";
+}
+
 void add_parts(std::vector<RefusedCase>& cases) {
   const auto add = [&](const char* id, const char* purpose, const char* clause, const Bytes& stream,
                        const Edit& edit) {
@@ -148,7 +152,7 @@ void add_parts(std::vector<RefusedCase>& cases) {
   for (const auto& [id, type] : {std::pair{"geometry-alignment", UnitType::kGeometry},
                                  std::pair{"normals-alignment", UnitType::kNormals},
                                  std::pair{"coefficients-alignment", UnitType::kCoefficients}})
-    add(id, "a bit before the codeword that is not 0", "7.4", plain,
+    add(id, "a bit before the codeword that is not 0", clause_of(type), plain,
         [part = type](Units& units) { first_of(units, part).payload[0] |= 1; });
   add("slices-longer", "a byte after the slices", "3.3", plain,
       [](Units& units) { first_of(units, UnitType::kSlices).payload.push_back(0); });

@@ -5,7 +5,7 @@
     trace.py --write           writes them
     trace.py STREAM.slf [--decisions N] [--rows N]    prints the trace of a stream
 
-A trace is what the text decoder, spec/decoder.py, does: of every unit the first decisions with range, code and probability before
+A trace is what the text decoder, spec/decoder.py, does: of every unit the first decisions, and the first of every kind, with range, code and probability before
 them, what selected their contexts, and what the unit gave; the transform tree; quantised vectors; the values of the rows after
 every level; what is given out. Numbers are decimal but range and code. Needs numpy. Exit code: 0, 1: a trace is not current.
 """
@@ -18,9 +18,11 @@ sys.path.insert(0, str(HERE.parent.parent / "spec"))
 import decoder as text  # noqa: E402
 
 STREAMS = """two-points small-noise fewest-contexts small-vector large-means deep-grid transforms-apart normals-alone
-cell-rows-clamped beginning-16""".split()
-SHORTER = {"deep-grid": (4, 4), "beginning-16": (8, 6)}         # decisions of a unit and rows; others (12, 8)
-NAMES = {text.GEOMETRY: "geometry", text.NORMALS: "normals", text.COEFFICIENTS: "coefficients"}
+cell-rows-clamped beginning-16 small-flat lone-children layers-of-runs apart-prefix-20""".split()
+SHORTER = {"deep-grid": (4, 4), "beginning-16": (8, 6), "apart-prefix-20": (8, 6)}      # decisions of a unit and rows; others (12, 8)
+OF_A_KIND = 3                                                   # of every kind of a unit's decisions, be they late
+NAMES = {text.GEOMETRY: "geometry", text.NORMALS: "normals", text.COEFFICIENTS: "coefficients",
+         text.REFINEMENT: "refinement"}
 
 
 def part_name(part):
@@ -33,7 +35,7 @@ class Trace:
 
     def __init__(self, decisions, rows):
         self.most, self.rows, self.lines = decisions, rows, []
-        self.about, self.count = "", 0
+        self.about, self.count, self.seen = "", 0, {}
 
     def say(self, line):
         if line:
@@ -61,9 +63,9 @@ class Trace:
     # what the functions of the text decoder are wrapped in
 
     def begin_unit(self, part, kind):
-        numbers = "".join(f", {name} {number}" for name, number in zip(("level range", "group"), kind[1:]))
+        numbers = "".join(f", {name} {number}" for name, number in zip(("level range", "group", "layer"), kind[1:]))
         self.say(f"\n{NAMES[kind[0]]} of {part_name(part)}{numbers}")
-        self.count = 0
+        self.count, self.seen = 0, {}
 
     def modes_read(self, _result, field, part, kind, _reader):
         modes = [mode for (group, _), mode in sorted(part.modes.items()) if group == kind[2]]
@@ -74,7 +76,11 @@ class Trace:
 
     def after_decision(self, bit, _decoder, p):
         self.count += 1
-        if self.count <= self.most:
+        kind = self.about.split(":")[0] if "set " in self.about else "" if "child" in self.about else "prefix"
+        if kind == "magnitude":
+            kind += str(int(self.about.split()[-1]) // 16 % 3)          # its channel
+        self.seen[kind] = self.seen.get(kind, 0) + 1
+        if self.count <= self.most or kind and self.seen[kind] <= OF_A_KIND:
             self.say(f"  {self.count:4} {p:5} {self.state[0]:08x} {self.state[1]:08x} {bit}  {self.about}")
         self.about = ""
 
