@@ -49,4 +49,10 @@ inline std::span<const Merge> merges_below(const RahtTree& tree, std::size_t cel
 /// Position in tree.order of the first row whose split is below `bit`.
 std::size_t order_end(const RahtTree& tree, int bit);
 
+/// Position in tree.order of the first row of an octree level, which is joined by the splits
+/// 3 (grid_bits - 1 - level) .. + 2; row 0 comes before all levels.
+inline std::size_t order_at(const RahtTree& tree, int grid_bits, std::uint32_t level) {
+  return level == 0 ? 0 : order_end(tree, 3 * (grid_bits - static_cast<int>(level)));
+}
+
 }  // namespace slf

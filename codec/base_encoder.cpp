@@ -3,40 +3,10 @@
 #include <numeric>
 
 #include "attributes/raht_forward.h"
-#include "entropy/range_encoder.h"
+#include "codec/component_encoder.h"
 #include "geometry/octree_encoder.h"
 
 namespace slf {
-namespace {
-
-/// The units of a layer of the coefficients.
-void encode_layer(const SliceCoding& coding, const RahtTree& tree, std::uint32_t layer,
-                  EncodedBase& base) {
-  const SequenceParameterSet& set = coding.set;
-  std::vector<std::int32_t> values = values_of_layer(coding, layer, base.coefficients);
-  const CoefficientRows rows{tree, values, coding.planes()};
-  std::size_t begin = 0;
-  for (std::uint32_t r = 0; r < set.base_coefficient_ranges(); ++r) {
-    const int level = static_cast<int>(set.coefficient_end(r));
-    const std::size_t end = order_end(tree, 3 * (coding.grid_bits() - level));
-    for (std::uint32_t g = 0; g < coding.groups.size(); ++g) {
-      if (layer >= set.layers_of(g)) continue;
-      RangeEncoder encoder;
-      base.models.front().code(encoder, rows, g, begin, end, layer);
-      SliceUnitHeader header{SliceUnitHeader::kBase, r, g, layer, {}};
-      if (layer > 0) {
-        base.units.push_back(part_unit(UnitType::kRefinement, header, encoder.finish(), set));
-        continue;
-      }
-      header.cu_prediction = modes_of_range(set, r, base.quantised.modes[g], 0);
-      base.units.push_back(coefficient_unit(header, encoder.finish(), coding));
-    }
-    begin = end;
-  }
-}
-
-}  // namespace
-
 EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& layout) {
   EncodedBase base{OccupancyStates(layout.table.num_points()), {}, {}, {}, {}, {}};
   if (layout.base_levels == 0) return base;
@@ -72,8 +42,9 @@ void encode_base_components(const SliceCoding& coding, const SceneLayout& layout
   std::iota(first.begin(), first.end(), 0u);
   CoefficientModels& models = base.models.emplace_back(
       coding.groups, tree, codes, first, set.has_vectors(), layout.weights(), set.num_layers());
-  for (std::uint32_t layer = 0; layer < set.num_layers(); ++layer)
-    encode_layer(coding, tree, layer, base);
+  ComponentEncoder encoder(coding, tree, 0, base.quantised, base.coefficients, models);
+  for (const SliceUnitHeader& ids : component_units(coding, SliceUnitHeader::kBase))
+    base.units.push_back(encoder.encode(ids));
   base.states = models.all_states();
 }
 

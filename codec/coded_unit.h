@@ -41,13 +41,4 @@ CodedUnit part_unit(UnitType type, SliceUnitHeader header, std::span<const std::
 CodedUnit coefficient_unit(SliceUnitHeader header, std::vector<std::uint8_t> codeword,
                            const SliceCoding& coding);
 
-/// The quantised values of a layer: of every group as many bits less as layers follow. Spec 8.7.7.
-/// values: [rows][planes] of the last layer
-std::vector<std::int32_t> values_of_layer(const SliceCoding& coding, std::uint32_t layer,
-                                          std::span<const std::int32_t> values);
-
-/// cu_prediction of the levels of a range. modes: [levels from `start` on]
-std::vector<std::uint32_t> modes_of_range(const SequenceParameterSet& set, std::uint32_t range,
-                                          const std::vector<std::uint8_t>& modes, int start);
-
 }  // namespace slf

@@ -37,11 +37,6 @@ void ComponentDecoder::start_apart() {
   cells_ = find_cells(rows_.tree, rows_.first, plan_.lowest_split(rows_.start), 0);
 }
 
-/// Level l is joined by splits 3 (grid_bits - 1 - l) .. + 2.
-std::size_t ComponentDecoder::order_at(std::uint32_t level) const {
-  return level == 0 ? 0 : order_end(rows_.tree, plan_.lowest_split(static_cast<int>(level)));
-}
-
 void ComponentDecoder::set_modes(const PartUnit& unit) {
   const std::size_t begin = plan_.set.coefficient_begin(unit.header.range);
   auto& modes = modes_[unit.header.group];

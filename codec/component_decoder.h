@@ -64,7 +64,9 @@ class ComponentDecoder {
   BaseComponents take_base(std::vector<std::int32_t> values);
 
  private:
-  std::size_t order_at(std::uint32_t level) const;
+  std::size_t order_at(std::uint32_t level) const {
+    return slf::order_at(rows_.tree, plan_.grid_bits(), level);
+  }
   void set_modes(const PartUnit& unit);
   bool misses_layers() const;
   Result<Done> dequantise(std::span<std::int32_t> components) const;

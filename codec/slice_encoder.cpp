@@ -43,9 +43,8 @@ SliceEncoder::SliceEncoder(const SliceCoding& coding, const SceneLayout& layout,
     : coding_(&coding), layout_(&layout), slice_(slice), input_(input), lead_(lead) {}
 
 void SliceEncoder::add(UnitType type, std::uint32_t range, std::uint32_t group,
-                       std::span<const std::uint8_t> body, std::vector<std::uint32_t> modes,
-                       std::uint32_t layer) {
-  SliceUnitHeader header{static_cast<std::uint32_t>(slice_), range, group, layer, std::move(modes)};
+                       std::span<const std::uint8_t> body) {
+  SliceUnitHeader header{slice_id(), range, group, 0, {}};
   units_.push_back(type == UnitType::kCoefficients
                        ? coefficient_unit(std::move(header), {body.begin(), body.end()}, *coding_)
                        : part_unit(type, std::move(header), body, coding_->set));
@@ -118,41 +117,14 @@ void SliceEncoder::encode_coefficients(const EncodedBase* base, const Quantised&
     if (!base->models.empty()) models.adopt(base->models.front(), cells_);
     models.start_from_all(base->states);
   }
-  for (std::uint32_t layer = 0; layer < set.num_layers(); ++layer)
-    encode_layer(layer, quantised, models);
-}
-
-void SliceEncoder::encode_layer(std::uint32_t layer, const Quantised& quantised,
-                                CoefficientModels& models) {
-  const SequenceParameterSet& set = coding_->set;
-  std::vector<std::int32_t> values;  // of a single layer they are those of the input
-  if (set.num_layers() > 1) values = values_of_layer(*coding_, layer, input_.components);
-  const CoefficientRows rows{tree_, values.empty() ? input_.components : std::span(values),
-                             coding_->planes()};
-  for (std::uint32_t r = set.base_coefficient_ranges(); r < set.coefficient_ranges(); ++r)
-    for (std::uint32_t g = 0; g < coding_->groups.size(); ++g)
-      if (layer < set.layers_of(g)) encode_unit(layer, r, g, rows, quantised, models);
-}
-
-void SliceEncoder::encode_unit(std::uint32_t layer, std::uint32_t range, std::uint32_t group,
-                               const CoefficientRows& rows, const Quantised& quantised,
-                               CoefficientModels& models) {
-  const SequenceParameterSet& set = coding_->set;
-  const auto end_of = [&](std::uint32_t level) {
-    return level == 0 ? 0 : order_end(tree_, 3 * (coding_->grid_bits() - static_cast<int>(level)));
-  };
-  const std::size_t place = units_.size();
-  if (follows()) models.start_from(group, known(lead_->coefficients.wait(place)), layer);
-  RangeEncoder encoder;
-  models.code(encoder, rows, group, end_of(set.coefficient_begin(range)),
-              end_of(set.coefficient_end(range)), layer);
-  if (layer > 0) {
-    add(UnitType::kRefinement, range, group, encoder.finish(), {}, layer);
-  } else {
-    add(UnitType::kCoefficients, range, group, encoder.finish(),
-        modes_of_range(set, range, quantised.modes[group], layout_->base_levels));
+  ComponentEncoder encoder(*coding_, tree_, layout_->base_levels, quantised, input_.components,
+                           models);
+  for (const SliceUnitHeader& ids : component_units(*coding_, slice_id())) {
+    const std::size_t place = units_.size();
+    if (follows()) models.start_from(ids.group, known(lead_->coefficients.wait(place)), ids.layer);
+    units_.push_back(encoder.encode(ids));
+    if (leads()) lead_->coefficients.publish(place, models.states(ids.group, ids.layer));
   }
-  if (leads()) lead_->coefficients.publish(place, models.states(group, layer));
 }
 
 Quantised SliceEncoder::quantise(const EncodedBase* base, int threads) {

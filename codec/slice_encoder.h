@@ -45,19 +45,15 @@ class SliceEncoder {
   std::vector<CodedUnit> take_units() { return std::move(units_); }
 
  private:
+  std::uint32_t slice_id() const { return static_cast<std::uint32_t>(slice_); }
   bool leads() const { return lead_ != nullptr && slice_ == 0; }
   bool follows() const { return lead_ != nullptr && slice_ != 0; }
   void add(UnitType type, std::uint32_t range, std::uint32_t group,
-           std::span<const std::uint8_t> body, std::vector<std::uint32_t> modes = {},
-           std::uint32_t layer = 0);
+           std::span<const std::uint8_t> body);
   void encode_octree(OccupancyStates states);
   Result<Done, InputError> encode_texture(int threads);
   Quantised quantise(const EncodedBase* base, int threads);
   void encode_coefficients(const EncodedBase* base, const Quantised& quantised);
-  void encode_layer(std::uint32_t layer, const Quantised& quantised, CoefficientModels& models);
-  void encode_unit(std::uint32_t layer, std::uint32_t range, std::uint32_t group,
-                   const CoefficientRows& rows, const Quantised& quantised,
-                   CoefficientModels& models);
 
   const SliceCoding* coding_;
   const SceneLayout* layout_;

@@ -2,7 +2,7 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h, transform_header.h; unit types; table A-1; sizes of table 8-3; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h; unit types; table A-1; sizes of table 8-3 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
 import math
@@ -108,6 +108,27 @@ def check_tables():
         r"widths = \((.*?)\)", DECODER).group(1)).split(", "))
 
 
+def shapes_of(name):
+    """Contexts of the tables that a file of the code declares, sizes by name, in order."""
+    source = code(name)
+    numbers = dict(re.findall(r"\b(k\w+) = (\d+)[,;]", source))
+    found = []
+    for table, sizes in re.findall(r"using (\w+) = ContextShape<([^>]+)>", source):
+        sizes = re.sub(r"k\w+", lambda name: numbers[name[0]], sizes).split(",")
+        found.append((table, math.prod(sum(map(int, size.split("+"))) for size in sizes)))
+    return found
+
+
+def check_contexts():
+    """What 8.7.2 says of the sizes of its tables."""
+    text = section("(*Informative*: contexts of the tables", "**8.7.3")
+    sizes = [int(n) for n in re.findall(r"\b\d+\b(?! times| sets)", text)]
+    vector = [size for name, size in shapes_of("attributes/vector_states.h") if name != "Set"]
+    magnitude = [size // 48 for name, size in shapes_of("attributes/coefficient_magnitude_model.h") if name != "Set"]
+    sign = [size for name, size in shapes_of("attributes/coefficient_sign_model.h") if name != "Set"]
+    agree("tables of 8.7.2", sizes, vector + magnitude + sign)
+
+
 def check_limits():
     """7.2, 7.3, 9 and first weights."""
     sets = code("bitstream/parameter_sets.h")
@@ -155,7 +176,7 @@ def check_errors():
     agree("names of errors", sorted(named), sorted(name for name in named if re.search(rf"\b{name}\b", text)))
 
 
-for check in (check_sequence, check_slices, check_units, check_tables, check_limits, check_errors, check_words):
+for check in (check_sequence, check_slices, check_units, check_tables, check_contexts, check_limits, check_errors, check_words):
     check()
 for problem in PROBLEMS:
     print(problem, file=sys.stderr)
