@@ -137,6 +137,7 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
   SLF_CHECK(check_layers(p, std::max(groups, 1)));
   if (!valid_metadata(p.metadata))
     return invalid("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
+  static_assert(kMostSlicePoints == kMaxSlicePoints);
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
     return invalid("points per slice: 1 to 2^22");
   if (p.base_levels < kAutomaticBase) return invalid("base levels: 0 to the grid's bits - 1");

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "attributes/quantiser.h"
 #include "slf/parallel.h"
 #include "slf/view_map.h"
 
@@ -11,7 +12,6 @@ namespace slf {
 namespace {
 
 constexpr int kMostShift = 6;
-constexpr double kTransformLimit = 1 << 27;  // attributes/quantiser.h
 constexpr std::size_t kPointGrain = 2048;
 
 /// 1, 8, 27, and the rest of the harmonics.
@@ -48,8 +48,8 @@ std::vector<int> component_shifts(std::span<const float> coefficients, std::size
   std::vector<int> shifts(functions, kMostShift);
   const double root = std::floor(std::sqrt(static_cast<double>(slice_points))) + 2;
   for (std::size_t k = 0; k < functions; ++k)
-    while (shifts[k] > 0 &&
-           (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >= kTransformLimit)
+    while (shifts[k] > 0 && (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >=
+                                static_cast<double>(kCoefficientLimit))
       --shifts[k];
   return shifts;
 }

@@ -51,11 +51,7 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   Job job{capture, cameras, given, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
-  if (cameras.empty()) {  // a colour, whatever the direction
-    settings.fit = {};
-    settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
-    settings.search = FitSearch::none();
-  }
+  if (cameras.empty()) fit_colours_alone(settings);
   settings.observe.threads = settings.fit.threads = settings.threads;
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));

@@ -63,6 +63,12 @@ Result<Done, InputError> check_settings(const EncoderSettings& s) {
   return Done{};
 }
 
+void fit_colours_alone(EncoderSettings& settings) {
+  settings.fit = {};
+  settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
+  settings.search = FitSearch::none();
+}
+
 Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings) {

@@ -14,6 +14,9 @@ namespace slf {
 /// @errors kInvalidArgument: names the setting and its range.
 Result<Done, InputError> check_settings(const EncoderSettings& settings);
 
+/// Without photographs a point has a colour, whatever the direction.
+void fit_colours_alone(EncoderSettings& settings);
+
 /// The cloud on the grid, which is from capture.origin. With normals, those of the capture or
 /// estimated ones, where cameras or settings.normal_bits need them. Errors as voxelise.
 Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "attributes/quantiser.h"
 #include "codec/slice_encoder.h"
 #include "codec/use_transforms.h"
 #include "encoder/component_planes.h"
@@ -47,8 +48,10 @@ Result<std::vector<float>, InputError> fit_region(const PlannedScene& scene, con
 /// Values that a transform of the whole scene can hold: what a fit of few views runs away to is
 /// limited, not refused.
 void limit(std::span<std::int32_t> components, std::uint64_t weight) {
-  const auto most = static_cast<std::int32_t>(
-      std::floor(double{1 << 27} / (std::sqrt(static_cast<double>(weight)) + 2)) - 1);
+  const auto most =
+      static_cast<std::int32_t>(std::floor(static_cast<double>(kCoefficientLimit) /
+                                           (std::sqrt(static_cast<double>(weight)) + 2)) -
+                                1);
   for (std::int32_t& c : components) c = std::clamp(c, -most, most);
 }
 

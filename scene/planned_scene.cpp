@@ -12,6 +12,7 @@
 #include "codec/transform_units.h"
 #include "codec/use_transforms.h"
 #include "encoder/coding_parameters.h"
+#include "encoder/fit_capture.h"
 #include "fit/fit_settings.h"
 #include "scene/work_directory.h"
 
@@ -133,13 +134,8 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (!is_given("slice-points")) settings.max_slice_points = kScenePoints;
   settings.refine_geometry = RefineGeometry::kOff;
   settings.densify.mode = Densify::kOff;
+  if (!cameras) fit_colours_alone(settings);
   settings.threads = settings.fit.threads = settings.observe.threads = threads;
-  if (!cameras) {  // a colour, whatever the direction
-    settings.fit = {};
-    settings.fit.basis = {BasisId::kBspline, 2, 0, 0};
-    settings.fit.threads = threads;
-    settings.search = FitSearch::none();
-  }
   return settings;
 }
 

@@ -123,6 +123,7 @@ Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 /// error. Thread-safe on a const capture.
 /// Reduced ones: each pixel is the mean of those that it takes the place of, its alpha the least of
 /// theirs; JPEG is decoded to that size.
+/// @errors those of read_image; kInvalidInput: another size
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 
 /// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else
@@ -132,12 +133,15 @@ Result<Image, InputError> load_image(const Capture& capture, int camera);
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture, const std::string& name);
 
 /// PNG (8 and 16 bit; grey, RGB, palette, alpha) or JPEG, by content.
+/// @errors kUnreadable; kInvalidInput: something else, damaged, or larger than 65535 a side
 Result<Image, InputError> read_image(const std::filesystem::path& file);
 /// Written to a temporary name beside `file` and renamed. "-" is standard output.
+/// @errors kUnwritable: what was there before is untouched
 Result<Done, InputError> write_png(const std::filesystem::path& file, const Image& image);
 
 /// PLY, ascii or binary of either endianness, properties by name. Extra properties are skipped with
 /// one warning appended to `warnings`.
+/// @errors as read_mesh
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings = nullptr);
 /// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension; LAS, LAZ and E57 with the
@@ -152,12 +156,15 @@ Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings = nullptr);
 /// Binary little endian; positions are doubles where the cloud's origin is not 0, else floats.
 /// Atomic like write_png; "-" is standard output.
+/// @errors kUnwritable
 Result<Done, InputError> write_ply(const std::filesystem::path& file, const PointCloud& cloud);
 
 /// All bytes to a temporary file beside `file`, flushed, renamed over it. "-" is standard output.
+/// @errors kUnwritable
 Result<Done, InputError> write_file(const std::filesystem::path& file, const void* data,
                                     std::size_t size);
-/// All bytes of a file; "-" is standard input. Refuses more than max_bytes.
+/// All bytes of a file; "-" is standard input.
+/// @errors kUnreadable; kInvalidInput: more than max_bytes
 Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
                                                         std::uint64_t max_bytes = std::uint64_t{1}
                                                                                   << 32);

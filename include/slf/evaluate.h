@@ -17,7 +17,7 @@ namespace slf {
 struct EvaluateSettings {
   std::vector<double> deltas_degrees{10};  ///< δ′, at least one, each 0 .. 90
   bool images = true;                      ///< image quality too (renders every camera)
-  double depth_tolerance = 2.5;
+  double depth_tolerance = 2.5;            ///< of what hides a point, in spacings of the points
   int threads = 0;
   /// Where given: called once for every camera, from several threads, with one image of three times
   /// the photograph's width: photograph, rendering, and 128 + 4 (rendering - photograph), clamped.

@@ -21,7 +21,8 @@ struct RenderSettings {
 struct Rendering {
   Image image;                         ///< RGB, display values
   std::vector<std::uint8_t> coverage;  ///< [height][width] 0 .. 255: share of the pixel covered
-  std::vector<float> depth;  ///< [height][width] along the optical axis; +inf where nothing
+  std::vector<float>
+      depth;  ///< [height][width] along the optical axis, world units; +inf where nothing
 };
 
 struct SurfelCloud;
@@ -30,11 +31,12 @@ struct SurfelCloud;
 /// the voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what
 /// lies within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has
 /// no holes. Distortion of the camera is honoured at surfel centres. Deterministic for any thread
-/// count.
+/// count. Several threads may render at a time.
 class Renderer {
  public:
   /// Precomputes normals and surfel radii; keeps a reference to `maps`.
   Renderer(const ViewMaps& maps, const RenderSettings& settings = {});
+  /// O(points + pixels).
   Rendering render(const Camera& camera) const;
 
   /// A camera on a circle around the cloud, looking at its centre. turn: 0 .. 1; elevation in

@@ -16,6 +16,7 @@ namespace slf {
 /// and of a region all of the slices that meet it.
 /// @param options  max_bytes > 0: as many of the units that remain as fit into a file of so many
 ///                 bytes; they come coarse first. threads, seconds: not used
+/// Thread-safe. O(bytes); where a region is given, the geometry of the base is decoded.
 /// @errors those of headers as decode; kLimitExceeded also where not even the headers fit
 /// max_bytes.
 Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,

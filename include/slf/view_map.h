@@ -34,16 +34,17 @@ class Harmonics;
 /// View maps ready to be looked at, in R, G, B: the weights of the R coded functions, which are
 /// looked up in a table over direction; or, for B-splines of order o that no transform codes, the
 /// coefficients of periodic B-splines of order o on a 2^s0 x 2^s1 grid, so that one radiance takes
-/// o * o fetches whatever K.
+/// o * o fetches whatever K. Never changed once made: any number of threads may look up.
 class ViewMaps {
  public:
   /// Converts once; O(P R), with a joint transform O(P K R). The light field must have a basis
   /// (header.has_basis).
   explicit ViewMaps(const LightField& light_field, int threads = 0);
 
-  /// R, G, B of point p seen along (θ, γ) (from the point to the eye), of the header's transfer.
-  /// γ is first clamped to the header's range; the result to 0 .. 255. Agrees with the sum over the
-  /// functions within 1/256 grey level, where they are looked up within 1/50.
+  /// R, G, B of point p, 0 .. num_points() - 1, seen along (θ, γ) (from the point to the eye), of
+  /// the header's transfer. γ is first clamped to the header's range; the result to 0 .. 255.
+  /// Agrees with the sum over the functions within 1/256 grey level, where they are looked up
+  /// within 1/50.
   std::array<float, 3> radiance(std::size_t p, float theta, float gamma) const;
   /// The same of many points seen from a place in the world; quicker, and within 1/50 grey level.
   /// @param colours  [points] receives R, G, B
