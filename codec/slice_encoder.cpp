@@ -7,6 +7,7 @@
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_forward.h"
+#include "codec/component_encoder.h"
 #include "codec/slice_digest.h"
 #include "codec/slice_texture_encoder.h"
 #include "entropy/range_encoder.h"
