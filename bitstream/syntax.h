@@ -2,7 +2,6 @@
 // spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
 #pragma once
 
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -101,28 +100,24 @@ struct ParseSyntax {
   std::uint64_t last_begin_ = 0;
 };
 
-/// Writes. Values are the encoder's own: one out of range is our mistake.
+/// Writes. Values are the encoder's own and within range.
 struct WriteSyntax {
   BitWriter& out;
 
   template <class T>
-  void u(int n, const char*, const T& value, Range range) {
-    check(value, range);
+  void u(int n, const char*, const T& value, Range) {
     out.u(n, static_cast<std::uint64_t>(value));
   }
   template <class T>
-  void ue(const char*, const T& value, Range range) {
-    check(value, range);
+  void ue(const char*, const T& value, Range) {
     out.ue(static_cast<std::uint64_t>(value));
   }
   template <class T>
-  void se(const char*, const T& value, Range range) {
-    check(value, range);
+  void se(const char*, const T& value, Range) {
     out.se(value);
   }
   template <class T>
-  void s8(const char*, const T& value, Range range) {
-    check(value, range);
+  void s8(const char*, const T& value, Range) {
     out.u(8, static_cast<std::uint8_t>(value));
   }
   void f64(const char*, double value, bool) { out.f64(value); }
@@ -130,13 +125,6 @@ struct WriteSyntax {
   void resize(const char*, const std::vector<T>&, std::uint64_t) {}
   void require(bool, Errc, const char*) {}
   bool ok() const { return true; }
-
- private:
-  template <class T>
-  static void check([[maybe_unused]] const T& value, [[maybe_unused]] Range range) {
-    assert(static_cast<std::int64_t>(value) >= range.min);
-    assert(static_cast<std::int64_t>(value) <= range.max);
-  }
 };
 
 }  // namespace slf
