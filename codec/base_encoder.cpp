@@ -7,6 +7,7 @@
 #include "geometry/octree_encoder.h"
 
 namespace slf {
+
 EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& layout) {
   EncodedBase base{OccupancyStates(layout.table.num_points()), {}, {}, {}, {}, {}};
   if (layout.base_levels == 0) return base;
