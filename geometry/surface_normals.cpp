@@ -55,7 +55,7 @@ struct Moments {
   }
 };
 
-using Unit = std::array<std::int32_t, 3>;
+using UnitVector = std::array<std::int32_t, 3>;
 
 std::array<std::int64_t, 3> plane_normal(const Moments& sum) {
   const auto covariance = [&](std::size_t at, std::size_t a, std::size_t b) {
@@ -75,7 +75,7 @@ std::array<std::int64_t, 3> plane_normal(const Moments& sum) {
 }
 
 /// Of length 2^17, but for rounding.
-Unit unit_of(const std::array<std::int64_t, 3>& n) {
+UnitVector unit_of(const std::array<std::int64_t, 3>& n) {
   constexpr int kBits = 30;  // of the largest component before it is divided
   const auto magnitude = [](std::int64_t x) { return static_cast<std::uint64_t>(x < 0 ? -x : x); };
   const int bits = static_cast<int>(
@@ -84,7 +84,7 @@ Unit unit_of(const std::array<std::int64_t, 3>& n) {
   for (std::size_t a = 0; a < 3; ++a)
     m[a] = bits > kBits ? magnitude(n[a]) >> (bits - kBits) : magnitude(n[a]) << (kBits - bits);
   const std::uint64_t length = isqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);  // >= 2^29
-  Unit unit{};
+  UnitVector unit{};
   for (std::size_t a = 0; a < 3; ++a) {
     const auto u = static_cast<std::int32_t>((m[a] << 17) / length);
     unit[a] = n[a] < 0 ? -u : u;
@@ -165,7 +165,7 @@ std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> 
   constexpr std::size_t kGrain = 4096;
   const Cells cells = cells_of(positions, cell_log2);
   const NearCells near(cells.codes);
-  std::vector<Unit> plane(cells.size());
+  std::vector<UnitVector> plane(cells.size());
   parallel_ranges(cells.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       Moments sum;
@@ -182,7 +182,7 @@ std::vector<std::array<std::int64_t, 3>> surface_normals(std::span<const Voxel> 
     for (std::size_t p = begin; p < end; ++p) {
       std::array<std::int64_t, 3> normal{};
       near.visit(p, [&](std::size_t q, int, int, int) {
-        const Unit &u = plane[p], &v = plane[q];
+        const UnitVector &u = plane[p], &v = plane[q];
         // The cosine makes it a sum along u whatever the signs, and keeps edges.
         const std::int64_t cosine =
             std::int64_t{u[0]} * v[0] + std::int64_t{u[1]} * v[1] + std::int64_t{u[2]} * v[2];
