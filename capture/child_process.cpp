@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <cerrno>
 #include <cstring>
 
 extern char** environ;
@@ -52,7 +53,9 @@ Result<int, InputError> run_program(const std::vector<std::string>& words,
   pid_t child = 0;
   const int failed =
       posix_spawnp(&child, arguments[0], streams.get(), nullptr, arguments.data(), environ);
-  if (failed != 0) return InputError{Errc::kUnsupported, words[0] + ": " + std::strerror(failed)};
+  if (failed != 0)
+    return InputError{failed == ENOENT ? Errc::kUnsupported : Errc::kUnreadable,
+                      words[0] + ": " + std::strerror(failed)};
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -16,9 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
                                              "nz", "red", "green", "blue"};
-constexpr std::array<const char*, 9> kAlsoNamed{
-    // PDAL's normals
-    "x", "y", "z", "normalx", "normaly", "normalz", "red", "green", "blue"};
+constexpr std::array<const char*, 3> kNormalOfPdal{"normalx", "normaly", "normalz"};
 constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
 constexpr std::size_t kMostHeader = std::size_t{1} << 20;
 using Row = std::array<double, kWanted.size()>;
@@ -33,13 +31,18 @@ struct Columns {
   std::string skipped;  // names, for the warning
 };
 
+std::optional<std::size_t> index_of(const std::string& name) {
+  for (std::size_t i = 0; i < kWanted.size(); ++i)
+    if (name == kWanted[i]) return i;
+  for (std::size_t i = 0; i < kNormalOfPdal.size(); ++i)
+    if (name == kNormalOfPdal[i]) return kNormal + i;
+  return std::nullopt;
+}
+
 Columns columns_of(const PlyElement& vertex) {
   Columns columns;
   for (const auto& property : vertex.properties) {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < kWanted.size(); ++i)
-      if (!property.is_list && (property.name == kWanted[i] || property.name == kAlsoNamed[i]))
-        found = i;
+    const auto found = property.is_list ? std::nullopt : index_of(property.name);
     if (found) {
       columns.present[*found] = true;
       columns.type[*found] = property.type;

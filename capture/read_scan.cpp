@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 
 #include "capture/child_process.h"
@@ -47,7 +48,8 @@ Result<Done, InputError> run_pdal(const std::filesystem::path& file, std::vector
   words.insert(words.begin(), "pdal");
   SLF_TRY(const UnnamedFile errors, UnnamedFile::create());
   const auto code = run_program(words, output, errors);
-  if (!code) return no_pdal(file);
+  if (!code && code.error().code == Errc::kUnsupported) return no_pdal(file);
+  if (!code) return InputError{code.error().code, file.string() + ": " + code.error().message};
   if (*code == 0) return Done{};
   std::string cause = last_line(errors);
   if (cause.empty()) cause = "exit code " + std::to_string(*code);
@@ -110,9 +112,14 @@ Result<Mesh, InputError> read_points(const std::filesystem::path& file, const Su
                       "--writers.ply.storage_mode=little endian",
                       "--writers.ply.dims=" + wanted_dimensions(summary, colour)},
                      output));
-  auto points = read_ply_mesh(ply.path(), false, warnings);
-  if (!points)
-    return InputError{points.error().code, file.string() + ": " + points.error().message};
+  const std::string name = ply.path().string();  // of no use to a reader
+  std::vector<std::string> told;
+  auto points = read_ply_mesh(name, false, &told);
+  const auto of_scan = [&](const std::string& text) {
+    return file.string() + (text.starts_with(name) ? text.substr(name.size()) : ": " + text);
+  };
+  if (!points) return InputError{points.error().code, of_scan(points.error().message)};
+  if (warnings) std::transform(told.begin(), told.end(), std::back_inserter(*warnings), of_scan);
   return points;
 }
 

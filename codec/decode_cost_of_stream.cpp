@@ -1,4 +1,6 @@
 // What a decode takes, by the headers alone.
+#include <algorithm>
+
 #include "codec/decode_cost.h"
 #include "codec/scene_units.h"
 #include "slf/parallel.h"

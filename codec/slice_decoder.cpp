@@ -1,7 +1,6 @@
 #include "codec/slice_decoder.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "attributes/normal_model.h"
 #include "attributes/raht_inverse.h"
@@ -217,17 +216,13 @@ Result<Done> SliceDecoder::check_digest(std::span<const std::int32_t> components
 
 void SliceDecoder::add_means(std::span<std::int32_t> components) const {
   if (!apart() || components.empty()) return;
-  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
   const std::size_t planes = plan_->planes();
   const int below = plan_->levels - plan_->base_levels();
   const std::int32_t* mean = base_->components.values.data() + base_->first[slice_] * planes;
   for (std::size_t row = 0; row < positions.size(); ++row) {
     if (row > 0 && cell_at(positions[row], below) != cell_at(positions[row - 1], below))
       mean += planes;
-    for (std::size_t j = 0; j < planes; ++j) {
-      std::int32_t& value = components[row * planes + j];
-      value = static_cast<std::int32_t>(std::clamp(std::int64_t{value} + mean[j], -kMost, kMost));
-    }
+    for (std::size_t j = 0; j < planes; ++j) components[row * planes + j] += mean[j];  // 8.8.2
   }
 }
 

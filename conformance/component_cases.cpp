@@ -75,6 +75,21 @@ Case transformed(bool joint) {
   return c;
 }
 
+/// Colours of 40 to 220 or so.
+Case transformed_harmonics() {
+  Case c = case_of("transform-harmonics", "radiance of functions that a transform makes",
+                   {"6.7", "7.11"}, field(sphere(4), 4, 9, 60 << 6), with_steps(9, 20));
+  c.field.header.has_basis = true;
+  c.field.header.basis = {BasisId::kHarmonics, 2, 0, 0, 2};
+  c.field.header.shift.assign(9, 6);
+  for (std::size_t i = 0; i < c.field.components.size(); i += 27)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      c.field.components[i + channel] += 128 << 6;
+  c.parameters.group = {0, 1, 1, 1, 2, 2, 2, 2, 2};
+  c.parameters.transform = TransformMode::kFunctions;
+  return c;
+}
+
 }  // namespace
 
 std::vector<Case> component_cases() {
@@ -88,7 +103,8 @@ std::vector<Case> component_cases() {
                   field(sphere(4), 4, 2, 2000000), with_steps(2, 1)),
           all_zero(),
           transformed(false),
-          transformed(true)};
+          transformed(true),
+          transformed_harmonics()};
 }
 
 }  // namespace slf::conformance

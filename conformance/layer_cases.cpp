@@ -98,6 +98,21 @@ void edit_set(std::vector<EditableUnit>& units,
   units[0].payload = write_sequence_parameter_set(set);
 }
 
+/// A coefficient of 2^27 - 2048, 256 without three of its layers: what that stands for is more.
+Case greatest() {
+  LightField f = field({{1, 0, 1}}, 1, 1);
+  f.components.assign(3, 2048);
+  CodingParameters p = with_steps(1, 1);
+  p.quality_layers = 4;
+  Case c = case_of_stream(
+      "layers-greatest", "a value at the limit, without its layers", {"8.7.4", "8.7.7"},
+      edited(packed_bare(f, p), [](auto& units) {
+        edit_set(units, [](auto& set) { set.runs[0].sps_plane_step.fill((1 << 16) - 1); });
+      }));
+  c.layers = {1, 2, 3};
+  return c;
+}
+
 }  // namespace
 
 std::vector<Case> layer_cases() {
@@ -110,6 +125,7 @@ std::vector<Case> layer_cases() {
   alone.parameters.slice_start = SliceStart::kBase;
   cases.push_back(alone);
   cases.push_back(even());
+  cases.push_back(greatest());
   Case large =
       layered("layers-large", "magnitudes beyond the contexts, step 1", {4, 4, 4}, 0, 1u << 20);
   large.field = field(sphere(5), 5, 9, 1000000);

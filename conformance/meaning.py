@@ -25,8 +25,8 @@ CLAMPED = ["basis", "harmonics"]            # whose colours are 0 or 255 all
 
 
 def colours(sequence, header, data):
-    """Points, directions and R, G, B, of a stream with a basis and without transforms."""
-    _, coded, positions, components, _ = decoder.decode(data, 0, 0, 0, [])
+    """Points, directions and R, G, B, of a stream with a basis and without joint transforms."""
+    sequence, coded, positions, components, _ = decoder.decode(data, 0, 0, 0, [])
     found = []
     with tempfile.TemporaryDirectory() as folder:
         place = pathlib.Path(folder)
@@ -35,7 +35,13 @@ def colours(sequence, header, data):
         to_rgb = np.eye(3)
         if header["colour"]["transform"] == "opponent":
             to_rgb = np.array([[1, 1, 1], [1, 0, -1], [1, -2, 1]]).T / np.sqrt([3, 2, 6])
-        whole = {**header, "component_function": coded, "transforms": []}
+        transforms = []
+        for i, transform in enumerate(sequence.transforms):
+            np.save(place / f"matrix_{i}.npy", transform.matrix.T)
+            transforms.append({"functions": transform.functions, "joint": transform.joint, "matrix": f"matrix_{i}.npy",
+                               "components": [coded.index(k) for k in transform.functions[:transform.rank]],
+                               "colour": transform.colour.tolist()})
+        whole = {**header, "component_function": coded, "transforms": transforms}
         whole["colour"] = {"to_rgb": to_rgb.tolist()}
         (place / "light_field.json").write_text(json.dumps(whole), encoding="utf-8")
         for i, direction in enumerate(DIRECTIONS):
@@ -54,7 +60,7 @@ def meaning(folder):
         return None
     header = decoder.header_of(sequence, decoder.Wanted(sequence, 0, 0, 0).shift)
     found = {"header": {**header, "normal_bits": sequence.normal_bits}}
-    if header["has_basis"] and not sequence.num_transforms and folder.name not in CLAMPED:
+    if header["has_basis"] and folder.name not in CLAMPED:
         found["radiance"] = colours(sequence, header, data)
     return found
 

@@ -1,6 +1,8 @@
 // Transforms that no encoder writes: greatest entries, groups without a coded function, several at
 // once.
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "bitstream/bit_writer.h"
 #include "codec/derive_transforms.h"
@@ -41,17 +43,18 @@ ForwardTransform random_transform(const PlaneGroups& all, std::size_t first, std
   return forward;
 }
 
-/// Gives the coefficient units of groups, each the only one of its group, the columns of these.
+/// Gives the coefficient units of groups, the first of each, the columns of these.
 /// before: of the units as they are; set: with transforms
 void add_columns(Units& units, const SequenceParameterSet& before, const SequenceParameterSet& set,
                  const std::vector<ForwardTransform>& transforms) {
   for (EditableUnit& unit : units) {
     if (unit.type != UnitType::kCoefficients) continue;
-    const std::uint32_t group =
-        read_part_unit({unit.type, unit.payload, 0, 0}, before)->header.group;
+    const auto header = read_part_unit({unit.type, unit.payload, 0, 0}, before)->header;
+    if (header.range != 0) continue;
     Bytes matrix;
     for (const ForwardTransform& transform : transforms) {
-      const ColumnRange columns = columns_of_group(transform.inverse, plane_groups(set), group);
+      const ColumnRange columns =
+          columns_of_group(transform.inverse, plane_groups(set), header.group);
       if (!columns.empty()) matrix = write_columns(transform, columns);
     }
     set_matrix(unit, before, set, matrix);
@@ -112,6 +115,82 @@ Units groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32
   return made;
 }
 
+/// The stream of units that were coded without transforms.
+/// make: the transforms, by what the sequence then is
+Bytes with_transforms(
+    Units units, std::size_t count,
+    const std::function<std::vector<ForwardTransform>(const SequenceParameterSet&)>& make) {
+  const SequenceParameterSet before = *parse_sequence_parameter_set(units[0].payload);
+  edit_sequence(units, [&](SequenceParameterSet& set) {
+    set.sps_transform_flag = 1;
+    set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(count - 1);
+  });
+  const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
+  const std::vector<ForwardTransform> made = make(set);
+  add_columns(units, before, set, made);
+  for (std::size_t i = made.size(); i-- > 0;)
+    units.insert(units.begin() + 1,
+                 {UnitType::kTransform, write_transform(made[i], set.num_groups())});
+  return stream_of(units);
+}
+
+/// Values of points with the Morton codes 0, 1, 2, 4, 8, .., whose coefficients are as great as
+/// these and have signs that make the first as great as can be.
+std::vector<double> chain(int points, double mean, double detail) {
+  std::vector<double> values(static_cast<std::size_t>(points));
+  double low = mean;
+  for (int before = points - 1; before > 0; --before) {
+    const double c = std::sqrt(before / (before + 1.0)), s = std::sqrt(1 / (before + 1.0));
+    values[static_cast<std::size_t>(before)] = s * low - c * detail;
+    low = c * low + s * detail;
+  }
+  values[0] = low;
+  return values;
+}
+
+/// Components of 6.1 times what a coefficient can be: half from a base whose cells weigh 1, half
+/// from within a cell. Three of them are more than 32 bits hold, a quarter of that is not.
+Case colours_clamped() {
+  constexpr int kLevels = 6, kChain = 3 * kLevels + 1;
+  constexpr std::uint32_t kStep = 1 << 13;  // 1 for the encoder, which takes no such components
+  constexpr double kGreatest = 0.99 * (1 << 27) / kStep;
+  const std::vector<double> cells = chain(kChain, kGreatest, kGreatest);
+  const std::vector<double> within = chain(kChain, 0, kGreatest);
+  LightField f = field({}, 2 * kLevels, 1);
+  CodingParameters p = with_steps(1, 1);
+  p.base_levels = kLevels;
+  p.base_weight = 1;
+  p.slice_start = SliceStart::kApart;
+  p.max_slice_points = kChain;  // two slices: one alone is not apart
+  p.geometry_level_ends = p.coefficient_level_ends = {kLevels, 2 * kLevels};
+  p.predict = false;
+  for (int i = 0; i < 2 * kChain - 1; ++i) {
+    const int place = i < kChain ? i : i - kChain + 1;  // in its chain
+    const std::int32_t far = i < kChain ? 1 : 1 << kLevels;
+    Voxel v{0, 0, 0};
+    if (place > 0) v[static_cast<std::size_t>((place - 1) % 3)] = far << (place - 1) / 3;
+    f.positions.push_back(v);
+    const auto at = static_cast<std::size_t>(place);
+    const double value = i < kChain ? cells[0] + within[at] : cells[at];
+    f.components.insert(f.components.end(), 3, static_cast<std::int32_t>(std::lround(value)));
+  }
+  Units units;
+  edited(packed_bare(f, p), [&](Units& all) { units = all; });
+  edit_sequence(units, [&](auto& set) { set.runs[0].sps_plane_step.fill(kStep); });
+  return case_of_stream("transform-of-greatest", "colours beyond 32 bits before the matrix",
+                        {"8.7.5", "8.8.3"},
+                        with_transforms(units, 1, [](const SequenceParameterSet& set) {
+                          ForwardTransform t;
+                          t.inverse.num_groups = t.inverse.rank = 1;
+                          t.inverse.functions = functions_of_groups(plane_groups(set), 0, 1);
+                          t.inverse.lanes = 3;
+                          t.inverse.colour = {{{512, 512, 512}, {512, 512, -512}, {0, 512, 0}}};
+                          t.inverse.matrix = {1 << 12};
+                          t.precision = {14};
+                          return std::vector<ForwardTransform>{t};
+                        }));
+}
+
 }  // namespace
 
 std::vector<Case> transform_cases() {
@@ -119,22 +198,15 @@ std::vector<Case> transform_cases() {
   const auto add = [&](const char* id, const char* purpose, const std::vector<Group>& groups,
                        std::int32_t size,
                        const std::vector<std::array<std::size_t, 4>>& transforms) {
-    Units units = groups_of(groups, size, 3);
-    const SequenceParameterSet before = *parse_sequence_parameter_set(units[0].payload);
-    edit_sequence(units, [&](SequenceParameterSet& set) {
-      set.sps_transform_flag = 1;
-      set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);
-    });
-    const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
-    Random random(99);
-    std::vector<ForwardTransform> made;
-    for (const auto& [first, count, rank, lanes] : transforms)
-      made.push_back(random_transform(plane_groups(set), first, count, rank, lanes, random));
-    add_columns(units, before, set, made);
-    for (std::size_t i = made.size(); i-- > 0;)
-      units.insert(units.begin() + 1,
-                   {UnitType::kTransform, write_transform(made[i], set.num_groups())});
-    Case c = case_of_stream(id, purpose, {"7.11", "8.7.1", "8.7.5"}, stream_of(units));
+    const Bytes stream = with_transforms(
+        groups_of(groups, size, 3), transforms.size(), [&](const SequenceParameterSet& set) {
+          Random random(99);
+          std::vector<ForwardTransform> made;
+          for (const auto& [first, count, rank, lanes] : transforms)
+            made.push_back(random_transform(plane_groups(set), first, count, rank, lanes, random));
+          return made;
+        });
+    Case c = case_of_stream(id, purpose, {"7.11", "8.7.1", "8.7.5"}, stream);
     for (int g = 1; g <= static_cast<int>(groups.size()); ++g) c.groups.push_back(g);
     c.levels = {2};
     cases.push_back(c);
@@ -151,6 +223,7 @@ std::vector<Case> transform_cases() {
       {{3, 3}, {2, 2}, {2, 2}}, 3000, {{0, 3, 7, 3}});
   add("transform-one-function", "a transform of one function, joint", {{1, 1}, {2, 2}}, 9000000,
       {{0, 1, 1, 1}});
+  cases.push_back(colours_clamped());
   return cases;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "entropy/table.h"
 #include "geometry/octree_levels.h"
 
 namespace slf {
@@ -34,12 +35,17 @@ inline constexpr std::array<int, 27> kWindowShift = [] {
   return shift;
 }();
 
+constexpr Window own_cell(int child) {
+  return bit_at(1 + (child & 1), 1 + (child >> 1 & 1), 1 + (child >> 2));
+}
+
 /// The node's own children as cells. [occupancy]
-inline constexpr std::array<Window, 256> kOwnCells = [] {
+SLF_TABLE std::array<Window, 256> kOwnCells = [] {
+  SLF_TABLE_BEGINS;
   std::array<Window, 256> cells{};
   for (std::size_t o = 0; o < 256; ++o)
     for (int c = 0; c < 8; ++c)
-      if (o >> c & 1) cells[o] |= bit_at(1 + (c & 1), 1 + (c >> 1 & 1), 1 + (c >> 2));
+      if (o >> c & 1) cells[o] |= own_cell(c);
   return cells;
 }();
 
@@ -78,7 +84,8 @@ inline unsigned outer_faces_of(const Surroundings& around, unsigned child) {
 /// By child and by which of the eight nodes around its outer corner are occupied, x + 2y + 4z
 /// there: the seven that are not its own, over faces in x, y, z, over edges in xy, xz, yz, over the
 /// corner.
-inline constexpr std::array<std::array<std::uint8_t, 256>, 8> kCorner = [] {
+SLF_TABLE std::array<std::array<std::uint8_t, 256>, 8> kCorner = [] {
+  SLF_TABLE_BEGINS;
   constexpr std::array<unsigned, 7> kSteps = {1, 2, 4, 3, 5, 6, 7};
   std::array<std::array<std::uint8_t, 256>, 8> table{};
   for (unsigned child = 0; child < 8; ++child)

@@ -28,7 +28,8 @@ constexpr std::array<WindowChildren, 27> kWindowChildren = [] {
   std::array<WindowChildren, 27> table{};
   for (std::size_t d = 0; d < 27; ++d)
     for (unsigned c = 0; c < 8; ++c) {
-      const Window cell = std::rotl(kOwnCells[1u << c], kWindowShift[d]) & kWindowParts[d];
+      const Window cell =
+          std::rotl(own_cell(static_cast<int>(c)), kWindowShift[d]) & kWindowParts[d];
       if (cell == 0) continue;
       table[d].children = static_cast<std::uint8_t>(table[d].children | 1u << c);
       table[d].cell[c] = static_cast<std::uint8_t>(std::countr_zero(cell));

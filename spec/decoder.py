@@ -1593,7 +1593,7 @@ class Part:
         if self.digest and wanted.all and not self.expected:
             check_digest(self.digest, positions, components, normals if self.sequence.normal_bits else None)
         if self.apart:
-            components = clamp31(components + self.cell_means(rows, base_values).reshape(components.shape))
+            components = components + self.cell_means(rows, base_values).reshape(components.shape)
         return positions[rows] >> wanted.shift, components, normals
 
     def cell_means(self, rows, base_values):

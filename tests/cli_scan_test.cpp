@@ -83,6 +83,23 @@ TEST_F(ScanTest, IsRefusedWithWhatPdalSaid) {
   expect_failure(encode("scan.laz"), 4, "scan.laz", "exit code 137");
 }
 
+TEST_F(ScanTest, WhosePointsAreDamagedIsNamedItself) {
+  stand_in();
+  write("scan.ply", plane_ply(51400, "ushort").substr(0, 400));
+  const Ran ran = encode("scan.laz");
+  expect_failure(ran, 4, "scan.laz", "more than the file holds");
+  EXPECT_EQ(ran.err.find("/dev/fd"), std::string::npos) << ran.err;
+}
+
+TEST_F(ScanTest, OfAPdalThatCannotBeStartedDoesNotAskForItsPackage) {
+  write("scan.laz", "LASF");
+  std::filesystem::create_directory(path("bin"));
+  write("bin/pdal", "#!/no/such/shell");
+  std::filesystem::permissions(path("bin/pdal"), std::filesystem::perms::owner_read);
+  const Ran ran = slf("encode scan.laz -o x.slf", "PATH=\"$PWD/bin\"");
+  expect_failure(ran, 3, "scan.laz", "pdal: Permission denied");
+}
+
 TEST_F(ScanTest, WithoutPdalNamesThePackage) {
   write("scan.laz", "LASF");
   const Ran ran = slf("encode scan.laz -o x.slf", "PATH=\"$PWD\"");

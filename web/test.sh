@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs tests of web/, as web/build.sh has built it; 77 and a line where something for that is missing.
 #   web/test.sh node        the decoder, under node
-#   web/test.sh browser     the viewer, in Chromium (CHROMIUM), against the program slf (SLF_PROGRAM)
+#   web/test.sh browser [NAME]   the viewer, in Chromium (CHROMIUM), against the program slf
+#                           (SLF_PROGRAM): test/browser/NAME.test.mjs, or all
 set -euo pipefail
 cd "$(dirname "$0")"
 which=${1:-node}
@@ -20,4 +21,4 @@ for browser in ${CHROMIUM:-chromium chromium-browser google-chrome}; do
 done
 [[ -n ${CHROMIUM:-} ]] || skipped "there is no chromium (tools/setup.sh lab)"
 export CHROMIUM
-exec node --test --test-concurrency=1 test/browser/*.test.mjs
+exec node --test --test-concurrency=1 test/browser/${2:-*}.test.mjs
