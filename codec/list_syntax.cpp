@@ -69,6 +69,7 @@ class UnitVisitor {
     SliceUnitHeader header;
     slice_unit_header(parse_, header, unit.type, set);
     if (unit.type != UnitType::kCoefficients || !set.has_texture() || !in_.ok()) return;
+    in_.align_and_rest("alignment_zero_bits");
     const auto groups = plane_groups(set);
     std::vector<TexturePlane> planes(3 * groups[header.group].size());
     texture_header(parse_, planes);

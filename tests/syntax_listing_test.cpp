@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "slf/encoder.h"
 #include "slf/syntax_listing.h"
 #include "tests/field_support.h"
@@ -57,6 +60,24 @@ TEST(SyntaxListing, ValuesAreThoseOfTheHeaders) {
   EXPECT_EQ(value("sps_base_levels"), "2");
   EXPECT_EQ(value("sps_num_functions"), "4");
   EXPECT_EQ(value("end_num_units"), std::to_string(units->size() - 1));
+}
+
+// Clause 7.6: zero bits lead to the byte on which textures( ) begins.
+TEST(SyntaxListing, TexturesBeginOnAByte) {
+  std::ifstream file(SLF_CONFORMANCE "/streams/texture-12/stream.slf", std::ios::binary);
+  const std::vector<std::uint8_t> stream(std::istreambuf_iterator<char>(file), {});
+  const auto units = list_syntax(stream);
+  ASSERT_TRUE(units) << to_string(units.error());
+  int textures = 0;
+  for (const ListedUnit& unit : *units)
+    for (std::size_t e = 1; e < unit.elements.size(); ++e)
+      if (unit.elements[e - 1].name == "plane_group") {
+        EXPECT_EQ(unit.elements[e].name, "tx_picture_flag");
+        EXPECT_EQ(unit.elements[e].value, "1");
+        EXPECT_EQ(unit.elements[e].bit % 8, 0u);
+        ++textures;
+      }
+  EXPECT_EQ(textures, 2);
 }
 
 TEST(SyntaxListing, ADamagedStreamGivesTheErrorOfTheDecoder) {
