@@ -32,7 +32,8 @@ void index_boxes(V& v, Boxes& boxes, std::uint32_t base_levels) {
 
 Result<Done> check_entry(const IndexEntry& entry, const Unit& unit, const SequenceParameterSet& set,
                          const Unit& index) {
-  if (unit.type != entry.type || unit.bytes != entry.bytes)
+  if (unit.type != entry.type) return in_unit(index, Error{Errc::kOutOfRange, "index_unit_type"});
+  if (unit.bytes != entry.bytes)
     return in_unit(index, Error{Errc::kOutOfRange, "index_unit_bytes"});
   if (!has_ids(unit.type)) return Done{};
   SLF_TRY(const SliceUnitHeader ids, read_ids(unit, set));
@@ -99,7 +100,7 @@ Result<Done> check_index(const Units& units, const SequenceParameterSet& set, st
     SLF_TRY(const Index index, read_index(unit, set));
     const std::size_t present = units.units.size() - at - 1;
     if (present > index.entries.size() || (units.complete && present < index.entries.size()))
-      return in_unit(unit, Error{Errc::kOutOfRange, "index_unit_bytes"});
+      return in_unit(unit, Error{Errc::kOutOfRange, "index_num_units"});
     for (std::size_t i = 0; i < present; ++i)
       SLF_CHECK(check_entry(index.entries[i], units.units[at + 1 + i], set, unit));
     if (slices > 0 && !index.boxes.empty() && index.boxes.size() != slices)

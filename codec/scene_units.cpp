@@ -11,7 +11,7 @@ Error at(const Unit& unit, const char* element) {
 
 /// What of a unit is wrong that is not the next of its list.
 const char* misplaced(UnitType type, UnitType expected) {
-  if (type != expected) return "unit_type";
+  if (type != expected || type == UnitType::kDigest) return "unit_type";
   if (type == UnitType::kRefinement) return "refinement_layer";
   return type == UnitType::kGeometry ? "level_range" : "plane_group";
 }

@@ -67,9 +67,11 @@ struct RefusedCase {
   std::vector<std::uint8_t> stream;
 };
 std::vector<RefusedCase> refused_cases();
-std::vector<RefusedCase> refused_scenes();  ///< among them
-std::vector<RefusedCase> refused_units();   ///< among them
-std::vector<RefusedCase> refused_layers();  ///< among them
-std::vector<RefusedCase> refused_apart();   ///< among them
+std::vector<RefusedCase> refused_scenes();      ///< among them
+std::vector<RefusedCase> refused_units();       ///< among them
+std::vector<RefusedCase> refused_layers();      ///< among them
+std::vector<RefusedCase> refused_apart();       ///< among them
+std::vector<RefusedCase> refused_textures();    ///< among them
+std::vector<RefusedCase> refused_transforms();  ///< among them
 
 }  // namespace slf::conformance

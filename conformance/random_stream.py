@@ -13,7 +13,7 @@ from stream_writer import SIGNATURE, BitWriter, Chooser, stream_of, text, unit
 def random_cloud(rng, bits):
     """Morton codes of a sphere, of noise or of a bent patch."""
     side, points = 1 << bits, set()
-    kind, count = rng.choice(["sphere", "noise", "patch"]), rng.choice([5, 60, 700, 2000])
+    kind, count = rng.choice(["sphere", "noise", "patch"]), rng.choice([5, 30, 60, 120, 400])
     corner, width = [rng.randrange(max(side - 24, 0) + 1) for _ in range(3)], min(side, 24)
     for _ in range(count):
         if kind == "noise":

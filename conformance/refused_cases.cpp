@@ -3,7 +3,6 @@
 #include <functional>
 
 #include "bitstream/parameter_sets.h"
-#include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
@@ -11,19 +10,6 @@
 
 namespace slf::conformance {
 namespace {
-
-/// A texture of two groups; empty where this build has no x265.
-Bytes texture_stream(int bits) {
-  CodingParameters parameters;
-  parameters.coefficients = CoefficientCoder::kTexture;
-  parameters.step = {{8, 8, 8}, {8, 8, 8}};
-  parameters.group = {0, 1};
-  parameters.texture.bits = 8;
-  parameters.texture.qp = 38;
-  parameters.index = false;
-  auto stream = pack(field(sphere(bits), bits, 2, 600), parameters);
-  return stream ? *std::move(stream) : Bytes{};
-}
 
 /// The sequence header changed.
 Bytes with_sequence(const std::function<void(SequenceParameterSet&)>& edit) {
@@ -61,10 +47,10 @@ void add_framing(std::vector<RefusedCase>& cases) {
          units.insert(units.begin() + 1, units[0]);
        })});
   cases.push_back(
-      {"units-lost", "one unit fewer than the end unit counts", {"7.10"}, [] {
+      {"units-lost", "a digest fewer than the end unit counts units", {"7.10"}, [] {
          const Bytes whole = base_stream(false);
          const Units units = *split_units(whole);
-         const Unit& lost = units.units[2];
+         const Unit& lost = units.units[units.units.size() - 2];
          Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset));
          s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(lost.offset + lost.bytes),
                   whole.end());
@@ -121,6 +107,16 @@ void add_headers(std::vector<RefusedCase>& cases) {
   });
   add("run-too-long", "a plane run beyond the last function",
       [](auto& s) { s.runs[0].sps_run_length_minus1 = 20; });
+  add("draco-ranges", "level ranges of Draco's geometry", [](auto& s) {
+    s.sps_profile = kDracoProfile, s.sps_geometry_coder = 1, s.sps_base_levels = 0;
+  });
+}
+
+void add_header_lengths(std::vector<RefusedCase>& cases) {
+  cases.push_back({"header-shorter",
+                   "a sequence header without its last byte",
+                   {"3.3"},
+                   edited([](auto& units) { units[0].payload.pop_back(); })});
   cases.push_back({"header-trailing-bytes",
                    "a byte after the sequence header",
                    {"3.3"},
@@ -150,107 +146,20 @@ void add_level(std::vector<RefusedCase>& cases) {
                    })});
 }
 
-void add_textures(std::vector<RefusedCase>& cases) {
-  const Bytes base = texture_stream(4);
-  const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
-    cases.push_back({id, purpose, {clause}, edited(base, edit)});
-  };
-  add("texture-damaged", "a byte of a picture changed", "7.9", [](auto& units) {
-    auto& payload = first_of(units, UnitType::kCoefficients).payload;
-    payload[payload.size() - 20] ^= 0x5A;
-  });
-  add("texture-level-range", "a second level range", "7.6", [](auto& units) {
-    first_of(units, UnitType::kCoefficients).payload[0] ^= 0xB8;  // ue 0, 0, 0 to ue 1, 0, 0
-  });
-  add("texture-picture-count", "a flag that is 0 where there is a picture", "7.6",
-      [](auto& units) { first_of(units, UnitType::kCoefficients).payload[1] ^= 0x80; });
-  add("texture-pictures-shorter", "pictures without their last bytes", "7.6", [](auto& units) {
-    auto& payload = first_of(units, UnitType::kCoefficients).payload;
-    payload.resize(payload.size() * 3 / 4);
-  });
-  add("texture-profile", "pictures in the main profile", "7.2", [](auto& units) {
-    units[0].payload[2] = static_cast<std::uint8_t>(units[0].payload[2] & 0x0F);
-  });
-  const Bytes larger = texture_stream(6);
-  add("texture-picture-size", "pictures of a larger atlas", "7.6", [&](auto& units) {
-    if (larger.empty()) return;
-    const Units split = *split_units(larger);
-    for (const Unit& unit : split.units)
-      if (unit.type == UnitType::kCoefficients) {
-        first_of(units, UnitType::kCoefficients)
-            .payload.assign(unit.payload.begin(), unit.payload.end());
-        return;
-      }
-  });
-}
-
-void add_transforms(std::vector<RefusedCase>& cases) {
-  CodingParameters parameters;
-  parameters.step.assign(8, {100, 100, 100});
-  parameters.transform = TransformMode::kFunctions;
-  parameters.base_levels = 0;
-  parameters.index = false;
-  const Bytes base = *pack(field(sphere(5), 5, 8), parameters);
-  const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
-    cases.push_back({id, purpose, {clause}, edited(base, edit)});
-  };
-  add("transform-missing", "fewer transform units than stated", "7.11",
-      [](auto& units) { units.erase(units.begin() + 1); });
-  add("transform-late", "a transform unit after the slices", "7.1", [](auto& units) {
-    const EditableUnit transform = units[1];
-    units.insert(units.end() - 1, transform);
-  });
-  add("transform-rank", "more components than functions", "7.11", [](auto& units) {
-    BitWriter out;
-    WriteSyntax write{out};
-    TransformHeader header;
-    header.tr_rank_minus1 = 8;
-    transform_header(write, header, 1);
-    units[1].payload = out.take();
-  });
-  const auto with_matrix = [&](const char* id, const char* purpose, const char* clause,
-                               const std::function<void(Bytes&, std::uint32_t&)>& edit) {
-    add(id, purpose, clause, [&](auto& units) {
-      const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
-      EditableUnit& unit = first_of(units, UnitType::kCoefficients);
-      const PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, set);
-      Bytes matrix(part.matrix.begin(), part.matrix.end());
-      auto bytes = static_cast<std::uint32_t>(matrix.size());
-      edit(matrix, bytes);
-      set_matrix(unit, set, set, matrix, bytes);
-    });
-  };
-  with_matrix("matrix-shorter", "a matrix without its last bytes", "8.3.1",
-              [](Bytes& matrix, std::uint32_t& bytes) { matrix.resize(bytes /= 2); });
-  with_matrix("matrix-longer", "five bytes more behind a matrix", "8.3.1",
-              [](Bytes& matrix, std::uint32_t& bytes) { matrix.resize(bytes += 5); });
-  with_matrix("matrix-bytes", "a matrix longer than its unit", "7.6",
-              [](Bytes&, std::uint32_t& bytes) { bytes = 1 << 20; });
-  with_matrix("matrix-missing", "no matrix where the group has columns", "7.11",
-              [](Bytes& matrix, std::uint32_t& bytes) { matrix.clear(), bytes = 0; });
-  add("transform-and-texture", "a texture with a transform", "7.2", [](auto& units) {
-    auto set = *parse_sequence_parameter_set(units[0].payload);
-    set.sps_profile = kTextureProfile;
-    set.sps_coefficient_coder = kTextureCoder;
-    units[0].payload = write_sequence_parameter_set(set);
-  });
-}
-
 }  // namespace
 
 std::vector<RefusedCase> refused_cases() {
   std::vector<RefusedCase> cases;
   add_framing(cases);
   add_headers(cases);
+  add_header_lengths(cases);
   add_level(cases);
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
   for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));
   for (RefusedCase& apart : refused_apart()) cases.push_back(std::move(apart));
-  add_textures(cases);
-  add_transforms(cases);
+  for (RefusedCase& texture : refused_textures()) cases.push_back(std::move(texture));
+  for (RefusedCase& transform : refused_transforms()) cases.push_back(std::move(transform));
   return cases;
 }
 

@@ -67,6 +67,12 @@ void add_slice_table(std::vector<RefusedCase>& cases) {
             [](auto& t) { ++t.slices[0].slice_num_cells_minus1; });
   add_table("cells-one-less", "a cell that no slice has",
             [](auto& t) { --t.slices[0].slice_num_cells_minus1; });
+  add(cases, "slices-of-no-base", "two slices without a base", "7.3", [](auto& units) {
+    edit_sequence(units, [](auto& set) { set.sps_base_levels = 0; });
+    BitWriter out;
+    for (const std::uint32_t number : {1, 0, 4, 3}) out.ue(number);
+    first_of(units, UnitType::kSlices).payload = out.take();
+  });
   add_table("points-one-more", "a point that the slice has not",
             [](auto& t) { ++t.slices[0].slice_num_points_minus1; });
 }
@@ -80,6 +86,8 @@ void add_order(std::vector<RefusedCase>& cases) {
     auto& table = first_of(units, UnitType::kSlices);
     std::swap(table, *(&table + 1));
   });
+  add(cases, "slices-missing", "a header and an end unit", "7.1",
+      [](auto& units) { units.erase(units.begin() + 1, units.end() - 1); });
   add(cases, "slice-before-the-first", "a slice before the states it starts from", "7.1",
       [](auto& units) {
         auto& first = unit_of_slice(units, UnitType::kGeometry, 0);
@@ -183,17 +191,25 @@ void add_weight_classes(std::vector<RefusedCase>& cases) {
 }
 
 /// The index changed; the units it is about stay.
-Bytes with_index(const std::function<void(Index&)>& edit) {
+/// most: so many bytes of it
+Bytes with_index(const std::function<void(Index&)>& edit, std::size_t most = 1 << 20) {
   const Bytes whole = base_stream(true);
   const Units units = *split_units(whole);
   const auto set = *parse_sequence_parameter_set(units.units[0].payload);
   Index index = *parse_index(units.units[1].payload, set);
   edit(index);
   Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[1].offset));
-  append_unit(s, UnitType::kIndex, write_index(index, set));
+  Bytes payload = write_index(index, set);
+  payload.resize(std::min(payload.size(), most));
+  append_unit(s, UnitType::kIndex, payload);
   s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[2].offset),
            whole.end());
   return s;
+}
+
+IndexEntry& entry_of(Index& index, UnitType type) {
+  return *std::find_if(index.entries.begin(), index.entries.end(),
+                       [type](const IndexEntry& entry) { return entry.type == type; });
 }
 
 void add_index(std::vector<RefusedCase>& cases) {
@@ -206,6 +222,20 @@ void add_index(std::vector<RefusedCase>& cases) {
       [](auto& i) { i.entries[0].type = UnitType::kMetadata; });
   add("index-ids", "an index that names another slice",
       [](auto& i) { ++i.entries[i.entries.size() - 3].ids.slice_id; });
+  add("index-more", "an index of a unit more than there are",
+      [](auto& i) { i.entries.push_back(i.entries.back()); });
+  add("index-level-range", "an index of a level range that there is not",
+      [](auto& i) { entry_of(i, UnitType::kGeometry).ids.range = 3; });
+  add("index-group", "an index of a group that there is not",
+      [](auto& i) { entry_of(i, UnitType::kCoefficients).ids.group = 2; });
+  add("index-layer", "an index of a refinement that there is not", [](auto& i) {
+    IndexEntry& entry = entry_of(i, UnitType::kCoefficients);
+    entry.type = UnitType::kRefinement, entry.ids.layer = 4;
+  });
+  cases.push_back({"index-boxes-shorter",
+                   "an index that ends long before its last box",
+                   {"7.7"},
+                   with_index([](auto& i) { i.boxes.resize(kMaxSlices); }, 100)});
   add("index-slices", "boxes of fewer slices than there are", [](auto& i) { i.boxes.pop_back(); });
   add("index-box", "a box that is not that of the cells", [](auto& i) { --i.boxes[0][3]; });
   add("index-box-range", "a box that ends before it begins",

@@ -78,8 +78,16 @@ void add_headers(std::vector<RefusedCase>& cases) {
   add("ranges-too-many", "more level ranges than levels", [](auto& s) {
     s.sps_num_geometry_ranges_minus1 = 3, s.sps_geometry_range_end = {1, 2, 3};
   });
-  add("transforms-too-many", "more transforms than groups",
-      [](auto& s) { s.sps_transform_flag = 1, s.sps_num_transforms_minus1 = 1; });
+  cases.push_back({"transforms-too-many",
+                   "more transforms than groups",
+                   {"7.2"},
+                   edited(plain_stream(2), [](Units& units) {
+                     edit_sequence(units, [](SequenceParameterSet& s) {
+                       s.sps_transform_flag = 1, s.sps_num_transforms_minus1 = 1;
+                     });
+                     // of the first group, joint, of one component
+                     units.insert(units.begin() + 1, 2, {UnitType::kTransform, {0xF0}});
+                   })});
 }
 
 /// Bits, most significant first.

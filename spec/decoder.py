@@ -92,7 +92,7 @@ class BitReader:
         require(math.isfinite(value), element)
         return self.noted(element, value)
 
-    def align(self, element):
+    def align(self, element="alignment_zero_bits"):
         """3.3: zero bits to the next byte."""
         require(self.u(-self.position % 8, element) == 0, element)
 
@@ -101,9 +101,9 @@ class BitReader:
         self.align(element)
         require(self.position == 8 * len(self.data), element)
 
-    def rest(self, element):
+    def rest(self):
         """3.3: zero bits to the next byte, then the bytes that are left."""
-        self.align(element)
+        self.align()
         return self.data[self.position // 8:]
 
 
@@ -387,7 +387,7 @@ class Transform:
             for row in range(rows):
                 context, value = min(expected.bit_length(), 15), 0
                 if decoder.adaptive(nonzero, context, 255):
-                    value = decoder.magnitude(magnitudes[context], 255)
+                    value = decoder.magnitude(magnitudes[context], 255, "cu_matrix")
                     entry = value << 14 - precision
                     require(entry <= 1 << 20, "cu_matrix")
                     matrix[row, column] = -entry if decoder.raw(1) else entry
@@ -487,7 +487,7 @@ def check_metadata(payload):
     require(size <= 1 << 20, "metadata_bytes")
     inflater = zlib.decompressobj()
     try:
-        text = inflater.decompress(reader.rest("metadata_alignment"), size + 1)
+        text = inflater.decompress(reader.rest(), size + 1)
     except zlib.error:
         raise Refused("metadata_deflated") from None
     require(inflater.eof and not inflater.unused_data and len(text) == size, "metadata_deflated")
@@ -612,19 +612,19 @@ class ArithmeticDecoder:
             contexts.count[index] = count + 1
         return bit
 
-    def magnitude(self, contexts, limit):
+    def magnitude(self, contexts, limit, element):
         """8.3.4: a magnitude of 1 or more."""
         for value in range(1, 15):
             if not self.adaptive(contexts.more, value - 1, limit):
                 return value
-        return 14 + self.exp_golomb(contexts.prefix, limit)
+        return 14 + self.exp_golomb(contexts.prefix, limit, element)
 
-    def exp_golomb(self, prefix, limit):
+    def exp_golomb(self, prefix, limit, element):
         """8.3.4: the rest of a magnitude, 1 or more."""
         length = 0
         while self.adaptive(prefix, length, limit):
             length += 1
-            require(length < 28, "magnitude")
+            require(length < 28, element)
         return (1 << length) + self.raw(length)
 
 
@@ -1240,7 +1240,7 @@ class VectorCoder:
             if not self.state.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
                 return magnitude
         prefix = self.state.prefix[min(size_class(expected >> 8, 47) // 4, 11)]
-        return 14 + decoder.exp_golomb(prefix, 255)
+        return 14 + decoder.exp_golomb(prefix, 255, "cu_magnitude")
 
     def decode_sign(self, decoder, kept, j, around):
         """8.7.2, 6: is the value negative?"""
@@ -1300,7 +1300,7 @@ class IndependentCoder:
             values = [0] * len(self.state.magnitudes)
             for j, contexts in enumerate(self.state.magnitudes):
                 if decoder.adaptive(self.state.nonzero, j, 30):
-                    magnitude = decoder.magnitude(contexts, 30)
+                    magnitude = decoder.magnitude(contexts, 30, "cu_magnitude")
                     values[j] = -magnitude if decoder.raw(1) else magnitude
             self.quantised[r] = values
 
@@ -1321,7 +1321,7 @@ def reconstruct(sequence, coders, points, coded):
 def dequantised(value, step, missing):
     """8.7.4: a coefficient, of whose layers some are missing."""
     whole = (abs(value) << missing) * step
-    require(whole < 1 << 27, "cu_coefficients")
+    require(whole < 1 << 27, "cu_magnitude")
     magnitude = min(whole + 3 * ((1 << missing) - 1) * step // 8, (1 << 27) - 1) if value else 0
     return -magnitude if value < 0 else magnitude
 
@@ -1475,7 +1475,8 @@ class Part:
             self.octree.decode_level(decoder)
         self.known += 1
         if end == self.last:
-            require(len(self.octree.nodes) == self.points, "gu_occupancy")
+            require(len(self.octree.nodes) == self.points,
+                    "gu_occupancy" if self.is_base else "slice_num_points_minus1")
             if self.is_base and self.sequence.functions:
                 self.classes = decode_classes(decoder, self.octree.nodes)
             self.make_tree()
@@ -1539,7 +1540,7 @@ class Part:
         """7.6: flags, offsets and pictures of the planes of a group; 8.11.6: the components."""
         sequence = self.sequence
         steps = [sequence.steps[k][c] for k in sequence.groups[group] for c in range(3)]
-        reader.align("cu_alignment")
+        reader.align()
         flags, offsets, most = [], [], (1 << sequence.texture_bits) - 1
         for step in steps:
             flags.append(reader.u(1, "tx_picture_flag"))
@@ -1547,17 +1548,17 @@ class Part:
             require(abs(offsets[-1]) < 1 << 30, "tx_offset")
             require(not flags[-1] or offsets[-1] + step * most < 1 << 30, "tx_offset")
         components = np.tile(np.array(offsets, np.int64), (self.points, 1))
-        stream = reader.rest("tx_alignment")
+        stream = reader.rest()
+        if self.atlas is None:
+            self.atlas = Atlas(self.octree.nodes, sequence.grid_bits, sequence.texture_cell_log2)
         if any(flags):
-            if self.atlas is None:
-                self.atlas = Atlas(self.octree.nodes, sequence.grid_bits, sequence.texture_cell_log2)
             pictures = decode_pictures(stream, sum(flags), sequence.texture_bits, self.atlas)
             planes = [plane for plane, flag in enumerate(flags) if flag]
             for plane, picture in zip(planes, pictures, strict=True):
                 samples = picture[self.atlas.rows, self.atlas.columns].astype(np.int64)
                 components[:, plane] += steps[plane] * samples
         else:
-            require(not stream, "hevc_pictures (longer)")
+            require(not stream, "tx_pictures")
         self.coders.append(components)
 
     def values(self, wanted, base_values):
@@ -1666,8 +1667,8 @@ def decode_normals(decoder, points, bits):
             residual = 0
             if decoder.adaptive(signs, 0, 255):
                 negative = decoder.adaptive(signs, 1, 255)
-                residual = decoder.magnitude(magnitude, 255)
-                require(residual <= (half if negative else half - 1), "nu_normals")
+                residual = decoder.magnitude(magnitude, 255, "nu_magnitude")
+                require(residual <= (half if negative else half - 1), "nu_magnitude")
                 residual = -residual if negative else residual
             before[coordinate] = (before[coordinate] + residual) % (2 * half)
         normals[i] = before
@@ -1781,7 +1782,7 @@ class Atlas:
         base = self.place_boxes(charts, first)
         tiles = -(-len(loose) // 64)
         self.height = max(64, base + 8 * -(-tiles // (self.width // 8)))
-        require(self.height <= 8192, "slice_num_points_minus1 (the texture is higher than 8192)")
+        require(self.height <= 8192, "texture_size")
         self.place_loose(loose, base)
 
     def place_boxes(self, charts, first):
@@ -1814,11 +1815,11 @@ def decode_pictures(stream, count, bits, atlas):
     """7.6: the pictures of a unit, in output order (8.11.6), and what they may be."""
     try:
         types = [nal_type for nal_type, _ in hevc.headers(stream)]
-        require(all(layer == 0 for _, layer in hevc.headers(stream)), "nuh_layer_id")
-        require(all(nal_type in NAL_TYPES for nal_type in types), "nal_unit_type")
+        require(all(layer == 0 for _, layer in hevc.headers(stream)), "hevc_nal_unit (layer)")
+        require(all(nal_type in NAL_TYPES for nal_type in types), "hevc_nal_unit (type)")
         require(hevc.coded_pictures(stream) == count, "hevc_pictures (number)")
         for parameter_set in (hevc.VPS, hevc.SPS, hevc.PPS):
-            require(types.count(parameter_set) <= count, "nal_unit_type (parameter sets)")
+            require(types.count(parameter_set) <= count, "hevc_pictures (parameter sets)")
         for facts in hevc.sequence_parameters(stream):
             require(facts["chroma_format_idc"] == 0, "chroma_format_idc")
             require(facts["bits"] == bits, "bit_depth_luma_minus8")
@@ -1828,12 +1829,8 @@ def decode_pictures(stream, count, bits, atlas):
             require(not facts["scaling_list_enabled_flag"], "scaling_list_enabled_flag")
             require(not facts["pcm_enabled_flag"], "pcm_enabled_flag")
         pictures = 0
-        for chroma_format, depth, picture in hevc.decode(stream):
-            require(chroma_format == 0, "chroma_format_idc")
-            require(depth == bits, "bit_depth_luma_minus8")
-            require(picture.shape == (atlas.height, atlas.width), "hevc_pictures (size)")
+        for picture in hevc.decode(stream):
             pictures += 1
-            require(pictures <= count, "hevc_pictures (number)")
             yield picture
         require(pictures == count, "hevc_pictures (number)")
     except hevc.Unsupported as problem:
@@ -1924,27 +1921,26 @@ class LightField:
         number, kind = sequence.unit_kind(unit_type, reader)
         if number is None:
             part = self.base
-            require(all(len(each.expected) == len(self.parts[0].expected) and not each.known
-                        for each in self.parts), "unit_type (base behind slices)")
         else:
             require(number < len(self.parts), "slice_id")
             part = self.parts[number]
             require(not self.base or not self.base.expected, "unit_type (the base is not complete)")
         if unit_type == DIGEST:
             require(not part.expected and part.digest is None and not sequence.cut, "unit_type (digest)")
-            part.digest = reader.rest("digest_alignment")
+            part.digest = reader.rest()
             require(len(part.digest) == 32, "digest_sha256")
             return
         part.take(kind)
         if unit_type == NORMALS:
-            decoder = ArithmeticDecoder(reader.rest("nu_alignment"))
+            decoder = ArithmeticDecoder(reader.rest())
             part.normals = decode_normals(decoder, part.points, sequence.normal_bits)
             decoder.finish("nu_normals")
         elif unit_type == GEOMETRY:
-            decoder = ArithmeticDecoder(reader.rest("gu_alignment"))
+            decoder = ArithmeticDecoder(reader.rest())
             new = (lambda: OctreeState(part.points)) if part.apart else self.fresh_octree.copy
             part.decode_geometry(decoder, kind[1], self.start_state(part, kind, new))
-            decoder.finish("gu_occupancy")
+            with_classes = part.is_base and part.tree and sequence.functions
+            decoder.finish("gu_weight_class" if with_classes else "gu_occupancy")
         elif unit_type == REFINEMENT:
             self.read_refinement(part, kind, reader)
         elif sequence.texture:
@@ -1971,7 +1967,7 @@ class LightField:
         size, (_, level_range, group) = 0, kind
         if self.sequence.num_transforms and level_range == 0:
             size = reader.ue("cu_matrix_bytes")
-        rest = reader.rest("cu_alignment")
+        rest = reader.rest()
         require(size <= len(rest), "cu_matrix_bytes")
         transforms = [t for t in self.sequence.transforms if t.columns.get(group)]
         require(transforms or not size, "cu_matrix_bytes")
@@ -1985,7 +1981,7 @@ class LightField:
         _, level_range, group, layer = kind
         functions = len(self.sequence.coded[group])
         state = self.start_state(part, kind, lambda: VectorState(functions))
-        decoder = ArithmeticDecoder(reader.rest("ru_alignment"))
+        decoder = ArithmeticDecoder(reader.rest())
         part.decode_refinement(decoder, level_range, group, layer, state)
         decoder.finish("cu_coefficients")
 

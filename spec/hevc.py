@@ -127,7 +127,6 @@ def load():
         "get_image_width": (number, [pointer, number]),
         "get_image_height": (number, [pointer, number]),
         "get_bits_per_pixel": (number, [pointer, number]),
-        "get_chroma_format": (number, [pointer]),
         "get_image_plane": (pointer, [pointer, number, ctypes.POINTER(number)]),
         "get_error_text": (ctypes.c_char_p, [number]),
     }
@@ -138,7 +137,7 @@ def load():
 
 
 def samples(library, image):
-    """The luma of a picture within its conformance window, copied, after its bits a sample."""
+    """The luma of a picture within its conformance window, copied."""
     stride = ctypes.c_int()
     plane = library.de265_get_image_plane(image, 0, ctypes.byref(stride))
     width, height = library.de265_get_image_width(image, 0), library.de265_get_image_height(image, 0)
@@ -148,12 +147,11 @@ def samples(library, image):
     for row in range(height):
         line = ctypes.string_at(plane + row * stride.value, width * kind.itemsize)
         picture[row] = np.frombuffer(line, kind)
-    return bits, picture
+    return picture
 
 
 def decode(data):
-    """Gives the pictures of a byte stream one after the other, in output order, as (chroma format, bits a
-    sample, array [height, width])."""
+    """Gives the pictures of a byte stream one after the other, in output order, as arrays [height, width]."""
     library = load()
     context = library.de265_new_decoder()
     try:
@@ -172,7 +170,7 @@ def decode(data):
             stalled = error != 0
             while image := library.de265_get_next_picture(context):
                 stalled = False
-                yield library.de265_get_chroma_format(image), *samples(library, image)
+                yield samples(library, image)
         if stalled:
             raise Damaged("hevc_slice_data (truncated)")
     finally:

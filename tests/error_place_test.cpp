@@ -64,9 +64,9 @@ constexpr Place kPlaces[] = {
     {"index-ids", Errc::kOutOfRange, "index_unit_ids", "index", 288},
     {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 44200},
     {"digest", Errc::kChecksum, "digest_sha256", "digest", 43264},
-    {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 5104},
-    {"transform-rank", Errc::kOutOfRange, "tr_rank_minus1", "transform", 227},
-    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44392},
+    {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 1376},
+    {"transform-rank", Errc::kOutOfRange, "tr_rank_minus1", "transform", 251},
+    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44192},
 };
 
 TEST(Spec_F_Places, AreThatOfTheElementInTheStream) {

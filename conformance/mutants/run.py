@@ -152,11 +152,12 @@ def check(mutant):
         return mutant, "", ""
     if missing := [stream for stream in mutant.streams if not (SUITE / stream / "case.json").exists()]:
         raise SystemExit(f"{mutant.name}: there is no {missing[0]}")
+    source = mutant.source()
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-        stream, said = noticed(mutant.source(), mutant.streams)
+        stream, said = noticed(source, mutant.streams)
         os.write(writer, f"{stream}\n{said}".encode()[:4000])
         os._exit(0)
     os.close(writer)
