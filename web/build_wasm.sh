@@ -10,7 +10,8 @@ mkdir -p "$build"
 for kind in simd scalar; do
   [[ $kind == simd ]] && simd=ON name=slf || { simd=OFF; name=slf_scalar; }
   cmake -S . -B "$build/$kind" -G Ninja --toolchain "$PWD/web/wasi.cmake" -DCMAKE_BUILD_TYPE=MinSizeRel \
-    -DSLF_DECODER_ONLY=ON -DSLF_TEXTURE=OFF -DSLF_THREADS=OFF -DSLF_C=OFF -DSLF_WASM_SIMD=$simd "$@" >"$build/$kind.log" ||
+    -DSLF_DECODER_ONLY=ON -DSLF_TEXTURE=OFF -DSLF_THREADS=OFF -DSLF_C=OFF -DSLF_WASM_SIMD=$simd \
+    -DCMAKE_UNITY_BUILD=ON "$@" >"$build/$kind.log" ||
     { cat "$build/$kind.log"; exit 1; }
   cmake --build "$build/$kind" --target slf_wasm -- --quiet
   features=(--enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int)
