@@ -10,7 +10,7 @@ const builds = {
 };
 /** What this build has left out is refused as that, not decoded: nothing else may be skipped. */
 const LEFT_OUT = { draco: /^draco$/, textures: /^texture-/ };
-const REFUSED_ELSEWHERE = /^(draco|texture)/;
+const REFUSED_ELSEWHERE = /^(draco|hevc|texture)/;
 
 function isLeftOut(id) { return Object.values(LEFT_OUT).some((pattern) => pattern.test(id)); }
 
