@@ -1,22 +1,14 @@
 #include "fit/block_prior.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-
-#include "base/signed_index.h"
+#include "fit/fit_cholesky.h"
+#include "fit/lane_products.h"
 #include "geometry/morton.h"
 #include "slf/parallel.h"
 
 namespace slf {
-namespace {
-
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-}  // namespace
 
 BlockPrior::BlockPrior(std::span<const Voxel> positions, int block_log2, std::size_t functions)
-    : functions_(functions) {
+    : functions_(functions), width_(padded(functions + 3)) {
   std::vector<std::uint64_t> codes;  // of the level at hand
   for (std::size_t p = 0; p < positions.size(); ++p) {
     const std::uint64_t code = morton(positions[p]) >> (3 * block_log2);
@@ -38,28 +30,23 @@ BlockPrior::BlockPrior(std::span<const Voxel> positions, int block_log2, std::si
     first_.push_back(std::move(first));
     codes = std::move(above);
   }
-  const std::size_t unknowns = functions_ - 1;
   for (const auto& first : first_) {
     sums_.emplace_back(first.size() - 1);
-    for (Sums& sums : sums_.back()) {
-      sums.matrix.assign(unknowns * unknowns, 0);
-      sums.right.assign(3 * unknowns, 0);
-    }
+    for (Sums& sums : sums_.back()) sums.matrix.assign(width_ * width_, 0);
   }
 }
 
-void BlockPrior::add(std::size_t b, const PointRows& rows) {
-  if (rows.count == 0) return;
-  const Eigen::Map<const Matrix> g(rows.functions.data(), index(rows.count), index(functions_));
-  const Eigen::Map<const Columns> c(rows.colours.data(), index(rows.count), 3);
-  const Matrix centred = (g.rowwise() - g.colwise().mean()).rightCols(index(functions_ - 1));
-  const Columns residual = c.rowwise() - c.colwise().mean();
+void BlockPrior::add(std::size_t b, const PointColumns& seen) {
+  std::vector<float> rows(seen.count * width_, 0.0f), mean(width_);
+  const auto take = [&](const float* column, std::size_t k) {
+    for (std::size_t m = 0; m < seen.count; ++m) rows[m * width_ + k] = column[m];
+  };
+  for (std::size_t k = 0; k < functions_; ++k) take(&seen.functions[k * seen.stride], k);
+  for (std::size_t c = 0; c < 3; ++c) take(&seen.colours[c * seen.stride], functions_ + c);
+  centre_rows(seen.count, rows.data(), width_, mean.data());
   Sums& sums = sums_.front()[b];
-  Eigen::Map<Matrix> a(sums.matrix.data(), index(functions_ - 1), index(functions_ - 1));
-  a.selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose());
-  Eigen::Map<Columns> r(sums.right.data(), index(functions_ - 1), 3);
-  r.noalias() += centred.transpose() * residual;
-  sums.observations += static_cast<double>(rows.count);
+  add_square(seen.count, rows.data(), width_, sums.matrix.data());
+  sums.observations += static_cast<double>(seen.count);
 }
 
 void BlockPrior::sum_up(int threads) {
@@ -70,33 +57,54 @@ void BlockPrior::sum_up(int threads) {
           const Sums& from = sums_[level - 1][child];
           Sums& to = sums_[level][b];
           for (std::size_t i = 0; i < to.matrix.size(); ++i) to.matrix[i] += from.matrix[i];
-          for (std::size_t i = 0; i < to.right.size(); ++i) to.right[i] += from.right[i];
           to.observations += from.observations;
         }
     });
 }
 
+/// [K][3] of a block; element 0 is 0.
+/// @param above  the same of the block above it
+/// @param penalty  [K] in full
+std::vector<double> BlockPrior::solve_block(const Sums& sums, std::span<const double> above,
+                                            std::span<const double> penalty) const {
+  std::vector<double> solution(above.begin(), above.end());
+  const std::size_t n = functions_ - 1;
+  if (sums.observations == 0 || n == 0) return solution;
+  std::vector<Lanes<double>> residual(n);
+  std::vector<double> factor(packed_size(n));
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t c = 0; c < 3; ++c)
+      residual[j].c[c] = double{sums.matrix[(functions_ + c) * width_ + j + 1]};
+  for (std::size_t j = 0; j < n; ++j) {
+    double* column = factor.data() + packed_column(n, j);
+    for (std::size_t i = j; i < n; ++i) {
+      const double a = column[i - j] = double{sums.matrix[(i + 1) * width_ + j + 1]};
+      for (std::size_t c = 0; c < 3; ++c) {
+        residual[i].c[c] -= a * above[3 * (j + 1) + c];
+        if (i > j) residual[j].c[c] -= a * above[3 * (i + 1) + c];
+      }
+    }
+    column[0] += penalty[j + 1];
+  }
+  cholesky_factorise(factor.data(), n, 1e-12);
+  cholesky_solve(factor.data(), n, residual.data());
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t c = 0; c < 3; ++c) solution[3 * (j + 1) + c] += residual[j].c[c];
+  return solution;
+}
+
 std::vector<float> BlockPrior::solve(double strength, std::span<const double> penalty,
                                      int threads) const {
-  const std::size_t unknowns = functions_ - 1;
-  using Square = Eigen::MatrixXd;
-  using Solution = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  std::vector<Solution> above(1, Solution::Zero(index(unknowns), 3));  // of the level above
+  using Solution = std::vector<double>;                           // [K][3]
+  std::vector<Solution> above(1, Solution(3 * functions_, 0.0));  // of the level above
   std::vector<std::size_t> parent(sums_.back().size(), 0);
   for (std::size_t level = sums_.size(); level-- > 0;) {
     std::vector<Solution> here(sums_[level].size());
     parallel_ranges(here.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
-        const Sums& sums = sums_[level][b];
-        here[b] = above[parent[b]];
-        if (sums.observations == 0 || unknowns == 0) continue;
-        const Eigen::Map<const Matrix> a(sums.matrix.data(), index(unknowns), index(unknowns));
-        const Eigen::Map<const Columns> r(sums.right.data(), index(unknowns), 3);
-        Square m = a.cast<double>().selfadjointView<Eigen::Lower>();
-        const Solution residual = r.cast<double>() - m * here[b];
-        for (std::size_t k = 0; k < unknowns; ++k)
-          m(index(k), index(k)) += strength * sums.observations * penalty[k + 1];
-        here[b] += m.llt().solve(residual);
+        std::vector<double> full(penalty.begin(), penalty.end());
+        for (double& p : full) p *= strength * sums_[level][b].observations;
+        here[b] = solve_block(sums_[level][b], above[parent[b]], full);
       }
     });
     if (level > 0) {
@@ -106,12 +114,10 @@ std::vector<float> BlockPrior::solve(double strength, std::span<const double> pe
     }
     above = std::move(here);
   }
-  std::vector<float> solution(above.size() * functions_ * 3, 0);
-  for (std::size_t b = 0; b < above.size(); ++b)
-    for (std::size_t k = 0; k < unknowns; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        solution[(b * functions_ + k + 1) * 3 + c] =
-            static_cast<float>(above[b](index(k), index(c)));
+  std::vector<float> solution;
+  solution.reserve(above.size() * functions_ * 3);
+  for (const Solution& x : above)
+    for (const double value : x) solution.push_back(static_cast<float>(value));
   return solution;
 }
 

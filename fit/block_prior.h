@@ -11,11 +11,12 @@
 
 namespace slf {
 
-/// The rows of one point: M directions, K functions of mean square 1 (element 0 is 1), colours.
-struct PointRows {
-  std::size_t count = 0;         ///< M
-  std::vector<float> functions;  ///< [M][K]
-  std::vector<float> colours;    ///< [M][3]
+/// What was seen of one point from M directions.
+struct PointColumns {
+  std::size_t count = 0;         ///< M, at least 1
+  std::size_t stride = 0;        ///< M, up to whole lanes; what is behind M is of no meaning
+  std::vector<float> functions;  ///< [K][stride] of mean square 1; [0] is 1
+  std::vector<float> colours;    ///< [3][stride]
 };
 
 /// Pooled normal equations of the blocks of a tree, in which every point keeps a mean colour of its
@@ -31,7 +32,7 @@ class BlockPrior {
   std::size_t first_point(std::size_t b) const { return first_.front()[b]; }
 
   /// Adds what was seen of a point of finest block b. Blocks may be filled in parallel.
-  void add(std::size_t b, const PointRows& rows);
+  void add(std::size_t b, const PointColumns& seen);
   /// Sums of the coarser blocks; after all points were added.
   void sum_up(int threads);
 
@@ -42,12 +43,16 @@ class BlockPrior {
   std::vector<float> solve(double strength, std::span<const double> penalty, int threads) const;
 
  private:
+  /// Colours are three more functions: their products with those are the right-hand sides.
   struct Sums {
-    std::vector<float> matrix;  // [K-1][K-1], lower triangle
-    std::vector<float> right;   // [K-1][3]
+    std::vector<float> matrix;  // [width_][width_], lower triangle; row and column 0 are 0
     double observations = 0;
   };
-  std::size_t functions_;
+  std::vector<double> solve_block(const Sums& sums, std::span<const double> above,
+                                  std::span<const double> penalty) const;
+
+  std::size_t functions_;  // K
+  std::size_t width_;      // K + 3, up to whole lanes
   std::vector<std::vector<std::size_t>>
       first_;  // [levels, finest first][blocks + 1] points, or blocks of the finer level
   std::vector<std::vector<Sums>> sums_;  // [levels][blocks]

@@ -47,21 +47,26 @@ void DirectionRows::evaluate(const std::array<float, 2>& direction, float* row) 
                static_cast<float>(norms_[k]);
 }
 
-void DirectionRows::evaluate(std::span<const std::array<float, 2>> directions, float* rows) const {
-  if (basis_.id == BasisId::kHarmonics) {
-    std::vector<Vec3> vectors;
-    vectors.reserve(directions.size());
-    for (const auto& d : directions) vectors.push_back(vector_of(d));
-    harmonics_.evaluate(vectors, rows);
-    return;
-  }
-  for (std::size_t i = 0; i < directions.size(); ++i) evaluate(directions[i], rows + i * size());
-}
-
 void DirectionRows::evaluate(std::span<const Vec3> directions, float* rows) const {
   if (basis_.id == BasisId::kHarmonics) return harmonics_.evaluate(directions, rows);
   for (std::size_t i = 0; i < directions.size(); ++i)
     evaluate(direction_of(directions[i]), rows + i * size());
+}
+
+void DirectionRows::evaluate_columns(std::span<const std::array<float, 2>> directions,
+                                     float* columns, std::size_t stride) const {
+  if (basis_.id == BasisId::kHarmonics) {
+    std::vector<Vec3> vectors;
+    vectors.reserve(directions.size());
+    for (const auto& d : directions) vectors.push_back(vector_of(d));
+    harmonics_.evaluate_columns(vectors, columns, stride);
+    return;
+  }
+  std::vector<float> row(size());
+  for (std::size_t i = 0; i < stride; ++i) {
+    if (i < directions.size()) evaluate(directions[i], row.data());
+    for (std::size_t k = 0; k < row.size(); ++k) columns[k * stride + i] = row[k];
+  }
 }
 
 }  // namespace slf

@@ -24,11 +24,15 @@ class DirectionRows {
   /// @param row  receives size() values b_k / ||b_k||; element 0 is 1
   void evaluate(const std::array<float, 2>& direction, float* row) const;
 
-  /// Of many directions, faster where there are eight.
-  /// @param directions  (theta, gamma), or unit vectors, in the frame
+  /// Of many unit vectors in the frame, faster where there are eight.
   /// @param rows  receives [directions][size()]
-  void evaluate(std::span<const std::array<float, 2>> directions, float* rows) const;
   void evaluate(std::span<const Vec3> directions, float* rows) const;
+
+  /// Of (theta, gamma) in the frame, at least one, side by side.
+  /// @param columns  receives [size()][stride]; stride: a multiple of Harmonics::kLanes, at least
+  ///                 the number of directions. What is behind it repeats the last.
+  void evaluate_columns(std::span<const std::array<float, 2>> directions, float* columns,
+                        std::size_t stride) const;
 
   /// [K] ||b_k||: a coefficient of b_k / ||b_k||, over it, is one of b_k.
   const std::vector<double>& norms() const { return norms_; }

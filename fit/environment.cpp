@@ -2,16 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "fit/lane_products.h"
 #include "lightfield/harmonics.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-// A harmonic of degree 16 has 32 of these columns to a wave.
-constexpr int kRows = 256, kColumns = 512;
+/// Cells along the edge of a face: a harmonic of degree 16 has 31 of them to a wave at least.
+constexpr std::size_t kSide = 160, kNodes = kSide + 1;
+
+double node(std::size_t i) { return 2.0 * static_cast<double>(i) / kSide - 1; }
+
+/// Of axis + (0, 1) and its sign: towards x, -x, y, ..; the other two axes follow in turn.
+Vec3 on_face(std::size_t face, double u, double v) {
+  const std::size_t axis = face / 2;
+  const double length = std::sqrt(1 + u * u + v * v);
+  Vec3 place{};
+  place[axis] = (face % 2 == 0 ? 1 : -1) / length;
+  place[(axis + 1) % 3] = u / length;
+  place[(axis + 2) % 3] = v / length;
+  return place;
+}
 
 }  // namespace
 
@@ -49,40 +62,42 @@ Vec3 place_on_sphere(const Vec3& position, const Vec3& direction, double radius)
 }
 
 Environment::Environment(double radius, int degree, std::span<const float> light, int threads)
-    : radius_(radius), table_(std::size_t{kRows + 1} * (kColumns + 1)) {
+    : radius_(radius), table_(6 * kNodes * kNodes) {
   const Harmonics harmonics(degree);
-  const std::size_t functions = light.size() / 3;
-  parallel_ranges(kRows + 1, 1, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> values(functions);
-    for (std::size_t row = begin; row < end; ++row)
-      for (std::size_t column = 0; column <= kColumns; ++column) {
-        const double polar = std::numbers::pi * static_cast<double>(row) / kRows;
-        const double azimuth = 2 * std::numbers::pi * static_cast<double>(column) / kColumns;
-        harmonics.evaluate({std::sin(polar) * std::cos(azimuth),
-                            std::sin(polar) * std::sin(azimuth), std::cos(polar)},
-                           values.data());
-        std::array<double, 3> sum{0, 0, 0};
-        for (std::size_t k = 1; k < functions; ++k)
-          for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += values[k] * static_cast<double>(light[3 * k + c]);
-        for (std::size_t c = 0; c < 3; ++c)
-          table_[row * (kColumns + 1) + column][c] = static_cast<float>(sum[c]);
-      }
+  const std::size_t functions = light.size() / 3, stride = padded(kNodes);
+  std::vector<float> channels(4 * functions, 0.0f);
+  for (std::size_t k = 1; k < functions; ++k)
+    for (std::size_t c = 0; c < 3; ++c) channels[4 * k + c] = light[3 * k + c];
+  parallel_ranges(6 * kNodes, 1, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> values(functions * stride), sums;
+    for (std::size_t row = begin; row < end; ++row) {
+      std::vector<Vec3> places;
+      for (std::size_t i = 0; i < kNodes; ++i)
+        places.push_back(on_face(row / kNodes, node(i), node(row % kNodes)));
+      harmonics.evaluate_columns(places, values.data(), stride);
+      sums.assign(4 * stride, 0.0f);
+      add_products(functions, channels.data(), 4, 4, values.data(), stride, stride, sums.data());
+      for (std::size_t i = 0; i < kNodes; ++i)
+        for (std::size_t c = 0; c < 3; ++c) table_[row * kNodes + i][c] = sums[c * stride + i];
+    }
   });
 }
 
 std::array<float, 3> Environment::operator()(const Vec3& position, const Vec3& reflected) const {
   const Vec3 place = place_on_sphere(position, reflected, radius_);
-  const double row = std::acos(std::clamp(place[2], -1.0, 1.0)) / std::numbers::pi * kRows;
-  double turn = std::atan2(place[1], place[0]) / (2 * std::numbers::pi);
-  turn -= std::floor(turn);
-  const double column = turn * kColumns;
-  const auto y = std::min(static_cast<std::size_t>(row), std::size_t{kRows - 1});
-  const auto x = std::min(static_cast<std::size_t>(column), std::size_t{kColumns - 1});
+  const Vec3 size = {std::abs(place[0]), std::abs(place[1]), std::abs(place[2])};
+  std::size_t axis = size[1] > size[0] ? 1 : 0;
+  if (size[2] > size[axis]) axis = 2;
+  const std::size_t face = 2 * axis + (place[axis] < 0 ? 1 : 0);
+  const double half = kSide / 2.0, scale = half / size[axis];
+  const double column = place[(axis + 1) % 3] * scale + half;
+  const double row = place[(axis + 2) % 3] * scale + half;
+  const auto y = std::min(static_cast<std::size_t>(row), kSide - 1);
+  const auto x = std::min(static_cast<std::size_t>(column), kSide - 1);
   const auto wy = static_cast<float>(row - static_cast<double>(y)),
              wx = static_cast<float>(column - static_cast<double>(x));
-  const auto* above = &table_[y * (kColumns + 1) + x];
-  const auto* below = above + kColumns + 1;
+  const auto* above = &table_[(face * kNodes + y) * kNodes + x];
+  const auto* below = above + kNodes;
   std::array<float, 3> light{};
   for (std::size_t c = 0; c < 3; ++c)
     light[c] = (1 - wy) * ((1 - wx) * above[0][c] + wx * above[1][c]) +

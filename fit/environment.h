@@ -49,7 +49,7 @@ class Environment {
 
  private:
   double radius_;
-  std::vector<std::array<float, 3>> table_;  // [kRows + 1][kColumns + 1], poles at the ends
+  std::vector<std::array<float, 4>> table_;  // [6][kSide + 1][kSide + 1] on the faces of a cube
 };
 
 }  // namespace slf

@@ -7,6 +7,7 @@
 
 #include "base/signed_index.h"
 #include "fit/camera_folds.h"
+#include "fit/lane_products.h"
 #include "lightfield/frame.h"
 #include "lightfield/harmonics.h"
 #include "slf/parallel.h"
@@ -14,9 +15,7 @@
 namespace slf {
 namespace {
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using NoNormals = std::span<const std::array<float, 3>>;
-using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 constexpr double kLightPenalty = 0.8, kGrowth = 1.3;  // as the blocks of the hierarchical fit have
 constexpr std::size_t kMostTriedViews = 30000;
@@ -25,94 +24,160 @@ constexpr std::array<double, 9> kRadii = {2, 2.5, 3.2, 4, 5, 6.5, 9, 16, 1000};
 constexpr double kLeastLightGain = 0.02;
 constexpr int kTriedDegree = 10;  // tells radii apart as well as 16, at a fifth of the time
 
-/// Normal equations of functions and colours less their means over a point.
-struct Normal {
-  Eigen::MatrixXf matrix;  // lower triangle
-  Eigen::MatrixXf right;   // [K][3]
-  std::size_t views = 0;
+std::size_t functions(int degree) { return static_cast<std::size_t>((degree + 1) * (degree + 1)); }
 
-  explicit Normal(std::size_t functions)
-      : matrix(Eigen::MatrixXf::Zero(index(functions), index(functions))),
-        right(Eigen::MatrixXf::Zero(index(functions), 3)) {}
+/// Views as rows of numbers: the functions at the place where each ends, then the three channels of
+/// its colour, and zeros up to whole lanes.
+struct ViewRows {
+  explicit ViewRows(int degree) : size(functions(degree)), width(padded(size + 3)) {}
 
-  void add(const Matrix& functions, const Columns& colours) {
-    matrix.selfadjointView<Eigen::Lower>().rankUpdate(functions.transpose());
-    right.noalias() += functions.transpose() * colours;
-    views += static_cast<std::size_t>(functions.rows());
-  }
+  std::size_t count() const { return values.size() / width; }
 
-  /// [K][3]
-  Eigen::MatrixXf solve(const EnvironmentSettings& settings) const {
-    Eigen::MatrixXd m = matrix.cast<double>();
-    for (Eigen::Index k = 0; k < m.rows(); ++k)
-      m(k, k) += settings.strength * static_cast<double>(views) * kLightPenalty *
-                 std::pow(kGrowth, std::floor(std::sqrt(static_cast<double>(k + 1))));
-    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(m);
-    return factor.solve(right.cast<double>()).cast<float>();
-  }
+  std::size_t size, width;
+  std::vector<float> values;  // [count][width]
 };
 
-std::size_t unknowns(int degree) {
-  return static_cast<std::size_t>((degree + 1) * (degree + 1) - 1);
-}
-
-/// The functions but for the constant, at the places where the views of points [begin, end) end.
-Matrix functions_of(const ReflectedViews& views, std::size_t begin, std::size_t end, double radius,
-                    int degree) {
-  const Harmonics harmonics(degree);
-  const std::size_t first = views.first[begin];
+/// One more row for each view of point p.
+void append_views(const ReflectedViews& views, std::size_t p, double radius,
+                  const Harmonics& harmonics, ViewRows& rows) {
+  const std::size_t first = views.first[p], count = views.first[p + 1] - first;
+  const std::size_t stride = padded(count), at = rows.values.size();
   std::vector<Vec3> places;
-  Matrix rows, out(index(views.first[end] - first), index(unknowns(degree)));
-  for (std::size_t p = begin; p < end; ++p) {
-    places.clear();
-    for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
-      places.push_back(place_on_sphere(views.position[p], views.reflected[j], radius));
-    rows.resize(index(places.size()), out.cols() + 1);
-    harmonics.evaluate(places, rows.data());
-    out.middleRows(index(views.first[p] - first), rows.rows()) = rows.rightCols(out.cols());
-  }
-  return out;
+  for (std::size_t j = first; j < first + count; ++j)
+    places.push_back(place_on_sphere(views.position[p], views.reflected[j], radius));
+  std::vector<float> columns(rows.size * stride);
+  harmonics.evaluate_columns(places, columns.data(), stride);
+  rows.values.resize(at + count * rows.width, 0.0f);
+  for (std::size_t k = 0; k < rows.size; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      rows.values[at + m * rows.width + k] = columns[k * stride + m];
+  for (std::size_t m = 0; m < count; ++m)
+    std::copy_n(views.colour[first + m].begin(), 3, &rows.values[at + m * rows.width + rows.size]);
 }
 
-Columns colours_of(const ReflectedViews& views, std::size_t begin, std::size_t end) {
-  return Eigen::Map<const Columns>(views.colour.front().data() + 3 * views.first[begin],
-                                   index(views.first[end] - views.first[begin]), 3);
+/// Normal equations of functions and colours less their means over a point.
+struct Normal {
+  explicit Normal(const ViewRows& rows)
+      : size(rows.size), width(rows.width), products(width * width, 0.0f) {}
+
+  void add(std::size_t count, const float* rows) {
+    add_square(count, rows, width, products.data());
+    views += count;
+  }
+
+  Normal& operator+=(const Normal& other) {
+    for (std::size_t i = 0; i < products.size(); ++i) products[i] += other.products[i];
+    views += other.views;
+    return *this;
+  }
+
+  /// [K][3]; the constant, which is less its mean, has none.
+  Eigen::MatrixXf solve(const EnvironmentSettings& settings) const {
+    const Eigen::Index n = index(size) - 1;
+    const auto product = [&](Eigen::Index i, Eigen::Index j) {
+      return double{products[static_cast<std::size_t>(i) * width + static_cast<std::size_t>(j)]};
+    };
+    Eigen::MatrixXd m(n, n), right(n, 3);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      for (Eigen::Index i = j; i < n; ++i) m(i, j) = product(i + 1, j + 1);
+      for (Eigen::Index c = 0; c < 3; ++c) right(j, c) = product(n + 1 + c, j + 1);
+      m(j, j) += settings.strength * static_cast<double>(views) * kLightPenalty *
+                 std::pow(kGrowth, std::floor(std::sqrt(static_cast<double>(j + 1))));
+    }
+    Eigen::MatrixXf light = Eigen::MatrixXf::Zero(n + 1, 3);
+    light.bottomRows(n) = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>(m).solve(right).cast<float>();
+    return light;
+  }
+
+  std::size_t size, width, views = 0;
+  std::vector<float> products;  // [width][width], lower triangle
+};
+
+/// What one fold of cameras saw, rows less the means of their points.
+struct FoldRows {
+  explicit FoldRows(int degree) : own(degree), shifts(degree), tested(degree) {}
+
+  ViewRows own;
+  /// By how much the means of points without the fold are others, times the root of the number of
+  /// views they are of: the products of rows less those are products of rows less these.
+  ViewRows shifts;
+  ViewRows tested;  ///< own, less the mean without the fold, where there is one
+};
+
+/// @param of_point  the views of one point, less their mean
+/// @param fold  [views]
+void divide(const ViewRows& of_point, std::span<const int> fold, std::vector<FoldRows>& folds) {
+  const std::size_t width = of_point.width;
+  std::vector<float> sum(width);
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    const std::size_t held_out =
+        static_cast<std::size_t>(std::count(fold.begin(), fold.end(), static_cast<int>(f)));
+    if (held_out == 0) continue;
+    const auto kept = static_cast<float>(fold.size() - held_out);
+    std::fill(sum.begin(), sum.end(), 0.0f);
+    const auto each_row = [&](const auto& body) {
+      for (std::size_t m = 0; m < fold.size(); ++m)
+        if (fold[m] == static_cast<int>(f)) body(&of_point.values[m * width]);
+    };
+    each_row([&](const float* row) {
+      folds[f].own.values.insert(folds[f].own.values.end(), row, row + width);
+      for (std::size_t i = 0; i < width; ++i) sum[i] += row[i];
+    });
+    if (kept == 0) continue;
+    for (const float x : sum) folds[f].shifts.values.push_back(x / std::sqrt(kept));
+    each_row([&](const float* row) {
+      for (std::size_t i = 0; i < width; ++i)
+        folds[f].tested.values.push_back(row[i] + sum[i] / kept);
+    });
+  }
+}
+
+/// Squared colours of rows, without and with light.
+std::array<double, 2> squared_errors(const ViewRows& rows, const Eigen::MatrixXf& light) {
+  std::array<double, 2> error{0, 0};
+  for (std::size_t m = 0; m < rows.count(); ++m) {
+    const float* row = &rows.values[m * rows.width];
+    const Eigen::Map<const Eigen::RowVectorXf> values(row, index(rows.size));
+    const Eigen::Map<const Eigen::RowVector3f> colour(row + rows.size);
+    error[0] += static_cast<double>(colour.squaredNorm());
+    error[1] += static_cast<double>((colour - values * light).squaredNorm());
+  }
+  return error;
 }
 
 /// Squared error on the views of each fold, of light fitted to the others. [0] without any light.
 std::array<double, 2> held_out_error(const ReflectedViews& views, const CameraFolds& folds,
                                      double radius, const EnvironmentSettings& settings) {
-  const std::size_t points = views.position.size();
-  const Matrix functions = functions_of(views, 0, points, radius, settings.degree);
-  const Columns colours = colours_of(views, 0, points);
+  const Harmonics harmonics(settings.degree);
+  std::vector<FoldRows> rows(static_cast<std::size_t>(folds.count), FoldRows(settings.degree));
+  ViewRows of_point(settings.degree);
+  std::vector<float> mean(of_point.width);
+  std::vector<int> fold;
+  for (std::size_t p = 0; p < views.position.size(); ++p) {
+    of_point.values.clear();
+    append_views(views, p, radius, harmonics, of_point);
+    centre_rows(of_point.count(), of_point.values.data(), of_point.width, mean.data());
+    fold.clear();
+    for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
+      fold.push_back(folds.of_camera[views.camera[j]]);
+    divide(of_point, fold, rows);
+  }
+  Normal all(of_point);
+  std::vector<Normal> without(rows.size(), all);  // first what is taken away
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    without[f].add(rows[f].own.count(), rows[f].own.values.data());
+    all += without[f];
+    add_square(rows[f].shifts.count(), rows[f].shifts.values.data(), of_point.width,
+               without[f].products.data());
+  }
   std::array<double, 2> error{0, 0};
-  for (int held_out = 0; held_out < folds.count; ++held_out) {
-    // Rows less the mean over those of the same point that are not held out.
-    Matrix f = functions;
-    Columns c = colours;
-    std::vector<Eigen::Index> kept, tested;
-    for (std::size_t p = 0; p < points; ++p) {
-      std::vector<Eigen::Index> of_point;
-      for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j)
-        if (folds.of_camera[views.camera[j]] != held_out) of_point.push_back(index(j));
-      if (of_point.empty()) continue;
-      const Eigen::RowVectorXf f_mean = functions(of_point, Eigen::all).colwise().mean();
-      const Eigen::RowVector3f c_mean = colours(of_point, Eigen::all).colwise().mean();
-      for (std::size_t j = views.first[p]; j < views.first[p + 1]; ++j) {
-        f.row(index(j)) -= f_mean;
-        c.row(index(j)) -= c_mean;
-        if (folds.of_camera[views.camera[j]] == held_out) tested.push_back(index(j));
-      }
-      kept.insert(kept.end(), of_point.begin(), of_point.end());
-    }
-    if (kept.empty() || tested.empty()) continue;
-    Normal normal(unknowns(settings.degree));
-    normal.add(f(kept, Eigen::all), c(kept, Eigen::all));
-    const Eigen::MatrixXf light = normal.solve(settings);
-    const Columns target = c(tested, Eigen::all);
-    const Columns rest = target - f(tested, Eigen::all) * light;
-    error[0] += static_cast<double>(target.squaredNorm());
-    error[1] += static_cast<double>(rest.squaredNorm());
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    if (rows[f].tested.values.empty()) continue;
+    without[f].views = all.views - without[f].views;
+    for (std::size_t i = 0; i < all.products.size(); ++i)
+      without[f].products[i] = all.products[i] - without[f].products[i];
+    const auto of_fold = squared_errors(rows[f].tested, without[f].solve(settings));
+    for (std::size_t i = 0; i < 2; ++i) error[i] += of_fold[i];
   }
   return error;
 }
@@ -152,33 +217,29 @@ ReflectedViews reflected_views(const Observations& observations, const MirrorPoi
 std::vector<float> solve_environment(const ReflectedViews& views, double radius,
                                      const EnvironmentSettings& settings, int threads) {
   constexpr std::size_t kParts = 8;  // whatever the number of threads: the sum is the same
-  const std::size_t points = views.position.size(), k = unknowns(settings.degree);
-  std::vector<Normal> parts(kParts, Normal(k));
+  const std::size_t points = views.position.size();
+  const Harmonics harmonics(settings.degree);
+  ViewRows rows(settings.degree);
+  std::vector<Normal> parts(kParts, Normal(rows));
   parallel_ranges(kParts, 1, threads, [&](std::size_t begin, std::size_t) {
-    constexpr std::size_t kStride = 64;  // points at a time
+    constexpr std::size_t kRows = 256;  // at a time
+    ViewRows some(settings.degree);
+    std::vector<float> mean(some.width);
     const std::size_t last = (begin + 1) * points / kParts;
-    for (std::size_t from = begin * points / kParts; from < last; from += kStride) {
-      const std::size_t to = std::min(from + kStride, last);
-      Matrix f = functions_of(views, from, to, radius, settings.degree);
-      Columns c = colours_of(views, from, to);
-      for (std::size_t p = from; p < to; ++p) {
-        const Eigen::Index at = index(views.first[p] - views.first[from]),
-                           n = index(views.first[p + 1] - views.first[p]);
-        f.middleRows(at, n).rowwise() -= f.middleRows(at, n).colwise().mean().eval();
-        c.middleRows(at, n).rowwise() -= c.middleRows(at, n).colwise().mean().eval();
-      }
-      parts[begin].add(f, c);
+    for (std::size_t p = begin * points / kParts; p < last; ++p) {
+      const std::size_t at = some.count();
+      append_views(views, p, radius, harmonics, some);
+      centre_rows(some.count() - at, &some.values[at * some.width], some.width, mean.data());
+      if (some.count() < kRows && p + 1 < last) continue;
+      parts[begin].add(some.count(), some.values.data());
+      some.values.clear();
     }
   });
-  for (std::size_t i = 1; i < kParts; ++i) {
-    parts[0].matrix += parts[i].matrix;
-    parts[0].right += parts[i].right;
-    parts[0].views += parts[i].views;
-  }
+  for (std::size_t i = 1; i < kParts; ++i) parts[0] += parts[i];
   const Eigen::MatrixXf solution = parts[0].solve(settings);
-  std::vector<float> light(3 * (k + 1), 0.0f);
-  for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t c = 0; c < 3; ++c) light[3 * (i + 1) + c] = solution(index(i), index(c));
+  std::vector<float> light(3 * rows.size);
+  for (std::size_t i = 0; i < rows.size; ++i)
+    for (std::size_t c = 0; c < 3; ++c) light[3 * i + c] = solution(index(i), index(c));
   return light;
 }
 

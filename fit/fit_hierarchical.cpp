@@ -1,18 +1,14 @@
 #include "fit/fit_hierarchical.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 
-#include "base/signed_index.h"
+#include "fit/fit_cholesky.h"
+#include "fit/lane_products.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
-
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 constexpr double kPenalty = 0.8;
 
@@ -22,61 +18,87 @@ std::vector<double> penalties(const DirectionRows& rows, double scale, double gr
   return penalty;
 }
 
-/// The rows of one point, read from the observations.
+/// What was seen of one point, read from the observations.
 /// @param light  [observations][3] subtracted from the colours, or empty
-void read_rows(const Observations& seen, std::span<const float> light, std::size_t point,
-               const DirectionRows& basis, PointRows& rows) {
-  const auto first = static_cast<std::size_t>(seen.first[point]),
-             last = static_cast<std::size_t>(seen.first[point + 1]);
-  rows.count = last - first;
-  rows.functions.resize(rows.count * basis.size());
-  rows.colours.clear();
-  basis.evaluate(std::span(seen.direction).subspan(first, rows.count), rows.functions.data());
+void read_columns(const Observations& observations, std::span<const float> light, std::size_t point,
+                  const DirectionRows& basis, PointColumns& seen) {
+  const auto first = static_cast<std::size_t>(observations.first[point]),
+             last = static_cast<std::size_t>(observations.first[point + 1]);
+  seen.count = last - first;
+  if (seen.count == 0) return;
+  seen.stride = padded(seen.count);
+  seen.functions.resize(basis.size() * seen.stride);
+  seen.colours.assign(3 * seen.stride, 0.0f);
+  basis.evaluate_columns(std::span(observations.direction).subspan(first, seen.count),
+                         seen.functions.data(), seen.stride);
   for (std::size_t i = first; i < last; ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      rows.colours.push_back(seen.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]));
+      seen.colours[c * seen.stride + i - first] =
+          observations.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]);
 }
 
-/// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
+/// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M. Scratch
+/// memory of one thread.
 class PointSystem {
  public:
-  /// @param inverse_root  of the penalties; [0] is 0; kept by reference, as rows
-  PointSystem(const PointRows& rows, std::span<const float> inverse_root)
-      : g_(rows.functions.data(), index(rows.count), index(inverse_root.size())),
-        c_(rows.colours.data(), index(rows.count), 3),
-        root_(inverse_root.data(), index(inverse_root.size())),
-        scaled_(g_ * root_.asDiagonal()),
-        s_(one_plus_square(scaled_)),
-        factor_(s_),
-        w_(factor_.solve(Eigen::VectorXf::Ones(index(rows.count)))) {}
+  /// @param inverse_root  [K] of the penalties; [0] is not used
+  explicit PointSystem(std::span<const float> inverse_root)
+      : root_(inverse_root), model_(inverse_root.size()), change_(inverse_root.size()) {}
+
+  /// @param seen  kept by reference until the next call; its functions are scaled by the roots
+  void factorise(PointColumns& seen) {
+    seen_ = &seen;
+    const std::size_t m = seen.count, width = seen.stride;
+    for (std::size_t k = 1; k < root_.size(); ++k)
+      for (std::size_t i = 0; i < width; ++i) seen.functions[k * width + i] *= root_[k];
+    square_.assign(width * width, 0.0f);
+    add_square(root_.size() - 1, scaled(), width, square_.data());
+    factor_.resize(packed_size(m));
+    for (std::size_t j = 0; j < m; ++j) {
+      float* column = factor_.data() + packed_column(m, j);
+      for (std::size_t i = j; i < m; ++i) column[i - j] = square_[i * width + j];
+      column[0] += 1;
+    }
+    cholesky_factorise(factor_.data(), m, 1.0f);
+  }
 
   /// @param coefficients  [K][3] m before, a after
-  void solve(float* coefficients) const {
-    Eigen::Map<Columns> a(coefficients, root_.size(), 3);
-    a.row(0).setZero();
-    Columns residual = c_ - g_ * a;
-    const Eigen::RowVector3f dc = w_.transpose() * residual / w_.sum();
-    residual.rowwise() -= dc;
-    const Eigen::Matrix<float, Eigen::Dynamic, 3> z = factor_.solve(residual);
-    a.noalias() += root_.asDiagonal() * (scaled_.transpose() * z);
-    a.row(0) = dc;
+  void solve(float* coefficients) {
+    const std::size_t m = seen_->count, width = seen_->stride, functions = root_.size() - 1;
+    for (std::size_t k = 0; k < functions; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        model_[k].c[c] = -coefficients[3 * (k + 1) + c] / root_[k + 1];
+    residual_.assign(4 * width, 1.0f);  // the last channel is of ones
+    std::copy(seen_->colours.begin(), seen_->colours.end(), residual_.begin());
+    if (functions > 0)
+      add_products(functions, model_[0].c.data(), 4, 4, scaled(), width, width, residual_.data());
+    solved_.resize(m);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t c = 0; c < 4; ++c) solved_[i].c[c] = residual_[c * width + i];
+    cholesky_solve(factor_.data(), m, solved_.data());
+    Lanes<float> sum;
+    for (const auto& x : solved_)
+      for (std::size_t c = 0; c < 4; ++c) sum.c[c] += x.c[c];
+    for (std::size_t c = 0; c < 3; ++c) coefficients[c] = sum.c[c] / sum.c[3];
+    for (auto& x : solved_)
+      for (std::size_t c = 0; c < 3; ++c) x.c[c] -= coefficients[c] * x.c[3];
+    row_products(functions, scaled(), width, m, solved_.data(), change_.data());
+    for (std::size_t k = 0; k < functions; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        coefficients[3 * (k + 1) + c] += root_[k + 1] * change_[k].c[c];
   }
 
  private:
-  /// 1 + m m^T, the lower triangle.
-  static Eigen::MatrixXf one_plus_square(const Matrix& m) {
-    Eigen::MatrixXf s = Eigen::MatrixXf::Identity(m.rows(), m.rows());
-    s.selfadjointView<Eigen::Lower>().rankUpdate(m);
-    return s;
-  }
+  const float* scaled() const {
+    return seen_->functions.data() + seen_->stride;
+  }  // [K - 1][stride]
 
-  Eigen::Map<const Matrix> g_;
-  Eigen::Map<const Columns> c_;
-  Eigen::Map<const Eigen::VectorXf> root_;
-  Matrix scaled_;
-  Eigen::MatrixXf s_;
-  Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>, Eigen::Lower> factor_;  // in s_
-  Eigen::VectorXf w_;
+  std::span<const float> root_;
+  const PointColumns* seen_ = nullptr;
+  std::vector<float> square_, factor_;        // 1 + S S^T: its products; packed
+  std::vector<float> residual_;               // [4][stride]
+  std::vector<Lanes<float>> solved_;          // [M]
+  std::vector<Lanes<float>> model_, change_;  // [K - 1] over the roots
 };
 
 }  // namespace
@@ -88,11 +110,11 @@ void HierarchicalFit::for_points(double from, double to, const Progress& progres
   parallel_ranges(
       blocks, 1, threads_,
       [&](std::size_t begin, std::size_t end) {
-        PointRows rows;
+        PointColumns seen;
         for (std::size_t b = begin; b < end; ++b)
           for (std::size_t p = prior_.first_point(b); p < prior_.first_point(b + 1); ++p) {
-            read_rows(observations_, light_, p, basis_, rows);
-            if (rows.count > 0) each(b, p, rows);
+            read_columns(observations_, light_, p, basis_, seen);
+            if (seen.count > 0) each(b, p, seen);
           }
       },
       [&](std::size_t done) {
@@ -109,7 +131,7 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
       basis_(settings.basis),
       prior_(positions, settings.hierarchy.block_log2, basis_.size()) {
   for_points(0, 0.5, progress,
-             [&](std::size_t b, std::size_t, const PointRows& rows) { prior_.add(b, rows); });
+             [&](std::size_t b, std::size_t, PointColumns& seen) { prior_.add(b, seen); });
   prior_.sum_up(threads_);
 }
 
@@ -123,8 +145,9 @@ void HierarchicalFit::solve(std::span<const HierarchySettings> tried, const Body
     inverse_root.push_back(static_cast<float>(1 / std::sqrt(p)));
   inverse_root[0] = 0;
   const std::size_t size = 3 * basis_.size();
-  for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, const PointRows& rows) {
-    const PointSystem system(rows, inverse_root);
+  for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, PointColumns& seen) {
+    PointSystem system(inverse_root);
+    system.factorise(seen);
     std::vector<float> solutions;
     for (const auto& prior : blocks) {
       const auto mean = prior.begin() + static_cast<std::ptrdiff_t>(b * size);

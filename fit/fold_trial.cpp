@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "fit/fit_cholesky.h"
+#include "fit/lane_products.h"
 #include "geometry/morton.h"
 #include "lightfield/frame.h"
 
@@ -96,28 +98,33 @@ class FoldFit {
  private:
   /// @param a  [sums][K][3]
   void add_point_errors(std::size_t p, std::span<const float> a, std::span<double> sums) const {
-    const std::size_t k = fit_.basis().size();
-    std::vector<float> row(k);
-    for (auto j = held_out_.first[p]; j < held_out_.first[p + 1]; ++j) {
-      auto d = held_out_.direction[j];
-      std::array<float, 3> light{0, 0, 0};
-      if (!light_.empty()) std::copy_n(&light_[3 * j], 3, light.begin());
-      if (bspline_)  // spec 6.7: held beyond what was seen
+    const std::size_t k = fit_.basis().size(), first = held_out_.first[p],
+                      count = held_out_.first[p + 1] - first, stride = padded(count);
+    if (count == 0) return;
+    std::vector<std::array<float, 2>> directions(
+        held_out_.direction.begin() + static_cast<std::ptrdiff_t>(first),
+        held_out_.direction.begin() + static_cast<std::ptrdiff_t>(first + count));
+    if (bspline_)  // spec 6.7: held beyond what was seen
+      for (auto& d : directions)
         d[1] = std::clamp(d[1], static_cast<float>(kept_.gamma_min),
                           static_cast<float>(kept_.gamma_max));
-      fit_.basis().evaluate(d, row.data());
-      for (std::size_t t = 0; t < sums.size(); ++t) {
-        std::array<float, 3> value = light;
-        for (std::size_t i = 0; i < k; ++i)
-          for (std::size_t c = 0; c < 3; ++c) {
-            value[c] += row[i] * a[3 * (t * k + i) + c];
-            if (!projected_.empty()) value[c] += row[i] * projected_[3 * (p * k + i) + c];
-          }
+    std::vector<float> functions(k * stride), values;
+    fit_.basis().evaluate_columns(directions, functions.data(), stride);
+    std::vector<Lanes<float>> of_point(k);
+    for (std::size_t t = 0; t < sums.size(); ++t) {
+      for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          of_point[i].c[c] = a[3 * (t * k + i) + c] +
+                             (projected_.empty() ? 0.0f : projected_[3 * (p * k + i) + c]);
+      values.assign(4 * stride, 0.0f);
+      add_products(k, of_point[0].c.data(), 4, 4, functions.data(), stride, stride, values.data());
+      for (std::size_t j = 0; j < count; ++j)
         for (std::size_t c = 0; c < 3; ++c) {
-          const double e = double(std::clamp(value[c], 0.0f, 255.0f) - held_out_.colour[j][c]);
+          const float value =
+              values[c * stride + j] + (light_.empty() ? 0.0f : light_[3 * (first + j) + c]);
+          const double e = double(std::clamp(value, 0.0f, 255.0f) - held_out_.colour[first + j][c]);
           sums[t] += e * e;
         }
-      }
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/multiversion.h"
 
@@ -76,6 +77,20 @@ SLF_MULTIVERSION_ALL void Harmonics::evaluate(
       sine[i] = sine[i] * x[i] + cosine[i] * y[i];
       cosine[i] = turned;
     }
+  }
+}
+
+void Harmonics::evaluate_columns(std::span<const std::array<double, 3>> directions, float* columns,
+                                 std::size_t stride) const {
+  std::array<std::array<float, kLanes>, 3> lanes;
+  std::vector<std::array<float, kLanes>> values(static_cast<std::size_t>(size()));
+  for (std::size_t first = 0; first < stride; first += kLanes) {
+    for (std::size_t i = 0; i < kLanes; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        lanes[a][i] = static_cast<float>(directions[std::min(first + i, directions.size() - 1)][a]);
+    evaluate(lanes, values.data());
+    for (std::size_t k = 0; k < values.size(); ++k)
+      std::memcpy(columns + k * stride + first, values[k].data(), sizeof values[k]);
   }
 }
 

@@ -34,6 +34,12 @@ class Harmonics {
   void evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
                 std::array<float, kLanes>* rows) const;
 
+  /// The same of any number, side by side.
+  /// @param columns  [size()][stride] receives the values; stride: a multiple of kLanes, at least
+  ///                 the number of directions. What is behind it repeats the last.
+  void evaluate_columns(std::span<const std::array<double, 3>> directions, float* columns,
+                        std::size_t stride) const;
+
   /// The same of any number.
   /// @param directions  unit length
   /// @param rows  [directions][size()] receives the values

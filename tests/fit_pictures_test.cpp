@@ -233,23 +233,25 @@ TEST(DirectionKernel, OfHarmonicsIsASumOverTheirRows) {
 }
 
 TEST(DirectionRows, OfManyDirectionsAreThoseOfEach) {
+  constexpr std::size_t kCount = 11, kStride = 16;
   for (const Basis& basis : {Basis{BasisId::kHarmonics, 2, 0, 0, 10}, Basis{}}) {
     const DirectionRows rows(basis);
     std::vector<std::array<float, 2>> directions;
     std::vector<Vec3> vectors;
-    for (int i = 0; i < 11; ++i) {
+    for (std::size_t i = 0; i < kCount; ++i) {
       directions.push_back(
           {-3 + 0.55f * static_cast<float>(i), -0.95f + 0.19f * static_cast<float>(i)});
       vectors.push_back(vector_of(directions.back()));
     }
-    std::vector<float> many(11 * rows.size()), of_vectors(many), one(rows.size());
-    rows.evaluate(directions, many.data());
+    std::vector<float> columns(kStride * rows.size()), of_vectors(kCount * rows.size()),
+        one(rows.size());
+    rows.evaluate_columns(directions, columns.data(), kStride);
     rows.evaluate(vectors, of_vectors.data());
-    for (std::size_t i = 0; i < 11; ++i) {
-      rows.evaluate(directions[i], one.data());
+    for (std::size_t i = 0; i < kStride; ++i) {
+      rows.evaluate(directions[std::min(i, kCount - 1)], one.data());
       for (std::size_t k = 0; k < one.size(); ++k) {
-        EXPECT_NEAR(many[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
-        EXPECT_NEAR(of_vectors[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
+        EXPECT_NEAR(columns[k * kStride + i], one[k], 2e-4f) << i << ' ' << k;
+        if (i < kCount) EXPECT_NEAR(of_vectors[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
       }
     }
   }
