@@ -12,6 +12,32 @@ namespace {
 constexpr double kRegion = 8;      // spacings: side of the cubes that are kept or not
 constexpr double kUnseenMove = 2;  // lattice steps: moved farther, a point must be seen
 constexpr double kSlanted = 1.4;   // lattice steps: between points of a slanted surface
+constexpr double kFineStep = 0.9;  // spacings of the capture's points
+constexpr double kTorn = 0.025;    // of what the squared error falls by, at most: what is uncovered
+
+/// What `points` on a lattice uncover, with discs that leave no holes between them.
+HeldOutErrors uncovered_by(const MendingJob& job, const SurfacePoints& before, double spacing,
+                           const SurfacePoints& points, double step) {
+  return uncovered_errors(job.judged, before, points, std::max(kSlanted * step, spacing),
+                          job.settings.threads);
+}
+
+/// The same at the scale of the capture's points, weighted as the points of `final` are: discs as
+/// wide as thinned points need would cover what an outline has lost.
+HeldOutErrors uncovered_in_all(const MendingJob& job, const SurfacePoints& both,
+                               const SurfacePoints& final, double step) {
+  if (job.captured.size() == 0) return uncovered_by(job, job.start, job.spacing, final, step);
+  Lattice fine = lattice_of(both, job).lattice;
+  fine.size = {};
+  fine.step = std::min(step, kFineStep * job.captured_spacing);
+  const SurfacePoints dense =
+      resample(both, fine, sampling_of(job.spacing, fine, job.settings.threads));
+  HeldOutErrors lost = uncovered_by(job, job.captured, job.captured_spacing, dense, fine.step);
+  const auto weight = float(double(final.size()) / double(job.captured.size()));
+  for (float& x : lost.squares) x *= weight;
+  for (float& x : lost.views) x *= weight;
+  return lost;
+}
 
 }  // namespace
 
@@ -19,33 +45,29 @@ Result<Candidate, InputError> judge_mended(const MendingJob& job, const HeldOutE
                                            const SurfacePoints& mended) {
   const int threads = job.settings.threads;
   Candidate candidate;
-  candidate.on = lattice_of(mended, job);
-  const double step = candidate.on.lattice.step;
-  const double apart = step > job.spacing ? kSlanted * step : job.spacing;
-  const auto uncovered = [&](const SurfacePoints& points) {
-    return uncovered_errors(job.judged, job.start, points, apart, threads);
-  };
   SLF_TRY(const HeldOutErrors after, sampled_errors(job, mended));
-  auto keep =
-      worse_after(job.start, before, mended, after, uncovered(mended), kRegion * job.spacing);
+  const HeldOutErrors lost_after =
+      uncovered_by(job, job.start, job.spacing, mended, lattice_of(mended, job).lattice.step);
+  auto keep = worse_after(job.start, before, mended, after, lost_after, kRegion * job.spacing);
   const auto torn = shines_through(job.capture, job.cameras, job.start,
                                    with_kept(job.start, mended, keep), job.spacing, threads);
   for (std::size_t p = 0; p < keep.size(); ++p) keep[p] |= torn[p];
   candidate.kept_back = std::size_t(std::count(keep.begin(), keep.end(), 1));
   const SurfacePoints both = with_kept(job.start, mended, keep);
-  candidate.on = lattice_of(both, job);
-  ResampleSettings sampling;
+  candidate.on = final_lattice_of(both, job);
+  const Lattice& lattice = candidate.on.lattice;
+  ResampleSettings sampling =
+      sampling_of(job.captured.size() == 0 ? 0 : job.spacing, lattice, threads);
   sampling.on_lattice = candidate.on.of_grid;
-  sampling.threads = threads;
-  const SurfacePoints final = resample(both, candidate.on.lattice, sampling);
+  const SurfacePoints final = resample(both, lattice, sampling);
   if (final.size() < kLeastMendedPoints) return candidate;
   SLF_TRY(const HeldOutErrors last,
           held_out_errors(job.capture, job.cameras, final, job.spacing, threads));
-  const HeldOutErrors lost = uncovered(final);
+  const HeldOutErrors lost = uncovered_in_all(job, both, final, lattice.step);
   candidate.error = mean_of(last, lost);
-  candidate.uncovered = 1 - last.squares_sum() / (last.squares_sum() + lost.squares_sum());
-  candidate.points =
-      without_unsupported(job.start, final, last.seen, kUnseenMove * candidate.on.lattice.step);
+  const double share = 1 - last.squares_sum() / (last.squares_sum() + lost.squares_sum());
+  candidate.torn = share * candidate.error > kTorn * (before.mean() - candidate.error);
+  candidate.points = without_unsupported(job.start, final, last.seen, kUnseenMove * lattice.step);
   return candidate;
 }
 

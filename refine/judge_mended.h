@@ -13,7 +13,7 @@ struct Candidate {
   SurfacePoints points;
   double error = std::numeric_limits<double>::infinity();  ///< mean square of held-out photographs,
                                                            ///< what is uncovered counted
-  double uncovered = 0;                                    ///< its share in that
+  bool torn = false;  ///< too much is uncovered for what is gained
   std::size_t kept_back = 0;
   MendingLattice on;
 };

@@ -18,7 +18,6 @@ constexpr double kPixelsApart = 0.5;      // of a round's photographs, between p
                                           // they say the same again
 constexpr std::size_t kFewest = 4000;     // points that a round has, where the capture has them
 constexpr double kThinned = 1.2;          // times farther apart: worth it
-constexpr double kLatticeStep = 0.7;      // spacings: a lattice as fine as this has its points
 
 /// Positions on the surface that their neighbours make, and its normals.
 void smooth(SurfacePoints& surface, double spacing, int threads) {
@@ -48,15 +47,7 @@ SurfacePoints sampled(const MendingJob& job, const SurfacePoints& surface, doubl
   lattice.size = {};
   if (next_round < kMendingLevels.size() && spacing_of(job, next_round) > job.spacing)
     lattice.step = std::max(lattice.step, spacing_of(job, next_round));
-  // As far between points as where the lattice is theirs.
-  const double wider = std::max(1.0, kLatticeStep * spacing / lattice.step);
-  ResampleSettings sampling;
-  sampling.around = int(std::ceil(wider - 0.1));
-  sampling.reach *= wider;
-  sampling.support *= wider;
-  sampling.rim *= wider;
-  sampling.threads = job.settings.threads;
-  return resample(surface, lattice, sampling);
+  return resample(surface, lattice, sampling_of(spacing, lattice, job.settings.threads));
 }
 
 /// As a round starts, without the steps of a voxel grid.

@@ -3,12 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "capture/quantile.h"
+#include "capture/spacing.h"
 
 namespace slf {
 namespace {
+
+// All measured on middlebury_dino: docs/pictures/geometry.md.
+constexpr double kPatchesApart = 1;  // of the finest photographs matched, between points: nearer
+                                     // ones have the same patch
+constexpr double kDenser = 1.2;      // times farther apart: worth it
+constexpr double kPixelsPerMended = 1.4;  // of the photographs: a free grid's voxel
+constexpr double kLatticeStep = 0.7;      // spacings: a lattice as fine as this has its points
+constexpr double kStepOfSpacing = 0.9;    // a lattice on which points are as far apart as before
 
 /// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
 double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> views) {
@@ -25,6 +35,31 @@ double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> view
         sizes.push_back(z / (std::max(view.camera->fx, view.camera->fy) * view.scale));
     }
   return median(std::move(sizes));
+}
+
+/// For points that lie `spacing` apart.
+MendingLattice lattice_of(const SurfacePoints& surface, const RefineSettings& s, double spacing) {
+  MendingLattice found;
+  Lattice& lattice = found.lattice;
+  Vec3 high{};
+  double extent = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double low = std::numeric_limits<double>::max();
+    high[a] = std::numeric_limits<double>::lowest();
+    for (const Float3& p : surface.positions) {
+      low = std::min(low, double(p[a]));
+      high[a] = std::max(high[a], double(p[a]));
+    }
+    lattice.origin[a] = low;
+    extent = std::max(extent, high[a] - low);
+  }
+  const double nodes = std::pow(2.0, s.grid_bits);
+  const double step = s.voxel_size > 0 ? s.voxel_size : extent / (nodes - 1);
+  found.of_grid = step >= kLatticeStep * spacing;
+  lattice.step = found.of_grid ? step : kStepOfSpacing * spacing;
+  if (s.voxel_size == 0 && found.of_grid)
+    lattice.size = {std::int64_t(nodes), std::int64_t(nodes), std::int64_t(nodes)};
+  return found;
 }
 
 }  // namespace
@@ -56,29 +91,46 @@ Result<HeldOutErrors, InputError> sampled_errors(const MendingJob& job,
                          every);
 }
 
+void thin_start(MendingJob& job, int level) {
+  job.captured_spacing = job.spacing;
+  const double apart = kPatchesApart * job.pixel * std::pow(2.0, level);
+  if (!(apart > kDenser * job.spacing)) return;
+  Lattice lattice = lattice_of(job.start, job).lattice;
+  lattice.size = {};
+  lattice.step = kStepOfSpacing * apart;
+  ResampleSettings sampling;
+  sampling.threads = job.settings.threads;
+  SurfacePoints thin = resample(job.start, lattice, sampling);
+  if (thin.size() < kLeastMendedPoints) return;
+  job.captured = std::move(job.start);
+  std::iota(thin.source.begin(), thin.source.end(), 0u);
+  job.start = std::move(thin);
+  job.spacing = typical_spacing(job.start.positions);
+}
+
 MendingLattice lattice_of(const SurfacePoints& surface, const MendingJob& job) {
-  MendingLattice found;
-  Lattice& lattice = found.lattice;
-  Vec3 high{};
-  double extent = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    double low = std::numeric_limits<double>::max();
-    high[a] = std::numeric_limits<double>::lowest();
-    for (const Float3& p : surface.positions) {
-      low = std::min(low, double(p[a]));
-      high[a] = std::max(high[a], double(p[a]));
-    }
-    lattice.origin[a] = low;
-    extent = std::max(extent, high[a] - low);
-  }
-  const RefineSettings& s = job.settings;
-  const double nodes = std::pow(2.0, s.grid_bits);
-  const double step = s.voxel_size > 0 ? s.voxel_size : extent / (nodes - 1);
-  found.of_grid = step >= 0.7 * job.spacing;
-  lattice.step = found.of_grid ? step : 0.9 * job.spacing;
-  if (s.voxel_size == 0 && found.of_grid)
-    lattice.size = {std::int64_t(nodes), std::int64_t(nodes), std::int64_t(nodes)};
+  return lattice_of(surface, job.settings, job.spacing);
+}
+
+MendingLattice final_lattice_of(const SurfacePoints& surface, const MendingJob& job) {
+  MendingLattice found = lattice_of(surface, job.settings, job.captured_spacing);
+  if (job.captured.size() == 0 || !job.settings.free_grid) return found;
+  found.of_grid = true;
+  found.lattice.size = {};
+  found.lattice.step = std::max(found.lattice.step, kPixelsPerMended * job.pixel);
   return found;
+}
+
+ResampleSettings sampling_of(double spacing, const Lattice& lattice, int threads) {
+  // As far between points as where the lattice is theirs.
+  const double wider = std::max(1.0, kLatticeStep * spacing / lattice.step);
+  ResampleSettings sampling;
+  sampling.around = int(std::ceil(wider - 0.1));
+  sampling.reach *= wider;
+  sampling.support *= wider;
+  sampling.rim *= wider;
+  sampling.threads = threads;
+  return sampling;
 }
 
 }  // namespace slf

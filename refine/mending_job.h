@@ -22,13 +22,18 @@ struct MendingJob {
   std::span<const int> cameras;
   const RefineSettings& settings;
   CameraParts parts;
-  SurfacePoints start;
-  double spacing = 0;  ///< of the capture's points
-  double pixel = 0;    ///< of the finest level used, world units at the object
+  SurfacePoints captured;  ///< the capture's, where those that are mended are fewer
+  SurfacePoints start;     ///< what is mended
+  double captured_spacing = 0, spacing = 0;  ///< of the capture's points, and of `start`
+  double pixel = 0;  ///< of the finest level used, world units at the object
   std::vector<std::vector<PhotoView>> levels;
   std::vector<Silhouette> outlines;  ///< of the photographs that are matched, where they bind
   std::vector<Silhouette> judged;    ///< of those held out
 };
+
+/// Points that the photographs of `level` tell apart in place of those of a capture that are
+/// denser: more of them say the same again, and each for itself.
+void thin_start(MendingJob& job, int level);
 
 /// Photographs down to the size at which a pixel is about half a point spacing, and coarser, up to
 /// level `coarsest`; `pixel`.
@@ -50,5 +55,11 @@ struct MendingLattice {
 
 /// The lattice of the grid that follows, where that is not much finer than the points.
 MendingLattice lattice_of(const SurfacePoints& surface, const MendingJob& job);
+/// The same of what is mended in the end. Of points that were thinned it is as fine as those were,
+/// or on a free grid as photographs resolve.
+MendingLattice final_lattice_of(const SurfacePoints& surface, const MendingJob& job);
+
+/// For points that lie `spacing` apart: holes close also on a lattice finer than they are.
+ResampleSettings sampling_of(double spacing, const Lattice& lattice, int threads);
 
 }  // namespace slf

@@ -16,7 +16,6 @@ namespace {
 // All measured on middlebury_dino: docs/pictures/geometry.md.
 constexpr std::size_t kLeastCameras = 8, kMostPoints = 2'000'000;
 constexpr double kLeastGain = 0.15;  // of the squared error, for kAuto: less may be the smoothing
-constexpr double kTorn = 0.006;      // of the squared error, at most: what is uncovered
 constexpr double kExact = 0.25;      // pixels of half-size photographs: a cloud that kAuto leaves
 
 SurfacePoints surface_of(const Capture& capture, int threads) {
@@ -36,6 +35,7 @@ double decibels(double mean_square) {
 }
 
 /// How far points are from where they come from, and what became of those.
+/// @param report  its points_before are the capture's, of which `before` may be a part
 void count_moves(const SurfacePoints& before, const SurfacePoints& after, double step,
                  RefineReport& report) {
   std::vector<std::uint8_t> used(before.size(), 0);
@@ -48,9 +48,8 @@ void count_moves(const SurfacePoints& before, const SurfacePoints& after, double
     const double move = std::abs(double(dot(apart, before.normals[from]))) / step;
     if (move > 0.5) moves.push_back(move);
   }
-  report.points_before = before.size();
   report.points_after = after.size();
-  report.removed = before.size() - std::size_t(std::count(used.begin(), used.end(), 1));
+  report.removed = report.points_before - std::size_t(std::count(used.begin(), used.end(), 1));
   report.moved = moves.size();
   if (moves.empty()) return;
   report.max_move = *std::max_element(moves.begin(), moves.end());
@@ -98,7 +97,7 @@ Result<Candidate, InputError> mended_whole(MendingJob& job, const HeldOutErrors&
     const SurfacePoints surface = mended(job, bound, next);
     if (surface.size() < kLeastMendedPoints) continue;  // nothing like a surface
     SLF_TRY(Candidate candidate, judge_mended(job, before, surface));
-    if (candidate.uncovered <= kTorn) return candidate;
+    if (!candidate.torn) return candidate;
   }
   return Candidate{};
 }
@@ -108,6 +107,7 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
   if (automatic && typical_miss(job) <= kExact) return Done{};
+  thin_start(job, *std::min_element(kMendingLevels.begin(), kMendingLevels.end()));
   SLF_TRY(job.judged, silhouettes_of(job, job.parts.held_out));
   SLF_TRY(const HeldOutErrors before, sampled_errors(job, job.start));
   SLF_TRY(Candidate best, mended_whole(job, before, progress));
@@ -144,7 +144,8 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
   out.report.points_before = out.report.points_after = capture.cloud.positions.size();
   out.report.outcome = obstacle(capture, cameras, settings.mode);
   if (out.report.outcome != RefineReport::kNoGain) return out;
-  MendingJob job{capture, cameras, settings, split_for_mending(cameras), {}, 0, 0, {}, {}, {}};
+  MendingJob job{capture, cameras, settings, split_for_mending(cameras), {}, {}, 0, 0, 0,
+                 {},      {},      {}};
   job.spacing = typical_spacing(capture.cloud.positions);
   if (!(job.spacing > 0)) return out;
   job.start = surface_of(capture, settings.threads);

@@ -12,8 +12,9 @@ namespace slf {
 
 struct RefineSettings {
   RefineGeometry mode = RefineGeometry::kAuto;
-  int grid_bits = 9;      ///< of the grid that follows
-  double voxel_size = 0;  ///< > 0: in place of grid_bits
+  int grid_bits = 9;       ///< of the grid that follows
+  double voxel_size = 0;   ///< > 0: in place of grid_bits
+  bool free_grid = false;  ///< a mended surface may have a coarser one than both
   int threads = 0;
 };
 
