@@ -12,13 +12,15 @@ namespace {
 constexpr double kRegion = 8;      // spacings: side of the cubes that are kept or not
 constexpr double kUnseenMove = 2;  // lattice steps: moved farther, a point must be seen
 constexpr double kSlanted = 1.4;   // lattice steps: between points of a slanted surface
-constexpr double kFineStep = 0.9;  // spacings of the capture's points
-constexpr double kTorn = 0.025;    // of what the squared error falls by, at most: what is uncovered
+// At most uncovered: of the squared error that remains; of what it falls by, where points were
+// thinned, as the better a surface is mended, the less remains.
+constexpr double kTorn = 0.006, kTornOfGain = 0.025;
 
-/// What `points` on a lattice uncover, with discs that leave no holes between them.
+/// What `points` on a lattice of `step` uncover.
 HeldOutErrors uncovered_by(const MendingJob& job, const SurfacePoints& before, double spacing,
                            const SurfacePoints& points, double step) {
-  return uncovered_errors(job.judged, before, points, std::max(kSlanted * step, spacing),
+  const double apart = step > spacing || job.thinned() ? kSlanted * step : spacing;
+  return uncovered_errors(job.judged, before, points, std::max(apart, spacing),
                           job.settings.threads);
 }
 
@@ -26,10 +28,8 @@ HeldOutErrors uncovered_by(const MendingJob& job, const SurfacePoints& before, d
 /// wide as thinned points need would cover what an outline has lost.
 HeldOutErrors uncovered_in_all(const MendingJob& job, const SurfacePoints& both,
                                const SurfacePoints& final, double step) {
-  if (job.captured.size() == 0) return uncovered_by(job, job.start, job.spacing, final, step);
-  Lattice fine = lattice_of(both, job).lattice;
-  fine.size = {};
-  fine.step = std::min(step, kFineStep * job.captured_spacing);
+  if (!job.thinned()) return uncovered_by(job, job.start, job.spacing, final, step);
+  const Lattice fine = lattice_of_captured(both, job);
   const SurfacePoints dense =
       resample(both, fine, sampling_of(job.spacing, fine, job.settings.threads));
   HeldOutErrors lost = uncovered_by(job, job.captured, job.captured_spacing, dense, fine.step);
@@ -56,8 +56,7 @@ Result<Candidate, InputError> judge_mended(const MendingJob& job, const HeldOutE
   const SurfacePoints both = with_kept(job.start, mended, keep);
   candidate.on = final_lattice_of(both, job);
   const Lattice& lattice = candidate.on.lattice;
-  ResampleSettings sampling =
-      sampling_of(job.captured.size() == 0 ? 0 : job.spacing, lattice, threads);
+  ResampleSettings sampling = sampling_of(job.thinned() ? job.spacing : 0, lattice, threads);
   sampling.on_lattice = candidate.on.of_grid;
   const SurfacePoints final = resample(both, lattice, sampling);
   if (final.size() < kLeastMendedPoints) return candidate;
@@ -66,7 +65,8 @@ Result<Candidate, InputError> judge_mended(const MendingJob& job, const HeldOutE
   const HeldOutErrors lost = uncovered_in_all(job, both, final, lattice.step);
   candidate.error = mean_of(last, lost);
   const double share = 1 - last.squares_sum() / (last.squares_sum() + lost.squares_sum());
-  candidate.torn = share * candidate.error > kTorn * (before.mean() - candidate.error);
+  const double gain = before.mean() - candidate.error;
+  candidate.torn = job.thinned() ? share * candidate.error > kTornOfGain * gain : share > kTorn;
   candidate.points = without_unsupported(job.start, final, last.seen, kUnseenMove * lattice.step);
   return candidate;
 }

@@ -18,6 +18,8 @@ constexpr double kPatchesApart = 1;  // of the finest photographs matched, betwe
 constexpr double kDenser = 1.2;      // times farther apart: worth it
 constexpr double kPixelsPerMended = 1.4;  // of the photographs: a free grid's voxel
 constexpr double kLatticeStep = 0.7;      // spacings: a lattice as fine as this has its points
+constexpr double kFinestStep = 0.3;       // spacings of points that were thinned: time and memory
+                                          // grow with the cube
 constexpr double kStepOfSpacing = 0.9;    // a lattice on which points are as far apart as before
 
 /// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
@@ -92,7 +94,7 @@ Result<HeldOutErrors, InputError> sampled_errors(const MendingJob& job,
 }
 
 void thin_start(MendingJob& job, int level) {
-  job.captured_spacing = job.spacing;
+  if (!job.settings.free_grid) return;
   const double apart = kPatchesApart * job.pixel * std::pow(2.0, level);
   if (!(apart > kDenser * job.spacing)) return;
   Lattice lattice = lattice_of(job.start, job).lattice;
@@ -113,12 +115,20 @@ MendingLattice lattice_of(const SurfacePoints& surface, const MendingJob& job) {
 }
 
 MendingLattice final_lattice_of(const SurfacePoints& surface, const MendingJob& job) {
+  if (!job.thinned()) return lattice_of(surface, job);
   MendingLattice found = lattice_of(surface, job.settings, job.captured_spacing);
-  if (job.captured.size() == 0 || !job.settings.free_grid) return found;
   found.of_grid = true;
   found.lattice.size = {};
-  found.lattice.step = std::max(found.lattice.step, kPixelsPerMended * job.pixel);
+  found.lattice.step =
+      std::max({found.lattice.step, kPixelsPerMended * job.pixel, kFinestStep * job.spacing});
   return found;
+}
+
+Lattice lattice_of_captured(const SurfacePoints& surface, const MendingJob& job) {
+  Lattice lattice = lattice_of(surface, job).lattice;
+  lattice.size = {};
+  lattice.step = std::max(kStepOfSpacing * job.captured_spacing, kFinestStep * job.spacing);
+  return lattice;
 }
 
 ResampleSettings sampling_of(double spacing, const Lattice& lattice, int threads) {

@@ -29,10 +29,12 @@ struct MendingJob {
   std::vector<std::vector<PhotoView>> levels;
   std::vector<Silhouette> outlines;  ///< of the photographs that are matched, where they bind
   std::vector<Silhouette> judged;    ///< of those held out
+
+  bool thinned() const { return captured.size() > 0; }
 };
 
-/// Points that the photographs of `level` tell apart in place of those of a capture that are
-/// denser: more of them say the same again, and each for itself.
+/// On a free grid: points that the photographs of `level` tell apart in place of those of a denser
+/// capture, more of which say the same again.
 void thin_start(MendingJob& job, int level);
 
 /// Photographs down to the size at which a pixel is about half a point spacing, and coarser, up to
@@ -55,9 +57,11 @@ struct MendingLattice {
 
 /// The lattice of the grid that follows, where that is not much finer than the points.
 MendingLattice lattice_of(const SurfacePoints& surface, const MendingJob& job);
-/// The same of what is mended in the end. Of points that were thinned it is as fine as those were,
-/// or on a free grid as photographs resolve.
+/// The same of what is mended in the end; of points that were thinned as fine as photographs
+/// resolve.
 MendingLattice final_lattice_of(const SurfacePoints& surface, const MendingJob& job);
+/// About as fine as the capture's points.
+Lattice lattice_of_captured(const SurfacePoints& surface, const MendingJob& job);
 
 /// For points that lie `spacing` apart: holes close also on a lattice finer than they are.
 ResampleSettings sampling_of(double spacing, const Lattice& lattice, int threads);

@@ -107,7 +107,8 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
   if (automatic && typical_miss(job) <= kExact) return Done{};
-  thin_start(job, *std::min_element(kMendingLevels.begin(), kMendingLevels.end()));
+  if (job.settings.free_grid)
+    thin_start(job, *std::min_element(kMendingLevels.begin(), kMendingLevels.end()));
   SLF_TRY(job.judged, silhouettes_of(job, job.parts.held_out));
   SLF_TRY(const HeldOutErrors before, sampled_errors(job, job.start));
   SLF_TRY(Candidate best, mended_whole(job, before, progress));
@@ -146,7 +147,7 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
   if (out.report.outcome != RefineReport::kNoGain) return out;
   MendingJob job{capture, cameras, settings, split_for_mending(cameras), {}, {}, 0, 0, 0,
                  {},      {},      {}};
-  job.spacing = typical_spacing(capture.cloud.positions);
+  job.captured_spacing = job.spacing = typical_spacing(capture.cloud.positions);
   if (!(job.spacing > 0)) return out;
   job.start = surface_of(capture, settings.threads);
   SLF_CHECK(mend(job, out, progress));

@@ -94,6 +94,23 @@ TEST_F(RefineGeometryTest, ACloudDenserThanThePhotographsIsMendedAtTheirScaleAnd
   EXPECT_GT(refined->cloud.positions.size(), 40000u);
 }
 
+TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePointsThatTheyResolve) {
+  double step = 0;
+  PointCloud fat = synth::sample_points(*synth::make_scene("vase"), 60000, 2, &step);
+  synth::disturb(fat, step, {.hull = 8});
+  const double voxel = 0.46 * step;
+  const auto refined =
+      refine_geometry(with(fat), cameras_, {.voxel_size = voxel, .free_grid = true});
+  ASSERT_TRUE(refined);
+  EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
+  EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
+  EXPECT_LT(refined->cloud.positions.size(), 40000u);
+  ASSERT_GT(refined->voxel_size, voxel);
+  const auto voxels = voxelise(refined->cloud, 9, refined->voxel_size);
+  ASSERT_TRUE(voxels);
+  EXPECT_EQ(voxels->merged, 0u);
+}
+
 TEST_F(RefineGeometryTest, ThreadsDoNotChangeTheResult) {
   const Capture fat = disturbed();
   const auto one = refine_geometry(fat, cameras_, {.grid_bits = 7, .threads = 1});
