@@ -17,6 +17,7 @@
 #include "attributes/vector_expectation.h"
 #include "attributes/vector_states.h"
 #include "attributes/vector_surroundings.h"
+#include "base/multiversion.h"
 #include "base/prefetch.h"
 #include "entropy/log_class.h"
 
@@ -114,8 +115,8 @@ class VectorCoefficients {
   }
 
   template <class Coder>
-  bool code_vector(Coder& coder, const Around& around, std::size_t known, std::size_t i,
-                   std::int32_t* values) {
+  SLF_OWN_CALL bool code_vector(Coder& coder, const Around& around, std::size_t known,
+                                std::size_t i, std::int32_t* values) {
     prefetch(values + 3u * functions_.front());
     expected_.expect(around, kept_, states_->activity);
     std::int16_t* const own = kept_.add();

@@ -16,6 +16,16 @@
 #define SLF_MULTIVERSION_LANES
 #endif
 
+// For a part of a long loop. Engines of WebAssembly compile what runs a second time, better, and
+// take the better code at the next call: of a loop that is one call, never.
+#if defined(__wasm__)
+#define SLF_OWN_CALL __attribute__((noinline))
+#define SLF_IN_LINE inline __attribute__((always_inline))
+#else
+#define SLF_OWN_CALL
+#define SLF_IN_LINE inline
+#endif
+
 // Before a loop of eight rounds whose counter should be a constant in each.
 #if defined(__GNUC__) && !defined(__clang__)
 #define SLF_UNROLL_8 _Pragma("GCC unroll 8")

@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <tuple>
+
+#include "base/multiversion.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
@@ -24,9 +27,9 @@ constexpr std::uint32_t kRound[64] = {
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
 /// word: of the message and of the round.
-inline void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d,
-                  std::uint32_t e, std::uint32_t f, std::uint32_t g, std::uint32_t& h,
-                  std::uint32_t word) {
+SLF_IN_LINE void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d,
+                       std::uint32_t e, std::uint32_t f, std::uint32_t g, std::uint32_t& h,
+                       std::uint32_t word) {
   const std::uint32_t s1 = std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25);
   const std::uint32_t t1 = h + s1 + ((e & f) ^ (~e & g)) + word;
   const std::uint32_t s0 = std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22);
@@ -34,32 +37,42 @@ inline void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32
   h = t1 + s0 + ((a & b) ^ (a & c) ^ (b & c));
 }
 
-void compress_portable(std::uint32_t* state, const std::uint8_t* data, std::size_t blocks) {
-  for (; blocks > 0; --blocks, data += 64) {
-    std::uint32_t w[64];
-    for (int i = 0; i < 16; ++i)
-      w[i] = std::uint32_t{data[4 * i]} << 24 | std::uint32_t{data[4 * i + 1]} << 16 |
-             std::uint32_t{data[4 * i + 2]} << 8 | data[4 * i + 3];
-    for (int i = 16; i < 64; ++i) {
-      const std::uint32_t s0 = std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ w[i - 15] >> 3;
-      const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ w[i - 2] >> 10;
-      w[i] = w[i - 16] + s0 + w[i - 7] + s1;
-    }
-    auto [a, b, c, d, e, f, g, h] =
-        std::array{state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7]};
-    for (int i = 0; i < 64; i += 8) {  // instead of moving the eight words on
-      round(a, b, c, d, e, f, g, h, kRound[i] + w[i]);
-      round(h, a, b, c, d, e, f, g, kRound[i + 1] + w[i + 1]);
-      round(g, h, a, b, c, d, e, f, kRound[i + 2] + w[i + 2]);
-      round(f, g, h, a, b, c, d, e, kRound[i + 3] + w[i + 3]);
-      round(e, f, g, h, a, b, c, d, kRound[i + 4] + w[i + 4]);
-      round(d, e, f, g, h, a, b, c, kRound[i + 5] + w[i + 5]);
-      round(c, d, e, f, g, h, a, b, kRound[i + 6] + w[i + 6]);
-      round(b, c, d, e, f, g, h, a, kRound[i + 7] + w[i + 7]);
-    }
-    const std::array<std::uint32_t, 8> sums = {a, b, c, d, e, f, g, h};
-    for (int i = 0; i < 8; ++i) state[i] += sums[static_cast<std::size_t>(i)];
+SLF_OWN_CALL
+inline void compress_block(std::uint32_t* state, const std::uint8_t* data) {
+  std::uint32_t w[64];
+  for (int i = 0; i < 16; ++i)
+    w[i] = std::uint32_t{data[4 * i]} << 24 | std::uint32_t{data[4 * i + 1]} << 16 |
+           std::uint32_t{data[4 * i + 2]} << 8 | data[4 * i + 3];
+  for (int i = 16; i < 64; ++i) {
+    const std::uint32_t s0 = std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ w[i - 15] >> 3;
+    const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ w[i - 2] >> 10;
+    w[i] = w[i - 16] + s0 + w[i - 7] + s1;
   }
+  auto [a, b, c, d, e, f, g, h] =
+      std::array{state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7]};
+#if defined(__wasm__)  // a seventh of the code
+  for (int i = 0; i < 64; ++i) {
+    round(a, b, c, d, e, f, g, h, kRound[i] + w[i]);
+    std::tie(a, b, c, d, e, f, g, h) = std::tuple(h, a, b, c, d, e, f, g);
+  }
+#else
+  for (int i = 0; i < 64; i += 8) {  // instead of moving the eight words on
+    round(a, b, c, d, e, f, g, h, kRound[i] + w[i]);
+    round(h, a, b, c, d, e, f, g, kRound[i + 1] + w[i + 1]);
+    round(g, h, a, b, c, d, e, f, kRound[i + 2] + w[i + 2]);
+    round(f, g, h, a, b, c, d, e, kRound[i + 3] + w[i + 3]);
+    round(e, f, g, h, a, b, c, d, kRound[i + 4] + w[i + 4]);
+    round(d, e, f, g, h, a, b, c, kRound[i + 5] + w[i + 5]);
+    round(c, d, e, f, g, h, a, b, kRound[i + 6] + w[i + 6]);
+    round(b, c, d, e, f, g, h, a, kRound[i + 7] + w[i + 7]);
+  }
+#endif
+  const std::array<std::uint32_t, 8> sums = {a, b, c, d, e, f, g, h};
+  for (int i = 0; i < 8; ++i) state[i] += sums[static_cast<std::size_t>(i)];
+}
+
+void compress_portable(std::uint32_t* state, const std::uint8_t* data, std::size_t blocks) {
+  for (; blocks > 0; --blocks, data += 64) compress_block(state, data);
 }
 
 #if defined(__x86_64__)

@@ -33,6 +33,15 @@ std::vector<std::uint32_t> plane_multipliers(std::size_t planes) {
   return multipliers;
 }
 
+SLF_OWN_CALL
+inline std::uint64_t hash_row(const std::int32_t* __restrict components,
+                              const std::uint32_t* __restrict multiplier, std::size_t planes) {
+  std::uint64_t sum = 0;
+  for (std::size_t j = 0; j < planes; ++j)
+    sum += std::uint64_t{static_cast<std::uint32_t>(components[j])} * multiplier[j];
+  return sum;
+}
+
 /// SHA-256 over every component would take as long as the inverse transform.
 SLF_MULTIVERSION_LANES
 void hash_rows(const std::int32_t* __restrict components,
@@ -40,10 +49,7 @@ void hash_rows(const std::int32_t* __restrict components,
   const std::uint32_t* __restrict multiplier = multipliers.data();
   const std::size_t planes = multipliers.size();
   for (std::uint64_t& hash : hashes) {
-    std::uint64_t sum = 0;
-    for (std::size_t j = 0; j < planes; ++j)
-      sum += std::uint64_t{static_cast<std::uint32_t>(components[j])} * multiplier[j];
-    hash = sum;
+    hash = hash_row(components, multiplier, planes);
     components += planes;
   }
 }
