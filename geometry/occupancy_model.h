@@ -144,7 +144,7 @@ class OccupancyModel {
     for (std::uint32_t left = neighbours; left != 0; left &= left - 1) {
       const auto d = static_cast<std::size_t>(std::countr_zero(left));
       const unsigned occupancy = nodes.occupancy[*neighbour++];
-      occupied |= std::rotl(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
+      occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
       unknown |= occupancy == 0 ? kWindowParts[d] : 0;
     }
     const auto latest = history_.at(nodes.morton[n]);

@@ -27,6 +27,11 @@ inline constexpr std::array<Window, 27> kWindowParts = [] {
   return parts;
 }();
 
+/// std::rotl, of which libc++ makes a function that asks for the sign first.
+constexpr Window turned(Window cells, int shift) {
+  return cells << (shift & 63) | cells >> (-shift & 63);
+}
+
 /// By how many bits the cells of a direction's neighbour are further on than the node's own.
 inline constexpr std::array<int, 27> kWindowShift = [] {
   std::array<int, 27> shift{};

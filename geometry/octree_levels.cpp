@@ -28,8 +28,7 @@ constexpr std::array<WindowChildren, 27> kWindowChildren = [] {
   std::array<WindowChildren, 27> table{};
   for (std::size_t d = 0; d < 27; ++d)
     for (unsigned c = 0; c < 8; ++c) {
-      const Window cell =
-          std::rotl(own_cell(static_cast<int>(c)), kWindowShift[d]) & kWindowParts[d];
+      const Window cell = turned(own_cell(static_cast<int>(c)), kWindowShift[d]) & kWindowParts[d];
       if (cell == 0) continue;
       table[d].children = static_cast<std::uint8_t>(table[d].children | 1u << c);
       table[d].cell[c] = static_cast<std::uint8_t>(std::countr_zero(cell));
@@ -47,7 +46,7 @@ struct ChildWindow {
     const unsigned occupancy = parents.occupancy[m];
     const std::uint32_t first = parents.first_child[m];
     const WindowChildren& part = kWindowChildren[d];
-    occupied |= std::rotl(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
+    occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
     for (unsigned left = occupancy & part.children; left != 0; left &= left - 1) {
       const unsigned before = occupancy & ((left & (0u - left)) - 1);
       node[part.cell[static_cast<std::size_t>(std::countr_zero(left))]] =
