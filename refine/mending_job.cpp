@@ -13,14 +13,14 @@ namespace slf {
 namespace {
 
 // All measured on middlebury_dino: docs/pictures/geometry.md.
-constexpr double kPatchesApart = 1;  // of the finest photographs matched, between points: nearer
-                                     // ones have the same patch
-constexpr double kDenser = 1.2;      // times farther apart: worth it
-constexpr double kPixelsPerMended = 1.4;  // of the photographs: a free grid's voxel
-constexpr double kLatticeStep = 0.7;      // spacings: a lattice as fine as this has its points
-constexpr double kFinestStep = 0.3;       // spacings of points that were thinned: time and memory
-                                          // grow with the cube
-constexpr double kStepOfSpacing = 0.9;    // a lattice on which points are as far apart as before
+constexpr double kPatchesApart = 1;     // of the finest photographs matched, between points: nearer
+                                        // ones have the same patch
+constexpr double kDenser = 1.2;         // times farther apart: worth it
+constexpr double kPixelsPerMended = 1;  // of the photographs: a free grid's voxel
+constexpr double kLatticeStep = 0.7;    // spacings: a lattice as fine as this has its points
+constexpr double kFinestStep = 0.3;     // spacings of points that were thinned: time and memory
+                                        // grow with the cube
+constexpr double kStepOfSpacing = 0.9;  // a lattice on which points are as far apart as before
 
 /// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
 double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> views) {
