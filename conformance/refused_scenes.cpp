@@ -70,7 +70,7 @@ void add_slice_table(std::vector<RefusedCase>& cases) {
   add(cases, "slices-of-no-base", "two slices without a base", "7.3", [](auto& units) {
     edit_sequence(units, [](auto& set) { set.sps_base_levels = 0; });
     BitWriter out;
-    for (const std::uint32_t number : {1, 0, 4, 3}) out.ue(number);
+    for (const std::uint32_t number : {1u, 0u, 4u, 3u}) out.ue(number);
     first_of(units, UnitType::kSlices).payload = out.take();
   });
   add_table("points-one-more", "a point that the slice has not",
