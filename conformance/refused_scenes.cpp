@@ -224,8 +224,10 @@ void add_index(std::vector<RefusedCase>& cases) {
       [](auto& i) { ++i.entries[i.entries.size() - 3].ids.slice_id; });
   add("index-more", "an index of a unit more than there are",
       [](auto& i) { i.entries.push_back(i.entries.back()); });
-  add("index-level-range", "an index of a level range that there is not",
-      [](auto& i) { entry_of(i, UnitType::kGeometry).ids.range = 3; });
+  add("index-level-range", "an index of a level range that there is not", [](auto& i) {
+    SliceUnitHeader& ids = entry_of(i, UnitType::kGeometry).ids;
+    ids.range = 3, ids.slice_id = 0;  // beyond the base's ranges units have a slice
+  });
   add("index-group", "an index of a group that there is not",
       [](auto& i) { entry_of(i, UnitType::kCoefficients).ids.group = 2; });
   add("index-layer", "an index of a refinement that there is not", [](auto& i) {
