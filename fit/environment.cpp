@@ -15,7 +15,7 @@ constexpr std::size_t kSide = 160, kNodes = kSide + 1;
 
 double node(std::size_t i) { return 2.0 * static_cast<double>(i) / kSide - 1; }
 
-/// Of axis + (0, 1) and its sign: towards x, -x, y, ..; the other two axes follow in turn.
+/// Faces towards x, -x, y, -y, z, -z; u and v, within -1 .. 1, along the two axes that follow.
 Vec3 on_face(std::size_t face, double u, double v) {
   const std::size_t axis = face / 2;
   const double length = std::sqrt(1 + u * u + v * v);

@@ -37,15 +37,14 @@ void read_columns(const Observations& observations, std::span<const float> light
           observations.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]);
 }
 
-/// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M. Scratch
-/// memory of one thread.
+/// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
 class PointSystem {
  public:
   /// @param inverse_root  [K] of the penalties; [0] is not used
   explicit PointSystem(std::span<const float> inverse_root)
       : root_(inverse_root), model_(inverse_root.size()), change_(inverse_root.size()) {}
 
-  /// @param seen  kept by reference until the next call; its functions are scaled by the roots
+  /// @param seen  kept by reference; its functions are scaled by the roots
   void factorise(PointColumns& seen) {
     seen_ = &seen;
     const std::size_t m = seen.count, width = seen.stride;
