@@ -173,9 +173,9 @@ std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> m
 /// Whole rows on one thread: merges of a level follow one another in memory.
 template <class Body>
 bool over_planes(std::size_t planes, int threads, const Body& body) {
-  const auto parts =
-      static_cast<std::size_t>(thread_count(threads, (planes + kBlock - 1) / kBlock));
-  const std::size_t grain = ((planes + parts - 1) / parts + kBlock - 1) / kBlock * kBlock;
+  const std::size_t blocks = (planes + kBlock - 1) / kBlock;
+  const auto parts = static_cast<std::size_t>(thread_count(threads, blocks));
+  const std::size_t grain = parts == 1 ? planes : blocks / parts * kBlock;
   std::atomic<bool> good = true;
   parallel_ranges(planes, grain, threads, [&](std::size_t begin, std::size_t end) {
     if (body(begin, end) != 0) good = false;

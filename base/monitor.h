@@ -18,7 +18,9 @@ class Monitor {
     change();
   }
   template <class Holds>
-  void wait(const Holds&) {}
+  void wait(const Holds& holds) {
+    holds();
+  }
 };
 
 #else

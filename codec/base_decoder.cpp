@@ -86,12 +86,11 @@ Result<Done> check_boxes(const std::vector<CellBox>& boxes, const SequencePlan& 
   return Done{};
 }
 
-Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& plan, int threads,
-                                    Base& base) {
+Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& plan, Base& base) {
   if (!plan.has_base() || plan.planes() == 0) return Done{};
   const auto codes = grid_codes(base, plan);
   const RahtTop top = build_raht_top(codes, plan.lowest_split(plan.base_levels()), base.weights());
-  SLF_CHECK(decode_components(units, plan, codes, top, threads, plan.table.apart(), base));
+  SLF_CHECK(decode_components(units, plan, codes, top, 1, plan.table.apart(), base));
   if (plan.table.apart()) base.components = {{}, {}, std::move(base.components.values), {}, {}};
   return Done{};
 }

@@ -37,9 +37,9 @@ Result<Base> decode_base_geometry(const PartUnits& units, const SequencePlan& pl
 Result<Done> check_boxes(const std::vector<CellBox>& boxes, const SequencePlan& plan,
                          const Base& base);
 
-/// 8.6 - 8.8, for the slices to go on from.
-Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& plan, int threads,
-                                    Base& base);
+/// 8.6 - 8.8, for the slices to go on from, on one thread: their geometry, which needs all else of
+/// the base, may be decoded beside it.
+Result<Done> decode_base_components(const PartUnits& units, const SequencePlan& plan, Base& base);
 
 /// What the base gives out by itself: all that was asked for, or all that there is. Spec 8.9.
 Result<Done> give_out_base(const PartUnits& units, const SequencePlan& plan, int threads,

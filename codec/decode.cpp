@@ -36,16 +36,15 @@ Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Seq
   seconds.geometry += watch.lap();
   if (plan.base_alone() || !base.is_known(plan)) {  // 8.9
     SLF_CHECK(give_out_base(scene.base, plan, options.threads, base, field));
-    if (plan.region) keep_region(plan, 0, field);
+    if (plan.region) keep_region(plan, field);
     seconds.coefficients += watch.lap();
     return Done{};
   }
   Selection selection(plan);
-  selection.choose_slices(base);                                               // 8.9
-  SLF_CHECK(check_limits_of_region(plan, options, selection.slices()));        // 9
-  SLF_CHECK(decode_base_components(scene.base, plan, options.threads, base));  // 8.6 - 8.8
-  seconds.coefficients += watch.lap();
-  SLF_TRY(const bool partial, decode_slices(scene, plan, base, selection.slices(), options.threads,
+  selection.choose_slices(base);  // 8.9
+  SLF_TRY(const CostOnThreads cost,
+          check_limits_of_slices(plan, options, selection.slices()));  // 9
+  SLF_TRY(const bool partial, decode_slices(scene, plan, selection.slices(), cost.threads, base,
                                             seconds, field));  // 8.2
   field.partial = field.partial || partial;
   return Done{};

@@ -27,10 +27,8 @@ struct Bytes {
 // ten neighbours each; 26 and as many nodes are the most.
 constexpr double kVoxel = 12, kCode = 8;
 constexpr double kTop = 16 + 1 + 4 + 4 + 4;  // RahtTop: merges, split, parent, order, first
-constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop};  // SliceDecoder
-/// Of memory that slices gave back, what an allocator finds no use for grows with every batch
-/// beyond the first three, by measurement, against what waits.
-constexpr double kUnused = 0.1, kMostUnused = 0.6;
+constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop},  // SliceDecoder
+    kWaitingAlone{kVoxel, kVoxel + kCode};                                         // without values
 constexpr double kNode = 8 + 1 + 4 + 8;  // OctreeLevel without neighbours
 constexpr Bytes kOctree{(kNode + 4 * 10) / 3 + kCode + 1, 2 * (kNode + 4 * 26) + kCode + 1};
 constexpr Bytes kDraco{90, 160};            // inside the library: by measurement
@@ -41,7 +39,7 @@ constexpr double kFlags = 2;                // ComponentDecoder: nonzero_, of_un
 constexpr Bytes kLevels{36 + 6 + 22 + 20 + 6, 2 * 36 + 22 * 4 + 32 + 2 * (kNode + 4 * 26) + 24};
 constexpr double kKept = 2;           // bytes of a value in a vector that is kept
 constexpr double kBitsOfHalf = 16;    // bits of a point with which half of the vectors are not zero
-constexpr double kUsualOthers = 0.6;  // of slices beside one at its peak, on other threads
+constexpr double kUsualOthers = 0.9;  // of slices beside one at its peak, on other threads
 constexpr double kUsualMeans = 0.02;  // of all rows, whose means are needed at a time
 constexpr double kSample = 2, kPicturesMost = 17, kPictures = 4, kSamplesMost = 16, kSamples = 2;
 constexpr double kCellOfAtlas = 60;
@@ -52,16 +50,17 @@ constexpr double kHistory = 3 << 18;  // of columns, while an octree is decoded
 
 class Model {
  public:
-  Model(const DecodeShape& shape, std::uint64_t threads)
+  explicit Model(const DecodeShape& shape)
       : shape_(shape), planes_(static_cast<double>(shape.planes)) {
     for (const std::uint64_t points : shape.slices) {
       points_ += points;
       largest_ = std::max(largest_, points);
     }
-    active_ = static_cast<double>(std::min<std::uint64_t>(threads, shape.slices.size()));
   }
 
-  DecodeCost cost() const {
+  /// threads: at most as many as there are slices.
+  DecodeCost cost(int threads) {
+    active_ = shape_.slices.empty() ? 0 : threads;
     DecodeCost cost;
     const Bytes slices = shape_.base_alone ? Bytes{} : output() + in_flight();
     const Bytes bytes = base() + slices;
@@ -76,14 +75,17 @@ class Model {
   Bytes values() const {
     if (planes_ == 0) return {};
     if (shape_.texture) return texture();
-    Bytes row = Bytes::both(kFlags);
-    if (shape_.vector)
-      row = row +
-            Bytes::both(kNeighbours + kOfGroup * layers() * static_cast<double>(shape_.groups)) +
-            Bytes{usual_vectors(), 1} * (kKept * layers() * planes_);
+    Bytes row = Bytes::both(kFlags) + contexts();
     if (shape_.ahead) row = row + Bytes::both(4 * planes_);
     if (shape_.prediction) row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
     return row;
+  }
+
+  /// Of a row, for the vectors coded around it.
+  Bytes contexts() const {
+    if (planes_ == 0 || !shape_.vector) return {};
+    return Bytes::both(kNeighbours + kOfGroup * layers() * static_cast<double>(shape_.groups)) +
+           Bytes{usual_vectors(), 1} * (kKept * layers() * planes_);
   }
 
   double layers() const { return static_cast<double>(shape_.layers); }
@@ -106,19 +108,18 @@ class Model {
 
   Bytes output() const { return Bytes::both(static_cast<double>(points_) * row_of_output()); }
 
-  /// Values of a batch beside the geometry of the next; of each as many at work as there are
-  /// threads.
+  /// Slices that are begun (SliceSchedule); of them as many at work as there are threads.
   Bytes in_flight() const {
-    const auto batch = static_cast<double>(
-        std::min(points_, std::max<std::uint64_t>(kBatchPoints + largest_,
-                                                  static_cast<std::uint64_t>(active_) * largest_)));
-    const double waiting = std::min(static_cast<double>(points_), 2 * batch);
-    const Bytes octrees = at_work(geometry(), batch) + Bytes::both(states_of_octrees(active_));
-    const Bytes rows =
-        at_work(values(), batch) + Bytes::both(states_of_octrees(0) + states_of_values());
-    const double batches = static_cast<double>(points_) / std::max(batch, 1.0);
-    const double unused = 1 + std::clamp(kUnused * (batches - 3), 0.0, kMostUnused);
-    return kWaiting * (waiting * unused) + octrees.at_least(rows);
+    const double points = static_cast<double>(points_), largest = static_cast<double>(largest_);
+    const double usual = active_ > 1 ? active_ + 1 : 1,
+                 most = active_ > 1 ? std::max(2 * active_ * largest, double{kPointsInFlight})
+                                    : largest;
+    const Bytes point = planes_ > 0 || shape_.normals ? kWaiting : kWaitingAlone;
+    const Bytes waiting{point.usual * std::min(usual * largest, points),
+                        point.most * std::min(most, points)};
+    const Bytes octrees = at_work(geometry()) + Bytes::both(states_of_octrees(active_));
+    const Bytes rows = at_work(values()) + Bytes::both(states_of_octrees(0) + states_of_values());
+    return waiting + octrees.at_least(rows);
   }
 
   double coefficient_states() const {
@@ -127,10 +128,10 @@ class Model {
   }
 
   /// As many slices as there are threads. All at their peak at once is not what happens.
-  Bytes at_work(const Bytes& row, double batch) const {
-    const auto largest = static_cast<double>(largest_);
-    return {row.usual * std::min((1 + kUsualOthers * (active_ - 1)) * largest, batch),
-            row.most * std::min(active_ * largest, batch)};
+  Bytes at_work(const Bytes& row) const {
+    const double points = static_cast<double>(points_), largest = static_cast<double>(largest_);
+    return {row.usual * std::min((1 + kUsualOthers * (active_ - 1)) * largest, points),
+            row.most * std::min(active_ * largest, points)};
   }
 
   /// Those of the base, those that slice 0 hands on, and those of octrees at work.
@@ -149,13 +150,14 @@ class Model {
     return (active_ + of_base) * coefficient_states() + handed * kCoefficientStates;
   }
 
-  /// Cells, their values and contexts stay until the last slice is done.
+  /// Cells, their values and contexts stay until the last slice is done; the rest is given back
+  /// before the most is needed, as a rule.
   Bytes base() const {
     if (shape_.cells == 0 && !shape_.base_alone) return {};
     const auto cells = static_cast<double>(shape_.cells);
     Bytes row = Bytes::both(2 * kCode + kTop + 8 + 4 * planes_) + values().at_least(kOctree);
-    if (shape_.base_alone) row = row + Bytes::both(kVoxel);
-    return row * cells;
+    if (shape_.base_alone) return (row + Bytes::both(kVoxel)) * cells;
+    return Bytes{kCode + 8 + 4 * planes_ + contexts().usual, row.most} * cells;
   }
 
   std::uint64_t work() const {
@@ -173,8 +175,13 @@ class Model {
 
 }  // namespace
 
-DecodeCost cost_of(const DecodeShape& shape, std::uint64_t threads) {
-  return Model(shape, threads).cost();
+CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options) {
+  Model model(shape);
+  int active = thread_count(options.threads, shape.slices.size()), threads = options.threads;
+  DecodeCost cost = model.cost(active);
+  while (active > 1 && cost.memory_most > options.limits.max_memory)
+    cost = model.cost(threads = --active);
+  return {cost, threads};
 }
 
 namespace {
@@ -210,11 +217,6 @@ DecodeShape shape_of(const SequencePlan& plan) {
   return shape;
 }
 
-DecodeCost decode_cost(const SequencePlan& plan, int threads) {
-  const std::size_t slices = std::max<std::size_t>(plan.table.slices.size(), 1);
-  return cost_of(shape_of(plan), static_cast<std::uint64_t>(thread_count(threads, slices)));
-}
-
 Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows) {
   const std::uint64_t most = kLevelValues + kLevelValuesOfByte * plan.stream_bytes;
   if (rows > most / std::max<std::uint64_t>(plan.planes(), 1))
@@ -224,16 +226,14 @@ Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows) {
 
 namespace {
 
-Result<Done> check_shape(const DecodeShape& shape, std::uint64_t points,
-                         const DecodeOptions& options) {
+Result<CostOnThreads> within_limits(const DecodeShape& shape, std::uint64_t points,
+                                    const DecodeOptions& options) {
   const DecodeLimits& limits = options.limits;
   if (points > limits.max_points) return Error{Errc::kLimitExceeded, "max_points"};
-  const std::size_t slices = std::max<std::size_t>(shape.slices.size(), 1);
-  const DecodeCost cost =
-      cost_of(shape, static_cast<std::uint64_t>(thread_count(options.threads, slices)));
+  const CostOnThreads cost = cost_of(shape, options);
   if (cost.memory_most > limits.max_memory) return Error{Errc::kLimitExceeded, "max_memory"};
   if (cost.work > limits.max_work) return Error{Errc::kLimitExceeded, "max_work"};
-  return Done{};
+  return cost;
 }
 
 /// The slices are not known that will be opened.
@@ -243,9 +243,20 @@ bool waits_for_base(const SequencePlan& plan) {
 
 }  // namespace
 
-Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
-                                    const std::vector<std::uint8_t>& chosen) {
-  if (!waits_for_base(plan)) return Done{};
+Result<CostOnThreads> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
+  DecodeShape shape = shape_of(plan);
+  if (waits_for_base(plan)) shape.base_alone = true;
+  const std::uint64_t points = shape.base_alone ? plan.table.num_cells() : plan.table.num_points();
+  SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
+  // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
+  const bool told = plan.complete && plan.whole && !plan.region;
+  if (told || plan.set.has_draco())
+    SLF_CHECK(check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan))));
+  return cost;
+}
+
+Result<CostOnThreads> check_limits_of_slices(const SequencePlan& plan, const DecodeOptions& options,
+                                             const std::vector<std::uint8_t>& chosen) {
   DecodeShape shape = shape_of(plan);
   shape.slices.clear();
   std::uint64_t points = 0;
@@ -254,19 +265,7 @@ Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOption
     shape.slices.push_back(plan.table.slices[s].points());
     points += shape.slices.back();
   }
-  return check_shape(shape, points, options);
-}
-
-Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
-  DecodeShape shape = shape_of(plan);
-  if (waits_for_base(plan)) shape.base_alone = true;
-  const std::uint64_t points = shape.base_alone ? plan.table.num_cells() : plan.table.num_points();
-  SLF_CHECK(check_shape(shape, points, options));
-  // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
-  const bool told = plan.complete && plan.whole && !plan.region;
-  if (told || plan.set.has_draco())
-    return check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan)));
-  return Done{};
+  return within_limits(shape, points, options);
 }
 
 }  // namespace slf

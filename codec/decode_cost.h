@@ -32,14 +32,17 @@ struct DecodeShape {
   bool ahead = false;  ///< of slice 0 more levels are decoded than are kept
 };
 
-/// @param threads  1 or more
-DecodeCost cost_of(const DecodeShape& shape, std::uint64_t threads);
+/// What a decode takes on so many threads.
+struct CostOnThreads : DecodeCost {
+  int threads = 1;  ///< as in DecodeOptions
+};
+
+/// On as many threads as were asked for, or fewer where max_memory has no room for their slices; at
+/// least one, whatever that takes.
+CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options);
 
 /// That of what was asked for, which may be less than the whole.
 DecodeShape shape_of(const SequencePlan& plan);
-
-/// What decoding that takes. @param threads  as in DecodeOptions
-DecodeCost decode_cost(const SequencePlan& plan, int threads);
 
 /// Spec 9: are so many rows, of the base and of slices, in proportion to the bytes?
 /// @errors kOutOfRange: sps_level
@@ -48,10 +51,10 @@ Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows);
 /// What the slices say they hold, before any of it is decoded; where a region is asked for, what
 /// the base takes, which tells the slices.
 /// @errors kLimitExceeded, with the limit as element.
-Result<Done> check_limits(const SequencePlan& plan, const DecodeOptions& options);
+Result<CostOnThreads> check_limits(const SequencePlan& plan, const DecodeOptions& options);
 
-/// The same of slices that meet a region. chosen: [slices]
-Result<Done> check_limits_of_region(const SequencePlan& plan, const DecodeOptions& options,
-                                    const std::vector<std::uint8_t>& chosen);
+/// The same of the slices that will be opened. chosen: [slices]
+Result<CostOnThreads> check_limits_of_slices(const SequencePlan& plan, const DecodeOptions& options,
+                                             const std::vector<std::uint8_t>& chosen);
 
 }  // namespace slf

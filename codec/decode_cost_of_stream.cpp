@@ -1,9 +1,6 @@
 // What a decode takes, by the headers alone.
-#include <algorithm>
-
 #include "codec/decode_cost.h"
 #include "codec/scene_units.h"
-#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -32,8 +29,7 @@ Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream, const Decod
   SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));
   DecodeShape shape = shape_of(plan);
   shape.coefficient_bits = coefficient_bits(scene, plan);
-  const std::size_t slices = std::max<std::size_t>(shape.slices.size(), 1);
-  return cost_of(shape, static_cast<std::uint64_t>(thread_count(options.threads, slices)));
+  return cost_of(shape, options);
 }
 
 }  // namespace slf

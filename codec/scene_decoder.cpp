@@ -1,13 +1,15 @@
 #include "codec/scene_decoder.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "base/huge_pages.h"
 #include "base/stopwatch.h"
 #include "codec/decode_cost.h"
 #include "codec/slice_decoder.h"
+#include "codec/slice_schedule.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -16,7 +18,10 @@ namespace {
 /// A slice on its way, and the error that ended it.
 struct Task {
   SliceDecoder slice;
-  std::size_t begin = 0, end = 0;  ///< points of the light field
+  std::size_t points = 0;                           ///< of its levels that are kept
+  std::int32_t* components = nullptr;               ///< [points][planes]
+  std::array<std::uint16_t, 2>* normals = nullptr;  ///< [points], where there are any
+  LightField apart;  ///< where they are, until it is known where to put them
   std::optional<Error> error;
 
   /// Runs a step, unless one before it failed.
@@ -32,58 +37,69 @@ struct Task {
 
 class SceneDecoder {
  public:
-  SceneDecoder(const SceneUnits& units, const SequencePlan& plan, const Base& base,
-               const std::vector<std::uint8_t>& chosen, int threads, LightField& field)
-      : plan_(plan),
-        base_cells_(plan.has_base() ? base.cells.size() : 0),
+  SceneDecoder(const SceneUnits& units, const SequencePlan& plan,
+               const std::vector<std::uint8_t>& chosen, int threads, Base& base, LightField& field)
+      : units_(units),
+        plan_(plan),
         threads_(threads),
+        in_place_(!plan.kept_levels_only() && !plan.region),
+        base_(base),
         field_(field),
+        rows_(plan.has_base() ? base.cells.size() : 0),
         lead_(PartList(plan.set, false).size()) {
     SliceLead* lead = plan.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < units.slices.size(); ++s)
       if (chosen[s])
-        tasks_.push_back({SliceDecoder(plan, base, units.slices[s], s, lead), 0, 0, {}});
+        tasks_.push_back({SliceDecoder(plan, base, units.slices[s], s, lead), 0, {}, {}, {}, {}});
   }
 
-  /// Values of a batch beside the geometry of the next.
   Result<bool> decode(DecodeSeconds& seconds) {
-    Stopwatch watch;
-    std::span<Task> now;
-    for (std::size_t at = 0; at < tasks_.size() || !now.empty();) {
-      const std::span<Task> next = std::span(tasks_).subspan(at, batch_size(at));
-      run(now, next);
-      if (plan_.region && !now.empty()) keep_region(plan_, now.front().begin, field_);
-      if (at == 0 && !next.front().error) reserve_points();
-      SLF_CHECK(check_rows(next));
-      append_points(next);
-      at += next.size();
-      (now.empty() ? seconds.geometry : seconds.coefficients) += watch.lap();
-      now = next;
+    std::vector<std::size_t> points;
+    for (const Task& task : tasks_) points.push_back(task.slice.points());
+    const auto threads = static_cast<std::size_t>(thread_count(threads_, points.size() + 1));
+    SliceSchedule schedule(std::move(points), threads, kPointsInFlight);
+    std::vector<DecodeSeconds> of_threads(threads);
+    parallel_ranges(threads, 1, threads_, [&](std::size_t begin, std::size_t) {
+      try {
+        work(schedule, of_threads[begin]);
+      } catch (...) {  // others would wait for ever
+        schedule.stop();
+        throw;
+      }
+    });
+    for (const DecodeSeconds& s : of_threads) {
+      seconds.geometry += s.geometry;
+      seconds.coefficients += s.coefficients;
     }
     return finish();
   }
 
  private:
-  std::size_t batch_size(std::size_t begin) const {
-    std::size_t count = 0, points = 0;
-    const auto least = static_cast<std::size_t>(thread_count(threads_, tasks_.size() - begin));
-    for (; begin + count < tasks_.size(); ++count) {
-      points += tasks_[begin + count].slice.points();
-      if (count >= least && points > kBatchPoints) break;
+  void work(SliceSchedule& schedule, DecodeSeconds& seconds) {
+    Stopwatch watch;
+    for (;;) {
+      const SliceWork work = schedule.next();
+      watch.lap();  // waiting is no work
+      if (work.step == SliceWork::kNothing) return;
+      if (work.step == SliceWork::kBase) {
+        decode_base(schedule);
+      } else if (work.step == SliceWork::kGeometry) {
+        decode_geometry(tasks_[work.slice]);
+        schedule.finish_geometry(work.slice, [&](std::size_t s) { return admit(tasks_[s]); });
+      } else {
+        decode_values(tasks_[work.slice], work.last ? threads_ : 1);
+        schedule.finish_values(work.slice, [&](std::size_t s) { gather(tasks_[s]); });
+      }
+      (work.step == SliceWork::kGeometry ? seconds.geometry : seconds.coefficients) += watch.lap();
     }
-    return count;
   }
 
-  void run(std::span<Task> values, std::span<Task> geometry) {
-    parallel_ranges(values.size() + geometry.size(), 1, threads_,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t i = begin; i < end; ++i)
-                        if (i < values.size()) {
-                          decode_values(values[i], values.size() > 1 ? 1 : threads_);
-                        } else {
-                          decode_geometry(geometry[i - values.size()]);
-                        }
-                    });
+  void decode_base(SliceSchedule& schedule) {
+    if (auto done = decode_base_components(units_.base, plan_, base_); !done) {
+      error_ = done.error();
+      schedule.stop();
+    }
+    schedule.finish_base();
   }
 
   bool is_first(const Task& task) const { return &task == &tasks_.front(); }
@@ -93,52 +109,76 @@ class SceneDecoder {
     task.run([&] { return task.slice.decode_geometry(); });
   }
 
-  void decode_values(Task& task, int plane_threads) {
-    const CloseAtEnd<CoefficientStates> close{lead_.coefficients, is_first(task)};
-    const std::size_t count = task.end - task.begin, planes = plan_.planes();
-    const auto components =
-        std::span(field_.components).subspan(task.begin * planes, count * planes);
-    std::span<std::array<std::uint16_t, 2>> normals;
-    if (field_.normals.bits > 0) {
-      normals = std::span(field_.normals.octahedral).subspan(task.begin, count);
-      task.run([&] { return task.slice.decode_normals(normals); });
+  /// Room for the values of the next slice, if that is not too much.
+  bool admit(Task& task) {
+    const auto& positions = task.slice.positions;
+    rows_ += task.points = positions.size();
+    if (auto level = check_level(plan_, rows_); !level) {
+      if (!error_) error_ = level.error();
+      return false;
     }
-    task.run([&] { return task.slice.decode_components(components, plane_threads); });
-    if (count > 0) task.run([&] { return task.slice.check_digest(components, normals); });
-    if (!task.error) task.slice.add_means(components);
-    task.slice.drop();
-  }
-
-  /// Room for all points that the slices say there are: within the limits (check_limits), and on
-  /// pages that are not there until they are used.
-  void reserve_points() {
-    if (plan_.kept_levels_only() || plan_.region) return;
-    const auto points = static_cast<std::size_t>(plan_.table.num_points());
-    field_.positions.reserve(points);
-    field_.components.reserve(points * plan_.planes());
-    advise_huge_pages(field_.components.data(), points * plan_.planes() * sizeof(std::int32_t));
-  }
-
-  /// What was found so far, before there is room for its components.
-  Result<Done> check_rows(std::span<const Task> batch) const {
-    std::uint64_t rows = base_cells_ + field_.num_points();
-    for (const Task& task : batch) rows += task.slice.positions.size();
-    return check_level(plan_, rows);
+    if (is_first(task) && task.error) in_place_ = false;  // room for what is not believed any more
+    if (in_place_) {
+      if (is_first(task)) reserve_points();
+      make_room(task, field_);
+      field_.positions.insert(field_.positions.end(), positions.begin(), positions.end());
+    }
+    return true;
   }
 
   /// Components and normals of zero.
-  void append_points(std::span<Task> batch) {
-    for (Task& task : batch) {
-      const auto& positions = task.slice.positions;
-      task.begin = field_.num_points();
-      field_.positions.insert(field_.positions.end(), positions.begin(), positions.end());
-      task.end = field_.num_points();
-    }
-    field_.components.resize(field_.num_points() * plan_.planes());
-    field_.normals.octahedral.resize(field_.normals.bits > 0 ? field_.num_points() : 0);
+  void make_room(Task& task, LightField& field) const {
+    const std::size_t before = field.components.size(), normals = field.normals.octahedral.size();
+    field.components.resize(before + task.points * plan_.planes());
+    task.components = field.components.data() + before;
+    if (plan_.set.sps_normal_bits == 0) return;
+    field.normals.octahedral.resize(normals + task.points);
+    task.normals = field.normals.octahedral.data() + normals;
+  }
+
+  void decode_values(Task& task, int plane_threads) {
+    const CloseAtEnd<CoefficientStates> close{lead_.coefficients, is_first(task)};
+    if (!in_place_) make_room(task, task.apart);
+    const std::span components(task.components, task.points * plan_.planes());
+    const std::span normals(task.normals, task.normals == nullptr ? 0 : task.points);
+    if (task.normals != nullptr) task.run([&] { return task.slice.decode_normals(normals); });
+    task.run([&] { return task.slice.decode_components(components, plane_threads); });
+    if (task.points > 0) task.run([&] { return task.slice.check_digest(components, normals); });
+    if (!task.error) task.slice.add_means(components);
+    if (in_place_) task.slice.drop();
+  }
+
+  /// Appends what was decoded apart.
+  void gather(Task& task) {
+    if (in_place_ || task.error) return;
+    LightField& part = task.apart;
+    part.normals.bits = field_.normals.bits;
+    part.positions = std::move(task.slice.positions);
+    task.slice.drop();
+    if (plan_.region) keep_region(plan_, part);
+    append(part.positions, field_.positions);
+    append(part.components, field_.components);
+    append(part.normals.octahedral, field_.normals.octahedral);
+    part = {};
+  }
+
+  template <class T>
+  static void append(const std::vector<T>& from, std::vector<T>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+
+  /// Room for all points that the slices say there are: within the limits (check_limits), and on
+  /// pages that are not there until they are used. So nothing moves while others write to it.
+  void reserve_points() {
+    const auto points = static_cast<std::size_t>(plan_.table.num_points());
+    field_.positions.reserve(points);
+    field_.components.reserve(points * plan_.planes());
+    if (plan_.set.sps_normal_bits > 0) field_.normals.octahedral.reserve(points);
+    advise_huge_pages(field_.components.data(), points * plan_.planes() * sizeof(std::int32_t));
   }
 
   Result<bool> finish() const {
+    if (error_) return *error_;
     const Task* first = nullptr;
     bool partial = false;
     for (const Task& task : tasks_) {
@@ -150,20 +190,24 @@ class SceneDecoder {
     return partial;
   }
 
+  const SceneUnits& units_;
   const SequencePlan& plan_;
-  std::uint64_t base_cells_;
   int threads_;
+  bool in_place_;  // every point that the slices say has its place in the field
+  Base& base_;
   LightField& field_;
+  std::uint64_t rows_;  // of the base and of all slices so far
   SliceLead lead_;
   std::vector<Task> tasks_;
+  std::optional<Error> error_;  // of the base, or of all together
 };
 
 }  // namespace
 
-void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field) {
+void keep_region(const SequencePlan& plan, LightField& field) {
   const std::size_t planes = plan.planes();
-  std::size_t kept = begin;
-  for (std::size_t p = begin; p < field.num_points(); ++p) {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < field.num_points(); ++p) {
     if (!plan.in_region(field.positions[p])) continue;
     field.positions[kept] = field.positions[p];
     std::copy_n(field.components.begin() + static_cast<std::ptrdiff_t>(p * planes), planes,
@@ -176,11 +220,10 @@ void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field)
   field.normals.octahedral.resize(field.normals.bits > 0 ? kept : 0);
 }
 
-Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan, const Base& base,
-                           const std::vector<std::uint8_t>& chosen, int threads,
+Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan,
+                           const std::vector<std::uint8_t>& chosen, int threads, Base& base,
                            DecodeSeconds& seconds, LightField& field) {
-  SceneDecoder decoder(units, plan, base, chosen, threads, field);
-  return decoder.decode(seconds);
+  return SceneDecoder(units, plan, chosen, threads, base, field).decode(seconds);
 }
 
 }  // namespace slf

@@ -8,20 +8,23 @@
 
 namespace slf {
 
-/// Slices whose values are decoded while the geometry of the next is: what they need beside their
-/// output, some 40 bytes a point, is let go of after.
-inline constexpr std::size_t kBatchPoints = std::size_t{1} << 19;
+/// Points of slices that are begun and not done, where these are more than two slices a thread:
+/// what they need beside their output, some 40 bytes a point, is let go of after.
+inline constexpr std::size_t kPointsInFlight = std::size_t{1} << 18;
 
-/// Appends their points to `field`, in order.
+/// The base's components (8.6 - 8.8), which slices go on from, and beside them the slices, whose
+/// points are appended to `field` in order.
 /// @param chosen   [slices] the others are passed over
-/// @param seconds  receives what geometry and components took
+/// @param base     its geometry is there
+/// @param seconds  receives what geometry and components took, of all threads together
 /// @return is something missing?
-/// @errors that of the unit which stands first in the stream, for any number of threads.
-Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan, const Base& base,
-                           const std::vector<std::uint8_t>& chosen, int threads,
+/// @errors that of the base, else that of the unit which stands first in the stream, for any number
+///         of threads.
+Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan,
+                           const std::vector<std::uint8_t>& chosen, int threads, Base& base,
                            DecodeSeconds& seconds, LightField& field);
 
-/// Leaves points from `begin` on that are in the region.
-void keep_region(const SequencePlan& plan, std::size_t begin, LightField& field);
+/// Leaves points that are in the region.
+void keep_region(const SequencePlan& plan, LightField& field);
 
 }  // namespace slf

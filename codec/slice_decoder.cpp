@@ -4,6 +4,7 @@
 
 #include "attributes/normal_model.h"
 #include "attributes/raht_inverse.h"
+#include "base/release.h"
 #include "codec/node_voxels.h"
 #include "codec/slice_digest.h"
 #include "entropy/range_decoder.h"
@@ -94,7 +95,7 @@ void SliceDecoder::keep() {
   positions = node_voxels(codes_, level_, *plan_);
   const bool values = plan_->planes() > 0 || plan_->set.sps_normal_bits > 0;
   if (!partial && values) top_ = build_raht_top(codes_, plan_->lowest_split(plan_->levels));
-  if (!values) codes_ = {};
+  if (!values) release(codes_);
 }
 
 /// Of a slice whose geometry is incomplete: the nodes known stand for its points, without
@@ -227,8 +228,8 @@ void SliceDecoder::add_means(std::span<std::int32_t> components) const {
 }
 
 void SliceDecoder::drop() {
-  positions = {};
-  codes_ = {};
+  release(positions);
+  release(codes_);
   top_ = {};
 }
 

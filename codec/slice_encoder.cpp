@@ -7,6 +7,7 @@
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_forward.h"
+#include "base/release.h"
 #include "codec/component_encoder.h"
 #include "codec/slice_digest.h"
 #include "codec/slice_texture_encoder.h"
@@ -164,7 +165,7 @@ void SliceEncoder::encode_digest() {
                    decoded_.empty() ? std::span<const std::int32_t>(input_.components) : decoded_,
                    input_.normals);
   add(UnitType::kDigest, 0, 0, digest);
-  decoded_ = {};
+  release(decoded_);
 }
 
 }  // namespace slf

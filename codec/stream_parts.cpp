@@ -105,8 +105,7 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
   SLF_TRY(plan.set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, plan.set));
   SLF_TRY(const SequencePlan sequence, plan_sequence(units, plan.set, scene.table, options));
-  SLF_CHECK(check_limits(sequence, options));
-  plan.cost = decode_cost(sequence, options.threads);
+  SLF_TRY(plan.cost, check_limits(sequence, options));
   plan.components = sequence.coded.size();
   plan.points = sequence.base_alone() ? scene.table.num_cells() : scene.table.num_points();
   const Unit* unit = units.first(UnitType::kIndex);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/release.h"
 #include "fit/observe_camera.h"
 #include "fit/observe_points.h"
 #include "lightfield/frame.h"
@@ -90,7 +91,7 @@ Observations group_by_point(std::vector<CameraResult>& results, const std::vecto
       out.colour[at] = s.colour;
       out.camera[at] = static_cast<std::uint16_t>(order[i]);
     }
-    results[i].seen.sightings = {};
+    release(results[i].seen.sightings);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "attributes/quantiser.h"
+#include "base/release.h"
 #include "codec/slice_encoder.h"
 #include "codec/use_transforms.h"
 #include "encoder/component_planes.h"
@@ -130,7 +131,7 @@ Result<CodedSlice, InputError> encode_slice(const PlannedScene& scene, const Cap
   to_coded_channels(coefficients, scene.settings.colour, scene.settings.threads);  // 6.5
   std::vector<std::int32_t> components =
       to_components(coefficients, plan.shift, scene.settings.threads);  // 6.3
-  coefficients = {};
+  release(coefficients);
   const std::uint32_t weight = scene.cells.layout.weights().of(0, scene.cells.count());
   if (!scene.transforms.empty())  // 7.11
     components = find_components(scene.transforms, scene.coded, std::size_t{3} * plan.shift.size(),

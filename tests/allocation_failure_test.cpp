@@ -118,5 +118,29 @@ TEST(AllocationFailure, OfReadingHeadersAndOfACut) {
   EXPECT_GT(fail_each([&] { return static_cast<bool>(truncate(whole, options)); }), 20);
 }
 
+/// What a slice needed beside its points is given back before the next but few are begun.
+TEST(DecodeMemory, DoesNotGrowFromSliceToSlice) {
+  const LightField field = conformance::field(conformance::sphere(6), 6, 1, 300);
+  CodingParameters parameters = conformance::with_steps(1, 8);
+  parameters.base_levels = 3;
+  parameters.max_slice_points = 300;
+  parameters.slice_start = SliceStart::kBase;
+  const auto stream = pack(field, parameters);
+  ASSERT_TRUE(stream);
+  const std::size_t slices = read_info(*stream)->slices.size();
+  ASSERT_GE(slices, 30u);
+  std::vector<long> live;  // as each unit is begun
+  DecodeOptions options;
+  options.progress = [&](double) {
+    live.push_back(test::live_bytes);
+    return true;
+  };
+  ASSERT_TRUE(decode(*stream, options));
+  ASSERT_GE(live.size(), 2 * slices);  // a unit of geometry and one of coefficients
+  const std::size_t last = live.size() - 1;
+  const long growth = live[last] - live[last - 2 * (slices - 3)];
+  EXPECT_LT(growth, 2 * static_cast<long>(field.num_points()));
+}
+
 }  // namespace
 }  // namespace slf

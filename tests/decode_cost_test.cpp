@@ -41,5 +41,21 @@ TEST(Spec_9_DecodeCost, OfWholeCutAndPartialStreamsIsTheLimitThatLetsThemPass) {
   EXPECT_GT(compared, 200);
 }
 
+/// Two threads have two slices in flight; where there is no room for that, one decodes them.
+TEST(Spec_9_DecodeCost, ThreadsAreAsManyAsTheMemoryHasRoomFor) {
+  const auto stream =
+      bytes_of(std::filesystem::path(SLF_CONFORMANCE) / "streams" / "scene-alone" / "stream.slf");
+  DecodeOptions options;
+  const auto one = decode_cost(stream, options);
+  ASSERT_TRUE(one);
+  options.threads = 2;
+  const auto two = decode_cost(stream, options);
+  ASSERT_TRUE(two);
+  ASSERT_GT(two->memory_most, one->memory_most);
+  options.limits.max_memory = one->memory_most;
+  EXPECT_EQ(decode_cost(stream, options)->memory_most, one->memory_most);
+  EXPECT_TRUE(decode(stream, options));
+}
+
 }  // namespace
 }  // namespace slf

@@ -1,18 +1,22 @@
 // Apart from what allocates: where both are inlined, compilers take free() for a mistake.
 #include "tests/failing_allocations.h"
 
+#include <malloc.h>
+
 #include <cstdlib>
 #include <new>
 
 namespace slf::test {
 
 std::atomic<long> allocations_left{-1};
+std::atomic<long> live_bytes{0};
 
 }  // namespace slf::test
 
 namespace {
 
 using slf::test::allocations_left;
+using slf::test::live_bytes;
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) <= 0) {
@@ -20,7 +24,14 @@ void* allocate(std::size_t size, std::size_t alignment) {
     return nullptr;
   }
   const std::size_t rounded = (size + alignment) / alignment * alignment;
-  return std::aligned_alloc(alignment, rounded);
+  void* memory = std::aligned_alloc(alignment, rounded);
+  live_bytes += static_cast<long>(malloc_usable_size(memory));
+  return memory;
+}
+
+void release(void* memory) {
+  live_bytes -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
 }
 
 }  // namespace
@@ -42,10 +53,10 @@ void* operator new[](std::size_t size) { return operator new(size); }
 void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
   return operator new(size, nothrow);
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }

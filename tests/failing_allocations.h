@@ -1,4 +1,4 @@
-// A program with this has an operator new that fails when it is told to.
+// A program with this has an operator new that fails when it is told to, and counts.
 #pragma once
 
 #include <atomic>
@@ -7,5 +7,7 @@ namespace slf::test {
 
 /// Allocations that succeed from now on; then all fail. Below 0: as many as one likes.
 extern std::atomic<long> allocations_left;
+/// Of what is allocated and not freed.
+extern std::atomic<long> live_bytes;
 
 }  // namespace slf::test

@@ -14,7 +14,7 @@
 
 namespace slf {
 
-/// Where the time went, by stage.
+/// Where the time went, by stage; of all threads together.
 struct DecodeSeconds {
   double geometry = 0;      ///< units, occupancy, positions, what is derived from them
   double coefficients = 0;  ///< components, normals, the check of the digests
@@ -123,8 +123,8 @@ struct DecodeCost {
   std::uint64_t work = 0;         ///< steps as DecodeLimits::max_work counts them, at most
 };
 
-/// Of what is asked for: levels, groups, layers, max_bytes; on so many threads, which have as many
-/// slices in flight. A region counts as the whole: what it meets is known when the base is decoded.
+/// Of what is asked for: levels, groups, layers, max_bytes; on so many threads, which have more
+/// slices in flight, unless limits.max_memory has no room for as many. A region counts as the whole: what it meets is known when the base is decoded.
 /// Thread-safe. O(units).
 /// @errors as decode; of the limits those of the stream's own length and of planes alone
 Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream,

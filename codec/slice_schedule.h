@@ -1,0 +1,113 @@
+// Which step of which slice a thread takes next. Spec 8.2 leaves the order free.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "base/monitor.h"
+
+namespace slf {
+
+/// What a thread is to do.
+struct SliceWork {
+  enum Step {
+    kBase,
+    kGeometry,
+    kValues,
+    kNothing
+  };  ///< kNothing: all is done, or somebody stopped
+  Step step = kNothing;
+  std::size_t slice = 0;
+  bool last = false;  ///< nothing is left for other threads
+};
+
+/// Begins with the base's components and, beside them, the geometry of slice 0. Slices are admitted
+/// in their order, each when its geometry is there; values come before the geometry of others, so
+/// that little waits. Each step is begun in the order of slices.
+class SliceSchedule {
+ public:
+  /// @param points     [slices]
+  /// @param threads    that take work
+  /// @param in_flight  points of slices that are begun and not done, unless there are fewer than
+  /// two
+  ///                   a thread
+  SliceSchedule(std::vector<std::size_t> points, std::size_t threads, std::size_t in_flight)
+      : points_(std::move(points)),
+        there_(points_.size()),
+        done_(points_.size()),
+        most_slices_(2 * threads),
+        most_points_(in_flight) {}
+
+  /// Waits until there is something.
+  SliceWork next() {
+    SliceWork work;
+    monitor_.wait([&] { return take(work); });
+    return work;
+  }
+
+  void finish_base() {
+    monitor_.change([&] { base_done_ = true; });
+  }
+
+  /// admit(s) is called for every slice in turn, by one thread at a time; false: no other work
+  /// begins.
+  template <class Admit>
+  void finish_geometry(std::size_t slice, const Admit& admit) {
+    monitor_.change([&] {
+      there_[slice] = true;
+      for (; admitted_ < there_.size() && there_[admitted_] && !stopped_; ++admitted_)
+        stopped_ = !admit(admitted_);
+    });
+  }
+
+  /// gather(s): the same.
+  template <class Gather>
+  void finish_values(std::size_t slice, const Gather& gather) {
+    monitor_.change([&] {
+      done_[slice] = true;
+      points_in_flight_ -= points_[slice];
+      --slices_in_flight_;
+      for (; gathered_ < done_.size() && done_[gathered_]; ++gathered_) gather(gathered_);
+    });
+  }
+
+  void stop() {
+    monitor_.change([&] { stopped_ = true; });
+  }
+
+ private:
+  bool take(SliceWork& work) {
+    if (stopped_) {
+      work.step = SliceWork::kNothing;
+    } else if (!base_begun_) {
+      base_begun_ = true;
+      work.step = SliceWork::kBase;
+    } else if (values_begun_ == points_.size()) {
+      work.step = SliceWork::kNothing;
+    } else if (base_done_ && values_begun_ < admitted_) {
+      work = {SliceWork::kValues, values_begun_++, values_begun_ == points_.size()};
+    } else if (geometry_begun_ < points_.size() && has_room(points_[geometry_begun_])) {
+      points_in_flight_ += points_[geometry_begun_];
+      ++slices_in_flight_;
+      work = {SliceWork::kGeometry, geometry_begun_++, false};
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  bool has_room(std::size_t points) const {
+    return slices_in_flight_ < most_slices_ || points_in_flight_ + points <= most_points_;
+  }
+
+  std::vector<std::size_t> points_;
+  std::vector<bool> there_, done_;  // geometry; values
+  std::size_t most_slices_, most_points_;
+  bool base_begun_ = false, base_done_ = false, stopped_ = false;
+  std::size_t geometry_begun_ = 0, admitted_ = 0, values_begun_ = 0, gathered_ = 0;  // slices
+  std::size_t slices_in_flight_ = 0, points_in_flight_ = 0;
+  Monitor monitor_;
+};
+
+}  // namespace slf
