@@ -60,12 +60,8 @@ class SceneDecoder {
     SliceSchedule schedule(std::move(points), threads, kPointsInFlight);
     std::vector<DecodeSeconds> of_threads(threads);
     parallel_ranges(threads, 1, threads_, [&](std::size_t begin, std::size_t) {
-      try {
-        work(schedule, of_threads[begin]);
-      } catch (...) {  // others would wait for ever
-        schedule.stop();
-        throw;
-      }
+      const StopAtEnd stop{schedule};
+      work(schedule, of_threads[begin]);
     });
     for (const DecodeSeconds& s : of_threads) {
       seconds.geometry += s.geometry;

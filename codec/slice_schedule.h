@@ -110,4 +110,10 @@ class SliceSchedule {
   Monitor monitor_;
 };
 
+/// Whoever leaves has done all there was, or threw: others would wait for ever.
+struct StopAtEnd {
+  SliceSchedule& schedule;
+  ~StopAtEnd() { schedule.stop(); }
+};
+
 }  // namespace slf

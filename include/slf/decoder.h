@@ -124,8 +124,8 @@ struct DecodeCost {
 };
 
 /// Of what is asked for: levels, groups, layers, max_bytes; on so many threads, which have more
-/// slices in flight, unless limits.max_memory has no room for as many. A region counts as the whole: what it meets is known when the base is decoded.
-/// Thread-safe. O(units).
+/// slices in flight, unless limits.max_memory has no room for as many. A region counts as the
+/// whole: what it meets is known when the base is decoded. Thread-safe. O(units).
 /// @errors as decode; of the limits those of the stream's own length and of planes alone
 Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream,
                                const DecodeOptions& options = {});
