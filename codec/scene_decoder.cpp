@@ -114,15 +114,18 @@ class SceneDecoder {
       return false;
     }
     if (is_first(task) && task.error) in_place_ = false;  // room for what is not believed any more
-    if (in_place_) {
-      if (is_first(task)) reserve_points();
-      make_room(task, field_);
-      field_.positions.insert(field_.positions.end(), positions.begin(), positions.end());
-    }
+    if (in_place_ && is_first(task)) reserve_points();
+    if (in_place_) append(task);
     return true;
   }
 
-  /// Components and normals of zero.
+  /// Its points, and components and normals of zero.
+  void append(Task& task) {
+    const auto& positions = task.slice.positions;
+    field_.positions.insert(field_.positions.end(), positions.begin(), positions.end());
+    make_room(task, field_);
+  }
+
   void make_room(Task& task, LightField& field) const {
     const std::size_t before = field.components.size(), normals = field.normals.octahedral.size();
     field.components.resize(before + task.points * plan_.planes());
@@ -147,20 +150,16 @@ class SceneDecoder {
   /// Appends what was decoded apart.
   void gather(Task& task) {
     if (in_place_ || task.error) return;
-    LightField& part = task.apart;
+    LightField part = std::move(task.apart);
     part.normals.bits = field_.normals.bits;
-    part.positions = std::move(task.slice.positions);
-    task.slice.drop();
+    part.positions.swap(task.slice.positions);
     if (plan_.region) keep_region(plan_, part);
-    append(part.positions, field_.positions);
-    append(part.components, field_.components);
-    append(part.normals.octahedral, field_.normals.octahedral);
-    part = {};
-  }
-
-  template <class T>
-  static void append(const std::vector<T>& from, std::vector<T>& to) {
-    to.insert(to.end(), from.begin(), from.end());
+    task.points = part.num_points();
+    part.positions.swap(task.slice.positions);
+    append(task);
+    std::copy(part.components.begin(), part.components.end(), task.components);
+    std::copy(part.normals.octahedral.begin(), part.normals.octahedral.end(), task.normals);
+    task.slice.drop();
   }
 
   /// Room for all points that the slices say there are: within the limits (check_limits), and on

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -34,8 +35,7 @@ class SliceSchedule {
   ///                   a thread
   SliceSchedule(std::vector<std::size_t> points, std::size_t threads, std::size_t in_flight)
       : points_(std::move(points)),
-        there_(points_.size()),
-        done_(points_.size()),
+        has_(points_.size(), kNone),
         most_slices_(2 * threads),
         most_points_(in_flight) {}
 
@@ -55,8 +55,8 @@ class SliceSchedule {
   template <class Admit>
   void finish_geometry(std::size_t slice, const Admit& admit) {
     monitor_.change([&] {
-      there_[slice] = true;
-      for (; admitted_ < there_.size() && there_[admitted_] && !stopped_; ++admitted_)
+      has_[slice] = kGeometry;
+      for (; admitted_ < has_.size() && has_[admitted_] == kGeometry && !stopped_; ++admitted_)
         stopped_ = !admit(admitted_);
     });
   }
@@ -65,10 +65,10 @@ class SliceSchedule {
   template <class Gather>
   void finish_values(std::size_t slice, const Gather& gather) {
     monitor_.change([&] {
-      done_[slice] = true;
+      has_[slice] = kValues;
       points_in_flight_ -= points_[slice];
       --slices_in_flight_;
-      for (; gathered_ < done_.size() && done_[gathered_]; ++gathered_) gather(gathered_);
+      for (; gathered_ < has_.size() && has_[gathered_] == kValues; ++gathered_) gather(gathered_);
     });
   }
 
@@ -102,7 +102,8 @@ class SliceSchedule {
   }
 
   std::vector<std::size_t> points_;
-  std::vector<bool> there_, done_;  // geometry; values
+  enum Has : std::uint8_t { kNone, kGeometry, kValues };
+  std::vector<std::uint8_t> has_;  // [slices] what is decoded of each
   std::size_t most_slices_, most_points_;
   bool base_begun_ = false, base_done_ = false, stopped_ = false;
   std::size_t geometry_begun_ = 0, admitted_ = 0, values_begun_ = 0, gathered_ = 0;  // slices
