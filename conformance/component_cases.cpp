@@ -22,7 +22,7 @@ Case two_points() {
 
 Case of_coder(bool vector) {
   Case c = case_of(vector ? "vector" : "independent", "three groups, three level ranges",
-                   {"7.6", vector ? "8.7.2" : "8.7.3", "8.8", "8.9"}, field(sphere(5), 5, 24),
+                   {"7.6", vector ? "8.7.2" : "8.7.3", "8.8", "8.9"}, field(small_sphere(), 5, 24),
                    with_steps(24, 250));
   c.levels = {1, 3, 4};
   c.groups = {1, 2};
@@ -36,7 +36,7 @@ Case predicted(bool surface) {
   Case c = case_of(surface ? "prediction" : "prediction-full-cube",
                    "levels predicted from coarser ones, three groups, several slices",
                    {"7.6", "8.7.6", "8.8", "8.9"},
-                   field(surface ? sphere(5) : lattice(8, 8, 8), surface ? 5 : 3, 12),
+                   field(surface ? small_sphere() : lattice(8, 8, 8), surface ? 5 : 3, 12),
                    with_steps(12, 40));
   c.levels = surface ? std::vector<int>{1, 3, 4} : std::vector<int>{1, 2};
   c.groups = {1, 2};
@@ -44,13 +44,13 @@ Case predicted(bool surface) {
   for (int k = 0; k < 12; ++k) c.parameters.group.push_back(k == 0 ? 0 : k % 2 + 1);
   c.parameters.coefficient_level_ends =
       surface ? std::vector<int>{3, 4, 5} : std::vector<int>{2, 3};
-  c.parameters.max_slice_points = surface ? 800 : 1u << 20;
+  c.parameters.max_slice_points = surface ? 330 : 1u << 20;
   return c;
 }
 
 Case unequal_steps() {
   Case c = case_of("unequal-steps", "steps and shifts per function and channel", {"7.2", "8.7.4"},
-                   field(sphere(5), 5, 4));
+                   field(small_sphere(), 5, 4));
   c.parameters.step = {{8, 16, 17}, {9, 9, 9}, {9, 9, 9}, {100, 50, 1}};
   c.field.header.shift = {6, 6, 5, 0};
   return c;
@@ -66,12 +66,12 @@ Case all_zero() {
 Case transformed(bool joint) {
   Case c = case_of(joint ? "transform-joint" : "transform-functions",
                    "transforms across planes, of lower rank, over three groups",
-                   {"7.11", "8.7.5", "8.9"}, field(sphere(5), 5, 24), with_steps(24, 250));
+                   {"7.11", "8.7.5", "8.9"}, field(small_sphere(), 5, 24), with_steps(24, 250));
   c.levels = {3, 4};
   c.groups = {1, 2};
   c.parameters.transform = joint ? TransformMode::kJoint : TransformMode::kFunctions;
   add_groups(c.parameters);
-  c.parameters.max_slice_points = 1500;
+  c.parameters.max_slice_points = 600;
   return c;
 }
 

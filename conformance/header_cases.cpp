@@ -47,7 +47,7 @@ Case normals() {
 
 Case basis() {
   Case c = case_of("basis", "a B-spline light field with every header element in use",
-                   {"6.3", "7.2"}, field(sphere(5), 5, 8), with_steps(8, 16));
+                   {"6.3", "7.2"}, field(small_sphere(), 5, 8), with_steps(8, 16));
   LightFieldHeader& header = c.field.header;
   header.has_basis = true;
   header.basis = {BasisId::kBspline, 3, 2, 1};
@@ -65,7 +65,7 @@ Case basis() {
 
 Case harmonics() {
   Case c = case_of("harmonics", "spherical harmonics in the reflected frame, a group per degree",
-                   {"6.3", "6.4", "7.2"}, field(sphere(5), 5, 9), with_steps(9, 16));
+                   {"6.3", "6.4", "7.2"}, field(small_sphere(), 5, 9), with_steps(9, 16));
   c.field.header.has_basis = true;
   c.field.header.basis = {BasisId::kHarmonics, 2, 0, 0, 2};
   c.field.header.frame = FrameId::kReflected;

@@ -18,7 +18,7 @@ Case layered(const char* id, const char* purpose, std::vector<int> layers, int b
   Case c{id,
          purpose,
          {"7.2", "7.12", "8.7.4", "8.7.7", "8.9"},
-         field(sphere(5), 5, 9),
+         field(small_sphere(), 5, 9),
          with_steps(9, 20),
          {2, 4},
          {1, 2},
@@ -52,7 +52,7 @@ Case even() {
 
 void add_layer_cuts(std::vector<Case>& cases) {
   const auto add = [&](const char* id, const char* purpose, int levels, int groups, int layers) {
-    Case c = layered(id, purpose, {3, 2, 3}, 2, 500);
+    Case c = layered(id, purpose, {3, 2, 3}, 2, 200);
     c.truncated.emplace();
     c.truncated->levels = levels;
     c.truncated->groups = groups;
@@ -119,21 +119,21 @@ std::vector<Case> layer_cases() {
   std::vector<Case> cases;
   cases.push_back(layered("layers", "two layers", {2, 2, 2}, 0, 1u << 20));
   cases.push_back(layered("layers-four", "four layers, a base", {4, 4, 4}, 2, 1u << 20));
-  cases.push_back(layered("layers-by-group", "groups of 1, 3 and 2 layers", {1, 3, 2}, 2, 500));
+  cases.push_back(layered("layers-by-group", "groups of 1, 3 and 2 layers", {1, 3, 2}, 2, 200));
   Case alone =
-      layered("layers-alone", "slices that start from the base's states", {2, 2, 2}, 2, 500);
+      layered("layers-alone", "slices that start from the base's states", {2, 2, 2}, 2, 200);
   alone.parameters.slice_start = SliceStart::kBase;
   cases.push_back(alone);
   cases.push_back(even());
   cases.push_back(greatest());
   Case large =
       layered("layers-large", "magnitudes beyond the contexts, step 1", {4, 4, 4}, 0, 1u << 20);
-  large.field = field(sphere(5), 5, 9, 1000000);
+  large.field = field(small_sphere(), 5, 9, 1000000);
   large.parameters.step = with_steps(9, 1).step;
   cases.push_back(large);
   for (const std::size_t units : {18u, 25u, 32u}) {
     Case c = layered(("layers-prefix-" + std::to_string(units)).c_str(), "layers cut short",
-                     {3, 2, 3}, 2, 500);
+                     {3, 2, 3}, 2, 200);
     c.keep_units = units;
     cases.push_back(c);
   }
