@@ -12,14 +12,14 @@ const VoxelBox kCorner{{0, 0, 0}, {9, 31, 31}};
 
 /// Three slices, three groups, level ranges above and below the base.
 Case apart(const std::string& id, const char* purpose) {
-  Case c = case_of(id, purpose, {"7.3", "8.1", "8.8.3", "8.9"}, field(sphere(5), 5, 6),
+  Case c = case_of(id, purpose, {"7.3", "8.1", "8.8.3", "8.9"}, field(small_sphere(), 5, 6),
                    with_steps(6, 40));
   CodingParameters& p = c.parameters;
   p.group = {0, 1, 1, 2, 2, 2};
   p.geometry_level_ends = {1, 4, 5};
   p.coefficient_level_ends = {4, 5};
   p.base_levels = 2;
-  p.max_slice_points = 900;
+  p.max_slice_points = 370;
   p.slice_start = SliceStart::kApart;
   p.index = false;
   return c;
@@ -51,10 +51,10 @@ void add_whole(std::vector<Case>& cases) {
   layers.levels = {3};
   cases.push_back(layers);
   Case geometry = apart("apart-geometry", "slices without components, of unlike numbers of points");
-  geometry.field = field(sphere(5), 5, 0);
+  geometry.field = field(small_sphere(), 5, 0);
   geometry.parameters.step.clear();
   geometry.parameters.group.clear();
-  geometry.parameters.max_slice_points = 500;
+  geometry.parameters.max_slice_points = 205;
   cases.push_back(geometry);
   Case order = apart("apart-slice-by-slice", "slices one after the other, steps of 1");
   order.parameters.step = with_steps(6, 1).step;
@@ -77,7 +77,7 @@ void add_cuts_apart(std::vector<Case>& cases) {
   add("apart-cut-levels", "a level range left out", 4, 0, {});
   add("apart-cut-groups", "a group left out", 0, 2, {});
   add("apart-cut-region", "slices left out, slice 0 among them", 0, 0,
-      VoxelBox{{24, 24, 24}, {31, 31, 31}});
+      VoxelBox{{20, 20, 20}, {31, 31, 31}});
 }
 
 /// Units: sequence, slices, 2 of the base's geometry and 3 of its coefficients, then of three
