@@ -27,6 +27,6 @@ function(slf_unity target)
 endfunction()
 
 if(CMAKE_UNITY_BUILD)
-  set(CMAKE_UNITY_BUILD OFF)  # of tests and other programs of one file each
+  set(CMAKE_UNITY_BUILD OFF)  # of programs of one file each; tests say it themselves
   set(SLF_UNITY ON)
 endif()

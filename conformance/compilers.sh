@@ -13,14 +13,23 @@ if pkg-config --exists x265 libde265; then
 else
   excluded=(--exclude 'texture-*')
 fi
-sources=$(ls conformance/*.cpp base/*.cpp bitstream/*.cpp geometry/*.cpp attributes/*.cpp codec/*.cpp lightfield/*.cpp \
-  texture/*.cpp video/picture.cpp video/hevc_*.cpp | grep -v -e parallel_serial -e left_out)
+# As with CMAKE_UNITY_BUILD, up to twelve files of a folder of the library are one for the compiler.
+sources="$work/sources"
+mkdir "$sources"
+together() {  # FILES FOLDER...
+  for folder in "${@:2}"; do
+    ls $folder/*.cpp | grep -v -e parallel_serial -e left_out -e av1_ | sed 's/.*/#include "&"/' |
+      split -l "$1" --additional-suffix=.cpp - "$sources/${folder}_"
+  done
+}
+together 12 base bitstream geometry attributes codec lightfield texture video
+together 1 conformance  # its files use the same short names
 [[ $# -gt 0 ]] || set -- "g++ -O0" "g++ -O3" "clang++ -O0" "clang++ -O3"
 for build in "$@"; do
   objects="$work/${build// /}"
   mkdir "$objects"
-  printf '%s\n' $sources | xargs -P "$(nproc)" -I{} sh -c \
-    "$build -std=c++20 -DSLF_WITH_DRACO=1 $video_flags -Iinclude -I. -isystem /usr/include/eigen3 -c {} -o $objects/\$(echo {} | tr / _).o"
+  ls "$sources" | xargs -P "$(nproc)" -I{} $build -std=c++20 -DSLF_WITH_DRACO=1 $video_flags -Iinclude -I. \
+    -isystem /usr/include/eigen3 -c "$sources/{}" -o "$objects/{}.o"
   ${build% *} "$objects"/*.o -o "$objects/generate" -ldraco $video_libraries -lz -pthread
   "$objects/generate" "$work/made"
   diff -r "${excluded[@]}" "$work/made/streams" conformance/streams

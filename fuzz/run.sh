@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# fuzz/run.sh SECONDS [TARGET...]: every target (or those named) in turn under AddressSanitizer and
-# UndefinedBehaviorSanitizer, SECONDS together. Prints the runs of each. Needs clang.
+# fuzz/run.sh SECONDS [TARGET...]: every target (or those named) under AddressSanitizer and
+# UndefinedBehaviorSanitizer, as many at a time as there are cores. SECONDS are those of one core,
+# shared alike by all targets: with two cores it is done in half of them. Prints the runs of each.
+# Needs clang.
 # BUILD_DIR: a build with SLF_FUZZ and the sanitizers (default: build-fuzz, made here).
 # What is found stays in build-fuzz/finds/TARGET; once mended it belongs in fuzz/finds/TARGET, which
 # the tests replay. The corpus in build-fuzz/corpus grows from call to call.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seconds=${1:?seconds for all targets together}
+seconds=${1:?seconds of one core for all targets together}
 shift
 all=(decode render truncate hevc npy ply obj glb image cameras colmap igc part plan)
 targets=("$@")
@@ -21,10 +23,9 @@ cmake --build $build --target "${targets[@]/#/fuzz_}" >> $build.log
 python3 fuzz/make_seeds.py $build/seeds ${SLF_PROGRAM:+--slf "$SLF_PROGRAM"}
 
 share=$(( seconds / ${#targets[@]} > 0 ? seconds / ${#targets[@]} : 1 ))
-status=0
-for target in "${targets[@]}"; do
+fuzz() {
+  local target=$1 status=0 known=()
   mkdir -p $build/corpus/$target $build/finds/$target $build/seeds/$target
-  known=()
   [[ -d fuzz/finds/$target ]] && known=(fuzz/finds/$target)
   # malloc limits stand for hostile sizes: what is larger is refused with bad_alloc or an error.
   ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
@@ -34,5 +35,8 @@ for target in "${targets[@]}"; do
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' $build/$target.log)
   edges=$(sed -n 's/.* cov: \([0-9]*\).*/\1/p' $build/$target.log | tail -1)
   echo "$target: ${runs:-0} runs, ${edges:-0} edges, $(find $build/finds/$target -type f | wc -l) finds"
-done
-exit $status
+  return $status
+}
+export -f fuzz
+export build share
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'fuzz {}' || exit 1

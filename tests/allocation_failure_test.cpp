@@ -10,7 +10,7 @@
 #include "slf/truncate.h"
 #include "tests/failing_allocations.h"
 
-namespace slf {
+namespace slf::allocation_failure_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -143,4 +143,4 @@ TEST(DecodeMemory, DoesNotGrowFromSliceToSlice) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::allocation_failure_test

@@ -3,7 +3,7 @@
 
 #include "tests/video_pictures.h"
 
-namespace slf {
+namespace slf::av1_test {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(Av1Codec, BytesAreTheSameAgain) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::av1_test

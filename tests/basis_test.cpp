@@ -11,7 +11,7 @@
 #include "lightfield/basis_table.h"
 #include "slf/view_map.h"
 
-namespace slf {
+namespace slf::basis_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -188,4 +188,4 @@ TEST(ColourMatrix, IsOrthonormalAndItsTransposeIsTheDocumentedTransform) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::basis_test

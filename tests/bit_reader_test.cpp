@@ -5,7 +5,7 @@
 
 #include "bitstream/bit_writer.h"
 
-namespace slf {
+namespace slf::bit_reader_test {
 namespace {
 
 TEST(Spec_3_3_BitReader, ExpGolombCodesAreThoseOfTheTable) {
@@ -58,4 +58,4 @@ TEST(Spec_3_3_BitReader, WhatFollowsAHeaderIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::bit_reader_test

@@ -12,7 +12,7 @@
 #include "slf/slf.h"
 #include "slf/view_map.h"
 
-namespace slf {
+namespace slf::c_api_radiance_test {
 namespace {
 
 using test::Bytes;
@@ -158,4 +158,4 @@ TEST(CApi, MeanColoursAreTheLibrarysRounded) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::c_api_radiance_test

@@ -11,7 +11,7 @@
 #include "c_api_objects.h"
 #include "slf/decoder.h"
 
-namespace slf {
+namespace slf::c_api_test {
 namespace {
 
 using test::Bytes;
@@ -282,4 +282,4 @@ TEST(CApi, VersionsAreThoseOfTheHeader) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::c_api_test

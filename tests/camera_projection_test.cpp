@@ -3,7 +3,7 @@
 
 #include "slf/capture.h"
 
-namespace slf {
+namespace slf::camera_projection_test {
 namespace {
 
 TEST(CameraProject, HonoursBrownDistortionAsColmapsOpencvModel) {
@@ -38,4 +38,4 @@ TEST(CameraProject, ShowsNothingBehindTheCameraOrBeyondTheFoldOfTheDistortion) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::camera_projection_test

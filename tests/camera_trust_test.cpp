@@ -16,7 +16,7 @@
 #include "slf/evaluate.h"
 #include "tools/synth/synth.h"
 
-namespace slf {
+namespace slf::camera_trust_test {
 namespace {
 
 constexpr int kBits = 6;
@@ -277,4 +277,4 @@ TEST_F(CameraTrustTest, WhatIsLeftAreTheObservationsOfTheOthers) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::camera_trust_test

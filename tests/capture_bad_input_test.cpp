@@ -4,7 +4,7 @@
 
 #include "capture_formats.h"
 
-namespace slf {
+namespace slf::capture_bad_input_test {
 namespace {
 
 using namespace test;
@@ -254,4 +254,4 @@ TEST(CaptureWarnings, SuspiciousButUsable) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::capture_bad_input_test

@@ -6,7 +6,7 @@
 
 #include "capture_formats.h"
 
-namespace slf {
+namespace slf::capture_import_test {
 namespace {
 
 using namespace test;
@@ -176,4 +176,4 @@ TEST(RealCaptures, Load) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::capture_import_test

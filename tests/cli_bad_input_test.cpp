@@ -5,7 +5,7 @@
 #include "bitstream/units.h"
 #include "cli_support.h"
 
-namespace slf {
+namespace slf::cli_bad_input_test {
 namespace {
 
 using nlohmann::json;
@@ -184,4 +184,4 @@ TEST_F(CliTest, MissingStream) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_bad_input_test

@@ -4,7 +4,7 @@
 #include "cli_support.h"
 #include "slf/capture.h"
 
-namespace slf {
+namespace slf::cli_encode_test {
 namespace {
 
 TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
@@ -119,4 +119,4 @@ TEST_F(CliTest, ACloudWithColoursNeedsNoCameras) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_encode_test

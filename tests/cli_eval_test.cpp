@@ -1,7 +1,7 @@
 // slf eval: what it measures, on which cameras, and where it says no.
 #include "cli_support.h"
 
-namespace slf {
+namespace slf::cli_eval_test {
 namespace {
 
 TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
@@ -53,4 +53,4 @@ TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_eval_test

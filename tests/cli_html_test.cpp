@@ -1,7 +1,7 @@
 // slf html, with the viewer's page in the program and without.
 #include "cli_support.h"
 
-namespace slf {
+namespace slf::cli_html_test {
 namespace {
 
 constexpr const char* kWithoutPage =
@@ -73,4 +73,4 @@ TEST_F(CliHtmlTest, WrongOptionsAndDamagedFilesAreRefusedAndLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_html_test

@@ -7,7 +7,7 @@
 #include "conformance/fields.h"
 #include "slf/encoder.h"
 
-namespace slf {
+namespace slf::cli_limits_test {
 namespace {
 
 using nlohmann::json;
@@ -83,7 +83,8 @@ TEST_F(LimitsTest, InfoForetellsMemory) {
             0);
 }
 
-// AddressSanitizer maps terabytes of addresses before the program begins: it limits what is resident.
+// AddressSanitizer maps terabytes of addresses before the program begins: it limits what is
+// resident.
 #if defined(__SANITIZE_ADDRESS__)
 #define SLF_ADDRESS_SANITIZER 1
 #elif defined(__has_feature)
@@ -207,4 +208,4 @@ TEST_F(LimitsTest, NormalsOfNoPointsCanBeDumped) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_limits_test

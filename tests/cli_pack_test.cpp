@@ -2,7 +2,7 @@
 #include "cli_support.h"
 #include "tools/npy.h"
 
-namespace slf {
+namespace slf::cli_pack_test {
 namespace {
 
 using tools::npy_file;
@@ -97,4 +97,4 @@ TEST_F(PackTest, RefusesArraysThatDoNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_pack_test

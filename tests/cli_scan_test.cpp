@@ -2,7 +2,7 @@
 // one where it is installed.
 #include "tests/cli_support.h"
 
-namespace slf {
+namespace slf::cli_scan_test {
 namespace {
 
 /// Two metres of a plane at a place on a map, 0.1 m apart.
@@ -122,4 +122,4 @@ TEST_F(ScanTest, ComesThroughTheRealPdal) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_scan_test

@@ -6,7 +6,7 @@
 
 #include "cli_support.h"
 
-namespace slf {
+namespace slf::cli_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -274,4 +274,4 @@ TEST_F(SceneTest, APhotographThatDisappearsIsNamedAndNothingIsLost) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_scene_test

@@ -4,7 +4,7 @@
 
 #include "cli_support.h"
 
-namespace slf {
+namespace slf::cli_test {
 namespace {
 
 TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
@@ -182,4 +182,4 @@ TEST_F(TinyCaptureTest, ExportsSplatsAndPointsAndSaysWhatIsLost) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::cli_test

@@ -8,7 +8,7 @@
 #include "slf/given_planes.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::codec_round_trip_test {
 namespace {
 
 using test::NamedCloud;
@@ -294,4 +294,4 @@ TEST(Pack, RefusesWhatIsOutsideItsRanges) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::codec_round_trip_test

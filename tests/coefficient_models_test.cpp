@@ -8,7 +8,7 @@
 #include "entropy/range_encoder.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::coefficient_models_test {
 namespace {
 
 using test::one_row_a_point;
@@ -169,4 +169,4 @@ TEST(Spec_8_1_CoefficientModels, StatesGivenAwayDoNotMoveOn) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::coefficient_models_test

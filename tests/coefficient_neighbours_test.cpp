@@ -7,7 +7,7 @@
 #include "attributes/coefficient_neighbours.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::coefficient_neighbours_test {
 namespace {
 
 using test::one_row_a_point;
@@ -86,4 +86,4 @@ INSTANTIATE_TEST_SUITE_P(Spec_8_7_2, CoefficientNeighboursTest,
                          [](const auto& cloud) { return cloud.param.name; });
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::coefficient_neighbours_test

@@ -5,7 +5,7 @@
 
 #include "capture_formats.h"
 
-namespace slf {
+namespace slf::colmap_import_test {
 namespace {
 
 using namespace test;
@@ -123,4 +123,4 @@ TEST(Colmap, PointsFarFromZeroAndTheirCamerasAreGivenFromAnOriginNearby) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::colmap_import_test

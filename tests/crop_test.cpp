@@ -8,7 +8,7 @@
 
 #include "capture_support.h"
 
-namespace slf {
+namespace slf::crop_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST(Crop, IsPartOfLoadingACaptureWhichElseWarns) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::crop_test

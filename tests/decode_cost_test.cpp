@@ -7,7 +7,7 @@
 
 #include "slf/decoder.h"
 
-namespace slf {
+namespace slf::decode_cost_test {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file) {
@@ -58,4 +58,4 @@ TEST(Spec_9_DecodeCost, ThreadsAreAsManyAsTheMemoryHasRoomFor) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::decode_cost_test

@@ -9,7 +9,7 @@
 
 #include "capture/voxelise.h"
 
-namespace slf {
+namespace slf::densify_test {
 namespace {
 
 /// Points of the unit sphere, evenly.
@@ -127,4 +127,4 @@ TEST(Densify, AGridMuchTooFineIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::densify_test

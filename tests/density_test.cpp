@@ -8,7 +8,7 @@
 
 #include "mesh_files.h"
 
-namespace slf {
+namespace slf::density_test {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(Density, OnePointAndCoincidingPointsAreWhatTheyWere) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::density_test

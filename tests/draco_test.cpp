@@ -5,7 +5,7 @@
 #include "geometry/draco_encoder.h"
 #include "geometry/morton.h"
 
-namespace slf {
+namespace slf::draco_test {
 namespace {
 
 constexpr int kBits = 4;
@@ -71,4 +71,4 @@ TEST_F(Draco, ACutHeaderIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::draco_test

@@ -1,7 +1,7 @@
 // What is asked of an encode is what its file has: efforts, targets, steps.
 #include "tests/end_to_end.h"
 
-namespace slf {
+namespace slf::encode_settings_test {
 namespace {
 
 class EncodeSettings : public EndToEnd {
@@ -100,4 +100,4 @@ TEST_F(EncodeSettings, ATargetThatCannotBeMetIsSaidAndTheNearestIsWritten) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::encode_settings_test

@@ -1,7 +1,7 @@
 // Photographs to .slf and back, on a small synthetic capture.
 #include "tests/end_to_end.h"
 
-namespace slf {
+namespace slf::end_to_end_test {
 namespace {
 
 TEST_F(EndToEnd, QualityAndBytesStayWhereTheyWereMeasured) {
@@ -63,4 +63,4 @@ TEST_F(EndToEnd, MoreBytesOfAFileAreNeverWorse) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::end_to_end_test

@@ -17,7 +17,7 @@
 #include "slf/view_map.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::environment_test {
 namespace {
 
 constexpr double kLampRadius = 4;  // halves of the object's side
@@ -206,4 +206,4 @@ TEST(EnvironmentFit, ViewsBetweenTheCamerasAreBetterWithIt) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::environment_test

@@ -13,7 +13,7 @@
 #include "codec/stream_parts.h"
 #include "slf/syntax_listing.h"
 
-namespace slf {
+namespace slf::error_place_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -158,4 +158,4 @@ TEST(Spec_F_Places, AreNotSaidOfArgumentsAndLimits) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::error_place_test

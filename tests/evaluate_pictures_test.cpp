@@ -4,7 +4,7 @@
 
 #include "tests/evaluate_support.h"
 
-namespace slf {
+namespace slf::evaluate_pictures_test {
 namespace {
 
 using namespace test;
@@ -175,4 +175,4 @@ TEST(QualityGapTest, SharesSumToOneAndSayWhichStepLost) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::evaluate_pictures_test

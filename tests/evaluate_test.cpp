@@ -5,7 +5,7 @@
 
 #include "tests/evaluate_support.h"
 
-namespace slf {
+namespace slf::evaluate_test {
 namespace {
 
 using namespace test;
@@ -123,4 +123,4 @@ TEST_F(EvaluateTest, WhatCannotBeEvaluatedIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::evaluate_test

@@ -9,7 +9,7 @@
 
 #include "capture_support.h"
 
-namespace slf {
+namespace slf::files_test {
 namespace {
 
 using test::TemporaryDirectory;
@@ -110,4 +110,4 @@ TEST(ReadFile, RefusesMoreThanTheLimitAndDirectories) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::files_test

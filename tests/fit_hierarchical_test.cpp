@@ -11,7 +11,7 @@
 #include "slf/view_map.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::fit_hierarchical_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -235,4 +235,4 @@ TEST(HierarchicalFitProperties, SettingsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_hierarchical_test

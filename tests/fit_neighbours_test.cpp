@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace slf {
+namespace slf::fit_neighbours_test {
 namespace {
 
 TEST(NearestNeighbours, BreakTiesByIndexAndLeaveOutThePointItself) {
@@ -36,4 +36,4 @@ TEST(NearestNeighbours, AreFewerWhereThereAreFewerPoints) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_neighbours_test

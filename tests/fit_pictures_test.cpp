@@ -15,7 +15,7 @@
 #include "slf/view_map.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::fit_pictures_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -259,4 +259,4 @@ TEST(DirectionRows, OfManyDirectionsAreThoseOfEach) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_pictures_test

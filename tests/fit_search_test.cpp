@@ -14,7 +14,7 @@
 #include "slf/fit.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::fit_search_test {
 namespace {
 
 /// A sphere, and far cameras all around: those in front of a point see it.
@@ -246,4 +246,4 @@ TEST(EncoderSettingsCheck, EveryFieldOfTheHierarchicalFitHasItsRange) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_search_test

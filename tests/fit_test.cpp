@@ -12,7 +12,7 @@
 #include "slf/view_map.h"
 #include "tests/random_sightings.h"
 
-namespace slf {
+namespace slf::fit_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -217,4 +217,4 @@ TEST_P(LeastNormTest, LambdaZeroWithManyObservationsIsLeastSquares) {
 INSTANTIATE_TEST_SUITE_P(PenaliseDc, LeastNormTest, testing::Bool());
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_test

@@ -8,7 +8,7 @@
 #include "slf/fit.h"
 #include "tests/random_sightings.h"
 
-namespace slf {
+namespace slf::fit_view_maps_test {
 namespace {
 
 TEST(FitViewMaps, AConstantColourIsKeptExactlyWhereTheDcIsFreeAndShrunkWhereItIsNot) {
@@ -82,4 +82,4 @@ TEST(FitViewMaps, RefusesSettingsAndObservationsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::fit_view_maps_test

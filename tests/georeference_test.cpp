@@ -7,7 +7,7 @@
 #include "slf/capture.h"
 #include "tools/npy.h"
 
-namespace slf {
+namespace slf::georeference_test {
 namespace {
 
 constexpr Vec3 kFar{400000, 5700000, 100};  // metres on a map; a float there is half a metre off
@@ -117,4 +117,4 @@ TEST_F(Georeference, ACaptureHasTheFieldFiguresAndPicturesOfTheSameNearZero) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::georeference_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace slf {
+namespace slf::harmonics_test {
 namespace {
 
 std::array<double, 3> direction(double theta, double gamma) {
@@ -54,4 +54,4 @@ TEST(Harmonics, HaveTheSignsOfGaussianSplattingFiles) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::harmonics_test

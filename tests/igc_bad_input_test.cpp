@@ -2,7 +2,7 @@
 #include "igc/igc_file.h"
 #include "tests/igc_support.h"
 
-namespace slf {
+namespace slf::igc_bad_input_test {
 namespace {
 
 using test::Igc;
@@ -73,4 +73,4 @@ TEST_F(Igc, WhatCannotBeEncodedIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::igc_bad_input_test

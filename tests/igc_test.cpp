@@ -5,7 +5,7 @@
 #include "igc/camera_walk.h"
 #include "tests/igc_support.h"
 
-namespace slf {
+namespace slf::igc_test {
 namespace {
 
 using test::Igc;
@@ -160,4 +160,4 @@ TEST_F(Igc, TheWalkVisitsEveryCameraOnceAndIsNoLongerThanTheGivenOrder) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::igc_test

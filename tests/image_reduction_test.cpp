@@ -10,7 +10,7 @@
 #include "capture_support.h"
 #include "slf/jpeg.h"
 
-namespace slf {
+namespace slf::image_reduction_test {
 namespace {
 
 Image gradient(int width, int height, int channels) {
@@ -127,4 +127,4 @@ TEST(ImageCache, KeepsWhatWasAskedForLastWithinItsBytes) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::image_reduction_test

@@ -9,7 +9,7 @@
 
 #include "bitstream/crc32.h"
 
-namespace slf {
+namespace slf::inflate_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -153,4 +153,4 @@ TEST(Spec_7_1_Crc32, IsZlibsWhereverTheBytesAreParted) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::inflate_test

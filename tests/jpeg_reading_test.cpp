@@ -8,7 +8,7 @@
 #include "capture/image_formats.h"
 #include "tests/image_files.h"
 
-namespace slf {
+namespace slf::jpeg_reading_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST(ImageSize, IsReadFromTheHeaderAlone) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::jpeg_reading_test

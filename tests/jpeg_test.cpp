@@ -7,7 +7,7 @@
 
 #include "capture_support.h"
 
-namespace slf {
+namespace slf::jpeg_test {
 namespace {
 
 Image ramp(int width, int height) {
@@ -53,4 +53,4 @@ TEST(Jpeg, WhatIsNoRgbImageOrNoQualityIsRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::jpeg_test

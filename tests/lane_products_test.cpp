@@ -8,7 +8,7 @@
 
 #include "fit/fit_cholesky.h"
 
-namespace slf {
+namespace slf::lane_products_test {
 namespace {
 
 std::vector<float> random_values(std::size_t count) {
@@ -119,4 +119,4 @@ TEST(Cholesky, SolvesSystemsOfAnySize) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::lane_products_test

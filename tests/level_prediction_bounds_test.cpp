@@ -7,7 +7,7 @@
 #include "attributes/raht_inverse.h"
 #include "tests/level_prediction_support.h"
 
-namespace slf {
+namespace slf::level_prediction_bounds_test {
 namespace {
 
 using test::Values;
@@ -141,4 +141,4 @@ TEST(Spec_8_8_2_Bounds, TheHeaviestCellsOfABaseDoNotOverflow) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::level_prediction_bounds_test

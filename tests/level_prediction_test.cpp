@@ -8,7 +8,7 @@
 #include "slf/encoder.h"
 #include "tests/level_prediction_support.h"
 
-namespace slf {
+namespace slf::level_prediction_test {
 namespace {
 
 using test::smooth_field;
@@ -126,4 +126,4 @@ TEST(Spec_7_2_Prediction, IsNotPartOfAStreamWithoutTheFlag) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::level_prediction_test

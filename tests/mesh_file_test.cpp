@@ -4,7 +4,7 @@
 #include "capture/mesh_triangles.h"
 #include "mesh_files.h"
 
-namespace slf {
+namespace slf::mesh_file_test {
 namespace {
 
 using namespace test;
@@ -149,4 +149,4 @@ TEST(MeshFile, AMirroringNodeKeepsTheOutsideOut) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::mesh_file_test

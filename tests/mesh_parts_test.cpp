@@ -10,7 +10,7 @@
 #include "capture/mesh_triangles.h"
 #include "geometry/morton.h"
 
-namespace slf {
+namespace slf::mesh_parts_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(MeshParts, FacesOnTopOfEachOtherAreRefusedBeforeTheyAreSampled) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::mesh_parts_test

@@ -11,7 +11,7 @@
 #include "capture/mesh_triangles.h"
 #include "mesh_files.h"
 
-namespace slf {
+namespace slf::mesh_sampling_test {
 namespace {
 
 using namespace test;
@@ -123,4 +123,4 @@ TEST(MeshCapture, IsSampledAtItsPhotographsDensityAndAgainOnAnotherGrid) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::mesh_sampling_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace slf::tools {
+namespace slf::tools::npy_test {
 namespace {
 
 /// A file with the given dictionary, written by hand as numpy.lib.format describes it.
@@ -99,4 +99,4 @@ TEST(Npy, WhatIsWrittenReadsBackAndIsAligned) {
 }
 
 }  // namespace
-}  // namespace slf::tools
+}  // namespace slf::tools::npy_test

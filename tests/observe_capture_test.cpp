@@ -9,7 +9,7 @@
 #include "slf/fit.h"
 #include "tests/observe_support.h"
 
-namespace slf {
+namespace slf::observe_capture_test {
 namespace {
 
 using namespace test;
@@ -113,4 +113,4 @@ TEST_F(ObserveCaptureTest, RefusesBadArgumentsAndMissingImages) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::observe_capture_test

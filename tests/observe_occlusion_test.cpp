@@ -6,7 +6,7 @@
 
 #include "tests/observe_support.h"
 
-namespace slf {
+namespace slf::observe_occlusion_test {
 namespace {
 
 using namespace test;
@@ -103,4 +103,4 @@ TEST(Observe, TrianglesBehindTheCameraOrWithoutAreaHideNothing) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::observe_occlusion_test

@@ -7,7 +7,7 @@
 #include "lightfield/colour.h"
 #include "tests/observe_support.h"
 
-namespace slf {
+namespace slf::observe_test {
 namespace {
 
 using namespace test;
@@ -99,4 +99,4 @@ TEST(TransferCurve, HasThePublishedValuesAndInverse) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::observe_test

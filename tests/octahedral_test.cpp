@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace slf {
+namespace slf::octahedral_test {
 namespace {
 
 TEST(OctahedralTest, LevelsOfEveryBitDepthGiveUnitVectorsThatQuantiseBackToThemselves) {
@@ -35,4 +35,4 @@ TEST(OctahedralTest, HandComputedValues) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::octahedral_test

@@ -4,7 +4,7 @@
 #include "geometry/octree_encoder.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::octree_test {
 namespace {
 
 using test::codes;
@@ -174,4 +174,4 @@ TEST(Spec_8_4_Rate, AClosedSurfaceTakesLessThanABitAPoint) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::octree_test

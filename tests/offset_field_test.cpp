@@ -6,7 +6,7 @@
 
 #include "tests/sphere_points.h"
 
-namespace slf {
+namespace slf::offset_field_test {
 namespace {
 
 class OffsetFieldTest : public testing::Test {
@@ -42,4 +42,4 @@ TEST_F(OffsetFieldTest, APointThatDisagreesFollowsItsNeighbours) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::offset_field_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slf::tools {
+namespace slf::tools::page_template_test {
 namespace {
 
 TEST(PageTemplate, EveryNameIsReplacedAndWhatIsPutInIsNotLookedAtAgain) {
@@ -35,4 +35,4 @@ TEST(Rfc4648_10, Base64) {
 }
 
 }  // namespace
-}  // namespace slf::tools
+}  // namespace slf::tools::page_template_test

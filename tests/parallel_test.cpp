@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace slf {
+namespace slf::parallel_test {
 namespace {
 
 TEST(Parallel, EveryItemIsGivenOnceInRangesThatDoNotDependOnThreads) {
@@ -30,4 +30,4 @@ TEST(Parallel, AnExceptionOfAnyThreadReachesTheCaller) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::parallel_test

@@ -5,7 +5,7 @@
 #include "bitstream/metadata.h"
 #include "bitstream/parameter_sets.h"
 
-namespace slf {
+namespace slf::parameter_sets_test {
 namespace {
 
 struct SetCase {
@@ -238,4 +238,4 @@ TEST(Spec_7_8_Metadata, ABombIsNotInflated) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::parameter_sets_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace slf {
+namespace slf::part_sums_test {
 namespace {
 
 constexpr std::size_t kPlanes = 6;
@@ -88,4 +88,4 @@ TEST(PartSums, NoDamageIsWorseThanAnError) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::part_sums_test

@@ -24,6 +24,9 @@ static void PrintTo(TransformMode mode, std::ostream* out) {
   *out << (mode == TransformMode::kJoint ? "joint" : "functions");
 }
 
+}  // namespace slf
+
+namespace slf::plane_transform_test {
 namespace {
 
 PlaneTransform random_transform(std::size_t functions, std::size_t rank, std::size_t lanes,
@@ -272,4 +275,4 @@ TEST(Spec_7_2_Hazards, ATextureHasNoTransform) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::plane_transform_test

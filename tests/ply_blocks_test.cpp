@@ -1,7 +1,7 @@
 // PLY files that are larger than what is read of them at once.
 #include "capture_support.h"
 
-namespace slf {
+namespace slf::ply_blocks_test {
 namespace {
 
 using test::ByteString;
@@ -47,4 +47,4 @@ TEST(PlyReader, ReadsFilesOfManyBlocks) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::ply_blocks_test

@@ -6,7 +6,7 @@
 
 #include "capture_support.h"
 
-namespace slf {
+namespace slf::ply_test {
 namespace {
 
 using test::ByteString;
@@ -277,4 +277,4 @@ TEST(PlyWriter, ArraysOfDifferentLengthAreRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::ply_test

@@ -6,7 +6,7 @@
 #include "capture/image_formats.h"
 #include "tests/image_files.h"
 
-namespace slf {
+namespace slf::png_test {
 namespace {
 
 using namespace test;
@@ -122,4 +122,4 @@ TEST(WritePng, FieldsThatDoNotFitTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::png_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slf::tools {
+namespace slf::tools::progress_test {
 namespace {
 
 TEST(ProgressText, SaysWhatIsLeftOnceThatCanBeTold) {
@@ -16,4 +16,4 @@ TEST(ProgressText, SaysWhatIsLeftOnceThatCanBeTold) {
 }
 
 }  // namespace
-}  // namespace slf::tools
+}  // namespace slf::tools::progress_test

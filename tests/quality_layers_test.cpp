@@ -14,7 +14,7 @@
 #include "slf/encoder.h"
 #include "slf/truncate.h"
 
-namespace slf {
+namespace slf::quality_layers_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -196,4 +196,4 @@ TEST(Spec_8_7_7_Refinement, GivesBackValuesOfEverySize) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::quality_layers_test

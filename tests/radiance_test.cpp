@@ -3,7 +3,7 @@
 
 #include "slf/view_map.h"
 
-namespace slf {
+namespace slf::radiance_test {
 namespace {
 
 /// One point, order 2, 2 nodes of gamma: red is 100 + 80 w_1(gamma / 2), a triangle wave, so 20 at
@@ -49,4 +49,4 @@ TEST(Radiance, IsClampedToDisplayRangeAndTheMeanIsTheDc) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::radiance_test

@@ -9,7 +9,7 @@
 #include "attributes/raht_tree.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::raht_test {
 namespace {
 
 using test::codes;
@@ -146,4 +146,4 @@ TEST(Spec_8_6_Example, TwoPointsOfDifferentWeight) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::raht_test

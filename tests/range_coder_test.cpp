@@ -17,7 +17,7 @@
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
 
-namespace slf {
+namespace slf::range_coder_test {
 namespace {
 
 TEST(Spec_8_3_1_RangeCoder, GivesBackEveryDecisionAtEveryProbability) {
@@ -264,4 +264,4 @@ TEST(Spec_8_3_6_Classes, AreFourAnOctaveAndAscending) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::range_coder_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace slf {
+namespace slf::rate_control_test {
 namespace {
 
 using Measured = Result<double, InputError>;
@@ -61,4 +61,4 @@ TEST(FindStep, AnErrorEndsTheSearch) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::rate_control_test

@@ -16,7 +16,7 @@ static void PrintTo(const DisturbSettings& settings, std::ostream* out) {
 }
 }  // namespace slf::synth
 
-namespace slf {
+namespace slf::refine_die_test {
 namespace {
 
 /// A translucent, glossy die: the photographs agree best where its mirror images are, far inside.
@@ -86,4 +86,4 @@ TEST(RefineNoisyDieTest, AGainThatPicturesDoNotShowLeavesTheCloudAlone) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::refine_die_test

@@ -12,7 +12,7 @@
 #include "tools/synth/synth.h"
 #include "tools/synth/trace.h"
 
-namespace slf {
+namespace slf::refine_geometry_test {
 namespace {
 
 /// A textured vase in memory: what the mending of a cloud is tried on.
@@ -153,4 +153,4 @@ TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::refine_geometry_test

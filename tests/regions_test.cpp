@@ -9,7 +9,7 @@
 #include "refine/shine_through.h"
 #include "tests/sphere_points.h"
 
-namespace slf {
+namespace slf::regions_test {
 namespace {
 
 TEST(RegionsTest, PointsStayWhereErrorsGrowAndMoveWhereTheyFall) {
@@ -80,4 +80,4 @@ TEST(ShineThroughTest, AHoleInTheObjectIsFoundAndASmallerOutlineIsNot) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::regions_test

@@ -14,7 +14,7 @@
 #include "render/render_surfels.h"
 #include "tests/render_support.h"
 
-namespace slf {
+namespace slf::render_test {
 namespace {
 
 using test::constant_light_field;
@@ -276,4 +276,4 @@ TEST(OrbitTest, TheUpAxisPointsUpInTheImageAndTheCloudFits) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::render_test

@@ -7,7 +7,7 @@
 #include "capture/spacing.h"
 #include "tests/sphere_points.h"
 
-namespace slf {
+namespace slf::resample_test {
 namespace {
 
 TEST(SurfacePointsTest, ASphereIsItsOwnNeighboursSurface) {
@@ -64,4 +64,4 @@ TEST(ResampleTest, NodesFarFromPlanesNeedNotBeLookedAt) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::resample_test

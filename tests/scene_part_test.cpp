@@ -7,7 +7,7 @@
 #include "slf/truncate.h"
 #include "tests/scene_support.h"
 
-namespace slf {
+namespace slf::scene_part_test {
 namespace {
 
 using namespace test;
@@ -269,4 +269,4 @@ TEST(Spec_7_1_Order, ABeginningOfATwentiethHasTheColoursOfTheBase) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::scene_part_test

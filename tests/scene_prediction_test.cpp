@@ -7,7 +7,7 @@
 #include "attributes/raht_inverse.h"
 #include "tests/level_prediction_support.h"
 
-namespace slf {
+namespace slf::scene_prediction_test {
 namespace {
 
 using test::Values;
@@ -87,4 +87,4 @@ INSTANTIATE_TEST_SUITE_P(Spec_8_7_6, ScenePrediction,
                          [](const auto& cloud) { return cloud.param.name; });
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::scene_prediction_test

@@ -4,7 +4,7 @@
 
 #include "tests/scene_support.h"
 
-namespace slf {
+namespace slf::scene_test {
 namespace {
 
 using namespace test;
@@ -75,4 +75,4 @@ TEST(Spec_7_7_Index, BoxesAreThoseOfTheCells) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::scene_test

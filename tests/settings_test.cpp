@@ -2,7 +2,7 @@
 
 #include "slf/settings.h"
 
-namespace slf {
+namespace slf::settings_test {
 namespace {
 
 const SettingInfo& setting(const std::string& name) {
@@ -96,4 +96,4 @@ TEST(Settings, MistakesNameTheSetting) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::settings_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slf {
+namespace slf::sha256_test {
 namespace {
 
 TEST(Sha256, MatchesFips180_4) {
@@ -25,4 +25,4 @@ TEST(Sha256, MatchesFips180_4) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::sha256_test

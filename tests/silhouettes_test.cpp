@@ -7,7 +7,7 @@
 #include "capture/spacing.h"
 #include "tests/sphere_points.h"
 
-namespace slf {
+namespace slf::silhouettes_test {
 namespace {
 
 /// A sphere before plain grey, seen from z = -5, with the disc that its photograph shows.
@@ -107,4 +107,4 @@ TEST_F(SilhouetteTest, BeforeAMotleyBackgroundNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::silhouettes_test

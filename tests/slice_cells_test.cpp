@@ -12,7 +12,7 @@
 #include "attributes/raht_inverse.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::slice_cells_test {
 namespace {
 
 constexpr std::uint32_t kMost = 1u << 22;
@@ -150,4 +150,4 @@ TEST(Spec_8_6_4_WeightChange, StaysWithin2To29WhateverItIsGiven) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::slice_cells_test

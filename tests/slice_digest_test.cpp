@@ -6,7 +6,7 @@
 
 #include "base/sha256.h"
 
-namespace slf {
+namespace slf::slice_digest_test {
 namespace {
 
 using Positions = std::vector<Voxel>;
@@ -53,4 +53,4 @@ TEST(SliceDigest, ChangesWithErrorsThatCancelInSums) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::slice_digest_test

@@ -8,7 +8,7 @@
 #include "geometry/morton.h"
 #include "tests/scene_support.h"
 
-namespace slf {
+namespace slf::slices_apart_test {
 namespace {
 
 using namespace test;
@@ -144,4 +144,4 @@ TEST(Spec_8_8_3_SlicesApart, WithoutCoefficientsHaveTheMeansOfTheirCells) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::slices_apart_test

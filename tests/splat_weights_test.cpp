@@ -12,7 +12,7 @@
 #include "slf/render.h"
 #include "tests/render_support.h"
 
-namespace slf {
+namespace slf::splat_weights_test {
 namespace {
 
 using test::constant_light_field;
@@ -118,4 +118,4 @@ TEST(SplatWeightsTest, TheResultDoesNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::splat_weights_test

@@ -18,6 +18,9 @@ static void PrintTo(FrameId frame, std::ostream* out) {
   *out << (frame == FrameId::kGlobal ? "global" : "reflected");
 }
 
+}  // namespace slf
+
+namespace slf::splats_test {
 namespace {
 
 using test::harmonic_ball;
@@ -188,4 +191,4 @@ TEST(SplatTest, SettingsOutOfRangeAndNoPointsAreErrors) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::splats_test

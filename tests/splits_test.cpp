@@ -3,7 +3,7 @@
 
 #include "slf/capture.h"
 
-namespace slf {
+namespace slf::splits_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -30,4 +30,4 @@ TEST(Splits, OneOfNIsEveryNthOfWhatIsNotHeldOut) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::splits_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace slf {
+namespace slf::ssim_test {
 namespace {
 
 constexpr int kSize = 24;
@@ -134,4 +134,4 @@ TEST_F(MultiScale, OfAnEmptyMaskIsNothing) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::ssim_test

@@ -9,7 +9,7 @@
 #include "slf/encoder.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::stream_hazards_test {
 namespace {
 
 std::vector<std::uint8_t> small_stream(bool index = true) {
@@ -258,4 +258,4 @@ TEST(Spec_7_8_Metadata, ComesBack) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::stream_hazards_test

@@ -11,7 +11,7 @@
 
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::surface_normals_test {
 namespace {
 
 double angle_degrees(const std::array<std::int64_t, 3>& n, const std::array<double, 3>& expected) {
@@ -193,4 +193,4 @@ TEST(Spec_6_6_SurfaceNormals, DoNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::surface_normals_test

@@ -9,7 +9,7 @@
 #include "render/surfel_cloud.h"
 #include "tests/render_support.h"
 
-namespace slf {
+namespace slf::surfel_cloud_test {
 namespace {
 
 using test::constant_light_field;
@@ -66,4 +66,4 @@ TEST(SurfelTest, ADenseClusterBesideScatteredPointsHasItsOwnScale) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::surfel_cloud_test

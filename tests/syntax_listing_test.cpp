@@ -7,7 +7,7 @@
 #include "slf/syntax_listing.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::syntax_listing_test {
 namespace {
 
 std::vector<std::uint8_t> stream_of_all_units() {
@@ -88,4 +88,4 @@ TEST(SyntaxListing, ADamagedStreamGivesTheErrorOfTheDecoder) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::syntax_listing_test

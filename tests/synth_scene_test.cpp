@@ -10,7 +10,7 @@
 #include "tools/synth/scene.h"
 #include "tools/synth/trace.h"
 
-namespace slf::synth {
+namespace slf::synth::synth_scene_test {
 namespace {
 
 TEST(RingsTest, SplitsAreThePapersAndEvaluationIsHeldOutOfAllOfThem) {
@@ -153,4 +153,4 @@ TEST(SamplePointsTest, TheDefaultCanIsClosedOnAnEightBitGridWithHardlyAnyDuplica
 }
 
 }  // namespace
-}  // namespace slf::synth
+}  // namespace slf::synth::synth_scene_test

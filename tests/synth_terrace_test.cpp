@@ -12,7 +12,7 @@
 #include "tools/synth/terrace_views.h"
 #include "tools/synth/trace.h"
 
-namespace slf::synth {
+namespace slf::synth::synth_terrace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -288,4 +288,4 @@ TEST_F(TerraceCaptureTest, SettingsOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace slf::synth
+}  // namespace slf::synth::synth_terrace_test

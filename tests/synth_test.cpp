@@ -12,7 +12,7 @@
 #include "tools/synth/scene.h"
 #include "tools/synth/trace.h"
 
-namespace slf::synth {
+namespace slf::synth::synth_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ TEST_F(SynthTest, ADisturbedCaptureHasTheTrueCloudBesideIt) {
 }
 
 }  // namespace
-}  // namespace slf::synth
+}  // namespace slf::synth::synth_test

@@ -8,7 +8,7 @@
 #include "texture/charts.h"
 #include "texture/padding.h"
 
-namespace slf {
+namespace slf::texture_atlas_test {
 namespace {
 
 using test::NamedCloud;
@@ -139,4 +139,4 @@ TEST(TexturePadding, KeepsWhatIsOccupiedAndStaysBetweenItsExtremes) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::texture_atlas_test

@@ -5,7 +5,7 @@
 #include "bitstream/units.h"
 #include "tests/texture_support.h"
 
-namespace slf {
+namespace slf::texture_bad_input_test {
 namespace {
 
 using namespace test;
@@ -91,4 +91,4 @@ TEST(Spec_7_6_Hazards, EveryTruncationAndFlippedByteGivesAValueOrAnError) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::texture_bad_input_test

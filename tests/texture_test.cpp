@@ -4,7 +4,7 @@
 #include "bitstream/units.h"
 #include "tests/texture_support.h"
 
-namespace slf {
+namespace slf::texture_test {
 namespace {
 
 using namespace test;
@@ -164,4 +164,4 @@ TEST(TextureParameters, GeometryAloneStaysInTheMainProfile) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::texture_test

@@ -3,7 +3,7 @@
 
 #include "capture_formats.h"
 
-namespace slf {
+namespace slf::transforms_import_test {
 namespace {
 
 using namespace test;
@@ -81,4 +81,4 @@ TEST(Transforms, ThePlyOfNerfstudioIsReadAsItIs) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::transforms_import_test

@@ -8,7 +8,7 @@
 #include "entropy/range_encoder.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::vector_coefficients_test {
 namespace {
 
 /// Coefficients of a slice in groups and two ranges, and how they are coded.
@@ -134,4 +134,4 @@ TEST(Spec_8_7_2_VectorCoefficients, GarbageGivesValuesInRangeOrARefusal) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::vector_coefficients_test

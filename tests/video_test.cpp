@@ -17,7 +17,7 @@
 #define SLF_WITH_AV1 0
 #endif
 
-namespace slf {
+namespace slf::video_test {
 namespace {
 
 using namespace test;
@@ -205,4 +205,4 @@ TEST(Adapters, WithoutALibraryTheySaySo) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::video_test

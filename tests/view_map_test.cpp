@@ -10,7 +10,7 @@
 #include "slf/given_planes.h"
 #include "slf/view_map.h"
 
-namespace slf {
+namespace slf::view_map_test {
 namespace {
 
 /// Components such as an encoder makes: large DC, the rest within +- 60 grey levels, many zero.
@@ -267,4 +267,4 @@ TEST(ViewMaps, DoNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::view_map_test

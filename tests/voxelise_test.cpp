@@ -9,7 +9,7 @@
 #include "capture_support.h"
 #include "geometry/morton.h"
 
-namespace slf {
+namespace slf::voxelise_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(Normals, OfACloudBeyondFloatsAreOrientedWithoutConversionsThatOverflow) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::voxelise_test

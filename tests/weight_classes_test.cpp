@@ -10,7 +10,7 @@
 #include "geometry/octree_encoder.h"
 #include "tests/field_support.h"
 
-namespace slf {
+namespace slf::weight_classes_test {
 namespace {
 
 constexpr int kLevels = 4;
@@ -81,4 +81,4 @@ TEST(Spec_8_4_5_WeightClasses, EveryTruncationAndWhatFollowsAreReported) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::weight_classes_test

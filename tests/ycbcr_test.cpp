@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slf {
+namespace slf::ycbcr_test {
 namespace {
 
 TEST(Ycbcr, BackAndForthStaysWithinTheRounding) {
@@ -39,4 +39,4 @@ TEST(Ycbcr, ChromaIsInterpolatedAtTheRightPlaces) {
 }
 
 }  // namespace
-}  // namespace slf
+}  // namespace slf::ycbcr_test
