@@ -21,7 +21,7 @@ struct Task {
   std::size_t points = 0;                           ///< of its levels that are kept
   std::int32_t* components = nullptr;               ///< [points][planes]
   std::array<std::uint16_t, 2>* normals = nullptr;  ///< [points], where there are any
-  LightField apart;  ///< where they are, until it is known where to put them
+  LightField apart;  ///< where those are, and positions, until it is known where to put them
   std::optional<Error> error;
 
   /// Runs a step, unless one before it failed.
@@ -92,7 +92,7 @@ class SceneDecoder {
 
   void decode_base(SliceSchedule& schedule) {
     if (auto done = decode_base_components(units_.base, plan_, base_); !done) {
-      error_ = done.error();
+      base_error_ = done.error();
       schedule.stop();
     }
     schedule.finish_base();
@@ -110,18 +110,17 @@ class SceneDecoder {
     const auto& positions = task.slice.positions;
     rows_ += task.points = positions.size();
     if (auto level = check_level(plan_, rows_); !level) {
-      if (!error_) error_ = level.error();
+      level_error_ = level.error();
       return false;
     }
     if (is_first(task) && task.error) in_place_ = false;  // room for what is not believed any more
     if (in_place_ && is_first(task)) reserve_points();
-    if (in_place_) append(task);
+    if (in_place_) append(task, positions);
     return true;
   }
 
-  /// Its points, and components and normals of zero.
-  void append(Task& task) {
-    const auto& positions = task.slice.positions;
+  /// Points, and components and normals of zero.
+  void append(Task& task, const std::vector<Voxel>& positions) {
     field_.positions.insert(field_.positions.end(), positions.begin(), positions.end());
     make_room(task, field_);
   }
@@ -144,7 +143,8 @@ class SceneDecoder {
     task.run([&] { return task.slice.decode_components(components, plane_threads); });
     if (task.points > 0) task.run([&] { return task.slice.check_digest(components, normals); });
     if (!task.error) task.slice.add_means(components);
-    if (in_place_) task.slice.drop();
+    if (!in_place_) task.apart.positions.swap(task.slice.positions);
+    task.slice.drop();
   }
 
   /// Appends what was decoded apart.
@@ -152,14 +152,11 @@ class SceneDecoder {
     if (in_place_ || task.error) return;
     LightField part = std::move(task.apart);
     part.normals.bits = field_.normals.bits;
-    part.positions.swap(task.slice.positions);
     if (plan_.region) keep_region(plan_, part);
     task.points = part.num_points();
-    part.positions.swap(task.slice.positions);
-    append(task);
+    append(task, part.positions);
     std::copy(part.components.begin(), part.components.end(), task.components);
     std::copy(part.normals.octahedral.begin(), part.normals.octahedral.end(), task.normals);
-    task.slice.drop();
   }
 
   /// Room for all points that the slices say there are: within the limits (check_limits), and on
@@ -173,7 +170,8 @@ class SceneDecoder {
   }
 
   Result<bool> finish() const {
-    if (error_) return *error_;
+    if (base_error_) return *base_error_;
+    if (level_error_) return *level_error_;
     const Task* first = nullptr;
     bool partial = false;
     for (const Task& task : tasks_) {
@@ -194,7 +192,7 @@ class SceneDecoder {
   std::uint64_t rows_;  // of the base and of all slices so far
   SliceLead lead_;
   std::vector<Task> tasks_;
-  std::optional<Error> error_;  // of the base, or of all together
+  std::optional<Error> base_error_, level_error_;
 };
 
 }  // namespace

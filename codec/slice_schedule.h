@@ -12,12 +12,8 @@ namespace slf {
 
 /// What a thread is to do.
 struct SliceWork {
-  enum Step {
-    kBase,
-    kGeometry,
-    kValues,
-    kNothing
-  };  ///< kNothing: all is done, or somebody stopped
+  /// kNothing: all is done, or somebody stopped.
+  enum Step { kBase, kGeometry, kValues, kNothing };
   Step step = kNothing;
   std::size_t slice = 0;
   bool last = false;  ///< nothing is left for other threads
@@ -28,11 +24,8 @@ struct SliceWork {
 /// that little waits. Each step is begun in the order of slices.
 class SliceSchedule {
  public:
-  /// @param points     [slices]
-  /// @param threads    that take work
-  /// @param in_flight  points of slices that are begun and not done, unless there are fewer than
-  /// two
-  ///                   a thread
+  /// Slices that are begun and not done are at most two a thread, or have at most `in_flight`
+  /// points together. points: [slices]
   SliceSchedule(std::vector<std::size_t> points, std::size_t threads, std::size_t in_flight)
       : points_(std::move(points)),
         has_(points_.size(), kNone),
@@ -50,8 +43,8 @@ class SliceSchedule {
     monitor_.change([&] { base_done_ = true; });
   }
 
-  /// admit(s) is called for every slice in turn, by one thread at a time; false: no other work
-  /// begins.
+  /// admit(s) is called for every slice in turn, by one thread at a time. False: the rest is not
+  /// begun.
   template <class Admit>
   void finish_geometry(std::size_t slice, const Admit& admit) {
     monitor_.change([&] {
