@@ -128,7 +128,7 @@ std::vector<Case> layer_cases() {
   cases.push_back(greatest());
   Case large =
       layered("layers-large", "magnitudes beyond the contexts, step 1", {4, 4, 4}, 0, 1u << 20);
-  large.field = field(small_sphere(), 5, 9, 1000000);
+  large.field = field(sphere(5, 0, 12), 5, 9, 1000000);  // more than a reader asks for at once
   large.parameters.step = with_steps(9, 1).step;
   cases.push_back(large);
   for (const std::size_t units : {18u, 25u, 32u}) {
