@@ -53,7 +53,7 @@ void work(SliceSchedule& schedule, Journal& journal) {
 
 TEST(Spec_8_2_Schedule, EverySliceIsDoneInOrderAndFewAreBegun) {
   constexpr std::size_t kSlices = 200;
-  for (const std::size_t threads : {1, 2, 5}) {
+  for (const std::size_t threads : {1u, 2u, 5u}) {
     SliceSchedule schedule(std::vector<std::size_t>(kSlices, 1000), threads, 0);
     Journal journal(kSlices);
     parallel_ranges(threads, 1, static_cast<int>(threads), [&](std::size_t, std::size_t) {
