@@ -7,7 +7,7 @@ A misreading (mutants.txt) is one edit of the text decoder, spec/decoder.py; bes
 makes is left out in turn. The decoder so changed decodes the streams that the list names for it, at least one of which it must
 get wrong: other values, a refusal of a valid stream, none of one that is to be refused, an exception, or ten times the time.
 --part checks each N-th from the I-th on. --record looks for a stream that notices each of those named, or those that have none, and
-writes it into the list.
+writes it into the list and into annex G.
 Needs numpy. Exit code: 0 every misreading that has a stream was noticed, 1 not. Those without one are open: counted, not hidden.
 """
 import argparse
@@ -18,6 +18,7 @@ import pathlib
 import re
 import resource
 import signal
+import subprocess
 import sys
 import types
 
@@ -222,6 +223,7 @@ def record(mutants, cases, processes, tries):
         if not m.edits:
             lines.append(m.name + (f"= {m.excuse}" if m.excuse else f": {' '.join(m.streams)}"))
     CHECKS.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    subprocess.run([sys.executable, HERE.parent / "clauses.py", "--write"], check=True)     # annex G names these streams
 
 
 def write(mutants):
