@@ -34,10 +34,7 @@ class KeptVectors {
   /// until they are used: vectors never move.
   std::int16_t* add() {
     const std::size_t begin = vectors_.size();
-    if (begin == width_) {
-      vectors_.reserve((sum_.size() + 1) * width_);
-      advise_huge_pages(vectors_.data(), vectors_.capacity() * sizeof(std::int16_t));
-    }
+    if (begin == width_) reserve_large(vectors_, (sum_.size() + 1) * width_);
     vectors_.resize(begin + width_);
     return &vectors_[begin];
   }

@@ -1,6 +1,7 @@
 // Large arrays on large pages, where the system has them and asks to be told.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,6 +24,14 @@ inline void advise_huge_pages([[maybe_unused]] const void* memory,
   if (first < end)  // advice that a system does not follow changes nothing
     static_cast<void>(madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE));
 #endif
+}
+
+/// Room for `size` values, on huge pages; where values have to move, for half as many again.
+template <class T>
+void reserve_large(std::vector<T>& values, std::size_t size) {
+  if (size <= values.capacity()) return;
+  values.reserve(std::max(size, values.capacity() + values.capacity() / 2));
+  advise_huge_pages(values.data(), values.capacity() * sizeof(T));
 }
 
 }  // namespace slf

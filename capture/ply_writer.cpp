@@ -1,23 +1,26 @@
 // A point cloud as a binary little endian PLY.
+#include <algorithm>
 #include <bit>
 #include <string>
 
+#include "base/huge_pages.h"
 #include "slf/capture.h"
 
 namespace slf {
 
 namespace {
 
-void put(std::vector<std::uint8_t>& out, float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  for (int shift = 0; shift < 32; shift += 8)
-    out.push_back(static_cast<std::uint8_t>(bits >> shift));
+/// Little endian; where it ends.
+template <class Bits>
+std::uint8_t* put(std::uint8_t* to, Bits bits) {
+  for (std::size_t i = 0; i < sizeof(Bits); ++i) to[i] = static_cast<std::uint8_t>(bits >> 8 * i);
+  return to + sizeof(Bits);
 }
-
-void put(std::vector<std::uint8_t>& out, double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  for (int shift = 0; shift < 64; shift += 8)
-    out.push_back(static_cast<std::uint8_t>(bits >> shift));
+std::uint8_t* put(std::uint8_t* to, float value) {
+  return put(to, std::bit_cast<std::uint32_t>(value));
+}
+std::uint8_t* put(std::uint8_t* to, double value) {
+  return put(to, std::bit_cast<std::uint64_t>(value));
 }
 
 }  // namespace
@@ -37,20 +40,20 @@ Result<Done, InputError> write_ply(const std::filesystem::path& file, const Poin
   if (colours) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   header += "end_header\n";
 
-  std::vector<std::uint8_t> out(header.begin(), header.end());
-  out.reserve(header.size() +
-              count * ((exact ? 24u : 12u) + (normals ? 12u : 0u) + (colours ? 3u : 0u)));
+  std::vector<std::uint8_t> out;
+  const std::size_t row = (exact ? 24u : 12u) + (normals ? 12u : 0u) + (colours ? 3u : 0u);
+  reserve_large(out, header.size() + count * row);
+  out.assign(header.begin(), header.end());
+  out.resize(header.size() + count * row);
+  std::uint8_t* to = out.data() + header.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const float value = cloud.positions[i][k];
-      if (exact)
-        put(out, cloud.origin[k] + double{value});
-      else
-        put(out, value);
+      to = exact ? put(to, cloud.origin[k] + double{value}) : put(to, value);
     }
     if (normals)
-      for (const float value : cloud.normals[i]) put(out, value);
-    if (colours) out.insert(out.end(), cloud.colours[i].begin(), cloud.colours[i].end());
+      for (const float value : cloud.normals[i]) to = put(to, value);
+    if (colours) to = std::copy(cloud.colours[i].begin(), cloud.colours[i].end(), to);
   }
   return write_file(file, out.data(), out.size());
 }

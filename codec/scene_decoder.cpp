@@ -127,6 +127,7 @@ class SceneDecoder {
 
   void make_room(Task& task, LightField& field) const {
     const std::size_t before = field.components.size(), normals = field.normals.octahedral.size();
+    reserve_large(field.components, before + task.points * plan_.planes());
     field.components.resize(before + task.points * plan_.planes());
     task.components = field.components.data() + before;
     if (plan_.set.sps_normal_bits == 0) return;
@@ -147,12 +148,18 @@ class SceneDecoder {
     task.slice.drop();
   }
 
-  /// Appends what was decoded apart.
+  /// Appends what was decoded apart: all there is, where nothing is there yet.
   void gather(Task& task) {
     if (in_place_ || task.error) return;
     LightField part = std::move(task.apart);
     part.normals.bits = field_.normals.bits;
     if (plan_.region) keep_region(plan_, part);
+    if (field_.positions.empty()) {
+      field_.positions.swap(part.positions);
+      field_.components.swap(part.components);
+      field_.normals.octahedral.swap(part.normals.octahedral);
+      return;
+    }
     task.points = part.num_points();
     append(task, part.positions);
     std::copy(part.components.begin(), part.components.end(), task.components);
@@ -163,10 +170,9 @@ class SceneDecoder {
   /// pages that are not there until they are used. So nothing moves while others write to it.
   void reserve_points() {
     const auto points = static_cast<std::size_t>(plan_.table.num_points());
-    field_.positions.reserve(points);
-    field_.components.reserve(points * plan_.planes());
+    reserve_large(field_.positions, points);
+    reserve_large(field_.components, points * plan_.planes());
     if (plan_.set.sps_normal_bits > 0) field_.normals.octahedral.reserve(points);
-    advise_huge_pages(field_.components.data(), points * plan_.planes() * sizeof(std::int32_t));
   }
 
   Result<bool> finish() const {

@@ -72,16 +72,15 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-void add_neighbours(const ChildWindow& window, unsigned child, OctreeLevel& children) {
+/// known: how many of children.neighbours there are; there is room for those of one more.
+void add_neighbours(const ChildWindow& window, unsigned child, OctreeLevel& children,
+                    std::size_t& known) {
   const unsigned base = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
   const Window around = window.occupied >> base & kAllAround;
-  children.around.push_back(
-      {directions_of(around), static_cast<std::uint32_t>(children.neighbours.size())});
-  std::array<std::uint32_t, 26> found;
-  std::size_t count = 0;
+  children.around.push_back({directions_of(around), static_cast<std::uint32_t>(known)});
   for (Window left = around; left != 0; left &= left - 1)
-    found[count++] = window.node[base + static_cast<unsigned>(std::countr_zero(left))];
-  children.neighbours.insert(children.neighbours.end(), found.data(), found.data() + count);
+    children.neighbours[known++] =
+        window.node[base + static_cast<unsigned>(std::countr_zero(left))];
 }
 
 }  // namespace
@@ -119,13 +118,18 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
   if (!with_neighbours) return children;
 
   children.around.reserve(count);
-  children.neighbours.reserve(std::size_t{26} * count);  // what is not needed is not touched
+  constexpr std::size_t kMost = 8 * 26;  // of the children of a node
+  std::size_t known = 0;
+  children.neighbours.resize(std::size_t{8} * count + kMost);  // what a surface has, about
   for (std::size_t n = 0; n < parents.size(); ++n) {
     if (parents.occupancy[n] == 0) continue;
+    if (known + kMost > children.neighbours.size())
+      children.neighbours.resize(known + known / 4 + kMost);
     const ChildWindow window = window_of(parents, n);
     for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1)
-      add_neighbours(window, static_cast<unsigned>(std::countr_zero(left)), children);
+      add_neighbours(window, static_cast<unsigned>(std::countr_zero(left)), children, known);
   }
+  children.neighbours.resize(known);
   return children;
 }
 

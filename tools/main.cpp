@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "tools/heap.h"
 #include "tools/interrupt.h"
 #include "tools/text.h"
 #include "tools/verb.h"
@@ -91,6 +92,7 @@ int run(int argc, char** argv) {
 }  // namespace slf::tools
 
 int main(int argc, char** argv) {
+  slf::tools::heap_on_huge_pages();
   slf::tools::install_interrupt_handler();
   std::set_terminate(slf::tools::on_terminate);
   try {
