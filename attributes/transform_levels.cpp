@@ -27,28 +27,23 @@ TransformLevels::TransformLevels(std::span<const std::uint64_t> morton, int dept
   }
   first_.push_back(static_cast<std::uint32_t>(morton.size()));
   sums_.push_back(sum);
-  rows_.resize(static_cast<std::size_t>(count()) + 1);
-  for (std::size_t row = 0; row < codes_.size(); ++row) {
-    const int differs =
-        row == 0 ? 0 : static_cast<int>(std::bit_width(codes_[row] ^ codes_[row - 1]));
-    // Its first level, from `start` on, as a node of its own.
-    const int level = row == 0 ? 0 : std::max(count() - (differs - 1) / 3, 0);
-    for (auto l = static_cast<std::size_t>(level); l < rows_.size(); ++l)
-      rows_[l].push_back(static_cast<std::uint32_t>(row));
+  begins_.resize(codes_.size());
+  for (std::size_t row = 1; row < codes_.size(); ++row) {
+    const auto differs = static_cast<int>(std::bit_width(codes_[row] ^ codes_[row - 1]));
+    begins_[row] = static_cast<std::uint8_t>(std::max(count() - (differs - 1) / 3, 0));
   }
-  for (auto& rows : rows_) rows.push_back(static_cast<std::uint32_t>(codes_.size()));
 }
 
 const TransformLevel& TransformLevels::next() {
   ++level_;
   if (level_ == start_) {
-    current_.rows = std::move(rows_[0]);
+    current_.rows = rows_of(0);
     current_.nodes = octree_level(cells_of(current_.rows), start_);
   } else {
     current_.nodes = octree_children(current_.nodes, true);
     current_.rows = std::move(current_.child_rows);
   }
-  current_.child_rows = std::move(rows_[static_cast<std::size_t>(level_ - start_) + 1]);
+  current_.child_rows = rows_of(level_ - start_ + 1);
   current_.places = places_of(current_.rows);
   current_.child_places = places_of(current_.child_rows);
   OctreeLevel& nodes = current_.nodes;
@@ -95,6 +90,15 @@ void TransformLevels::mark_means() {
       if (last[m] == n) free.push_back(current_.slot[m]);
     });
   }
+}
+
+/// TransformLevel::rows of a level, counted from `start`.
+std::vector<std::uint32_t> TransformLevels::rows_of(int level) const {
+  std::vector<std::uint32_t> rows;
+  for (std::size_t row = 0; row < begins_.size(); ++row)
+    if (begins_[row] <= level) rows.push_back(static_cast<std::uint32_t>(row));
+  rows.push_back(static_cast<std::uint32_t>(begins_.size()));
+  return rows;
 }
 
 /// Codes of the nodes of level `start`.

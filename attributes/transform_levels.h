@@ -55,6 +55,7 @@ class TransformLevels {
 
  private:
   void mark_means();
+  std::vector<std::uint32_t> rows_of(int level) const;
   std::vector<std::uint64_t> cells_of(const std::vector<std::uint32_t>& rows) const;
   std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
 
@@ -63,7 +64,8 @@ class TransformLevels {
   std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels
   std::vector<std::uint32_t> first_;               // [rows + 1] first point
   std::vector<std::array<std::int64_t, 3>> sums_;  // [rows + 1] of the positions of points before
-  std::vector<std::vector<std::uint32_t>> rows_;   // [count + 1] TransformLevel::rows
+  std::vector<std::uint8_t> begins_;               // [rows] first level, from `start` on, where
+                                                   // the row is a node of its own
   TransformLevel current_;
 };
 

@@ -35,8 +35,8 @@ constexpr Bytes kDraco{90, 160};            // inside the library: by measuremen
 constexpr double kNeighbours = 24 + 4 + 4;  // CoefficientNeighbours, weights beside
 constexpr double kOfGroup = 2 + 4 + 1;      // VectorCoefficients: sum_, vector_of_, runs_
 constexpr double kFlags = 2;                // ComponentDecoder: nonzero_, of_unit_
-/// TransformLevels: codes, first, sums; rows of all levels; places; nodes; which means.
-constexpr Bytes kLevels{36 + 6 + 22 + 20 + 6, 2 * 36 + 22 * 4 + 32 + 2 * (kNode + 4 * 26) + 24};
+/// TransformLevels: codes, first, sums; begins, rows of two levels; places; nodes; which means.
+constexpr Bytes kLevels{36 + 6 + 22 + 20 + 6, 2 * 36 + 17 + 32 + 2 * (kNode + 4 * 26) + 24};
 constexpr double kKept = 2;           // bytes of a value in a vector that is kept
 constexpr double kBitsOfHalf = 16;    // bits of a point with which half of the vectors are not zero
 constexpr double kUsualOthers = 0.9;  // of slices beside one at its peak, on other threads

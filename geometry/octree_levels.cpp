@@ -72,15 +72,21 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-/// known: how many of children.neighbours there are; there is room for those of one more.
-void add_neighbours(const ChildWindow& window, unsigned child, OctreeLevel& children,
-                    std::size_t& known) {
-  const unsigned base = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
-  const Window around = window.occupied >> base & kAllAround;
-  children.around.push_back({directions_of(around), static_cast<std::uint32_t>(known)});
-  for (Window left = around; left != 0; left &= left - 1)
-    children.neighbours[known++] =
-        window.node[base + static_cast<unsigned>(std::countr_zero(left))];
+/// Of the children of node n, which has some.
+void add_neighbours(const OctreeLevel& parents, std::size_t n, OctreeLevel& children) {
+  const ChildWindow window = window_of(parents, n);
+  std::array<std::uint32_t, std::size_t{8} * 26> found;
+  std::size_t count = 0;
+  for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
+    const auto child = static_cast<unsigned>(std::countr_zero(left));
+    const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
+    const Window around = window.occupied >> corner & kAllAround;
+    const std::size_t first = children.neighbours.size() + count;
+    children.around.push_back({directions_of(around), static_cast<std::uint32_t>(first)});
+    for (Window cells = around; cells != 0; cells &= cells - 1)
+      found[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
+  }
+  children.neighbours.insert(children.neighbours.end(), found.data(), found.data() + count);
 }
 
 }  // namespace
@@ -118,18 +124,9 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
   if (!with_neighbours) return children;
 
   children.around.reserve(count);
-  constexpr std::size_t kMost = 8 * 26;  // of the children of a node
-  std::size_t known = 0;
-  children.neighbours.resize(std::size_t{8} * count + kMost);  // what a surface has, about
-  for (std::size_t n = 0; n < parents.size(); ++n) {
-    if (parents.occupancy[n] == 0) continue;
-    if (known + kMost > children.neighbours.size())
-      children.neighbours.resize(known + known / 4 + kMost);
-    const ChildWindow window = window_of(parents, n);
-    for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1)
-      add_neighbours(window, static_cast<unsigned>(std::countr_zero(left)), children, known);
-  }
-  children.neighbours.resize(known);
+  children.neighbours.reserve(std::size_t{8} * count);  // what a surface has, about
+  for (std::size_t n = 0; n < parents.size(); ++n)
+    if (parents.occupancy[n] != 0) add_neighbours(parents, n, children);
   return children;
 }
 

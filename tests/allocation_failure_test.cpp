@@ -142,5 +142,29 @@ TEST(DecodeMemory, DoesNotGrowFromSliceToSlice) {
   EXPECT_LT(growth, 2 * static_cast<long>(field.num_points()));
 }
 
+/// Bytes that a decode has live at most.
+long most_live(const Bytes& stream, const DecodeOptions& options) {
+  const long before = test::live_bytes;
+  test::most_live_bytes = before;
+  EXPECT_TRUE(decode(stream, options));
+  return test::most_live_bytes - before;
+}
+
+/// The points of a part are not known before its geometry is: they are decoded apart, and moved.
+TEST(DecodeMemory, HasTheComponentsOfAPartOfOneSliceOnce) {
+  const LightField field = conformance::field(conformance::sphere(5), 5, 60, 300);
+  CodingParameters parameters = conformance::with_steps(60, 8);
+  parameters.coefficients = CoefficientCoder::kIndependent;  // which needs little beside
+  parameters.predict = false;
+  const auto stream = pack(field, parameters);
+  ASSERT_TRUE(stream);
+  DecodeOptions everything_there_is;
+  everything_there_is.region = VoxelBox{{0, 0, 0}, {31, 31, 31}};
+  const long whole = most_live(*stream, {}), part = most_live(*stream, everything_there_is);
+  const auto components = static_cast<long>(4 * field.components.size());
+  EXPECT_GT(components, 500000);
+  EXPECT_LT(part, whole + components / 4);
+}
+
 }  // namespace
 }  // namespace slf::allocation_failure_test

@@ -10,6 +10,7 @@ namespace slf::test {
 
 std::atomic<long> allocations_left{-1};
 std::atomic<long> live_bytes{0};
+std::atomic<long> most_live_bytes{0};
 
 }  // namespace slf::test
 
@@ -17,6 +18,7 @@ namespace {
 
 using slf::test::allocations_left;
 using slf::test::live_bytes;
+using slf::test::most_live_bytes;
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (allocations_left.load() >= 0 && allocations_left.fetch_sub(1) <= 0) {
@@ -25,7 +27,11 @@ void* allocate(std::size_t size, std::size_t alignment) {
   }
   const std::size_t rounded = (size + alignment) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, rounded);
-  live_bytes += static_cast<long>(malloc_usable_size(memory));
+  const auto size_got = static_cast<long>(malloc_usable_size(memory));
+  const long live = live_bytes.fetch_add(size_got) + size_got;
+  long most = most_live_bytes;
+  while (live > most && !most_live_bytes.compare_exchange_weak(most, live)) {
+  }
   return memory;
 }
 

@@ -9,5 +9,7 @@ namespace slf::test {
 extern std::atomic<long> allocations_left;
 /// Of what is allocated and not freed.
 extern std::atomic<long> live_bytes;
+/// The most that it has been since this was set.
+extern std::atomic<long> most_live_bytes;
 
 }  // namespace slf::test
