@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "slf/capture.h"
+#include "tools/heap.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -130,6 +131,7 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
                                          const LimitOptions& given, const CommonOptions& common) {
   SLF_TRY(StreamFile stream, read_stream(file, given, common));
   const DecodeOptions options = decode_options(stream.info, part, given, common);
+  share_heap();
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(file, field.error(), stream, options);

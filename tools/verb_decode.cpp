@@ -3,7 +3,6 @@
 
 #include "slf/view_map.h"
 #include "tools/dump.h"
-#include "tools/heap.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/stream_input.h"
@@ -40,7 +39,6 @@ Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "decode: --json and --output - both want standard output"};
   if (!given.output.empty()) SLF_CHECK(check_output(given.output));
-  share_heap();
   SLF_TRY(const DecodedFile decoded,
           decode_file(given.input, given.part, given.limits, given.common));
   const auto peak = static_cast<std::uint64_t>(peak_memory_mib() * (1 << 20));
