@@ -94,10 +94,14 @@ void TransformLevels::mark_means() {
 
 /// TransformLevel::rows of a level, counted from `start`.
 std::vector<std::uint32_t> TransformLevels::rows_of(int level) const {
-  std::vector<std::uint32_t> rows;
-  for (std::size_t row = 0; row < begins_.size(); ++row)
-    if (begins_[row] <= level) rows.push_back(static_cast<std::uint32_t>(row));
-  rows.push_back(static_cast<std::uint32_t>(begins_.size()));
+  std::vector<std::uint32_t> rows(begins_.size() + 1);
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < begins_.size(); ++row) {
+    rows[count] = static_cast<std::uint32_t>(row);
+    count += begins_[row] <= level;
+  }
+  rows[count++] = static_cast<std::uint32_t>(begins_.size());
+  rows.resize(count);
   return rows;
 }
 

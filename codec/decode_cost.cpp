@@ -36,7 +36,7 @@ constexpr double kNeighbours = 24 + 4 + 4;  // CoefficientNeighbours, weights be
 constexpr double kOfGroup = 2 + 4 + 1;      // VectorCoefficients: sum_, vector_of_, runs_
 constexpr double kFlags = 2;                // ComponentDecoder: nonzero_, of_unit_
 /// TransformLevels: codes, first, sums; begins, rows of two levels; places; nodes; which means.
-constexpr Bytes kLevels{36 + 6 + 22 + 20 + 6, 2 * 36 + 17 + 32 + 2 * (kNode + 4 * 26) + 24};
+constexpr Bytes kLevels{36 + 9 + 22 + 20 + 6, 2 * 36 + 9 + 32 + 2 * (kNode + 4 * 26) + 24};
 constexpr double kKept = 2;           // bytes of a value in a vector that is kept
 constexpr double kBitsOfHalf = 16;    // bits of a point with which half of the vectors are not zero
 constexpr double kUsualOthers = 0.9;  // of slices beside one at its peak, on other threads
