@@ -183,6 +183,8 @@ export class SlfDecoder {
   info(bytes: Bytes): SlfInfo;
   preflight(bytes: Bytes, options?: SlfOptions): SlfEstimate;
   decode(bytes: Bytes, options?: SlfOptions): SlfField;
+  /** Lets go of memory that is kept for the next decode: it would be after five seconds. */
+  trim(): void;
 }
 
 export interface SlfOpenOptions {

@@ -10,11 +10,14 @@ import { SlfField } from './slf_field.js';
 import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
 import { Instance, compile } from './slf_instance.js';
 
-/** An instance that has grown beyond this is not used again: WebAssembly memory never shrinks. */
-const KEPT_BYTES = 32 << 20;
+/**
+ * WebAssembly memory never shrinks. An instance of up to KEPT_BYTES is used again, since half of a decode is the system
+ * giving it memory; one beyond SMALL_BYTES for KEPT_MS, which covers the prefixes of a file that is still on its way.
+ */
+const KEPT_BYTES = 512 << 20, SMALL_BYTES = 32 << 20, KEPT_MS = 5000;
 
 export class SlfDecoder {
-  #module; #idle = null;
+  #module; #idle = null; #timer;
 
   /** Use SlfDecoder.create(). */
   constructor(module) { this.#module = module; }
@@ -84,14 +87,24 @@ export class SlfDecoder {
 
   take() {
     const instance = this.#idle ?? new Instance(this.#module);
-    this.#idle = null;
+    this.trim();
     return instance;
   }
 
   give(instance) {
     instance.readAt = () => 1;
     instance.onProgress = () => 0;
-    if (!instance.dead && instance.bytes <= KEPT_BYTES) this.#idle = instance;
+    if (instance.dead || instance.bytes > KEPT_BYTES) return;
+    this.trim();
+    this.#idle = instance;
+    if (instance.bytes <= SMALL_BYTES) return;
+    this.#timer = setTimeout(() => this.trim(), KEPT_MS);
+    this.#timer.unref?.(); // node need not wait for it
+  }
+
+  trim() {
+    clearTimeout(this.#timer);
+    this.#idle = null;
   }
 
   #field(instance, open, options) {

@@ -174,6 +174,31 @@ test('twenty loads of one file take the memory of one', () => {
   for (let i = 0; i < 19; ++i) assert.ok(load() <= first, 'the instance has grown');
 });
 
+test('memory of a large decode serves the next, and is let go of after five seconds or by trim()', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const large = () => {
+    const instance = decoder.take();
+    instance.wasm.slfw_free(instance.alloc(64 << 20));
+    decoder.give(instance);
+    return instance;
+  };
+  const used = () => {
+    const instance = decoder.take();
+    decoder.give(instance);
+    return instance;
+  };
+  const first = large();
+  t.mock.timers.tick(4000);
+  assert.equal(used(), first);
+  t.mock.timers.tick(4000);
+  assert.equal(used(), first, 'five seconds since it was used last');
+  t.mock.timers.tick(5001);
+  const second = large();
+  assert.notEqual(second, first);
+  decoder.trim();
+  assert.notEqual(used(), second);
+});
+
 test('what WebAssembly cannot hold is an error, and the next decode works', () => {
   const { length } = harmonics.bytes;
   const instance = decoder.take();
