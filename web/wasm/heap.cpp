@@ -16,7 +16,8 @@ constexpr int kTries = 64;  // blocks of about the size that is wanted, before a
 struct Block {
   std::uint32_t before;  ///< size of the block before it in memory; 0: there is none
   std::uint32_t bytes;   ///< or kUsed where it is not free
-  Block *next, *previous;
+  Block* next;           ///< of its list, where it is free
+  Block** link;          ///< what points to it there
 
   bool is_free() const { return (bytes & kUsed) == 0; }
   Block* at(std::uint32_t offset) {
@@ -31,30 +32,32 @@ Block* last;       // without memory, never free: what lies behind all others
 Block*& list_of(std::uint32_t bytes) { return lists[std::bit_width(bytes) - 1]; }
 
 void enter(Block* block) {
-  Block*& first = list_of(block->bytes);
-  block->next = first;
-  block->previous = nullptr;
-  if (first != nullptr) first->previous = block;
-  first = block;
+  block->link = &list_of(block->bytes);
+  block->next = *block->link;
+  *block->link = block;
+  if (block->next != nullptr) block->next->link = &block->next;
 }
 
 void leave(Block* block) {
-  if (block->next != nullptr) block->next->previous = block->previous;
-  (block->previous != nullptr ? block->previous->next : list_of(block->bytes)) = block->next;
+  *block->link = block->next;
+  if (block->next != nullptr) block->next->link = block->link;
 }
 
 void give_back(Block* block) {
-  block->bytes &= ~kUsed;
-  if (Block* next = block->after(); next->is_free()) {
+  Block* previous = block->at(0u - block->before);  // itself, not free yet, where there is none
+  Block* next = block->after();
+  std::uint32_t bytes = block->bytes - kUsed;
+  if (next->is_free()) {
     leave(next);
-    block->bytes += next->bytes;
+    bytes += next->bytes;
   }
-  if (Block* previous = block->at(0u - block->before); block->before > 0 && previous->is_free()) {
+  if (previous->is_free()) {
     leave(previous);
-    previous->bytes += block->bytes;
+    bytes += previous->bytes;
     block = previous;
   }
-  block->after()->before = block->bytes;
+  block->bytes = bytes;
+  block->after()->before = bytes;
   enter(block);
 }
 
@@ -64,25 +67,28 @@ void take_in() {
   last = reinterpret_cast<Block*>(__builtin_wasm_memory_size(0) * kPage - sizeof(Block));
   last->bytes = kUsed;
   block->bytes =
-      static_cast<std::uint32_t>(reinterpret_cast<char*>(last) - reinterpret_cast<char*>(block));
+      static_cast<std::uint32_t>(reinterpret_cast<char*>(last) - reinterpret_cast<char*>(block)) +
+      kUsed;
   give_back(block);
 }
 
-/// And by half of what there is, where that can be had: pages that nobody has touched cost nothing,
-/// but an engine collects garbage after a few growths, 15 times in a decode.
-bool grow(std::uint32_t bytes) {
-  if (last == nullptr) {
+/// A free block of `bytes` or more, before `last`: what is free there counts. And by half of what
+/// there is, where that can be had: pages that nobody has touched cost nothing, but an engine
+/// collects garbage after a few growths, 15 times in a decode.
+Block* grow(std::uint32_t bytes) {
+  if (last == nullptr)
     last = reinterpret_cast<Block*>((reinterpret_cast<std::uintptr_t>(&__heap_base) + 15) & ~15u);
-    take_in();
-    if (list_of(last->before) != nullptr && last->before >= bytes) return true;
+  if (Block* tail = last->at(0u - last->before); tail->is_free()) {  // or `last` itself
+    if (tail->bytes >= bytes) return tail;
+    bytes -= tail->bytes;
   }
-  const std::size_t pages = (std::uint64_t{bytes} + kPage - 1) / kPage;
+  const std::size_t pages = (bytes + kPage - 1) / kPage;
   const std::size_t more = pages + __builtin_wasm_memory_size(0) / 2;
   if (__builtin_wasm_memory_grow(0, more) == SIZE_MAX &&
       __builtin_wasm_memory_grow(0, pages) == SIZE_MAX)
-    return false;
+    return nullptr;
   take_in();
-  return true;
+  return last->at(0u - last->before);
 }
 
 Block* find(std::uint32_t bytes) {
@@ -112,7 +118,7 @@ extern "C" void* malloc(std::size_t size) {
   if (size > UINT32_MAX - 2 * kPage) return nullptr;
   const auto bytes = static_cast<std::uint32_t>((size + sizeof(Block) + 15) & ~std::size_t{15});
   Block* block = find(bytes);
-  if (block == nullptr && grow(bytes)) block = find(bytes);
+  if (block == nullptr) block = grow(bytes);
   if (block == nullptr) return nullptr;
   leave(block);
   split(block, bytes);

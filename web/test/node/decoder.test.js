@@ -207,3 +207,10 @@ test('what WebAssembly cannot hold is an error, and the next decode works', () =
   decoder.decode(harmonics.bytes).release();
   assert.equal(harmonics.bytes.length, length);
 });
+
+test('memory that is free at the end counts towards a block: 3.5 of 4 GiB can be had', () => {
+  const instance = decoder.take();
+  for (const share of [1.2, 0.8, 1.5]) assert.ok(instance.alloc(share * 2 ** 30 >>> 0) > 0);
+  instance.dead = true; // not to be kept
+  decoder.give(instance);
+});
