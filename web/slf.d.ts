@@ -61,7 +61,7 @@ export interface SlfInfo {
   /** Parts can be read without the rest. */
   hasIndex: boolean;
   metadata: Record<string, string>;
-  /** Memory a decode of all of it takes, estimated from above. Of SlfDecoder.info. */
+  /** Memory a decode of all of it takes, estimated from above; whether it is allowed does not matter. Of SlfDecoder.info. */
   decodeBytes?: number;
 }
 
@@ -80,7 +80,7 @@ export interface SlfOptions {
   maxPoints?: number;
   /** The same of the memory that preflight() estimates, bytes. */
   maxMemory?: number;
-  /** The same of positions and components together, bytes. */
+  /** The same of decisions and values to decode. */
   maxWork?: number;
   /** Called between units with the share of bytes decoded; false ends the decode with CANCELLED. */
   onProgress?: (fraction: number) => boolean | void;
@@ -165,7 +165,7 @@ export class SlfField {
   meanColours(): Uint8Array;
   /** side: 2 .. 1024 [65]. Linear interpolation is off by what docs/web.md lists. */
   functionTable(options?: { side?: number }): SlfFunctionTable;
-  /** [n][3] reference colours of points along world directions from the point to the eye. */
+  /** [n][3] reference colours of points (whole numbers below P) along world directions from the point to the eye. */
   radiance(points: ArrayLike<number>, directions: ArrayLike<number>): Float32Array;
   /** Frees its memory. The field cannot be read after. */
   release(): void;
@@ -176,7 +176,7 @@ type WasmSource = string | URL | Response | Promise<Response> | ArrayBuffer | Ar
 
 export class SlfDecoder {
   private constructor();
-  /** wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
+  /** NETWORK where it cannot be loaded. wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
   static create(options?: { wasm?: WasmSource }): Promise<SlfDecoder>;
   /** May be posted to workers. */
   readonly module: WebAssembly.Module;
@@ -208,7 +208,7 @@ export class SlfStream {
   /** The server gives parts. */
   readonly ranged: boolean;
   preflight(options?: SlfOptions): SlfEstimate;
-  /** Reads what decode(options) needs and is not here yet. */
+  /** Reads what decode(options) needs and is not here yet; after the reads that were asked for before. */
   read(options?: SlfOptions, reading?: SlfReading): Promise<void>;
   decode(options?: SlfOptions, reading?: SlfReading): Promise<SlfField>;
 }
@@ -233,6 +233,7 @@ export interface SlfWanted {
   /** Default: all. */
   arrays?: SlfArray[];
   functionTable?: { side?: number };
+  /** ABORTED at once; a decode that goes on is not interrupted, its result is dropped. */
   signal?: AbortSignal;
 }
 
@@ -247,5 +248,6 @@ export class SlfWorker {
     decode(options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & SlfReading): Promise<SlfPlainField>;
     close(): Promise<void>;
   }>;
+  /** ABORTED for every call that waits, and for every later one. */
   terminate(): void;
 }

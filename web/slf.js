@@ -16,6 +16,9 @@ import { Instance, compile } from './slf_instance.js';
  */
 const KEPT_BYTES = 512 << 20, SMALL_BYTES = 32 << 20, KEPT_MS = 5000;
 
+const UNLIMITED = { maxPoints: Number.MAX_SAFE_INTEGER, maxMemory: Number.MAX_SAFE_INTEGER,
+  maxWork: Number.MAX_SAFE_INTEGER };
+
 export class SlfDecoder {
   #module; #idle = null; #timer;
 
@@ -30,7 +33,7 @@ export class SlfDecoder {
   info(bytes) {
     return this.#withStream(bytes, (instance, stream) => {
       const info = readInfo(instance, stream);
-      setOptions(instance);
+      setOptions(instance, UNLIMITED); // what it takes is said, whatever may be allowed
       info.decodeBytes = preflight(instance, stream).memoryBytes;
       return info;
     });
@@ -45,16 +48,13 @@ export class SlfDecoder {
 
   decode(bytes, options) {
     const source = bytesOf(bytes), instance = this.take();
-    return this.#field(instance, () => {
-      const at = instance.put(source);
-      return { stream: instance.wasm.slfw_open(at, source.byteLength), at };
-    }, options);
+    return this.#field(instance, () => instance.wasm.slfw_open(instance.put(source), source.byteLength), options);
   }
 
   /** Of a stream that is read in parts. readAt(offset, bytes): Uint8Array, or null. */
   decodeParts(size, readAt, options) {
     const instance = this.take();
-    return this.#field(instance, () => ({ stream: this.openParts(instance, size, readAt), at: 0 }), options);
+    return this.#field(instance, () => this.openParts(instance, size, readAt), options);
   }
 
   /** Calls use(instance, stream) with a stream that is read in parts. */
@@ -111,12 +111,11 @@ export class SlfDecoder {
     try {
       const { field, info } = instance.call((w) => {
         setOptions(instance, options);
-        const { stream, at } = open();
+        const stream = open();
         if (stream === 0) instance.fail();
         const about = readInfo(instance, stream);
         const decoded = w.slfw_decode(stream);
         w.slfw_release_stream(stream);
-        w.slfw_free(at);
         if (decoded === 0) instance.fail();
         return { field: decoded, info: about };
       });
@@ -131,13 +130,15 @@ export class SlfDecoder {
     const source = bytesOf(bytes), instance = this.take();
     try {
       return instance.call((w) => {
-        const at = instance.put(source), stream = w.slfw_open(at, source.byteLength);
+        const stream = w.slfw_open(instance.put(source), source.byteLength);
         if (stream === 0) instance.fail();
         const result = use(instance, stream);
         w.slfw_release_stream(stream);
-        w.slfw_free(at);
         return result;
       });
+    } catch (error) {
+      instance.dead = true; // may hold what was not given back
+      throw error;
     } finally {
       this.give(instance);
     }

@@ -3,10 +3,13 @@ import { SlfError } from './slf_error.js';
 import { FRAMES, TRANSFERS } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 20; // of arrays on their way out
+const MOST_SIDE = 1024; // of a function table
 
 /** The arrays of slfw_read, by number. */
 const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, FRAME_NORMALS = 5,
   DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9;
+
+function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
 
 /** A decoded light field in an instance of its own, until release(). Arrays handed out are copies. */
 export class SlfField {
@@ -54,39 +57,37 @@ export class SlfField {
   weights(out) { return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out); }
 
   functionTable({ side = 65 } = {}) {
+    if (!Number.isInteger(side) || side < 2 || side > MOST_SIDE)
+      throw invalid(`side must be a whole number, 2 to ${MOST_SIDE}`);
     const layers = Math.ceil(this.functions / 4), floats = layers * 24 * side * side;
-    return this.#instance.call((w) => {
-      const at = this.#instance.alloc(4 * floats);
-      if (w.slfw_cube(this.#field, side, at, floats) !== 0) this.#instance.fail();
+    return this.#call((w, instance) => {
+      const at = instance.alloc(4 * floats);
+      if (w.slfw_cube(this.#field, side, at, floats) !== 0) instance.fail();
       const data = new Float32Array(w.memory.buffer, at, floats).slice();
-      w.slfw_free(at);
       return { size: side, side, layers, functions: this.functions, data };
     });
   }
 
   get kernel() {
-    return this.#instance.call((w) => {
+    return this.#call((w, instance) => {
       w.slfw_kernel();
       const [version, filterPixels, exponent, spacingReach, leastReach, mostReach, smallest, core, band, steepest,
-        flattest, discShare, densityGain, densityOffset] = this.#instance.numbers(14);
+        flattest, discShare, densityGain, densityOffset] = instance.numbers(14);
       return { version, filterPixels, exponent, spacingReach, leastReach, mostReach, smallest, core, band, steepest,
         flattest, discShare, densityGain, densityOffset };
     });
   }
 
   radiance(points, directions) {
-    if (directions.length !== 3 * points.length)
-      throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: three numbers of a direction for every point');
-    const instance = this.#instance;
-    return instance.call((w) => {
-      const from = instance.put(new Uint8Array(Uint32Array.from(points).buffer));
+    if (directions.length !== 3 * points.length) throw invalid('three numbers of a direction for every point');
+    const indices = Uint32Array.from(points);
+    if (!indices.every((index, i) => index === points[i])) throw invalid('points must be whole numbers, 0 or more');
+    return this.#call((w, instance) => {
+      const from = instance.put(new Uint8Array(indices.buffer));
       const along = instance.put(new Uint8Array(Float32Array.from(directions).buffer));
       const to = instance.alloc(12 * points.length + 4);
-      const code = w.slfw_radiance(this.#field, points.length, from, along, to);
-      const colours = new Float32Array(w.memory.buffer, to, 3 * points.length).slice();
-      for (const block of [from, along, to]) w.slfw_free(block);
-      if (code !== 0) instance.fail();
-      return colours;
+      if (w.slfw_radiance(this.#field, points.length, from, along, to) !== 0) instance.fail();
+      return new Float32Array(w.memory.buffer, to, 3 * points.length).slice();
     });
   }
 
@@ -98,6 +99,13 @@ export class SlfField {
     this.#arrays.clear();
   }
 
+  /** body(w, instance) */
+  #call(body) {
+    const instance = this.#instance;
+    if (instance === null) throw invalid('the field was released');
+    return instance.call((w) => body(w, instance));
+  }
+
   #cached(key, make) {
     if (!this.#arrays.has(key)) this.#arrays.set(key, make());
     return this.#arrays.get(key);
@@ -105,28 +113,23 @@ export class SlfField {
 
   /** read(first, count, at) for a few points at a time, so that the instance need not hold an array twice. */
   #chunks(rowBytes, use) {
-    if (this.#instance === null) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: the field was released');
-    return this.#instance.call((w) => {
+    return this.#call((w, instance) => {
       const most = Math.max(1, Math.floor(CHUNK_BYTES / Math.max(rowBytes, 1)));
-      const at = this.#instance.alloc(most * rowBytes + 4);
+      const at = instance.alloc(most * rowBytes + 4);
       let good = true;
       for (let first = 0; good && first < this.points; first += most)
         good = use(w, first, Math.min(most, this.points - first), at);
-      w.slfw_free(at);
       return good;
     });
   }
 
   #fetch(w, what, first, count, at) {
-    if (w.slfw_read(this.#field, what, first, count, at) !== 0) {
-      w.slfw_free(at);
-      this.#instance.fail();
-    }
+    if (w.slfw_read(this.#field, what, first, count, at) !== 0) this.#instance.fail();
   }
 
   #read(what, Type, width, out = new Type(this.points * width)) {
     if (!(out instanceof Type) || out.length < this.points * width)
-      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: a ${Type.name} of ${this.points * width} or more`);
+      throw invalid(`a ${Type.name} of ${this.points * width} or more`);
     this.#chunks(width * Type.BYTES_PER_ELEMENT, (w, first, count, at) => {
       this.#fetch(w, what, first, count, at);
       out.set(new Type(w.memory.buffer, at, count * width), first * width);

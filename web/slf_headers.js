@@ -17,7 +17,7 @@ export function bytesOf(source) {
 function whole(options, name, most = Number.MAX_SAFE_INTEGER) {
   const value = options[name] ?? 0;
   if (!Number.isInteger(value) || value < 0 || value > most)
-    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${name} must be a whole number, 0 or more`);
+    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${name} must be a whole number, 0 to ${most}`);
   return value;
 }
 
@@ -43,9 +43,9 @@ export function readInfo(instance, stream) {
   const [format, bytes, points, slices, groups, levels, functions, components, normalBits, x, y, z, step, metres, up,
     leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers] =
     instance.numbers(27);
-  const metadata = {};
-  for (let i = 0; i < pairs; ++i)
-    metadata[instance.text(w.slfw_metadata(stream, i, 0))] = instance.text(w.slfw_metadata(stream, i, 1));
+  const text = (i, value) => instance.text(w.slfw_metadata(stream, i, value));
+  // A key may be "__proto__", which an assignment would lose.
+  const metadata = Object.fromEntries(Array.from({ length: pairs }, (_, i) => [text(i, 0), text(i, 1)]));
   return {
     version: `${format >>> 16}.${format & 0xffff}`, profile: PROFILES[profile], bytes, points, functions, components,
     bits: levels, levels, slices, groups, layers, normalBits, grid: { origin: [x, y, z], step, bits: levels },

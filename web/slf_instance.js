@@ -17,7 +17,15 @@ async function bytesOfFile(url) {
 
 /** A module from a module, an address, a response, bytes, or a promise of one of them. */
 export async function compile(source) {
-  if (source instanceof WebAssembly.Module) return source;
+  try {
+    return await moduleOf(source);
+  } catch (error) {
+    if (error instanceof SlfError) throw error;
+    throw new SlfError('NETWORK', `NETWORK: the decoder could not be loaded: ${error.message}`, { cause: error });
+  }
+}
+
+async function moduleOf(source) {
   source = await source;
   if (source instanceof WebAssembly.Module) return source;
   if (source === undefined) source = defaultUrl();
@@ -27,7 +35,7 @@ export async function compile(source) {
     source = await fetch(source);
   }
   if (typeof Response === 'function' && source instanceof Response) {
-    if (!source.ok) throw new SlfError('NETWORK', `the decoder could not be loaded: ${source.status} ${source.url}`);
+    if (!source.ok) throw new Error(`${source.status} ${source.url}`);
     const type = source.headers.get('content-type') ?? '';
     if (WebAssembly.compileStreaming && type.startsWith('application/wasm')) return WebAssembly.compileStreaming(source);
     source = await source.arrayBuffer();
@@ -37,6 +45,9 @@ export async function compile(source) {
 
 /** One instance of the decoder with its own memory. */
 export class Instance {
+  #refusal = null; // the error that left it as it was
+  #blocks = null;  // of the call that runs
+
   constructor(module) {
     this.readAt = () => 1;
     this.onProgress = () => 0;
@@ -58,17 +69,25 @@ export class Instance {
     exports._initialize();
   }
 
-  /** Runs a call. What traps or throws leaves an instance that is not used again. */
+  /**
+   * Runs a call, and frees what it has allocated. A refusal leaves the instance as it was; a trap, a lack of memory in
+   * the middle or an exception of the caller's one that is not used again.
+   */
   call(body) {
     if (this.dead) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: used after a failure or a release');
+    this.#blocks = [];
     try {
       return body(this.wasm);
     } catch (error) {
+      if (error === this.#refusal) throw error;
       this.dead = true;
       if (error instanceof SlfError) throw error;
       if (error instanceof WebAssembly.RuntimeError)
         throw new SlfError('INTERNAL', `INTERNAL: ${error.message}`, { cause: error });
       throw error; // the caller's own, of a progress function
+    } finally {
+      if (!this.dead) for (const block of this.#blocks) this.wasm.slfw_free(block);
+      this.#blocks = null;
     }
   }
 
@@ -79,8 +98,14 @@ export class Instance {
     const w = this.wasm;
     const text = (which) => this.text(w.slfw_text(which));
     const code = text(0).replace(/^SLF_/, '');
-    throw new SlfError(code, text(3).replace(/^SLF_/, ''),
-      { element: text(1), unit: text(2), bitOffset: w.slfw_bit_offset() });
+    this.refuse(new SlfError(code, text(3).replace(/^SLF_/, ''),
+      { element: text(1), unit: text(2), bitOffset: w.slfw_bit_offset() }));
+  }
+
+  /** Throws an error after which all is as it was. */
+  refuse(error) {
+    this.#refusal = error;
+    throw error;
   }
 
   text(at) {
@@ -99,9 +124,11 @@ export class Instance {
     new Float64Array(this.wasm.memory.buffer, this.wasm.slfw_numbers() >>> 0, values.length).set(values);
   }
 
+  /** Of a call: until its end. */
   alloc(bytes) {
-    const at = this.wasm.slfw_alloc(bytes) >>> 0;
-    if (at === 0) throw new SlfError('OUT_OF_MEMORY', `OUT_OF_MEMORY: ${bytes} bytes`);
+    const at = bytes < 2 ** 32 ? this.wasm.slfw_alloc(bytes) >>> 0 : 0;
+    if (at === 0) this.refuse(new SlfError('OUT_OF_MEMORY', `OUT_OF_MEMORY: ${bytes} bytes`));
+    this.#blocks?.push(at);
     return at;
   }
 

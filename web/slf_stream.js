@@ -86,7 +86,7 @@ class Request {
 }
 
 export class SlfStream {
-  #url; #options; #decoder; #parts = []; #tag = null;
+  #url; #options; #decoder; #parts = []; #tag = null; #reading = Promise.resolve();
 
   /** Use SlfStream.open(). */
   constructor(url, decoder, options) {
@@ -120,15 +120,24 @@ export class SlfStream {
   }
 
   /** Reads what decode(options) needs. onRead(bytes so far, bytes of this call) */
-  async read(options = {}, { onRead, signal } = {}) {
+  async read(options = {}, { onRead, signal = this.#options.signal } = {}) {
+    // One after another: what the one before has read need not come again.
+    const reading = this.#reading.then(() => this.#read(options, onRead, signal));
+    this.#reading = reading.catch(() => {});
+    return reading;
+  }
+
+  async #read(options, onRead, signal) {
+    if (signal?.aborted) throw new SlfError('ABORTED', 'ABORTED: by the caller', { cause: signal.reason });
     const ranges = this.#decoder.withParts(this.bytes, this.#at,
       (instance, opened) => this.#missing(this.#ranges(instance, opened, options)));
     const all = ranges.reduce((sum, range) => sum + range.end - range.begin, 0);
     let before = 0;
-    for (const range of ranges) {
-      await this.#fetch(range, (bytes) => onRead?.(before + bytes, all), signal);
-      before += range.end - range.begin;
-    }
+    for (const wanted of ranges)
+      for (const range of this.#missing([wanted])) { // none, where a server has given the whole file meanwhile
+        await this.#fetch(range, (bytes) => onRead?.(before + bytes, all), signal);
+        before += range.end - range.begin;
+      }
   }
 
   /** Reads and decodes. */
@@ -208,9 +217,10 @@ export class SlfStream {
 
   /** All of the file, where a server gives no parts of it. */
   async #takeWhole(request, response, told) {
+    // The length is that before unpacking. Of another origin it is seen, and whether there is packing is not.
     const length = response.headers.get('content-length');
-    const encoded = response.headers.get('content-encoding');
-    const expected = length !== null && !encoded ? Number(length) : undefined;
+    const packed = response.type === 'cors' || response.headers.has('content-encoding');
+    const expected = length !== null && !packed ? Number(length) : undefined;
     const bytes = await request.body(response, Infinity, expected, (n) => told?.(n, expected ?? 0));
     if (this.bytes > 0 && bytes.byteLength !== this.bytes) throw network('the file has changed on the server');
     this.#parts = [];
@@ -224,7 +234,10 @@ export class SlfStream {
     const again = await request.run(this.#url, { Range: `bytes=0-${FIRST_BYTES - 1}` }, async (response) => {
       if (response.status !== 206) return this.#takeWhole(request, response, told).then(() => false);
       const range = contentRange(response);
-      if (range === null) return true; // of another origin that does not let its sizes be seen
+      if (range === null) { // of another origin that does not let its sizes be seen
+        await response.body?.cancel();
+        return true;
+      }
       if (range.begin !== 0 || range.end !== Math.min(FIRST_BYTES, range.size))
         throw network(`the server gave another part of ${this.#url}`);
       this.bytes = range.size;
@@ -238,8 +251,8 @@ export class SlfStream {
     await plain.run(this.#url, {}, (response) => this.#takeWhole(plain, response, told));
   }
 
-  async #fetch({ begin, end }, told, signal) {
-    const request = new Request({ ...this.#options, signal: signal ?? this.#options.signal });
+  async #fetch({ begin, end }, told, signal = this.#options.signal) {
+    const request = new Request({ ...this.#options, signal });
     await request.run(this.#url, { Range: `bytes=${begin}-${end - 1}` }, async (response) => {
       if (response.status !== 206) return this.#takeWhole(request, response, told);
       const range = contentRange(response);

@@ -22,13 +22,15 @@ const READERS = {
   frameNormals: (field) => field.frameNormals,
 };
 
+function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
+
 /** A field as data, with the arrays that were asked for, and what of it can be handed over. */
 function plainField(field, { arrays = Object.keys(READERS), functionTable } = {}) {
   try {
     const plain = Object.fromEntries(PLAIN.map((name) => [name, field[name]]));
     const buffers = [];
-    for (const name of arrays) {
-      if (!(name in READERS)) throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: no array is called ${name}`);
+    for (const name of new Set(arrays)) {
+      if (!Object.keys(READERS).includes(name)) throw invalid(`no array is called ${name}`);
       plain[name] = READERS[name](field);
       if (plain[name]) buffers.push(plain[name].buffer);
     }
@@ -58,13 +60,17 @@ class Service {
 
   async decodeStream({ id, stream, options, wanted }) {
     const source = this.#streams.get(stream);
+    if (source === undefined) throw invalid('the stream was closed');
     const onRead = (bytes, all) => postMessage({ id, read: [bytes, all] });
     const field = await source.decode(options, { onRead, signal: this.#signal(id) });
     return plainField(field, wanted);
   }
 
   async close({ stream }) { this.#streams.delete(stream); }
-  abort(id) { this.#aborts.get(id)?.abort(); }
+  abort(id) {
+    this.#aborts.get(id)?.abort();
+    this.#streams.delete(id); // of an open() whose answer crossed this
+  }
   done(id) { this.#aborts.delete(id); }
 
   #signal(id) {
@@ -82,7 +88,8 @@ function serve(scope) {
       const answer = await service[data.call](data);
       scope.postMessage({ id: data.id, result: answer?.plain }, answer?.buffers ?? []);
     } catch (error) {
-      const { code = 'INTERNAL', message, element, unit, bitOffset } = error;
+      const { message, element, unit, bitOffset } = error;
+      const code = error instanceof SlfError ? error.code : 'INTERNAL'; // a DOMException's code is a number
       scope.postMessage({ id: data.id, error: { code, message, element, unit, bitOffset } });
     } finally {
       service.done(data.id);
@@ -94,12 +101,14 @@ if (typeof WorkerGlobalScope !== 'undefined' && globalThis instanceof WorkerGlob
   serve(globalThis);
 
 export class SlfWorker {
-  #worker; #next = 0; #waiting = new Map();
+  #worker; #next = 0; #waiting = new Map(); #ended = null;
 
   constructor(worker) {
     this.#worker = worker;
     worker.onmessage = ({ data }) => this.#answer(data);
-    worker.onerror = (event) => this.#failAll(new SlfError('INTERNAL', `INTERNAL: ${event.message || 'worker failed'}`));
+    worker.onerror = ({ message }) => this.#failAll(message
+      ? new SlfError('INTERNAL', `INTERNAL: ${message}`)
+      : new SlfError('NETWORK', "NETWORK: the worker's script could not be loaded")); // which has no message
   }
 
   /** worker: one that runs this file under the name `slf decoder`; wasm: as of SlfDecoder.create. */
@@ -139,14 +148,25 @@ export class SlfWorker {
   #call(call, message, { transfer = [], signal, onRead } = {}) {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
-      const stop = () => this.#worker.postMessage({ call: 'abort', which: id });
+      if (this.#ended) throw this.#ended;
+      const aborted = () => new SlfError('ABORTED', 'ABORTED: by the caller', { cause: signal.reason });
+      if (signal?.aborted) throw aborted();
+      // A decode that goes on in the worker is not interrupted: its result is dropped.
+      const stop = () => {
+        this.#worker.postMessage({ call: 'abort', which: id });
+        this.#waiting.get(id)?.reject(aborted());
+        this.#waiting.delete(id);
+      };
       const settle = (then) => (value) => {
         signal?.removeEventListener('abort', stop);
         then(value);
       };
+      try {
+        this.#worker.postMessage({ id, call, ...message }, transfer);
+      } catch (error) {
+        throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${error.message}`, { cause: error });
+      }
       this.#waiting.set(id, { resolve: settle(resolve), reject: settle(reject), onRead });
-      this.#worker.postMessage({ id, call, ...message }, transfer);
-      if (signal?.aborted) stop();
       signal?.addEventListener('abort', stop, { once: true });
     });
   }
@@ -161,6 +181,7 @@ export class SlfWorker {
   }
 
   #failAll(error) {
+    this.#ended = error;
     for (const { reject } of this.#waiting.values()) reject(error);
     this.#waiting.clear();
   }

@@ -1,7 +1,7 @@
 // The module by itself: options, arrays, memory, errors.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfDecoder, SlfError, readInfo } from '../../slf.js';
 import { caseOf, cases } from './support.js';
 
 const decoder = await SlfDecoder.create();
@@ -213,4 +213,79 @@ test('memory that is free at the end counts towards a block: 3.5 of 4 GiB can be
   for (const share of [1.2, 0.8, 1.5]) assert.ok(instance.alloc(share * 2 ** 30 >>> 0) > 0);
   instance.dead = true; // not to be kept
   decoder.give(instance);
+});
+
+test('a refused argument leaves the field as it was', () => {
+  const field = decoder.decode(harmonics.bytes), plain = decoder.decode(caseOf('vector').bytes);
+  for (const refused of [
+    () => field.radiance([field.points], [0, 0, 1]),
+    () => field.radiance([5.7], [0, 0, 1]),
+    () => field.radiance([2 ** 32 + 5], [0, 0, 1]),
+    () => field.radiance([0], [0, 0]),
+    () => field.weights(new Float32Array(3)),
+    () => field.functionTable({ side: 1 }),
+    () => field.functionTable({ side: 2.5 }),
+    () => field.functionTable({ side: 1025 }),
+    () => plain.weights(),
+    () => plain.functionTable(),
+  ])
+    assert.throws(refused, code('INVALID_ARGUMENT'), String(refused));
+  assert.equal(field.weights().length, 3 * field.functions * field.points);
+  assert.equal(plain.positions.length, 3 * plain.points);
+  field.release();
+  plain.release();
+});
+
+test('what is refused again and again takes no memory', () => {
+  const field = decoder.decode(harmonics.bytes);
+  const points = new Uint32Array(50000).fill(field.points), along = new Float32Array(150000);
+  for (let i = 0; i < 200; ++i) assert.throws(() => field.radiance(points, along), code('INVALID_ARGUMENT'));
+  field.release();
+  const { bytes } = decoder.take();
+  assert.ok(bytes < 64 << 20, `${bytes} bytes`);
+});
+
+test('a block of 4 GiB or more is a lack of memory, not a block of what is left of its size', () => {
+  const instance = decoder.take();
+  for (const bytes of [2 ** 32, 2 ** 32 + 100, 6 * 2 ** 30])
+    assert.throws(() => instance.call(() => instance.alloc(bytes)), code('OUT_OF_MEMORY'));
+  instance.call(() => instance.alloc(100));
+  decoder.give(instance);
+});
+
+test('after release() every question is refused alike', () => {
+  const field = decoder.decode(harmonics.bytes);
+  field.release();
+  for (const asked of [() => field.kernel, () => field.functionTable(), () => field.radiance([0], [0, 0, 1]),
+    () => field.positions, () => field.meanColours()])
+    assert.throws(asked, code('INVALID_ARGUMENT'), String(asked));
+});
+
+test('an option beyond its range is refused with the range', () => {
+  assert.throws(() => decoder.decode(harmonics.bytes, { levels: 300 }), /levels must be a whole number, 0 to 255/);
+});
+
+test('a metadata key may be any word', () => {
+  // of a file that is not at hand
+  const instance = { wasm: { slfw_info: () => 0, slfw_metadata: (_, i, value) => 2 * i + value },
+    numbers: (count) => new Array(count).fill(1), text: (at) => ['__proto__', 'x'][at] };
+  assert.deepEqual(Object.entries(readInfo(instance, 1).metadata), [['__proto__', 'x']]);
+});
+
+test('info says what a decode takes, however much that is', () => {
+  // Beyond the limits of decode() by itself is no file that is small enough to be here: the limits that are asked with.
+  const own = new SlfDecoder(decoder.module), instance = own.take(), set = instance.setNumbers.bind(instance);
+  const asked = [];
+  instance.setNumbers = (values) => {
+    asked.push(...values.slice(10, 13)); // points, memory, work
+    set(values);
+  };
+  own.give(instance);
+  assert.ok(own.info(harmonics.bytes).decodeBytes > 0);
+  assert.deepEqual(asked, new Array(3).fill(Number.MAX_SAFE_INTEGER));
+});
+
+test('a decoder that cannot be loaded is an SlfError of the network', async () => {
+  for (const wasm of [new Uint8Array([0, 1, 2]), 'http://127.0.0.1:9/slf.wasm', new Response('', { status: 404 })])
+    await assert.rejects(SlfDecoder.create({ wasm }), code('NETWORK'));
 });

@@ -118,3 +118,70 @@ test('damage on the way is found', async () => {
   const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: fetchDamaged });
   await assert.rejects(stream.decode(), (error) => error instanceof SlfError && error.code === 'CHECKSUM');
 });
+
+/** Answers as a server does, and what it was asked for; whole: from this request on all of the file. */
+function answering(bytes, { whole = Infinity } = {}) {
+  const asked = [];
+  const get = async (url, { headers }) => {
+    const range = /bytes=(\d+)-(\d+)/.exec(headers.Range ?? '');
+    asked.push(headers.Range);
+    if (!range || asked.length > whole)
+      return new Response(bytes, { headers: { 'Content-Length': String(bytes.length) } });
+    const begin = Number(range[1]), end = Math.min(Number(range[2]) + 1, bytes.length);
+    return new Response(bytes.subarray(begin, end),
+      { status: 206, headers: { 'Content-Range': `bytes ${begin}-${end - 1}/${bytes.length}` } });
+  };
+  return { asked, fetch: get };
+}
+
+test('a server that gives the whole file from some request on is asked once more, not for every range', async () => {
+  const { bytes } = large[0], server = answering(bytes, { whole: 1 });
+  const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
+  assert.ok(stream.preflight({ groups: 1 }).requests > 1);
+  await stream.read({ groups: 1 });
+  assert.equal(server.asked.length, 2);
+  assert.equal(stream.received, bytes.length);
+});
+
+test('two reads at once ask for nothing twice', async () => {
+  const { bytes } = large[0], server = answering(bytes);
+  const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
+  const opened = stream.received, { readBytes, requests: count } = stream.preflight({ groups: 1 });
+  const fields = await Promise.all([stream.decode({ groups: 1 }), stream.decode({ groups: 1 }), stream.read({ groups: 1 })]);
+  assert.equal(server.asked.length, 1 + count);
+  assert.equal(stream.received, opened + readBytes);
+  same(fields[0], fields[1], 'both');
+  for (const field of fields) field?.release();
+});
+
+test('a read that failed does not keep the next from its turn', async () => {
+  const server = answering(large[0].bytes);
+  const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
+  const stopped = stream.read({}, { signal: AbortSignal.abort() }), next = stream.decode();
+  await assert.rejects(stopped, (error) => error instanceof SlfError && error.code === 'ABORTED');
+  (await next).release();
+});
+
+test('a decode whose signal was aborted before is not begun, though all is here', async () => {
+  const stream = await SlfStream.open(server.url('two-points'), { decoder });
+  await assert.rejects(stream.decode({}, { signal: AbortSignal.abort() }), (error) => error.code === 'ABORTED');
+});
+
+test('of another origin a length may be that before unpacking: it is not held against what came', async () => {
+  const { bytes } = caseOf('two-points');
+  const answer = (type) => async () => Object.defineProperty(
+    new Response(bytes, { headers: { 'Content-Length': String(bytes.length + 20) } }), 'type', { value: type });
+  const open = (type) => SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: answer(type) });
+  assert.equal((await open('cors')).bytes, bytes.length);
+  await assert.rejects(open('basic'), (error) => error.code === 'NETWORK');
+});
+
+test('the body of an answer that is of no use is cancelled', async () => {
+  const { bytes } = caseOf('two-points');
+  let cancelled = false;
+  const get = async (url, { headers }) => (headers.Range
+    ? new Response(new ReadableStream({ cancel() { cancelled = true; } }), { status: 206 })
+    : new Response(bytes));
+  await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: get });
+  assert.ok(cancelled);
+});
