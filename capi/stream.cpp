@@ -158,8 +158,11 @@ slf_code slf_get_info(const slf_stream* stream, slf_info* info, slf_error* error
 
 slf_code slf_get_metadata(const slf_stream* stream, uint32_t i, const char** key,
                           const char** value, slf_error* error) {
+  if (key != nullptr) *key = nullptr;
+  if (value != nullptr) *value = nullptr;
   if (stream == nullptr) return invalid(error, "stream");
-  if (key == nullptr || value == nullptr) return invalid(error, "key");
+  if (key == nullptr) return invalid(error, "key");
+  if (value == nullptr) return invalid(error, "value");
   if (i >= stream->info.metadata.size()) return invalid(error, "i");
   *key = stream->info.metadata[i].first.c_str();
   *value = stream->info.metadata[i].second.c_str();

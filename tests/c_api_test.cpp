@@ -209,6 +209,14 @@ TEST(CApi, WrongArgumentsAreRefusedByName) {
   slf_release_field(nullptr);
 }
 
+TEST(CApi, MetadataThatIsNotThereIsNull) {
+  const Stream stream(stream_of("two-points"));
+  const char *key = "left", *value = "left";
+  EXPECT_EQ(slf_get_metadata(stream.handle, 999, &key, &value, nullptr), SLF_INVALID_ARGUMENT);
+  EXPECT_EQ(key, nullptr);
+  EXPECT_EQ(value, nullptr);
+}
+
 TEST(CApi, LimitsAndThePreflightHold) {
   const Stream stream(stream_of("harmonics"));
   slf_estimate estimate{sizeof(slf_estimate), 0, 0, 0, 0, 0};
