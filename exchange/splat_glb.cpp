@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kGlb = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kArrayBuffer = 34962, kPoints = 0;
+/// More than what stands beside the buffer: headers, and the JSON of 21 attributes at most.
+constexpr std::uint32_t kBesideBuffer = 1 << 16;
 constexpr double kDegreeZero = 0.28209479177387814;  // the harmonic of degree 0: 1 / sqrt(4 pi)
 const std::string kExtension = "KHR_gaussian_splatting";
 
@@ -128,24 +130,40 @@ Json document(const SplatCloud& splats, const Attributes& from) {
 
 }  // namespace
 
-Bytes write_splat_glb(const SplatCloud& splats) {
+Result<std::uint32_t, InputError> glb_buffer_bytes(std::uint64_t splats,
+                                                   std::uint64_t num_harmonics) {
+  // Position, colour, rotation, scale and opacity, and three floats for every harmonic.
+  const std::uint64_t splat = 12 + 8 + 16 + 12 + 4 + 12 * num_harmonics;
+  const std::uint64_t most = (~std::uint32_t{0} - kBesideBuffer) / splat;
+  if (splats > most)
+    return InputError{Errc::kInvalidInput, "GLB holds 4 GiB: " + std::to_string(most) +
+                                               " points of this degree, and here are " +
+                                               std::to_string(splats)};
+  return static_cast<std::uint32_t>(splats * splat);
+}
+
+Result<Bytes, InputError> write_splat_glb(const SplatCloud& splats) {
+  SLF_TRY(const std::uint32_t buffer_bytes,
+          glb_buffer_bytes(splats.size(), splats.num_harmonics()));
   Attributes attributes;
+  attributes.buffer.reserve(buffer_bytes);
   add_positions(splats, attributes);
   add_point_colours(splats, attributes);
   add_discs(splats, attributes);
   add_harmonics(splats, attributes);
   std::string json = document(splats, attributes).dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  const auto size = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
+  const auto json_bytes = static_cast<std::uint32_t>(json.size());
+  const std::uint32_t file_bytes = 28 + json_bytes + buffer_bytes;
   Bytes out;
-  out.reserve(28 + json.size() + attributes.buffer.size());
+  out.reserve(file_bytes);
   put(out, kGlb);
   put(out, std::uint32_t{2});
-  put(out, size(28 + json.size() + attributes.buffer.size()));
-  put(out, size(json.size()));
+  put(out, file_bytes);
+  put(out, json_bytes);
   put(out, kJsonChunk);
   put(out, json);
-  put(out, size(attributes.buffer.size()));  // whole words: every attribute is
+  put(out, buffer_bytes);  // whole words: every attribute is
   put(out, kBinaryChunk);
   out.insert(out.end(), attributes.buffer.begin(), attributes.buffer.end());
   return out;

@@ -13,7 +13,10 @@ namespace slf {
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes write_splat_ply(const SplatCloud& splats);
-Bytes write_splat_glb(const SplatCloud& splats);
+Result<Bytes, InputError> write_splat_glb(const SplatCloud& splats);
+/// Bytes of a GLB's buffer. @errors kInvalidInput: GLB has 32 bits for them.
+Result<std::uint32_t, InputError> glb_buffer_bytes(std::uint64_t splats,
+                                                   std::uint64_t num_harmonics);
 Result<Bytes, InputError> write_spz(const SplatCloud& splats);
 /// What write_spz() leaves of it.
 SplatCloud rounded_to_spz(SplatCloud splats);

@@ -180,6 +180,26 @@ TEST(SplatTest, WhatSpzCannotHoldIsRefused) {
   EXPECT_EQ(splat_file(splats, SplatFormat::kSpz).error().code, Errc::kInvalidInput);
 }
 
+TEST(SplatTest, AGlbHasTheLengthsThatItSaysAndIsRefusedBeyondFourGibibytes) {
+  for (int degree = 0; degree <= 3; ++degree) {
+    const ViewMaps maps(harmonic_ball(FrameId::kGlobal));
+    const SplatCloud splats = splats_of(maps, {.degree = degree});
+    const auto file = splat_file(splats, SplatFormat::kGlb);
+    ASSERT_TRUE(file);
+    const auto word = [&](std::size_t at) {
+      std::uint32_t value = 0;
+      std::memcpy(&value, file->data() + at, 4);
+      return value;
+    };
+    EXPECT_EQ(word(8), file->size());
+    EXPECT_EQ(word(20 + word(12)), *glb_buffer_bytes(splats.size(), splats.num_harmonics()));
+    EXPECT_EQ(28 + word(12) + word(20 + word(12)), file->size());
+  }
+  EXPECT_EQ(*glb_buffer_bytes(17'600'000, 16), 4'294'400'000u);
+  EXPECT_EQ(glb_buffer_bytes(17'610'000, 16).error().code, Errc::kInvalidInput);
+  EXPECT_EQ(glb_buffer_bytes(std::uint64_t{1} << 32, 1).error().code, Errc::kInvalidInput);
+}
+
 TEST(SplatTest, SettingsOutOfRangeAndNoPointsAreErrors) {
   const ViewMaps maps(harmonic_ball(FrameId::kGlobal));
   EXPECT_EQ(make_splats(maps, {.degree = 4}).error().code, Errc::kInvalidArgument);

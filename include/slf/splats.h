@@ -72,7 +72,8 @@ enum class SplatFormat : std::uint8_t {
 SplatCloud as_stored(SplatCloud splats, SplatFormat format);
 
 /// The file. The same bytes for the same splats.
-/// @errors kInvalidInput: SPZ, a coordinate or a deviation beyond what it can hold.
+/// @errors kInvalidInput: SPZ, a coordinate or a deviation beyond what it can hold; glTF, more than
+///         4 GiB, which is 17.6 million splats of degree 3.
 Result<std::vector<std::uint8_t>, InputError> splat_file(const SplatCloud& splats,
                                                          SplatFormat format);
 
