@@ -6,12 +6,12 @@
 
 #include "base/vec3.h"
 #include "capture/image_formats.h"
+#include "slf/rotation.h"
 
 namespace slf {
 
 namespace {
 
-constexpr double kMaxRotationError = 1e-3;    // of an entry of R R^T - I
 constexpr double kMaxPrincipalOffset = 0.1;   // of the image's size; more is suspicious
 constexpr std::size_t kCheckedPoints = 4096;  // for warnings; an error looks at all points
 
@@ -29,20 +29,8 @@ bool all_finite(const Camera& camera) {
   return finite;
 }
 
-double determinant(const std::array<std::array<double, 3>, 3>& r) {
-  return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
-         r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
-         r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-}
-
-Result<Done, InputError> check_rotation(const std::array<std::array<double, 3>, 3>& r,
-                                        const std::string& label) {
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double product = r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2];
-      if (!(std::abs(product - (i == j ? 1 : 0)) <= kMaxRotationError))
-        return invalid(label, "the rotation is not orthonormal");
-    }
+Result<Done, InputError> check_rotation(const RotationRows& r, const std::string& label) {
+  if (!is_orthonormal(r)) return invalid(label, "the rotation is not orthonormal");
   if (determinant(r) < 0) return invalid(label, "the rotation mirrors (determinant -1)");
   return Done{};
 }

@@ -6,13 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "slf/rotation.h"
+
 namespace slf::tools {
 namespace {
 
 using Json = nlohmann::json;
 
 constexpr int kMostPixels = 16384;  // per side
-constexpr double kOrthonormalTolerance = 1e-3;
 
 /// A number at rows[i][j]; NaN, which no check lets through, where there is none.
 double number_at(const Json& rows, std::size_t i, std::size_t j) {
@@ -27,19 +28,6 @@ int pixels(const Json& entry, const char* key) {
   if (found == entry.end() || !found->is_number()) return 0;
   const double value = found->get<double>();
   return value >= 1 && value <= kMostPixels ? static_cast<int>(value) : 0;
-}
-
-/// Right-handed and orthonormal; false for NaN.
-bool is_rotation(const std::array<std::array<double, 3>, 3>& r) {
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double dot = r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2];
-      if (!(std::abs(dot - (i == j ? 1 : 0)) < kOrthonormalTolerance)) return false;
-    }
-  const double determinant = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
-                             r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
-                             r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-  return determinant > 0;
 }
 
 /// Empty if the camera can be used, else the cause.
