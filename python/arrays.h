@@ -40,6 +40,14 @@ class BytesView {
   Py_buffer view_{};
 };
 
+/// ValueError where something cannot be read as numbers.
+template <class T>
+Array<T> array_of(const py::object& given, const char* name) {
+  auto array = Array<T>::ensure(given);
+  if (!array) throw py::value_error(std::string(name) + " is not an array of numbers");
+  return array;
+}
+
 /// ValueError where an array is not of this shape; -1 is any.
 inline void check_shape(const py::array& array, const std::vector<py::ssize_t>& shape,
                         const char* name) {

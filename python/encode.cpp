@@ -57,7 +57,7 @@ Vec3 middle(const Array<double>& points) {
 }
 
 Image image_of(const py::handle& given, const Camera& camera) {
-  const auto array = py::reinterpret_borrow<py::object>(given).cast<Array<std::uint8_t>>();
+  const auto array = array_of<std::uint8_t>(py::reinterpret_borrow<py::object>(given), "images");
   if (array.ndim() != 3 || array.shape(0) != camera.height || array.shape(1) != camera.width ||
       (array.shape(2) != 3 && array.shape(2) != 4))
     throw py::value_error("an image is uint8 [height, width, 3 or 4], as large as its camera says");
@@ -68,20 +68,22 @@ Image image_of(const py::handle& given, const Camera& camera) {
 
 Capture capture_of(const py::object& from) {
   Capture capture;
-  const auto points = from.attr("points").cast<Array<double>>();
+  const auto points = array_of<double>(from.attr("points"), "points");
   check_shape(points, {-1, 3}, "points");
   capture.origin = middle(points);
   for (py::ssize_t i = 0; i < points.shape(0); ++i)
     capture.cloud.positions.push_back({float(points.at(i, 0) - capture.origin[0]),
                                        float(points.at(i, 1) - capture.origin[1]),
                                        float(points.at(i, 2) - capture.origin[2])});
-  if (const py::object normals = from.attr("normals"); !normals.is_none()) {
-    check_shape(normals.cast<Array<float>>(), {points.shape(0), 3}, "normals");
-    copy_rows(normals.cast<Array<float>>(), capture.cloud.normals);
+  if (const py::object given = from.attr("normals"); !given.is_none()) {
+    const auto normals = array_of<float>(given, "normals");
+    check_shape(normals, {points.shape(0), 3}, "normals");
+    copy_rows(normals, capture.cloud.normals);
   }
-  if (const py::object colours = from.attr("colours"); !colours.is_none()) {
-    check_shape(colours.cast<Array<std::uint8_t>>(), {points.shape(0), 3}, "colours");
-    copy_rows(colours.cast<Array<std::uint8_t>>(), capture.cloud.colours);
+  if (const py::object given = from.attr("colours"); !given.is_none()) {
+    const auto colours = array_of<std::uint8_t>(given, "colours");
+    check_shape(colours, {points.shape(0), 3}, "colours");
+    copy_rows(colours, capture.cloud.colours);
   }
   for (const py::handle camera : from.attr("cameras"))
     capture.cameras.push_back(moved(camera_of(py::reinterpret_borrow<py::object>(camera)),
@@ -97,6 +99,7 @@ Capture capture_of(const py::object& from) {
   return capture;
 }
 
+/// Types and ranges are checked in slf/_encoding.py.
 EncoderSettings settings_of(const py::dict& given) {
   const auto preset =
       given["preset"].cast<std::string>() == "paper" ? Preset::kPaper : Preset::kDefault;
@@ -109,15 +112,6 @@ EncoderSettings settings_of(const py::dict& given) {
   settings.normal_bits = given["normal_bits"].cast<int>();
   settings.quality_layers = given["quality_layers"].cast<int>();
   settings.threads = given["threads"].cast<int>();
-  if (!(settings.q >= 0.05 && settings.q <= 4096)) throw py::value_error("q is 0.05 to 4096");
-  if (settings.grid_bits < 0 || settings.grid_bits > 21)
-    throw py::value_error("grid_bits is 0 to 21");
-  if (settings.normal_bits != 0 && (settings.normal_bits < 4 || settings.normal_bits > 12))
-    throw py::value_error("normal_bits is 0 or 4 to 12");
-  if (settings.quality_layers < 1 || settings.quality_layers > 4)
-    throw py::value_error("quality_layers is 1 to 4");
-  if (!(settings.voxel_size >= 0) || !(settings.target_psnr >= 0))
-    throw py::value_error("voxel_size and target_psnr are 0 or more");
   return settings;
 }
 

@@ -16,7 +16,7 @@ struct Part {
   std::uint64_t max_bytes = 0;
   std::optional<std::array<int, 6>> region;  ///< voxels, low then high
   int threads = 0;                           ///< 0: all cores
-  std::uint64_t max_memory = 0;              ///< bytes; 0: any
+  std::uint64_t max_memory = 0;              ///< bytes; 0: that of DecodeLimits
 };
 
 void add_decoding(pybind11::module_& m);

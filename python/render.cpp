@@ -20,6 +20,7 @@ LightField decoded(const py::object& source, const Part& part) {
   options.layers = static_cast<int>(part.layers);
   options.max_bytes = part.max_bytes;
   options.threads = part.threads;
+  if (part.max_memory > 0) options.limits.max_memory = part.max_memory;
   if (part.region) {
     const auto& r = *part.region;
     options.region = VoxelBox{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
@@ -80,13 +81,15 @@ void add_rendering(py::module_& m) {
   py::class_<FieldRenderer>(m, "Renderer")
       .def(py::init([](const py::object& source, std::uint32_t levels, std::uint32_t groups,
                        std::uint32_t layers, std::uint64_t max_bytes,
-                       const std::optional<std::array<int, 6>>& region, int threads) {
+                       const std::optional<std::array<int, 6>>& region, int threads,
+                       std::uint64_t max_memory) {
              return std::make_unique<FieldRenderer>(
-                 decoded(source, Part{levels, groups, layers, max_bytes, region, threads, 0}),
+                 decoded(source,
+                         Part{levels, groups, layers, max_bytes, region, threads, max_memory}),
                  threads);
            }),
            py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("layers"),
-           py::arg("max_bytes"), py::arg("region"), py::arg("threads"))
+           py::arg("max_bytes"), py::arg("region"), py::arg("threads"), py::arg("max_memory"))
       .def("render", &FieldRenderer::render, py::arg("camera"), py::arg("background"),
            py::arg("view_dependent"))
       .def("orbit", &FieldRenderer::orbit, py::arg("turn"), py::arg("elevation"), py::arg("width"),

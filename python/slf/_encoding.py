@@ -1,6 +1,7 @@
 """Encoding: of photographs and points, of given integers."""
 from __future__ import annotations
 
+import dataclasses
 import os
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
@@ -8,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
+from ._arguments import MOST_BYTES, real, whole, whole_array, wrong
 from ._types import Capture, Encoded, Vector
 
 
@@ -21,19 +23,30 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
     levels, 0.05 to 4096, smaller is better (default: the preset's, 16). split: which images, as
     `slf encode --split`. preset: 'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr:
-    in place of q. grid_bits 1 to 21 or voxel_size: 0 is what the photographs resolve. normal_bits:
+    in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
     0 or 4 to 12. quality_layers: 1 to 4, each at half of the step of the one before, so that quality
     is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises is raised at the end.
     Raises InputError, ArgumentError, ValueError.
     """
-    if preset not in ('default', 'paper') or not 1 <= effort <= 8:
-        raise ValueError("preset is 'default' or 'paper', and effort 1 to 8")
+    if preset not in ('default', 'paper'):
+        raise wrong('preset', "preset is 'default' or 'paper'")
     options: Dict[str, Any] = {
-        'q': q, 'preset': preset, 'effort': effort, 'target_bytes': target_bytes,
-        'target_psnr': target_psnr, 'grid_bits': grid_bits, 'voxel_size': voxel_size,
-        'normal_bits': normal_bits, 'quality_layers': quality_layers, 'threads': threads}
+        'q': None if q is None else real(q, 'q', 0.05, 4096),
+        'preset': preset,
+        'effort': whole(effort, 'effort', 1, 8),
+        'target_bytes': whole(target_bytes, 'target_bytes', 0, MOST_BYTES),
+        'target_psnr': real(target_psnr, 'target_psnr', 0, 100),
+        'grid_bits': whole(grid_bits, 'grid_bits', 0, 21),
+        'voxel_size': real(voxel_size, 'voxel_size', 0, 1e12),
+        'normal_bits': whole(normal_bits, 'normal_bits', 0, 12),
+        'quality_layers': whole(quality_layers, 'quality_layers', 1, 4),
+        'threads': whole(threads, 'threads')}
+    if 0 < options['normal_bits'] < 4:
+        raise wrong('normal_bits', 'normal_bits is 0 or 4 to 12')
+    if options['grid_bits'] and options['voxel_size']:
+        raise wrong('voxel_size', 'voxel_size is in place of grid_bits: give one of them')
     if isinstance(capture, Capture):
-        data, report = _slf.encode_capture(capture, split, options, progress)
+        data, report = _slf.encode_capture(_in_bytes(capture), split, options, progress)
     else:
         data, report = _slf.encode_path(os.fspath(capture), split, options, progress)
     report['warnings'] = tuple(report['warnings'])
@@ -51,18 +64,19 @@ def pack(positions: npt.ArrayLike, components: Optional[npt.ArrayLike] = None, *
     that values come back within a few units; groups [K]: 0 to 15.
     Raises ArgumentError, ValueError.
     """
-    voxels = _whole(positions, 'positions')
-    planes = None if components is None else _whole(components, 'components')
-    if not bits:
+    voxels = whole_array(positions, 'positions', np.int32)
+    planes = None if components is None else whole_array(components, 'components', np.int32)
+    quantisers = None if steps is None else whole_array(steps, 'steps', np.uint32)
+    if not whole(bits, 'bits', 0, 21):
         bits = max(1, int(voxels.max()).bit_length()) if voxels.size else 1
-    return _slf.pack(voxels, planes, bits, origin, step, steps, list(groups), list(metadata),
-                     threads)
+    return _slf.pack(voxels, planes, bits, origin, step, quantisers,
+                     [whole(group, 'groups', 0, 15) for group in groups], list(metadata),
+                     whole(threads, 'threads'))
 
 
-def _whole(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
-    array = np.asarray(values)
-    limits = np.iinfo(np.int32)
-    if array.dtype.kind not in 'iu' or (
-            array.size and not (limits.min <= array.min() and array.max() <= limits.max)):
-        raise ValueError(f'{name} are whole numbers of 32 bits')
-    return array.astype(np.int32, copy=False)
+def _in_bytes(capture: Capture) -> Capture:
+    """With the colours and the images that the encoder takes."""
+    colours = capture.colours
+    return dataclasses.replace(
+        capture, images=[whole_array(image, 'images', np.uint8) for image in capture.images],
+        colours=None if colours is None else whole_array(colours, 'colours', np.uint8))

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
+from ._arguments import MOST_BYTES, pixels, whole
 from ._types import Box, Camera, Info, Source, Vector
 
 
@@ -33,11 +34,10 @@ def info(source: Source) -> Info:
 class LightField:
     """A decoded light field. Arrays are read when first asked for, and are not to be written to."""
 
-    def __init__(self, data: Union[bytes, bytearray, memoryview],
-                 part: Dict[str, Any], max_memory: int) -> None:
+    def __init__(self, data: Union[bytes, bytearray, memoryview], part: Dict[str, Any]) -> None:
         self._data = data
         self._part = part
-        self._field = _slf.Field(data, max_memory=max_memory, **part)
+        self._field = _slf.Field(data, **part)
         self._shape = self._field.shape()
 
     def __len__(self) -> int:
@@ -126,7 +126,8 @@ class LightField:
         """A picture, uint8 [height, width, 3], display values.
 
         size: width and height in place of the camera's. view_dependent False: mean colours. The
-        first call decodes once more, for the renderer.
+        first call decodes once more, for the renderer, within the max_memory of read(). Raises
+        ValueError, InputError of a field without colours.
         """
         view = camera if size is None else camera.resized(size)
         return self._renderer.render(view, background, view_dependent)
@@ -137,7 +138,7 @@ class LightField:
 
         turn: 0 to 1; elevation and fov: degrees; size: width, height.
         """
-        return Camera(**self._renderer.orbit(turn, elevation, size[0], size[1], fov))
+        return Camera(**self._renderer.orbit(turn, elevation, *pixels(size), fov))
 
 
 _Any = TypeVar('_Any', bound=np.generic)
@@ -165,11 +166,15 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
 
     levels: of the octree, 1 to Info.bits, fewer are a coarser cloud; groups: of planes; layers: of
     quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
-    region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores. max_memory: bytes that decoding may take, 0 is any.
+    region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
+    max_memory: bytes that decoding may take, 0 is 2**30.
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
     data = _bytes(source)
-    part = {'levels': levels, 'groups': groups, 'layers': layers, 'max_bytes': max_bytes,
-            'threads': threads,
+    part = {'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
+            'layers': whole(layers, 'layers'),
+            'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
+            'threads': whole(threads, 'threads'),
+            'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
             'region': None if region is None else _voxels(data, region)}
-    return LightField(data, part, max_memory)
+    return LightField(data, part)

@@ -1,13 +1,17 @@
 """Values that functions of slf take and give."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 import os
+import secrets
 from typing import Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
+
+from ._arguments import pixels
 
 Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview]
 Vector = Tuple[float, float, float]
@@ -45,8 +49,9 @@ class Info:
 class Camera:
     """A pinhole camera with OpenCV axes: x_cam = R x + t, x right, y down, z forward.
 
-    K [3, 3], R [3, 3], t [3]; the centre of the top left pixel is (0.5, 0.5). distortion: k1, k2,
-    p1, p2 of OpenCV.
+    K: [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]; R: a rotation, [3, 3]; t [3]; the centre of the top left
+    pixel is (0.5, 0.5). distortion: k1, k2, p1, p2 of OpenCV. What takes a camera raises ValueError
+    for another.
     """
 
     width: int
@@ -64,6 +69,7 @@ class Camera:
 
         size: width and height; fov: degrees, of the larger of them.
         """
+        width, height = pixels(size)
         position = np.asarray(eye, float)
         forward = np.asarray(target, float) - position
         right = np.cross(forward, np.asarray(up, float))
@@ -71,15 +77,16 @@ class Camera:
             raise ValueError('the camera looks along `up`, or at itself')
         forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
         rotation = np.stack([right, np.cross(forward, right), forward])
-        focal = max(size) / 2 / math.tan(math.radians(fov) / 2)
+        focal = max(width, height) / 2 / math.tan(math.radians(fov) / 2)
         intrinsics = np.diag([focal, focal, 1.0])
-        intrinsics[:2, 2] = np.asarray(size) / 2
-        return cls(size[0], size[1], intrinsics, rotation, -rotation @ position)
+        intrinsics[:2, 2] = width / 2, height / 2
+        return cls(width, height, intrinsics, rotation, -rotation @ position)
 
     def resized(self, size: Tuple[int, int]) -> Camera:
         """The same view in another number of pixels (width, height)."""
-        scale = np.diag([size[0] / self.width, size[1] / self.height, 1.0])
-        return dataclasses.replace(self, width=size[0], height=size[1],
+        width, height = pixels(size)
+        scale = np.diag([width / self.width, height / self.height, 1.0])
+        return dataclasses.replace(self, width=width, height=height,
                                    K=scale @ np.asarray(self.K, float))
 
 
@@ -89,6 +96,7 @@ class Capture:
 
     points [N, 3] world; normals [N, 3] unit, outward, or None; colours uint8 [N, 3] or None;
     images: uint8 [height, width, 3 or 4] of each camera, display values, alpha 0 off the object.
+    Colours and images of another type of whole numbers are taken where they are 0 to 255.
     """
 
     points: npt.ArrayLike
@@ -108,7 +116,7 @@ class Capture:
 class Encoded:
     """What encode() made."""
 
-    data: bytes  #: the stream
+    data: bytes = dataclasses.field(repr=False)  #: the stream
     q: float  #: the quantiser step it was coded with
     points: int
     bits: int  #: of the grid
@@ -118,12 +126,13 @@ class Encoded:
 
     def write(self, path: Union[str, 'os.PathLike[str]']) -> None:
         """To a temporary file beside `path`, renamed over it."""
-        temporary = f'{os.fspath(path)}.tmp{os.getpid()}'
+        temporary = f'{os.fspath(path)}.tmp{secrets.token_hex(8)}'
+        file = open(temporary, 'xb')  # outside of try: a file that was there is another writer's
         try:
-            with open(temporary, 'xb') as file:
+            with file:
                 file.write(self.data)
             os.replace(temporary, path)
         except BaseException:
-            if os.path.exists(temporary):
+            with contextlib.suppress(FileNotFoundError):
                 os.unlink(temporary)
             raise

@@ -1,0 +1,57 @@
+"""Checks of arguments: what is wrong is named, and nothing is rounded or cut."""
+from __future__ import annotations
+
+import math
+import numbers
+import operator
+from typing import Any, Tuple, Type, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _errors
+
+MOST_BYTES = 2**64 - 1  #: of the C interface
+MOST_PIXELS = 16384  #: of a side
+
+_Whole = TypeVar('_Whole', bound='np.integer[Any]')
+
+
+def wrong(name: str, message: str) -> _errors.Error:
+    """An ArgumentError, which is a ValueError."""
+    return _errors.make('SLF_INVALID_ARGUMENT', message, name, '', 0)
+
+
+def whole(value: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
+    """A whole number of any type."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = low - 1
+    if not low <= number <= high:
+        raise wrong(name, f'{name} is a whole number of {low} to {high}, not {value!r:.40}')
+    return number
+
+
+def real(value: Any, name: str, low: float, high: float) -> float:
+    """A number of any type; nan is out of every range."""
+    number = float(value) if isinstance(value, numbers.Real) else math.nan
+    if not low <= number <= high:
+        raise wrong(name, f'{name} is a number of {low:g} to {high:g}, not {value!r:.40}')
+    return number
+
+
+def pixels(size: Tuple[int, int]) -> Tuple[int, int]:
+    """Width and height of a picture."""
+    width, height = size
+    return whole(width, 'width', 1, MOST_PIXELS), whole(height, 'height', 1, MOST_PIXELS)
+
+
+def whole_array(values: npt.ArrayLike, name: str, kind: Type[_Whole]) -> npt.NDArray[_Whole]:
+    """Of another type only where that has no fractions and none of its values is lost."""
+    array = np.asarray(values)
+    limits = np.iinfo(kind)
+    if array.dtype.kind not in 'iu' or (array.dtype != kind and array.size and not (
+            limits.min <= array.min() and array.max() <= limits.max)):
+        raise wrong(name, f'{name} are whole numbers of {limits.min} to {limits.max}')
+    return array.astype(kind, copy=False)
