@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "base/error_words.h"
 #include "base/stopwatch.h"
 #include "capture/nearest.h"
 #include "encoder/encode_metadata.h"
@@ -27,7 +28,7 @@ InputError corrupt(const std::string& what) { return {Errc::kInvalidInput, "IGC 
 /// The result of a bitstream call, its error as a person reads it.
 template <class T>
 Result<T, InputError> from(Result<T> result) {
-  if (!result) return InputError{result.error().code, to_string(result.error())};
+  if (!result) return InputError{result.error().code, in_words(result.error())};
   return *std::move(result);
 }
 

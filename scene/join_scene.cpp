@@ -3,6 +3,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/error_words.h"
 #include "bitstream/metadata.h"
 #include "codec/assemble.h"
 #include "codec/base_decoder.h"
@@ -18,7 +19,7 @@ namespace slf {
 namespace {
 
 InputError damaged(const Error& error) {
-  return {Errc::kInvalidInput, "the base of the parts: " + to_string(error)};
+  return {Errc::kInvalidInput, "the base of the parts: " + in_words(error)};
 }
 
 /// What the sequence says of a stream that slices are missing from.

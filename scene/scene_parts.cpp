@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error_words.h"
 #include "codec/base_encoder.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
@@ -148,7 +149,7 @@ Result<SceneParts, InputError> read_part(const PartStream& part) {
   parts.name = part.name;
   if (const auto read = PartReader(part, parts).read(); !read) {
     const bool other = std::string_view(read.error().element) == "part_plan";
-    return wrong(part.name, other ? "not a part of a scene" : to_string(read.error()));
+    return wrong(part.name, other ? "not a part of a scene" : in_words(read.error()));
   }
   return parts;
 }

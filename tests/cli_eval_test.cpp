@@ -49,7 +49,13 @@ TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
   EXPECT_GT(quality["held_out"]["points"][0]["psnr"], 15);
   for (const char* stage : {"geometry", "images", "observe", "fit", "total"})
     EXPECT_GT(quality["decode"][stage], 0) << stage;
+  EXPECT_EQ(quality["settings"]["codec"], "hevc");
+  EXPECT_EQ(quality["settings"]["fit"], "paper");
+  EXPECT_GE(quality["decode"]["threads"], 1);
   expect_failure(slf("eval a.igc nowhere"), 3, "nowhere", "");
+  const Ran few = slf("eval a.igc tiny --max-points 10");
+  expect_failure(few, 5, "a.igc", "larger than the decoder's limits (max_points)");
+  EXPECT_EQ(few.err.find("kLimit"), std::string::npos) << few.err;
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST_F(SceneTest, PartsThatDoNotFitTogetherAreRefusedByName) {
   expect_failure(slf("merge a.slf all.slf -o x.slf"), 4, "all.slf", "a.slf");
   expect_failure(slf("merge b.slf a.slf all.slf -o x.slf"), 4, "all.slf", "slice 0 is in a.slf");
   expect_failure(slf("merge a.slf other.slf -o x.slf"), 4, "other.slf", "another plan");
-  expect_failure(slf("merge a.slf -o x.slf"), 4, "x.slf", "missing");
+  expect_failure(slf("merge a.slf -o x.slf"), 4, "merge", "missing");
   expect_failure(slf("merge street/points.ply -o x.slf"), 4, "points.ply", "");
   write("cut.slf", read("b.slf").substr(0, read("b.slf").size() / 2));
   expect_failure(slf("merge a.slf cut.slf -o x.slf"), 4, "cut.slf", "");

@@ -1,5 +1,6 @@
 #include "tools/choices.h"
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +74,23 @@ CLI::Option* add_igc_chroma_choice(CLI::App& verb, IgcChroma& choice) {
   return add_choice<IgcChroma>(verb, "--chroma", choice,
                                {{"420", IgcChroma::k420}, {"444", IgcChroma::k444}},
                                "Chroma at half the resolution, or at the full one");
+}
+
+std::string igc_setting_in_words(const std::string& key, const std::string& value) {
+  static const std::map<std::string, std::vector<const char*>> kWords{
+      {"codec",
+       {igc_codec_name(IgcCodec::kHevcLowDelay), igc_codec_name(IgcCodec::kHevcIntra),
+        igc_codec_name(IgcCodec::kAv1)}},
+      {"chroma", {"420", "444"}},
+      {"transfer", {"display", "linear"}},
+      {"fit", {"paper", "hierarchical"}},
+      {"basis", {"bspline", "harmonics"}},
+      {"frame", {"global", "reflected"}},
+      {"colour", {"none", "opponent"}}};
+  const auto words = kWords.find(key);
+  if (words == kWords.end() || value.size() != 1) return value;
+  const auto at = static_cast<std::size_t>(value[0] - '0');
+  return at < words->second.size() ? words->second[at] : value;
 }
 
 }  // namespace slf::tools

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "slf/evaluate.h"
 #include "slf/igc.h"
+#include "slf/parallel.h"
+#include "tools/choices.h"
 #include "tools/describe.h"
 #include "tools/eval_report.h"
 #include "tools/options.h"
@@ -30,6 +33,11 @@ struct EvalOptions {
   LimitOptions limits;
   CommonOptions common;
 };
+
+/// Those that a decode may have.
+int threads_of(const CommonOptions& common) {
+  return thread_count(common.threads, std::numeric_limits<std::size_t>::max());
+}
 
 std::string metadata_value(const Metadata& metadata, const std::string& key) {
   for (const auto& [name, value] : metadata)
@@ -78,7 +86,7 @@ Result<Subject, Failure> decode_slf(const EvalOptions& given, const std::string&
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(input, field.error(), stream, options);
-  const nlohmann::ordered_json decode_seconds = {{"threads", given.common.threads},
+  const nlohmann::ordered_json decode_seconds = {{"threads", threads_of(given.common)},
                                                  {"geometry", seconds.geometry},
                                                  {"coefficients", seconds.coefficients},
                                                  {"total", watch.lap()}};
@@ -103,14 +111,15 @@ Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const std::st
   SLF_TRY(IgcDecoded decoded,
           from(input_name(input), decode_igc(stream, capture, options, line.callback())));
   const nlohmann::ordered_json decode_seconds = {
-      {"threads", given.common.threads},  {"geometry", decoded.seconds_geometry},
-      {"images", decoded.seconds_images}, {"observe", decoded.seconds_observe},
-      {"fit", decoded.seconds_fit},       {"total", watch.lap()}};
+      {"threads", threads_of(given.common)}, {"geometry", decoded.seconds_geometry},
+      {"images", decoded.seconds_images},    {"observe", decoded.seconds_observe},
+      {"fit", decoded.seconds_fit},          {"total", watch.lap()}};
   const nlohmann::ordered_json bytes = {{"geometry", decoded.bytes_geometry},
                                         {"images", decoded.bytes_images},
                                         {"parameters", decoded.bytes_parameters}};
   nlohmann::ordered_json settings;
-  for (const auto& [key, value] : decoded.metadata) settings[key] = value;
+  for (const auto& [key, value] : decoded.metadata)
+    settings[key] = igc_setting_in_words(key, value);
   std::string lines = "bytes by section\n";
   for (const auto& [section, size] : bytes.items())
     lines += text("  %-14s %12s\n", section.c_str(), grouped(size.get<std::uint64_t>()).c_str());
@@ -182,6 +191,8 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
     SLF_TRY(m.unquantised, from(given.capture, evaluate(*unquantised_maps, capture, *cameras,
                                                         settings, line.callback())));
   }
+  if (measured.empty())
+    return Failure{kInputInvalid, given.capture + ": its splits have no images to compare with"};
   return measured;
 }
 
@@ -252,6 +263,7 @@ void add_eval(CLI::App& program, Run& run) {
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
+  verb->get_option("--quiet")->description("No progress, no warnings; the report is the result");
   add_json(*verb, o->common);
   verb->callback([&run, o] {
     o->settings.images = !o->no_images;

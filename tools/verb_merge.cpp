@@ -26,7 +26,7 @@ Outcome run_merge(const MergeOptions& given) {
     parts.push_back({name, std::move(bytes)});
   }
   SLF_TRY(const MergedScene merged,
-          from(given.output, merge_parts(parts, given.allow_missing, given.common.threads)));
+          from("merge", merge_parts(parts, given.allow_missing, given.common.threads)));
   SLF_CHECK(save(given.output, merged.stream.data(), merged.stream.size()));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", merged.stream.size()},
