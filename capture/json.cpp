@@ -64,8 +64,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
-    const std::string_view what = error.what();
-    const std::size_t colon = what.rfind(": ");  // "[json.exception…] parse error at line …: cause"
+    // "[json.exception…] parse error at line …: cause; last read: 'what stands there'"
+    std::string_view what = error.what();
+    what = what.substr(0, what.find("; last read: "));
+    const std::size_t colon = what.find(": ");
     return fail("not valid JSON at byte " + std::to_string(position) + ": " +
                 std::string(colon == std::string_view::npos ? what : what.substr(colon + 2)));
   }

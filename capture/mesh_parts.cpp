@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shortest.h"
 #include "capture/mesh_sampling.h"
 #include "capture/mesh_triangles.h"
 #include "geometry/morton.h"
@@ -52,7 +53,7 @@ Result<std::vector<Pair>, InputError> pairs_of(const Mesh& mesh, const Grid& gri
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     count += cubes_about(corners_of(mesh, f), grid).count();
   if (count > kMostPairs || sampled_area(mesh) / (grid.step * grid.step) > kMostPointsOfMesh)
-    return InputError{Errc::kInvalidInput, "mesh: a voxel size of " + std::to_string(grid.step) +
+    return InputError{Errc::kInvalidInput, "mesh: a voxel size of " + shortest(grid.step) +
                                                " is too small for its faces"};
   std::vector<Pair> pairs;
   pairs.reserve(static_cast<std::size_t>(count));

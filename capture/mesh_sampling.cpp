@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "base/shortest.h"
 #include "capture/density.h"
 #include "capture/mesh_triangles.h"
 
@@ -109,7 +110,7 @@ class Sampler {
 
  private:
   InputError too_many() const {
-    return {Errc::kInvalidInput, "mesh: a voxel size of " + std::to_string(grid_.step) +
+    return {Errc::kInvalidInput, "mesh: a voxel size of " + shortest(grid_.step) +
                                      " takes more points than the 2^24 accepted"};
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shortest.h"
 #include "base/vec3.h"
 #include "geometry/morton.h"
 
@@ -44,8 +45,8 @@ Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bit
     grid.step = voxel_size;
     const double last = cell_of(extent, 0, voxel_size);
     if (!(last < double(1 << kMaxBits)))
-      return invalid("a voxel size of " + std::to_string(voxel_size) + " needs more than " +
-                     std::to_string(kMaxBits) + " bits for an extent of " + std::to_string(extent));
+      return invalid("a voxel size of " + shortest(voxel_size) + " needs more than " +
+                     std::to_string(kMaxBits) + " bits for an extent of " + shortest(extent));
     if (points > 1 && last == 0) return one_voxel;
     while (last >= double(1 << grid.bits)) ++grid.bits;
     return grid;

@@ -105,6 +105,25 @@ TEST_F(BadCaptureTest, CloudsThatCannotBeUsed) {
   expect_refused(4, "tiny", "");  // outside every frustum
 }
 
+TEST_F(BadCaptureTest, ASplitWithoutImages) {
+  json changed = cameras();
+  changed["splits"]["dense"] = json::array();
+  set_cameras(changed);
+  expect_refused(4, "tiny", "split dense has no images");
+}
+
+TEST_F(BadCaptureTest, WhatIsSmallIsNotSaidToBeZero) {
+  expect_failure(slf("encode tiny -o x.slf --voxel-size 1e-9 --effort 1 --quiet"), 4, "tiny",
+                 "a voxel size of 1e-09");
+}
+
+TEST_F(BadCaptureTest, OfJsonTheCauseIsSaid) {
+  std::string text = cameras().dump();
+  text.replace(text.find("\"t\":[") + 5, 0, "NaN,");
+  write("tiny/cameras.json", text);
+  expect_refused(4, "cameras.json", "invalid literal");
+}
+
 TEST_F(BadCaptureTest, UnknownSplit) {
   expect_failure(slf("encode tiny -o a.slf --split nonsense --quiet"), 2, "nonsense", "");
 }

@@ -18,19 +18,24 @@ std::string last_name(const std::string& path) {
                                  : full.filename().string();
 }
 
-Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
-                                                const EncodeOptions& given) {
-  if (!capture.cameras.empty()) return from(given.capture, split_cameras(capture, given.split));
-  if (!given.split.empty())
-    return Failure{kUsage, std::string(given.verb) + ": --split " + given.split +
-                               ": the capture has no cameras"};
-  return std::vector<int>{};
-}
-
 /// What split_cameras made of "".
 std::string split_name(const Capture& capture, const std::string& given) {
   if (!given.empty()) return given;
   return capture.splits.count("dense") ? "dense" : "default";
+}
+
+Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
+                                                const EncodeOptions& given) {
+  if (!capture.cameras.empty()) {
+    SLF_TRY(auto cameras, from(given.capture, split_cameras(capture, given.split)));
+    if (!cameras.empty()) return cameras;
+    return Failure{kInputInvalid, given.capture + ": its split " +
+                                      split_name(capture, given.split) + " has no images"};
+  }
+  if (!given.split.empty())
+    return Failure{kUsage, std::string(given.verb) + ": --split " + given.split +
+                               ": the capture has no cameras"};
+  return std::vector<int>{};
 }
 
 }  // namespace
