@@ -66,7 +66,7 @@ Result<std::size_t, InputError> InputFile::read(std::span<std::uint8_t> to) {
 
 Result<std::vector<std::uint8_t>, InputError> InputFile::read_rest(std::uint64_t max_bytes) {
   const InputError too_large{
-      Errc::kInvalidInput,
+      Errc::kLimitExceeded,
       name_.string() + ": larger than the " + std::to_string(max_bytes) + " bytes accepted here"};
   if (size_ > max_bytes) return too_large;
   std::vector<std::uint8_t> bytes;

@@ -20,7 +20,7 @@ class InputFile {
   /// "-" is standard input.
   /// @param max_held  bytes, of what is no regular file
   /// @errors kUnreadable: not there, a directory, a device or pipe that the caller did not open;
-  ///         kInvalidInput: it gives more than max_held
+  ///         kLimitExceeded: it gives more than max_held
   static Result<InputFile, InputError> open(const std::filesystem::path& file,
                                             std::uint64_t max_held = kMostBytes);
 
@@ -31,7 +31,7 @@ class InputFile {
   /// @errors kUnreadable
   Result<std::size_t, InputError> read(std::span<std::uint8_t> to);
   /// All that is left.
-  /// @errors kUnreadable; kInvalidInput: more than max_bytes
+  /// @errors kUnreadable; kLimitExceeded: more than max_bytes
   Result<std::vector<std::uint8_t>, InputError> read_rest(std::uint64_t max_bytes);
 
  private:

@@ -3,6 +3,7 @@
 
 #include "codec/assemble.h"
 #include "codec/base_decoder.h"
+#include "codec/decode_cost.h"
 #include "codec/scene_units.h"
 #include "codec/selection.h"
 #include "codec/sequence_plan.h"
@@ -41,10 +42,12 @@ Result<std::vector<CodedUnit>> select(const Units& units, const SequenceParamete
 
 /// Only headers and the geometry of the base are decoded, and that only where a region asks for it.
 Result<Done> choose_by_region(const SceneUnits& scene, const SequencePlan& plan,
-                              Selection& selection) {
+                              const DecodeOptions& options, Selection& selection) {
   if (!plan.region || !plan.has_base() || scene.slices.empty()) return Done{};
   SLF_TRY(const Base base, decode_base_geometry(scene.base, plan));
-  if (base.is_known(plan)) selection.choose_slices(base);
+  if (!base.is_known(plan)) return Done{};
+  selection.choose_slices(base);
+  if (!plan.base_alone()) SLF_CHECK(check_limits_of_slices(plan, options, selection.slices()));
   return Done{};
 }
 
@@ -61,7 +64,7 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
     (assemble(set, units.first(middle), boxes).size() <= max_bytes ? fits : too_many) = middle;
   }
   auto some = assemble(set, units.first(fits), boxes);
-  if (some.size() > max_bytes) return Error{Errc::kLimitExceeded, "max_bytes"};
+  if (some.size() > max_bytes) return Error{Errc::kInvalidArgument, "max_bytes"};
   return some;
 }
 
@@ -76,8 +79,9 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
   SLF_CHECK(check_index(units, set, scene.slices.size()));
   SLF_CHECK(collect_metadata(units));
   SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));
+  SLF_CHECK(check_limits(plan, options));
   Selection selection(plan);
-  SLF_CHECK(choose_by_region(scene, plan, selection));
+  SLF_CHECK(choose_by_region(scene, plan, options, selection));
   SLF_TRY(std::vector<CodedUnit> kept, select(units, set, selection));
   SLF_TRY(const auto index, find_index(units, set));
   std::optional<std::vector<CellBox>> boxes;

@@ -27,8 +27,11 @@ class LimitsTest : public CliTest {
     ASSERT_EQ(cut.err.find("warning"), std::string::npos);
   }
 
-  static constexpr std::array<const char*, 4> kVerbs = {"info FILE", "decode FILE -o out.ply",
+  static constexpr std::array<const char*, 6> kVerbs = {"info FILE",
+                                                        "decode FILE -o out.ply",
                                                         "render FILE -o out.png --size 16x16",
+                                                        "export FILE -o out.spz",
+                                                        "export FILE --mean -o out.ply",
                                                         "truncate FILE --groups 1 -o out.slf"};
 
   static std::string with(const char* verb, const std::string& file) {
@@ -46,7 +49,8 @@ TEST_F(LimitsTest, PartialFilesSaySoInEveryVerb) {
           << verb << ran.err;
       const Ran as_json = slf(with(verb, file) + " --json");
       EXPECT_EQ(parsed(as_json.out)["partial"], true) << verb;
-      EXPECT_EQ(parsed(slf(with(verb, "good.slf") + " --json").out)["partial"], false) << verb;
+      const bool cuts = std::string_view(verb).starts_with("truncate");
+      EXPECT_EQ(parsed(slf(with(verb, "good.slf") + " --json").out)["partial"], cuts) << verb;
     }
 }
 
@@ -61,14 +65,64 @@ TEST_F(LimitsTest, StrictRefusesPartialFiles) {
 }
 
 TEST_F(LimitsTest, AreNamedWithWhatTheFileTakes) {
-  for (const char* verb : {"decode FILE -o out.ply", "render FILE -o out.png"}) {
+  for (const char* verb :
+       {"decode FILE -o out.ply", "render FILE -o out.png", "info FILE", "info FILE --syntax",
+        "truncate FILE -o out.slf", "truncate FILE --region 0,0,0,9,9,9 -o out.slf"}) {
     const std::string command = with(verb, "good.slf");
     expect_failure(slf(command + " --max-memory 64K"), 5, "good.slf", "--max-memory");
     expect_failure(slf(command + " --max-points 10"), 5, "good.slf", "--max-points");
     expect_failure(slf(command + " --max-work 100"), 5, "good.slf", "--max-work");
   }
   EXPECT_EQ(slf("decode good.slf -o out.ply --max-memory 1G --max-points 100000").code, 0);
-  EXPECT_EQ(slf("decode good.slf -o out.ply --max-memory none").code, 2);
+  EXPECT_FALSE(exists("out.slf"));
+}
+
+TEST_F(LimitsTest, OfMemoryAreWholeNumbersOfBytes) {
+  for (const char* wrong : {"none", "-1", "-5", "-1M", "0", "1.5M", "8E", "99999999999T", "1KB"})
+    expect_failure(slf("decode good.slf -o out.ply --max-memory=" + std::string(wrong)), 2, wrong,
+                   "--max-memory");
+  for (const char* right : {"100000000", "100000K", "100m", "1G", "1T"})
+    EXPECT_EQ(slf("decode good.slf -o out.ply --max-memory=" + std::string(right)).code, 0);
+}
+
+TEST_F(LimitsTest, AFileLargerThanTheMemoryIsALimitToo) {
+  const auto bytes = std::to_string(read("good.slf").size() - 1);
+  for (const char* verb : {"info FILE", "decode FILE -o out.ply"})
+    expect_failure(slf(with(verb, "good.slf") + " --max-memory " + bytes), 5, "good.slf",
+                   "bytes of --max-memory");
+}
+
+TEST_F(LimitsTest, APartOfAFileBeyondThemCanBeCutOut) {
+  const json whole = parsed(slf("info good.slf --json -j 1").out)["decode"];
+  const std::uint64_t work = whole["work"];
+  const std::string less = " --max-work " + std::to_string(work - 1);
+  expect_failure(slf("truncate good.slf -o part.slf" + less), 5, "good.slf", "--max-work");
+  EXPECT_EQ(slf("truncate good.slf --levels 1 -o part.slf" + less).code, 0);
+}
+
+TEST_F(LimitsTest, BytesWithoutRoomForTheHeadersAreAUsageError) {
+  for (const char* verb : {"decode FILE -o out.ply", "truncate FILE -o out.slf"})
+    expect_failure(slf(with(verb, "good.slf") + " --max-bytes 10"), 2, "good.slf",
+                   "--max-bytes 10 has no room for its headers");
+}
+
+TEST_F(LimitsTest, NothingIsNotRendered) {
+  expect_failure(slf("render good.slf --region 1000,1000,1000,1001,1001,1001 -o out.png"), 4,
+                 "good.slf", "no points");
+  EXPECT_FALSE(exists("out.png"));
+  const Ran part = slf("render good.slf --levels 3 --size 16x16 -o out.png");
+  EXPECT_NE(part.err.find("PARTIAL"), std::string::npos) << part.err;
+}
+
+TEST_F(LimitsTest, InfoSaysWhatWasKept) {
+  ASSERT_EQ(slf("truncate good.slf --max-bytes " + std::to_string(read("good.slf").size() / 2) +
+                " -o half.slf")
+                .code,
+            0);
+  const std::string said = slf("info half.slf --quiet").out;
+  EXPECT_NE(said.find("groups all, layers all, slices all; its end may be cut"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("bits per point of the whole"), std::string::npos) << said;
 }
 
 TEST_F(LimitsTest, InfoForetellsMemory) {
@@ -107,7 +161,7 @@ TEST_F(LimitsTest, PipesAndDevicesAreNotWaitedFor) {
   // What the caller opened may be a pipe.
   EXPECT_EQ(shell("cat good.slf | '" SLF_PROGRAM "' info -").code, 0);
   EXPECT_EQ(shell("cat good.slf | '" SLF_PROGRAM "' info /dev/stdin").code, 0);
-  EXPECT_EQ(slf("info - --max-memory 1M < /dev/zero", kFourGigabytes).code, 4);
+  EXPECT_EQ(slf("info - --max-memory 1M < /dev/zero", kFourGigabytes).code, 5);
 }
 
 TEST_F(TinyCaptureTest, APipeAsImageIsRefused) {
@@ -161,12 +215,29 @@ TEST_F(LimitsTest, ADumpIsThereWholeOrNotAtAll) {
   ASSERT_EQ(slf("decode good.slf --dump dump").code, 0);
   const std::string components = read("dump/components.npy");
   const Ran full = slf("decode cut.slf --dump dump --quiet", "ulimit -f 1;");
-  expect_failure(full, 7, "dump", "cannot be written");
+  expect_failure(full, 7, "dump/", "cannot be written");
+  EXPECT_EQ(full.err.find(".tmp"), std::string::npos) << full.err;
   EXPECT_EQ(read("dump/positions.npy"), positions);
   EXPECT_EQ(read("dump/components.npy"), components);
   EXPECT_TRUE(leftovers().empty());
   expect_failure(slf("decode good.slf --dump fresh", "ulimit -f 1;"), 7, "fresh", "");
   EXPECT_FALSE(exists("fresh"));
+}
+
+TEST_F(LimitsTest, ADirectoryThatCannotBeLookedAtIsAFailedWrite) {
+  const std::string long_name(300, 'a');
+  expect_failure(slf("decode good.slf --dump " + long_name), 7, long_name, "cannot be written");
+  expect_failure(slf("decode good.slf -o good.slf/x.ply"), 7, "good.slf", "is not a directory");
+}
+
+TEST_F(LimitsTest, LinesOfTextFromFilesEnd) {
+  CodingParameters parameters = conformance::with_steps(1, 4);
+  parameters.metadata = {{"long", std::string(100000, 'x')}};
+  const auto stream = *pack(conformance::field(conformance::sphere(3), 3, 1), parameters);
+  write("long.slf", {stream.begin(), stream.end()});
+  const std::string shown = slf("info long.slf").out;
+  EXPECT_LT(shown.size(), 10000u);
+  EXPECT_NE(shown.find("95,904 more bytes"), std::string::npos) << shown;
 }
 
 TEST_F(LimitsTest, ADumpLeavesWhatElseIsInADirectory) {

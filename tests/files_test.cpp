@@ -103,7 +103,7 @@ TEST(ReadFile, RefusesMoreThanTheLimitAndDirectories) {
   EXPECT_TRUE(read_file(directory / "a", 5));
   const auto large = read_file(directory / "a", 4);
   ASSERT_FALSE(large);
-  EXPECT_EQ(large.error().code, Errc::kInvalidInput);
+  EXPECT_EQ(large.error().code, Errc::kLimitExceeded);
   const auto folder = read_file(directory.path());
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.error().code, Errc::kUnreadable);

@@ -1,6 +1,7 @@
 #include "tools/options.h"
 
 #include <charconv>
+#include <string_view>
 
 namespace slf::tools {
 namespace {
@@ -9,6 +10,8 @@ std::string shown(double number) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
 }
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 }  // namespace
 
@@ -38,6 +41,27 @@ CLI::Validator whole_range(std::int64_t low, std::int64_t high) {
         return std::string();
       },
       between);
+}
+
+CLI::Validator byte_range(std::int64_t low, std::int64_t high) {
+  const std::string between = std::to_string(low) + " to " + std::to_string(high);
+  const auto check = [=](std::string& given) {
+    constexpr std::string_view kUnits = "KMGT";
+    std::string_view digits = given;
+    const std::size_t unit = digits.empty() ? kUnits.npos : kUnits.find(upper(digits.back()));
+    const int shift = unit == kUnits.npos ? 0 : 10 * static_cast<int>(unit + 1);
+    if (unit != kUnits.npos) digits.remove_suffix(1);
+    std::int64_t number = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [stopped, error] = std::from_chars(digits.data(), end, number);
+    if (error == std::errc::invalid_argument || stopped != end)
+      return given + " is not a whole number of bytes, alone or with K, M, G or T behind it";
+    if (error != std::errc() || number < 0 || number > high >> shift || number << shift < low)
+      return given + " is not in the range " + between;
+    given = std::to_string(number << shift);
+    return std::string();
+  };
+  return CLI::Validator(check, between);
 }
 
 void add_threads(CLI::App& verb, CommonOptions& options) {

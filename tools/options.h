@@ -13,6 +13,9 @@ namespace slf::tools {
 /// A number from low to high, both included. NaN and infinities are outside every range.
 CLI::Validator range(double low, double high);
 CLI::Validator whole_range(std::int64_t low, std::int64_t high);
+/// Bytes within the same: a whole number, with K, M, G or T for powers of 1024 where wanted. What
+/// is given becomes plain digits.
+CLI::Validator byte_range(std::int64_t low, std::int64_t high);
 
 /// -j, --quiet and --json.
 struct CommonOptions {

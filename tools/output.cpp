@@ -30,6 +30,8 @@ Outcome check_output(const std::string& file) {
     return Done{};  // a device, a pipe
   fs::path directory = fs::path(file).parent_path();
   if (directory.empty()) directory = ".";
+  if (fs::exists(directory, ignored) && !fs::is_directory(directory, ignored))
+    return Failure{kWriteFailed, file + ": " + directory.string() + " is not a directory"};
   if (!fs::is_directory(directory, ignored))
     return Failure{kWriteFailed,
                    file + ": the directory " + directory.string() + " does not exist"};

@@ -19,6 +19,20 @@ Failure unwritable(const fs::path& directory, const std::error_code& error) {
   return {kWriteFailed, directory.string() + ": cannot be written: " + error.message()};
 }
 
+/// What is not there is none, and no error.
+bool is_link(const fs::path& path, std::error_code& error) {
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (status.type() == fs::file_type::not_found) error.clear();
+  return fs::is_symlink(status);
+}
+
+/// A temporary name tells nobody anything.
+Failure named_as(const std::string& directory, const std::string& temporary, Failure failure) {
+  if (const auto at = failure.message.find(temporary); at != std::string::npos)
+    failure.message.replace(at, temporary.size(), directory);
+  return failure;
+}
+
 /// A directory of its own, gone with this unless it was put in place.
 class Temporary {
  public:
@@ -96,14 +110,15 @@ Outcome save_directory(const std::string& directory, const std::vector<std::stri
   std::error_code error;
   fs::path target = fs::absolute(directory, error).lexically_normal();
   if (!target.has_filename()) target = target.parent_path();  // "dump/"
-  if (!error && fs::is_symlink(fs::symlink_status(target))) target = fs::canonical(target, error);
+  if (!error && is_link(target, error)) target = fs::canonical(target, error);
   if (!error) fs::create_directories(target.parent_path(), error);
   if (error) return unwritable(directory, error);
   if (fs::exists(target, error) && !fs::is_directory(target, error))
     return Failure{kWriteFailed, directory + ": is not a directory"};
   Temporary made(target);
   if (made.error()) return unwritable(directory, made.error());
-  SLF_CHECK(write(made.path().string()));
+  if (auto written = write(made.path().string()); !written)
+    return named_as(directory, made.path().string(), written.error());
   put_in_place(made, target, names, error);
   if (error) return unwritable(directory, error);
   return Done{};

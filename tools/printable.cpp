@@ -38,11 +38,15 @@ bool steers(std::uint32_t c) {
          (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
+constexpr std::size_t kMostPrintable = 4096;  // bytes: names of files are shorter
+
 }  // namespace
 
 std::string printable(const std::string& foreign) {
   std::string out;
   for (std::size_t at = 0; at < foreign.size();) {
+    if (out.size() >= kMostPrintable)
+      return out + "... (" + grouped(foreign.size() - at) + " more bytes)";
     const Character c = character_at(foreign, at);
     if (c.bytes == 0 || steers(c.code)) {
       out += '?';

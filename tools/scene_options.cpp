@@ -31,8 +31,7 @@ void add_work(CLI::App& verb, SceneOptions& o) {
                   "Code the scene slice by slice within so many bytes (K, M and G are 2^10, 2^20, "
                   "2^30): at least 256M")
       ->type_name("BYTES")
-      ->transform(CLI::AsSizeValue(false))
-      ->check(whole_range(std::int64_t{1} << 28, std::int64_t{1} << 50));
+      ->transform(byte_range(std::int64_t{1} << 28, std::int64_t{1} << 50));
   verb.add_option("--work", o.work,
                   "Directory for points, depth maps and slices that are done; parts may share it. "
                   "None: FILE.work, removed at the end")

@@ -46,7 +46,7 @@ void add_limits(CLI::App& verb, LimitOptions& options) {
                   "1024. slf info tells what a file takes")
       ->type_name("BYTES")
       ->default_str("1G")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(byte_range(1, std::int64_t{1} << 60))
       ->group(group);
   verb.add_option("--max-points", limits.max_points, "Points of a file at most")
       ->type_name("N")
@@ -69,8 +69,13 @@ bool is_partial(const StreamInfo& info) { return !info.complete || info.cut.has_
 
 Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
                                                       const LimitOptions& given) {
-  const std::uint64_t most = std::min(given.limits.max_stream_bytes, given.limits.max_memory);
-  return from(input_name(file), read_file(file, most));
+  const DecodeLimits& limits = given.limits;
+  auto bytes = read_file(file, std::min(limits.max_stream_bytes, limits.max_memory));
+  if (!bytes && bytes.error().code == Errc::kLimitExceeded &&
+      limits.max_memory < limits.max_stream_bytes)
+    return Failure{kLimitExceeded, input_name(file) + ": larger than the " +
+                                       grouped(limits.max_memory) + " bytes of --max-memory"};
+  return from(input_name(file), std::move(bytes));
 }
 
 Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
@@ -109,6 +114,11 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
     return cost && error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
   };
   const std::string name = input_name(file) + ": ";
+  // Of the whole file headers were read: what is cut off is cut off by --max-bytes.
+  const bool too_few = options.max_bytes > 0 && !cost && error.code == Errc::kTruncated;
+  if (too_few || std::strcmp(error.element, "max_bytes") == 0)
+    return {kUsage, name + "--max-bytes " + std::to_string(options.max_bytes) +
+                        " has no room for its headers"};
   if (options.region && beyond("max_memory"))
     return {kLimitExceeded, name + "what the region meets takes more than the " +
                                 mebibytes(options.limits.max_memory) + " MiB of --max-memory"};
@@ -140,9 +150,10 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
 
 Outcome require_view_maps(const LightField& field, const std::string& file) {
   if (field.header.has_basis && field.header.num_functions > 0) return Done{};
-  return Failure{kInputInvalid, input_name(file) +
-                                    ": holds integer planes without a basis, so it has no colours "
-                                    "(slf decode reads it)"};
+  const char* what =
+      field.header.num_functions == 0 ? "geometry alone" : "integer planes without a basis";
+  return Failure{kInputInvalid, input_name(file) + ": holds " + what +
+                                    ", so it has no colours (slf decode reads it)"};
 }
 
 }  // namespace slf::tools

@@ -56,7 +56,8 @@ struct DecodedFile {
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          const LimitOptions& given, const CommonOptions& common);
 
-/// A failure for verbs that need view maps, where the file holds integer planes without a meaning.
+/// A failure for verbs that need view maps, where the file holds geometry alone, or integer planes
+/// without a meaning.
 Outcome require_view_maps(const LightField& field, const std::string& file);
 
 }  // namespace slf::tools

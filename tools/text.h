@@ -18,7 +18,8 @@ namespace slf::tools {
 std::string grouped(std::uint64_t number);
 
 /// A foreign text that cannot steer a terminal: control characters (C0, DEL, C1), those that turn
-/// the direction of writing, and what is not UTF-8 become '?'.
+/// the direction of writing, and what is not UTF-8 become '?'. What is longer than 4,096 bytes is
+/// cut, and says so.
 std::string printable(const std::string& foreign);
 
 /// To standard output, flushed; a full disk or a closed pipe is a failure.

@@ -57,7 +57,7 @@ nlohmann::ordered_json decibels(double psnr) {
 }
 
 Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
-               const SplatLoss& loss) {
+               const SplatLoss& loss, bool partial) {
   const double each = static_cast<double>(bytes) / static_cast<double>(splats.size());
   if (given.common.json)
     return print(
@@ -70,14 +70,15 @@ Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t
                                {"channel_psnr",
                                 {decibels(loss.channel_psnr[0]), decibels(loss.channel_psnr[1]),
                                  decibels(loss.channel_psnr[2])}},
-                               {"psnr_one_colour", decibels(loss.psnr_one_colour)}});
+                               {"psnr_one_colour", decibels(loss.psnr_one_colour)},
+                               {"partial", partial}});
   if (given.common.quiet) return Done{};
   std::fprintf(
       stderr,
       "%s splats, %s bytes (%.1f each); colours over directions: PSNR %.2f dB with harmonics "
-      "up to degree %d, %.2f dB with one colour a point\n",
+      "up to degree %d, %.2f dB with one colour a point%s\n",
       grouped(splats.size()).c_str(), grouped(bytes).c_str(), each, loss.psnr, splats.degree,
-      loss.psnr_one_colour);
+      loss.psnr_one_colour, partial ? "; PARTIAL" : "");
   if (splats.origin != Vec3{0, 0, 0})
     warn(text("positions are from %.17g, %.17g, %.17g of the world, since floats cannot hold them",
               splats.origin[0], splats.origin[1], splats.origin[2]),
@@ -89,12 +90,15 @@ Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t
 Outcome export_points(const ExportOptions& given) {
   SLF_TRY(const DecodedFile decoded,
           decode_file(given.input, given.part, given.limits, given.common));
+  SLF_CHECK(require_view_maps(decoded.field, given.input));
   SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
   if (given.common.json)
-    return print(nlohmann::ordered_json{{"points", decoded.field.num_points()}});
+    return print(nlohmann::ordered_json{{"points", decoded.field.num_points()},
+                                        {"partial", decoded.field.partial}});
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s points with their mean colour\n",
-                 grouped(decoded.field.num_points()).c_str());
+    std::fprintf(stderr, "%s points with their mean colour%s\n",
+                 grouped(decoded.field.num_points()).c_str(),
+                 decoded.field.partial ? ", PARTIAL" : "");
   return Done{};
 }
 
@@ -109,7 +113,8 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   if (given.common.quiet && !given.common.json) return Done{};
   return report(given, splats, bytes.size(),
-                splat_loss(maps, as_stored(splats, format), given.common.threads));
+                splat_loss(maps, as_stored(splats, format), given.common.threads),
+                decoded.field.partial);
 }
 
 Outcome run_export(const ExportOptions& given) {

@@ -150,8 +150,10 @@ Outcome run_html(const HtmlOptions& given) {
                         {"file", file}});
   SLF_CHECK(save(given.output, page));
   if (given.common.json)
-    return print(nlohmann::ordered_json{
-        {"bytes", page.size()}, {"file", file.size()}, {"poster", poster.size()}});
+    return print(nlohmann::ordered_json{{"bytes", page.size()},
+                                        {"file", file.size()},
+                                        {"poster", poster.size()},
+                                        {"partial", field.partial}});
   if (!given.common.quiet)
     std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
                  grouped(page.size()).c_str(), grouped(file.size()).c_str());
@@ -173,8 +175,9 @@ void add_html(CLI::App& program, Run& run) {
   verb->add_option("--title", o->title, "Of the page; default: the file's own, else its name")
       ->type_name("TEXT");
   auto* camera =
-      verb->add_option("--camera", o->camera,
-                       "First view: cameras.json, cameras.json:NAME or cameras.json:INDEX")
+      verb->add_option(
+              "--camera", o->camera,
+              "First view: cameras.json:NAME or cameras.json:INDEX; cameras.json alone: its first")
           ->type_name("FILE[:WHICH]");
   for (auto* option :
        {verb->add_option("--azimuth", o->azimuth, "Of the first view, degrees")

@@ -15,6 +15,7 @@ struct InfoOptions {
   std::string input;
   bool units = false, syntax = false;
   LimitOptions limits;
+  DecodeLimits asked = DecodeLimits::none();  ///< of limits those that were given
   CommonOptions common;
 };
 
@@ -69,13 +70,22 @@ nlohmann::ordered_json transforms_json(const StreamInfo& info) {
   return list;
 }
 
-/// What decoding the whole file takes, the file itself included.
-Result<DecodeCost, Failure> cost_with_file(const StreamFile& file, const InfoOptions& given) {
+/// What decoding the whole file takes.
+Result<DecodeCost, Failure> cost_of(const StreamFile& file, const InfoOptions& given) {
   const DecodeOptions options = decode_options(file.info, {}, given.limits, given.common);
-  SLF_TRY(DecodeCost cost, from(input_name(given.input), decode_cost(file.bytes, options)));
-  cost.memory += file.bytes.size();
-  cost.memory_most += file.bytes.size();
-  return cost;
+  return from(input_name(given.input), decode_cost(file.bytes, options));
+}
+
+/// What decoding takes is told of any file; limits that were given are held against it.
+Outcome check_limits(const StreamFile& file, const DecodeCost& cost, const InfoOptions& given) {
+  const DecodeLimits& asked = given.asked;
+  const char* beyond = file.info.num_points > asked.max_points ? "max_points"
+                       : cost.memory_most > asked.max_memory   ? "max_memory"
+                       : cost.work > asked.max_work            ? "max_work"
+                                                               : nullptr;
+  if (beyond == nullptr) return Done{};
+  const DecodeOptions options = decode_options(file.info, {}, given.limits, given.common);
+  return decode_failure(given.input, {Errc::kLimitExceeded, beyond}, file, options);
 }
 
 nlohmann::ordered_json decode_cost_json(const DecodeCost& cost) {
@@ -159,27 +169,30 @@ std::string groups_text(const StreamInfo& info) {
     for (const UnitInfo& unit : info.units)
       if (unit.group == g) bytes += unit.bytes;
     const int layers = info.layers[static_cast<std::size_t>(g)];
-    out += text("  group %-3d %5d functions, steps %u to %u, %s%s bytes\n", g,
-                static_cast<int>(members), low, high,
+    out += text("  group %-3d %5d function%s steps %u to %u, %s%s bytes\n", g,
+                static_cast<int>(members), members == 1 ? ", " : "s,", low, high,
                 layers > 1 ? text("%d layers, ", layers).c_str() : "", grouped(bytes).c_str());
   }
   return out;
 }
 
 std::string cut_text(const CutInfo& cut) {
-  return text("  cut           to %d levels, %s groups%s%s\n", cut.levels,
-              cut.groups > 0 ? std::to_string(cut.groups).c_str() : "all",
-              cut.layers > 0 ? text(", %d layers", cut.layers).c_str() : "",
-              cut.slices ? ", some of the slices" : "");
+  const auto left = [](int count) { return count > 0 ? std::to_string(count) : "all"; };
+  return text(
+      "  cut           to levels %d, groups %s, layers %s, slices %s; its end may be cut too\n",
+      cut.levels, left(cut.groups).c_str(), left(cut.layers).c_str(), cut.slices ? "some" : "all");
 }
 
 std::string base_text(const StreamInfo& info) {
   constexpr const char* how[] = {"after the first", "each alone", "apart"};
   const auto base = base_json(info);
-  return text("  base          %d levels, %s cells, %s bytes; slices %s\n", info.base_levels,
+  const std::string slices =
+      info.num_slices > 1
+          ? std::string("; slices ") + how[static_cast<std::size_t>(info.slice_start)]
+          : "";
+  return text("  base          %d levels, %s cells, %s bytes%s\n", info.base_levels,
               grouped(base["cells"].get<std::uint64_t>()).c_str(),
-              grouped(base["bytes"].get<std::uint64_t>()).c_str(),
-              how[static_cast<std::size_t>(info.slice_start)]);
+              grouped(base["bytes"].get<std::uint64_t>()).c_str(), slices.c_str());
 }
 
 std::string slices_text(const StreamInfo& info) {
@@ -202,9 +215,10 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
                     text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
                          info.profile, info.level) +
                     (info.complete ? "\n" : ", CUT SHORT (no end unit)\n");
-  out += text("  points        %s in %llu slice%s, %.3f bits per point\n",
+  out += text("  points        %s in %llu slice%s, %.3f bits per point%s\n",
               grouped(info.num_points).c_str(), static_cast<unsigned long long>(info.num_slices),
-              info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points));
+              info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points),
+              is_partial(info) ? " of the whole" : "");
   if (info.base_levels > 0) out += base_text(info);
   if (info.cut) out += cut_text(*info.cut);
   out += cost_text(cost);
@@ -230,10 +244,14 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
 
 Outcome run_info(const InfoOptions& given) {
   SLF_TRY(const StreamFile file, read_stream(given.input, given.limits, given.common));
+  auto cost = cost_of(file, given);
+  if (cost) SLF_CHECK(check_limits(file, *cost, given));
   if (given.syntax) return print_syntax(file.bytes, given.input, given.common.json);
-  SLF_TRY(const DecodeCost cost, cost_with_file(file, given));
-  if (given.common.json) return print(info_json(file.info, file.bytes.size(), cost));
-  return print(info_text(file.info, given.input, file.bytes.size(), given.units, cost));
+  if (!cost) return cost.error();
+  cost->memory += file.bytes.size();
+  cost->memory_most += file.bytes.size();
+  if (given.common.json) return print(info_json(file.info, file.bytes.size(), *cost));
+  return print(info_text(file.info, given.input, file.bytes.size(), given.units, *cost));
 }
 
 }  // namespace
@@ -249,12 +267,22 @@ void add_info(CLI::App& program, Run& run) {
   verb->add_flag("--syntax", o->syntax,
                  "Print every element of the headers with its byte and bit, coding and value");
   add_limits(*verb, o->limits);
+  for (const char* limit : {"--max-memory", "--max-points", "--max-work"})
+    verb->get_option(limit)->group(
+        "Limits (info tells of any file; those given refuse, exit code 5)");
+  verb->get_option("--strict")->group(verb->get_option("--max-memory")->get_group());
   add_threads(*verb, o->common);
   verb->get_option("--threads")->description("Threads of the decoding whose memory is told");
   add_quiet(*verb, o->common);
   verb->get_option("--quiet")->description("No warnings");
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_info(*o); }; });
+  verb->callback([&run, o, verb] {
+    const DecodeLimits& limits = o->limits.limits;
+    if (verb->count("--max-memory") > 0) o->asked.max_memory = limits.max_memory;
+    if (verb->count("--max-points") > 0) o->asked.max_points = limits.max_points;
+    if (verb->count("--max-work") > 0) o->asked.max_work = limits.max_work;
+    run = [o] { return run_info(*o); };
+  });
 }
 
 }  // namespace slf::tools

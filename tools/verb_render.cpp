@@ -44,17 +44,17 @@ bool parse_background(const std::string& given, std::array<std::uint8_t, 3>& rgb
   return at == end;
 }
 
-/// Name of view i: "%03d" or "%d" of the pattern replaced, or i.png within a directory.
-/// @return empty where the pattern has no such place
+/// Name of view i: "%03d" or "%d" of the pattern replaced, or i.png within a directory; else the
+/// pattern.
 std::string numbered(const std::string& pattern, int i) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(pattern, ignored) || pattern.back() == '/')
+  if (std::filesystem::is_directory(pattern, ignored) || pattern.ends_with('/'))
     return inside(pattern, text("%03d.png", i));
   const std::size_t percent = pattern.find('%');
-  if (percent == std::string::npos) return {};
+  if (percent == std::string::npos) return pattern;
   std::size_t d = percent + 1;
   while (d < pattern.size() && pattern[d] >= '0' && pattern[d] <= '9') ++d;
-  if (d == pattern.size() || pattern[d] != 'd' || d > percent + 3) return {};
+  if (d == pattern.size() || pattern[d] != 'd' || d > percent + 3) return pattern;
   const std::string width = pattern.substr(percent + 1, d - percent - 1);
   std::string number = std::to_string(i);
   const std::size_t digits = width.empty() ? 0 : static_cast<std::size_t>(std::stoi(width));
@@ -70,9 +70,9 @@ Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
   std::vector<View> views;
   for (int i = 0; i < count; ++i) {
     const double turn = given.azimuth / 360 + static_cast<double>(i) / count;
-    View view{renderer.orbit(turn, given.elevation, width, height, given.fov), given.output};
+    View view{renderer.orbit(turn, given.elevation, width, height, given.fov),
+              given.sheet ? given.output : numbered(given.output, i)};
     view.camera.name = text("orbit %d of %d", i + 1, count);
-    if (count > 1 && !given.sheet) view.file = numbered(given.output, i);
     views.push_back(std::move(view));
   }
   return views;
@@ -81,7 +81,8 @@ Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
 View camera_view(const RenderOptions& given, Camera camera) {
   int width = camera.width, height = camera.height;
   if (!given.size.empty()) parse_size(given.size, width, height);
-  return {resized(std::move(camera), width, height), given.output};
+  return {resized(std::move(camera), width, height),
+          given.pair ? given.output : numbered(given.output, 0)};
 }
 
 /// Colours freed of the black that the renderer composed them with, and coverage as alpha.
@@ -127,12 +128,12 @@ Outcome check_options(const RenderOptions& given) {
     return Failure{kUsage, "render: --sheet is not transparent"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "render: --json and --output - both want standard output"};
-  if (given.orbit <= 1 || given.sheet) return check_output(given.output);
+  if (given.sheet || given.pair) return check_output(given.output);
   const std::string first = numbered(given.output, 0);
-  if (first.empty())
+  if (given.orbit > 1 && first == given.output)
     return Failure{kUsage, "render: --output " + given.output +
                                " is neither a directory nor has a %d for the view's number"};
-  if (given.output.back() == '/') SLF_CHECK(make_directory(given.output));
+  if (given.output.ends_with('/')) SLF_CHECK(make_directory(given.output));
   return check_output(first);
 }
 
@@ -163,9 +164,9 @@ Outcome report(const RenderOptions& given, const std::vector<View>& views, const
                     {"size", {view.camera.width, view.camera.height}},
                     {"seconds", rendered.seconds[i]}});
     if (!given.common.quiet && !given.common.json)
-      std::fprintf(stderr, "%s: %s, %d x %d, %.3f s\n", output_name(view.file).c_str(),
+      std::fprintf(stderr, "%s: %s, %d x %d%s, %.3f s\n", output_name(view.file).c_str(),
                    printable(view.camera.name).c_str(), view.camera.width, view.camera.height,
-                   rendered.seconds[i]);
+                   partial ? ", PARTIAL" : "", rendered.seconds[i]);
   }
   if (!given.common.json) return Done{};
   return print(
@@ -202,6 +203,9 @@ Outcome run_render(const RenderOptions& given) {
   SLF_TRY(const DecodedFile decoded,
           decode_file(given.input, given.part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
+  if (decoded.field.num_points() == 0)
+    return Failure{kInputInvalid,
+                   input_name(given.input) + ": has no points, or none in what was asked for"};
   Stopwatch watch;
   const ViewMaps maps(decoded.field, given.common.threads);
   const RenderSettings settings = settings_of(given);
@@ -229,7 +233,8 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
   auto* orbit = verb.add_option("--orbit", o.orbit, "N views on a circle around the cloud")
                     ->check(whole_range(1, 1000));
   auto* camera =
-      verb.add_option("--camera", o.camera, "cameras.json, cameras.json:NAME or cameras.json:INDEX")
+      verb.add_option("--camera", o.camera,
+                      "cameras.json:NAME or cameras.json:INDEX; cameras.json alone: its first")
           ->type_name("FILE[:WHICH]")
           ->excludes(orbit);
   auto* capture = verb.add_option("--capture", o.capture, "A capture, for --image")
@@ -265,7 +270,8 @@ void add_render(CLI::App& program, Run& run) {
       ->required();
   verb->add_option(
           "-o,--output", o->output,
-          "PNG; - is standard output. Several views: a directory, or a name with %d or %03d")
+          "PNG; - is standard output. A directory, or %d or %03d in the name, has the number of "
+          "the view")
       ->required()
       ->type_name("FILE");
   add_view_options(*verb, *o);

@@ -27,10 +27,11 @@ Outcome run_truncate(const TruncateOptions& given) {
   const auto cut = truncate(stream.bytes, options);
   if (!cut) return decode_failure(given.input, cut.error(), stream, options);
   SLF_CHECK(save(given.output, cut->data(), cut->size()));
+  SLF_TRY(const StreamInfo left, from(output_name(given.output), read_info(*cut)));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},
                                         {"bytes", cut->size()},
-                                        {"partial", is_partial(stream.info)}});
+                                        {"partial", is_partial(left)}});
   if (!given.common.quiet)
     std::fprintf(stderr, "%s of %s bytes\n", grouped(cut->size()).c_str(),
                  grouped(stream.bytes.size()).c_str());

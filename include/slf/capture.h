@@ -164,7 +164,7 @@ Result<Done, InputError> write_ply(const std::filesystem::path& file, const Poin
 Result<Done, InputError> write_file(const std::filesystem::path& file, const void* data,
                                     std::size_t size);
 /// All bytes of a file; "-" is standard input.
-/// @errors kUnreadable; kInvalidInput: more than max_bytes
+/// @errors kUnreadable; kLimitExceeded: more than max_bytes
 Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
                                                         std::uint64_t max_bytes = std::uint64_t{1}
                                                                                   << 32);

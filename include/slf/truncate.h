@@ -15,10 +15,11 @@ namespace slf {
 /// decode() of the stream gives with them; without options the same for levels, groups and layers,
 /// and of a region all of the slices that meet it.
 /// @param options  max_bytes > 0: as many of the units that remain as fit into a file of so many
-///                 bytes; they come coarse first. threads, seconds: not used
+///                 bytes; they come coarse first. limits: of the decode of what is asked for,
+///                 whatever max_bytes. threads: those of that decode. seconds: not used
 /// Thread-safe. O(bytes); where a region is given, the geometry of the base is decoded.
-/// @errors those of headers as decode; kLimitExceeded also where not even the headers fit
-/// max_bytes.
+/// @errors those of headers as decode; kInvalidArgument also where max_bytes has no room for the
+///         headers
 Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
                                            const DecodeOptions& options);
 
