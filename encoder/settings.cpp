@@ -120,7 +120,7 @@ Outcome refuse(const Given& given, const char* name, const char* value, const ch
   return Done{};
 }
 
-/// What was given for another fit or basis than the one in force.
+/// What was given for another fit, basis or coder than the one in force.
 Outcome refuse_idle(const Given& given, const FitSettings& fit) {
   if (fit.method == FitMethod::kHierarchical) {
     SLF_CHECK(
@@ -135,6 +135,10 @@ Outcome refuse_idle(const Given& given, const FitSettings& fit) {
                       "point-penalty", "point-growth", "environment-degree", "environment-radius"},
                      of));
   }
+  if (!given.is("coefficients", "texture"))
+    SLF_CHECK(refuse(
+        given, {"texture-bits", "texture-qp", "texture-mode", "texture-preset", "texture-lossless"},
+        "--coefficients texture"));
   if (given.is("cross-validate", "off")) {
     SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
     SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));

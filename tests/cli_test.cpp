@@ -27,6 +27,7 @@ TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
 TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   expect_failure(slf(""), 2, "", "slf --help");
   expect_failure(slf("frobnicate"), 2, "frobnicate", "not a verb");
+  expect_failure(slf("encode a -o b -Q 3"), 2, "", "not expected: -Q 3");
   expect_failure(slf("info"), 2, "", "FILE is required");
   expect_failure(slf("encode a -o b --grid-bits 22"), 2, "--grid-bits", "1 to 21");
   expect_failure(slf("encode a -o b --effort 9"), 2, "--effort", "1 to 8");
@@ -47,6 +48,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   contradiction("--fit paper --basis harmonics", "--basis harmonics", "--fit hierarchical");
   contradiction("--fit paper --block-strength 1", "--block-strength", "--fit hierarchical");
   contradiction("--fit paper --cross-validate on", "--cross-validate", "--fit hierarchical");
+  contradiction("--texture-qp 5", "--texture-qp", "--coefficients texture");
   contradiction("--preset paper --effort 3", "--effort", "--preset default");
   contradiction("--fit paper --effort 3", "--effort", "--fit hierarchical");
   contradiction("--fit hierarchical --cross-validate off --frame auto", "--frame auto",
@@ -143,6 +145,18 @@ TEST_F(TinyCaptureTest, RendersOrbitsCamerasPairsAndSheets) {
   EXPECT_EQ(slf("render a.slf --transparent --diffuse-only --size 40x30 -o clear.png").code, 0);
   expect_failure(slf("render a.slf --camera tiny/cameras.json:none -o x.png"), 4, "cameras.json",
                  "no camera none");
+}
+
+TEST_F(TinyCaptureTest, OneViewIsNumberedAsSeveralAre) {
+  ASSERT_EQ(slf("encode tiny -o a.slf --effort 1 --grid-bits 5 --quiet").code, 0);
+  ASSERT_EQ(slf("render a.slf --orbit 1 --size 16x16 -o turn%03d.png").code, 0);
+  ASSERT_EQ(slf("render a.slf --camera tiny/cameras.json:1 --size 16x16 -o camera%d.png").code, 0);
+  EXPECT_TRUE(exists("turn000.png") && exists("camera0.png"));
+}
+
+TEST_F(CliTest, HelpThatCannotBeWrittenIsAFailedWrite) {
+  for (const char* asked : {"--version", "--help", "encode --help"})
+    expect_failure(slf(std::string(asked) + " >/dev/full"), 7, "standard output", "");
 }
 
 TEST_F(TinyCaptureTest, PartsOfAFileDecode) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 
 #include "tools/heap.h"
 #include "tools/interrupt.h"
@@ -40,8 +41,16 @@ std::string verb_of(const CLI::App& program) {
   return chosen.empty() ? "slf" : "slf " + chosen.front()->get_name();
 }
 
+/// What no option and no argument took, in the order it was given.
+std::string not_expected(const CLI::App& program) {
+  std::string message = "not expected:";
+  for (const std::string& word : program.remaining(true)) message += " " + word;
+  return message;
+}
+
 int usage_error(const CLI::App& program, const CLI::ParseError& error, const char* first) {
   std::string message = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) message = not_expected(program);
   if (program.get_subcommands().empty() && first != nullptr && first[0] != '-')
     message = std::string(first) + " is not a verb";
   for (char& c : message)
@@ -80,7 +89,10 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return program.exit(asked) == 0 && std::fflush(stdout) == 0 ? kSuccess : kWriteFailed;
+    std::ostringstream said;
+    program.exit(asked, said, said);
+    const Outcome printed = print(said.str());
+    return printed ? static_cast<int>(kSuccess) : report(printed.error());
   } catch (const CLI::ParseError& error) {
     return usage_error(program, error, argc > 1 ? argv[1] : nullptr);
   }

@@ -34,6 +34,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["q"] = e.q;
+  if (info.coefficient_coder == "texture") json["q"] = nullptr;  // --texture-qp has its place
   json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
   json["merged"] = e.merged;
