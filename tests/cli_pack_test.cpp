@@ -96,5 +96,24 @@ TEST_F(PackTest, RefusesArraysThatDoNotFitTogether) {
   EXPECT_FALSE(exists("a.slf"));
 }
 
+TEST_F(PackTest, WhatIsRefusedIsNamed) {
+  const std::vector<std::int32_t> far{0, 0, 1 << 21}, large(24, 1 << 27), groups{0, 2};
+  write("far.npy", text_of(npy_file({1, 3}, std::span<const std::int32_t>(far))));
+  write("large.npy", text_of(npy_file({4, 2, 3}, std::span<const std::int32_t>(large))));
+  write("groups.npy", text_of(npy_file({2}, std::span<const std::int32_t>(groups))));
+  const std::string both = "pack positions.npy components.npy -o a.slf ";
+  expect_failure(slf("pack far.npy -o a.slf"), 4, "far.npy", "0 to 2^21 - 1");
+  expect_failure(slf("pack positions.npy large.npy -o a.slf"), 4, "large.npy: components", "2^27");
+  expect_failure(slf(both + "--groups groups.npy"), 4, "groups.npy: groups", "empty");
+  expect_failure(slf(both + "--levels 6,8"), 2, "pack: --levels", "the last the grid's bits");
+}
+
+TEST_F(PackTest, GeometryAloneHasNoColours) {
+  ASSERT_EQ(slf("pack positions.npy -o a.slf").code, 0);
+  for (const char* verb :
+       {"render a.slf -o x.png", "export a.slf -o x.spz", "export a.slf --mean -o x.ply"})
+    expect_failure(slf(verb), 4, "a.slf", "geometry alone, so it has no colours");
+}
+
 }  // namespace
 }  // namespace slf::cli_pack_test

@@ -153,6 +153,19 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   return parameters;
 }
 
+/// The options have passed their ranges, but not whether they go with the data. What is refused
+/// begins with its name.
+Failure refused(const PackOptions& given, const InputError& error) {
+  if (error.code != Errc::kInvalidArgument) return failure_of(error, input_name(given.positions));
+  const std::string& cause = error.message;
+  if (cause.starts_with("positions")) return invalid(given.positions, cause);
+  if (cause.starts_with("components")) return invalid(given.components, cause);
+  if (cause.starts_with("groups")) return invalid(given.groups, cause);
+  if (cause.starts_with("steps") && !given.steps.empty()) return invalid(given.steps, cause);
+  const bool levels = cause.find("level ends: ") != std::string::npos;
+  return {kUsage, (levels ? "pack: --levels: " : "pack: ") + cause};
+}
+
 nlohmann::ordered_json report_json(const LightField& field, std::uint64_t bytes, double seconds) {
   return {{"bytes", bytes},
           {"points", field.num_points()},
@@ -171,17 +184,14 @@ Outcome run_pack(const PackOptions& given) {
   field.header.up = UpAxis::kUnknown;
   SLF_TRY(field.positions, read_positions(given.positions, given.common.quiet));
   if (!given.components.empty()) SLF_CHECK(read_components(given.components, field));
+  if (bits_of(field.positions) > 21)
+    return invalid(given.positions, "positions: a coordinate is not in the range 0 to 2^21 - 1");
   field.header.grid.bits = given.grid_bits > 0 ? given.grid_bits : bits_of(field.positions);
   SLF_TRY(const CodingParameters parameters, coding_parameters(given, field));
   Stopwatch watch;
   const auto packed = pack(field, parameters);
   const double seconds = watch.lap();
-  if (!packed) {
-    // The options have passed their ranges: what is refused now is the data.
-    if (packed.error().code == Errc::kInvalidArgument)
-      return invalid(given.positions, packed.error().message);
-    return failure_of(packed.error(), input_name(given.positions));
-  }
+  if (!packed) return refused(given, packed.error());
   SLF_CHECK(save(given.output, packed->data(), packed->size()));
   if (given.common.json) return print(report_json(field, packed->size(), seconds));
   if (!given.common.quiet)
