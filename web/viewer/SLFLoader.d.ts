@@ -20,7 +20,7 @@ export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
 
   /**
    * A whole file, decoded on this thread.
-   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps'
+   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network'
    */
   parse(buffer: ArrayBuffer | Uint8Array): Promise<SurfaceLightField>;
 }

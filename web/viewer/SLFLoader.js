@@ -8,6 +8,18 @@ import { DecodeSession, plainError } from './decode_session.js';
 import { ViewerError } from './packed_field.js';
 import { SurfaceLightField } from './surface_light_field.js';
 
+/** One decoder for parse() of all loaders: each keeps memory for its next decode. */
+let decoder = null;
+function sharedDecoder() {
+  decoder ??= import('../slf.js')
+    .then(({ SlfDecoder }) => SlfDecoder.create())
+    .catch((error) => {
+      decoder = null; // to be tried again
+      throw error;
+    });
+  return decoder;
+}
+
 /**
  * load(url, onLoad, onProgress, onError), loadAsync(url, onProgress) as every loader of three; both also
  * take a File or Blob. They decode in a worker. parse() decodes on this thread.
@@ -50,7 +62,15 @@ export class SLFLoader extends Loader {
       const field = (packed, info, final) => {
         if (!final) onCoarse(new SurfaceLightField(packed, info));
       };
-      const { packed, info } = await loader.load(this.manager.resolveURL(this.path + url), { field }, this.part);
+      const { packed, info } = await loader.load(
+        this.manager.resolveURL(this.path + url),
+        { field },
+        {
+          ...this.part,
+          headers: this.requestHeader,
+          credentials: this.withCredentials ? 'include' : 'same-origin', // as three's own FileLoader
+        },
+      );
       return new SurfaceLightField(packed, info);
     } finally {
       loader.dispose();
@@ -60,11 +80,10 @@ export class SLFLoader extends Loader {
   /**
    * @param {ArrayBuffer|Uint8Array} buffer  a whole file
    * @returns {Promise<SurfaceLightField>}
-   * @throws {ViewerError} kind 'damaged', 'too-large', 'memory', 'no-view-maps'
+   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network'
    */
   async parse(buffer) {
-    const { SlfDecoder } = await import('../slf.js');
-    const session = new DecodeSession(() => SlfDecoder.create());
+    const session = new DecodeSession(sharedDecoder);
     session.append(new Uint8Array(buffer));
     try {
       const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });

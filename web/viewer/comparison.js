@@ -42,7 +42,7 @@ export class Comparison {
     try {
       own.photograph = await camera.photograph();
     } catch (error) {
-      at('psnr').textContent = error.message;
+      if (this.shown === own) at('psnr').textContent = error.message;
       return;
     }
     if (this.shown !== own) return;
@@ -76,6 +76,7 @@ export class Comparison {
 
   show(shown) {
     if (shown && !this.shown) return this.lookThrough(this.nearest());
+    if (shown && !this.shown.photograph) return; // it shows when it comes
     at('compare').hidden = !shown;
     press('compare', shown);
     if (shown) this.lay();

@@ -14,7 +14,7 @@ export function answer(port, create) {
       const result = await session.decode(data.decode);
       port.postMessage({ id: data.id, ...result }, result.packed ? buffersOf(result.packed) : []);
     } catch (error) {
-      port.postMessage({ id: data.id, error: plainError(error) });
+      port.postMessage({ id: data.id, error: plainError(error), info: session.info });
     }
   };
 }
@@ -29,6 +29,7 @@ export class DecodeSession {
   reset() {
     this.bytes = new Uint8Array(1 << 16);
     this.length = 0;
+    this.info = undefined; // what the headers say, as soon as they could be read
   }
 
   append(chunk) {
@@ -43,7 +44,7 @@ export class DecodeSession {
 
   /**
    * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups, layers: 0 is
-   *   all; maxMemory: bytes that a decode may take; tableSize
+   *   all, and so is more than there are; maxMemory: bytes that a decode may take; tableSize
    * @returns {{packed?: object, info?: object, end?: number}} without `packed` where a prefix shows nothing yet
    */
   async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, tableSize = 65 }) {
@@ -54,17 +55,33 @@ export class DecodeSession {
       if (units.pictures === 0) return {};
       bytes = bytes.subarray(0, units.pictures);
     }
-    const decoder = await (this.decoder ??= this.create(this.wasm));
-    const info = decoder.info(bytes);
-    if (info.decodeBytes > maxMemory)
-      throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(info.decodeBytes / 2 ** 20)} MiB.`);
+    const decoder = await this.loadDecoder();
+    const info = (this.info = plainInfo(decoder.info(bytes)));
+    const part = {
+      levels: Math.min(levels, info.levels),
+      groups: Math.min(groups, info.groups),
+      layers: Math.min(layers, info.layers),
+    };
+    const { memoryBytes } = decoder.preflight(bytes, { ...part, maxMemory: Number.MAX_SAFE_INTEGER });
+    if (memoryBytes > maxMemory)
+      throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(memoryBytes / 2 ** 20)} MiB.`);
     if (info.hasBasis === false)
       throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
-    const field = this.run(decoder, bytes, { levels, groups, layers, maxMemory });
+    const field = this.run(decoder, bytes, { ...part, maxMemory });
     try {
-      return { packed: packField(field, tableSize), info: JSON.parse(JSON.stringify(info)), end: bytes.length };
+      return { packed: packField(field, tableSize), info, end: bytes.length };
     } finally {
       field.release();
+    }
+  }
+
+  /** One that did not arrive is asked for again by the next decode. */
+  async loadDecoder() {
+    try {
+      return await (this.decoder ??= this.create(this.wasm));
+    } catch (error) {
+      this.decoder = undefined;
+      throw error;
     }
   }
 
@@ -79,6 +96,9 @@ export class DecodeSession {
   }
 }
 
+/** That can be posted. */
+const plainInfo = (info) => JSON.parse(JSON.stringify(info));
+
 const WORDS = {
   TRUNCATED: 'It ends before it should: perhaps it was not copied whole.',
   CHECKSUM: 'Some of its bytes have changed since it was written.',
@@ -86,6 +106,7 @@ const WORDS = {
   UNSUPPORTED: 'It was made for another version or profile of the decoder.',
   LIMIT_EXCEEDED: 'Decoding it takes more than this page allows.',
   OUT_OF_MEMORY: 'There is not enough memory to decode it.',
+  NETWORK: 'The decoder, a part of this page, did not arrive.',
 };
 const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network' };
 

@@ -10,7 +10,7 @@ const TITLES = {
   damaged: 'This file cannot be read',
   'too-large': 'This file is too large for this device',
   memory: 'Not enough memory',
-  network: 'The file did not arrive',
+  network: 'Something did not arrive',
   'no-webgl2': 'This browser cannot draw it',
   unsupported: 'This viewer cannot decode this file',
   'no-view-maps': 'There is nothing to see in this file',

@@ -20,6 +20,8 @@ export class FieldLoader {
     this.waiting = new Map();
     this.next = 1;
     this.turn = 0;
+    this.arriving = new AbortController(); // of the file that is on its way
+    this.whole = false; // all of it is with the worker
     this.stopped = null; // why the worker answers no more
   }
 
@@ -27,15 +29,28 @@ export class FieldLoader {
    * Loads and decodes; a load that is going on is given up.
    * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
    * @param {object} on  progress(received, total or 0), field(packed, info, final)
-   * @param {object} options  levels, groups, layers, signal
-   * @returns {Promise<{packed, info, bytes}>} of the whole file
+   * @param {object} options  levels, groups, layers: as they are at each decode; signal; headers, credentials: of fetch
+   * @returns {Promise<{packed, info, bytes, part}>} of the whole file; part: levels, groups, layers that were decoded
    * @throws {ViewerError}
    */
   async load(source, on = {}, options = {}) {
     const turn = ++this.turn;
-    const current = () => turn === this.turn && !options.signal?.aborted;
     this.restart();
-    const stream = await openStream(source, options.signal);
+    const { signal } = this.arriving,
+      stop = () => this.arriving.signal === signal && this.arriving.abort();
+    const current = () => turn === this.turn && !signal.aborted;
+    if (options.signal?.aborted) stop();
+    options.signal?.addEventListener('abort', stop, { once: true });
+    try {
+      return await this.receive(source, on, options, current, signal);
+    } finally {
+      options.signal?.removeEventListener('abort', stop);
+    }
+  }
+
+  async receive(source, on, options, current, signal) {
+    const { headers, credentials } = options;
+    const stream = await openStream(source, { signal, headers, credentials });
     if (stream.total > MOST_BYTES) throw new ViewerError('too-large', `This file has ${stream.total} bytes.`);
     let received = 0,
       look = FIRST_LOOK,
@@ -53,20 +68,23 @@ export class FieldLoader {
       received += chunk.length;
       if (received > MOST_BYTES) throw new ViewerError('too-large', `This file has more than ${MOST_BYTES} bytes.`);
       this.worker.postMessage({ append: chunk });
-      on.progress?.(received, stream.total);
+      on.progress?.(received, received > stream.total ? 0 : stream.total);
       if (!on.field || looking || received < look || received === stream.total) continue;
       look = received * GROWTH;
       showPrefix(received);
     }
-    if (stream.total && received < stream.total)
+    if (stream.exact && received < stream.total)
       throw new ViewerError('network', `The connection ended after ${received} of ${stream.total} bytes.`);
     if (on.field && look === FIRST_LOOK && received > LARGE) showPrefix(LOOK);
+    this.whole = true;
     await looking;
     if (!current()) throw aborted();
-    const result = await this.decode(options);
+    const { levels = 0, groups = 0, layers = 0 } = options,
+      part = { levels, groups, layers };
+    const result = await this.decode(part);
     if (!current()) throw aborted();
     on.field?.(result.packed, result.info, true);
-    return { ...result, bytes: received };
+    return { ...result, bytes: received, part };
   }
 
   /** Decodes what is loaded once more, with other levels, groups or layers. */
@@ -81,6 +99,7 @@ export class FieldLoader {
   /** Frees the worker and its memory. */
   dispose() {
     ++this.turn;
+    this.arriving.abort();
     this.worker?.terminate?.();
     this.worker = null;
     for (const { reject } of this.waiting.values()) reject(aborted());
@@ -93,17 +112,22 @@ export class FieldLoader {
     this.dispose();
     this.turn = turn;
     this.stopped = null;
+    this.whole = false;
+    this.arriving = new AbortController();
     this.worker = this.start();
     this.worker.onmessage = ({ data }) => {
       const own = this.waiting.get(data.id);
       if (!own) return;
       this.waiting.delete(data.id);
-      if (data.error) own.reject(new ViewerError(data.error.kind, data.error.message));
+      if (data.error)
+        own.reject(Object.assign(new ViewerError(data.error.kind, data.error.message), { info: data.info }));
       else own.resolve(data);
     };
     this.worker.onerror = (event) => {
       event.preventDefault?.();
-      this.stopped = new ViewerError('memory', `The decoder stopped: ${event.message ?? 'no reason given'}.`);
+      this.stopped = event.message
+        ? new ViewerError('memory', `The decoder stopped: ${event.message}.`)
+        : new ViewerError('network', 'The script of the decoder cannot be fetched.'); // that has no message
       for (const { reject } of this.waiting.values()) reject(this.stopped);
       this.waiting.clear();
     };
@@ -117,23 +141,24 @@ function newWorker() {
 
 const aborted = () => new DOMException('Another file was opened.', 'AbortError');
 
-/** Chunks of a source, and how many bytes there will be; 0 where nobody says. */
-async function openStream(source, signal) {
+/** Chunks of a source, and how many bytes there will be; 0 where nobody says. exact: and no fewer. */
+async function openStream(source, request) {
   if (source instanceof ArrayBuffer) source = new Uint8Array(source);
-  if (source instanceof Uint8Array) return { total: source.length, chunks: [source] };
-  if (source instanceof Blob) return { total: source.size, chunks: chunksOf(source.stream()) };
+  if (source instanceof Uint8Array) return { total: source.length, exact: true, chunks: [source] };
+  if (source instanceof Blob) return { total: source.size, exact: true, chunks: chunksOf(source.stream()) };
   let response;
   try {
-    response = await fetch(source, { signal });
+    response = await fetch(source, request);
   } catch (error) {
-    if (signal?.aborted) throw aborted();
+    if (request.signal.aborted) throw aborted();
     throw new ViewerError('network', `${source} cannot be fetched.`);
   }
   if (!response.ok)
     throw new ViewerError('network', `${source}: the server says ${response.status} ${response.statusText}.`);
   const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
   const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
-  return { total, chunks: chunksOf(response.body) };
+  // Whether that is so is not seen of another origin.
+  return { total, exact: total > 0 && response.type !== 'cors', chunks: chunksOf(response.body) };
 }
 
 async function* chunksOf(stream) {
@@ -148,6 +173,6 @@ async function* chunksOf(stream) {
     if (error?.name === 'AbortError') throw error;
     throw new ViewerError('network', 'The connection broke.');
   } finally {
-    reader.releaseLock();
+    reader.cancel().catch(() => {}); // where it was given up
   }
 }

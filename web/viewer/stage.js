@@ -1,6 +1,6 @@
 // A canvas with one light field on it: draws when something has changed, coarser while frames are
 // slow and a hand moves, and again after the context was lost.
-import { SurfelPipeline } from './surfel_pipeline.js';
+import { SurfelPipeline, summary } from './surfel_pipeline.js';
 import { ViewerError } from './packed_field.js';
 import { fittedCamera, viewOf } from './view.js';
 
@@ -12,7 +12,7 @@ const REST = 180; // ms after which a picture at rest is drawn in full
 export class Stage {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {object} on  tick(seconds): before a frame, true to be called again; drawn(); lost(); restored()
+   * @param {object} on  tick(seconds): before a frame, true to be called again; drawn(); lost(); restored(error)
    * @throws {ViewerError} kind 'no-webgl2'
    */
   constructor(canvas, on = {}) {
@@ -21,6 +21,7 @@ export class Stage {
     this.gl = canvas.getContext('webgl2', { alpha: true, antialias: false, depth: false, premultipliedAlpha: true });
     if (!this.gl) throw new ViewerError('no-webgl2', 'This browser offers no WebGL 2.');
     this.pipeline = new SurfelPipeline(this.gl);
+    this.packed = this.field = null; // what is shown, kept for a context that was lost, and its summary
     this.pose = this.camera = null; // one or the other: a pose of an orbit, a capture's camera
     this.look = { background: null, exposure: 0, meanOnly: false, share: 1, resolution: 1 };
     this.scale = 1;
@@ -33,17 +34,17 @@ export class Stage {
     this.observer.observe(canvas);
   }
 
-  get field() {
-    return this.pipeline.field;
-  }
-
+  /** While the context is lost it is uploaded when that comes back. */
   setField(packed) {
-    this.pipeline.setField(packed);
+    if (!this.gl.isContextLost()) this.pipeline.setField(packed);
+    this.packed = packed;
+    this.field = summary(packed);
     this.redraw();
   }
 
   clear() {
     this.pipeline.clearField();
+    this.packed = this.field = null;
     this.pose = this.camera = null;
     this.redraw();
   }
@@ -153,8 +154,13 @@ export class Stage {
   }
 
   restore() {
-    this.pipeline = new SurfelPipeline(this.gl);
-    this.on.restored?.();
+    try {
+      this.pipeline = new SurfelPipeline(this.gl);
+      if (this.packed) this.setField(this.packed);
+      this.on.restored?.();
+    } catch (error) {
+      this.on.restored?.(error);
+    }
   }
 
   dispose() {

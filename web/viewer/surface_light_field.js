@@ -60,10 +60,12 @@ export class SurfaceLightField extends Mesh {
 
   pipelineOf(gl) {
     let own = this.pipelines.get(gl);
-    if (own && !own.lost) return own;
+    if (own && !own.lost) {
+      if (own.failure) throw own.failure;
+      return own;
+    }
     withState(gl, () => {
-      own = new SurfelPipeline(gl);
-      own.setField(this.packed);
+      own = pipelineWith(gl, this.packed);
     });
     gl.canvas.addEventListener(
       'webglcontextlost',
@@ -73,14 +75,28 @@ export class SurfaceLightField extends Mesh {
       { once: true },
     );
     this.pipelines.set(gl, own);
+    if (own.failure) throw own.failure;
     return own;
   }
 
   dispose() {
-    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose();
+    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose?.();
     this.pipelines.clear();
     this.geometry.dispose();
     this.material.dispose();
+  }
+}
+
+/** A pipeline with a field, or why there is none: the next frame need not try again. */
+function pipelineWith(gl, packed) {
+  let pipeline;
+  try {
+    pipeline = new SurfelPipeline(gl);
+    pipeline.setField(packed);
+    return pipeline;
+  } catch (failure) {
+    pipeline?.dispose();
+    return { failure };
   }
 }
 

@@ -250,7 +250,7 @@ export class SurfelPipeline {
 }
 
 /** What drawing needs of a packed light field; its texels are the device's now. */
-function summary(packed) {
+export function summary(packed) {
   const { points, columns, rows, layers, components, gamma, linear, step, radius, centre, up, partial, levels } =
     packed;
   return {

@@ -40,7 +40,7 @@ export class Viewer {
         tick: (seconds) => this.tick(seconds),
         drawn: () => this.afterDrawing(),
         lost: () => this.say('The graphics context was lost.'),
-        restored: () => this.restore(),
+        restored: (error) => (error ? this.fail(error) : this.say('The graphics context is back.')),
       });
     } catch (error) {
       this.fail(error);
@@ -68,7 +68,7 @@ export class Viewer {
     const begin = performance.now();
     this.hideProblem();
     document.body.classList.remove('empty');
-    this.source = { source, name };
+    const own = (this.source = this.loading = { source, name });
     this.comparison.leave();
     this.controls.pose = null;
     this.touched = false;
@@ -77,31 +77,33 @@ export class Viewer {
     at('title').textContent = this.titleText();
     this.arriving(0, 0);
     try {
-      const { levels, groups, layers } = this.options;
-      const { bytes } = await this.loader.load(
-        source,
-        {
-          progress: (received, total) => this.arriving(received, total),
-          field: (packed, info, final) => this.show(packed, info, final, begin),
-        },
-        { levels, groups, layers },
-      );
+      const on = {
+        progress: (received, total) => this.arriving(received, total),
+        field: (packed, info, final) => this.show(packed, info, final, begin),
+      };
+      const loading = this.loader.load(source, on, this.options); // sliders may move while the file arrives
+      const { bytes, part } = await loading.finally(() => {
+        if (this.source === own) this.loading = null;
+      });
       this.facts.bytes = bytes;
       this.facts.loaded = performance.now() - begin;
       this.describe();
       this.say(`${this.titleText()} is shown.`);
+      if (Object.entries(part).some(([name, value]) => this.options[name] !== value)) await this.decodeAgain();
       if (this.options.capture) await this.comparison.open(this.options.capture);
     } catch (error) {
       if (error.name !== 'AbortError') this.fail(error);
     } finally {
-      if (this.source.source === source) at('progress').hidden = true;
+      if (this.source === own) at('progress').hidden = true;
     }
   }
 
   show(packed, info, final, begin) {
     const first = !this.stage.field || !this.controls.pose;
-    this.stage.setField(packed);
     this.facts.info = info;
+    this.stage.setField(packed);
+    this.hideProblem(); // of a decode before
+    document.body.classList.remove('empty');
     this.facts.first ??= performance.now() - begin;
     this.facts.final = final;
     this.controls.up = packed.up;
@@ -113,14 +115,21 @@ export class Viewer {
     document.body.dataset.state = final ? 'ready' : 'coarse';
   }
 
-  /** Decodes the same file with other levels, groups or layers. */
+  /** Decodes the same file with other levels, groups or layers; when it is here, where it is still on its way. */
   async decodeAgain(part) {
     Object.assign(this.options, part);
+    if (this.loading || !this.loader.whole) return;
+    const { source } = this,
+      begin = performance.now();
     this.say('Decoding …');
     try {
       const { packed, info } = await this.loader.decode(this.options);
-      this.stage.setField(packed);
+      if (this.source !== source) return;
+      if (!this.controls.pose) return this.show(packed, info, true, begin); // all of it was too much
       this.facts.info = info;
+      this.stage.setField(packed);
+      this.hideProblem();
+      document.body.dataset.state = 'ready';
       this.describe();
       this.say('Decoded.');
     } catch (error) {
@@ -221,6 +230,7 @@ export class Viewer {
 
   fail(error) {
     const kind = error instanceof ViewerError ? error.kind : 'damaged';
+    this.facts.info ??= error.info;
     writeProblem(kind, error.message, this.source !== undefined);
     document.body.dataset.state = `failed ${kind}`;
     document.body.classList.add('failed');
@@ -253,17 +263,6 @@ export class Viewer {
     this.stage.redraw();
   }
 
-  async restore() {
-    if (!this.facts.info) return;
-    try {
-      const { packed } = await this.loader.decode(this.options);
-      this.stage.setField(packed);
-      this.say('The graphics context is back.');
-    } catch (error) {
-      this.fail(error);
-    }
-  }
-
   async save() {
     download(await this.stage.screenshot(), `${(this.titleText() || 'light field').replace(/[^\w.-]+/g, '_')}.png`);
   }
@@ -292,7 +291,8 @@ export class Viewer {
   }
 
   openCoarser() {
-    this.options.levels = Math.max(1, (this.options.levels || 9) - 2);
+    const most = this.facts.info?.levels ?? 9;
+    this.options.levels = Math.max(1, Math.min(this.options.levels || most, most) - 2);
     this.open(this.source.source, this.source.name);
   }
 }

@@ -107,9 +107,12 @@ export class Wiring {
     const file =
       files.find((each) => each.name.endsWith('.slf')) ??
       (files.length === 1 && !/\.json$/.test(files[0].name) ? files[0] : null);
-    if (file) await this.viewer.open(file, file.name);
+    const opening = file && this.viewer.open(file, file.name);
+    const { source } = this.viewer;
+    await opening;
     try {
       const capture = files.length > 0 && (await droppedCapture(files));
+      if (source !== this.viewer.source) return; // another file was opened: the capture is not of that
       if (capture) await this.viewer.comparison.open(capture);
     } catch (error) {
       this.viewer.fail(error);

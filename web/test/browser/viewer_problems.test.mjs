@@ -40,7 +40,31 @@ test('a file that takes too much memory is refused, and can be shown coarser', {
   });
   await page.click('[data-do=coarser]');
   await page.waitForFunction(() => document.body.dataset.state === 'ready');
-  assert.ok(await page.evaluate(() => window.viewer.options.levels > 0));
+  assert.ok(await page.evaluate(() => window.viewer.options.levels === window.viewer.facts.info.levels - 2));
+  assert.ok(await page.isHidden('#problem'));
+  await page.close();
+});
+
+for (const [name, pattern, words] of [
+  ['the decoder', '**/slf.wasm', /^The decoder, a part of this page, did not arrive/],
+  ['its worker', '**/decode_worker.js', /^The script of the decoder cannot be fetched/],
+])
+  test(`${name} that cannot be fetched is no fault of the file`, { skip }, async () => {
+    const page = await newPage(here.chrome);
+    await page.route(pattern, (route) => route.abort());
+    await page.goto(`${here.server.page}?src=/files/can.slf`);
+    assert.equal(await settled(page), 'failed network');
+    assert.match(await page.textContent('#problem p'), words);
+    await page.close();
+  });
+
+test('a decoder that did not arrive for the first picture is asked for again for the next', { skip }, async () => {
+  const page = await newPage(here.chrome);
+  let asked = 0;
+  await page.route('**/slf.wasm', (route) => (++asked === 1 ? route.abort() : route.continue()));
+  await page.goto(`${here.server.page}?src=/files/slow.slf`);
+  assert.equal(await settled(page), 'ready');
+  assert.ok(asked > 1);
   await page.close();
 });
 
