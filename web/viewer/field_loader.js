@@ -36,8 +36,9 @@ export class FieldLoader {
   async load(source, on = {}, options = {}) {
     const turn = ++this.turn;
     this.restart();
-    const { signal } = this.arriving,
-      stop = () => this.arriving.signal === signal && this.arriving.abort();
+    const { arriving } = this,
+      { signal } = arriving,
+      stop = () => arriving.abort();
     const current = () => turn === this.turn && !signal.aborted;
     if (options.signal?.aborted) stop();
     options.signal?.addEventListener('abort', stop, { once: true });
@@ -45,6 +46,7 @@ export class FieldLoader {
       return await this.receive(source, on, options, current, signal);
     } finally {
       options.signal?.removeEventListener('abort', stop);
+      stop(); // a body that was refused before its end
     }
   }
 
