@@ -9,7 +9,7 @@
 #include "codec/component_decoder.h"
 #include "codec/scene_units.h"
 #include "codec/sequence_plan.h"
-#include "geometry/occupancy_model.h"
+#include "geometry/occupancy_states.h"
 
 namespace slf {
 

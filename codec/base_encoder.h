@@ -8,7 +8,7 @@
 #include "attributes/coefficient_quantiser.h"
 #include "codec/coded_unit.h"
 #include "codec/scene_layout.h"
-#include "geometry/occupancy_model.h"
+#include "geometry/occupancy_states.h"
 
 namespace slf {
 

@@ -4,7 +4,7 @@
 
 #include "attributes/vector_states.h"
 #include "codec/scene_decoder.h"
-#include "geometry/occupancy_model.h"
+#include "geometry/occupancy_states.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -7,7 +7,7 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "base/monitor.h"
-#include "geometry/occupancy_model.h"
+#include "geometry/occupancy_states.h"
 
 namespace slf {
 

@@ -176,8 +176,13 @@ class RandomStream:
             for code in codes:
                 child = code >> 3 * (self.bits - level - 1)
                 nodes.setdefault(child >> 3, set()).add(child & 7)
+            only = self.rng.randrange(2)
+            decisions.append(only)
             for children in nodes.values():
-                decisions += [int(c in children) for c in range(8)][:7 if children == {7} else 8]
+                if only and len(children) == 1 and self.rng.random() < 0.95:      # 8.4.6; the rest says it the long way
+                    decisions += [1] + [min(children) >> axis & 1 for axis in (2, 1, 0)]
+                    continue
+                decisions += [0] * only + [int(c in children) for c in range(8)][:7 if children == {7} else 8]
         return decisions
 
     def classes(self):

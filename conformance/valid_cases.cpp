@@ -5,6 +5,21 @@
 namespace slf::conformance {
 namespace {
 
+/// One voxel in each of 8 x 8 x 8 blocks of 2 x 2 x 2 but some.
+std::vector<Voxel> one_in_most_blocks() {
+  std::vector<Voxel> voxels;
+  for (const Voxel& block : lattice(8, 8, 8)) {
+    const auto seed = static_cast<std::uint32_t>(block[0] * 73 + block[1] * 179 + block[2] * 283);
+    const std::uint32_t chance = seed * 2654435761u;
+    if ((chance >> 20 & 7) == 0) continue;
+    Voxel v{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      v[axis] = 2 * block[axis] + static_cast<std::int32_t>(chance >> (29 + axis) & 1);
+    voxels.push_back(v);
+  }
+  return voxels;
+}
+
 void add_geometry(std::vector<Case>& cases) {
   const auto add = [&](std::string id, std::string purpose, std::vector<Voxel> voxels, int bits) {
     cases.push_back(case_of(std::move(id), std::move(purpose), {"7.3", "8.4"},
@@ -14,6 +29,7 @@ void add_geometry(std::vector<Case>& cases) {
   add("two-points-21-bit", "corners of the largest grid",
       {{0, 0, 0}, {(1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1}}, 21);
   add("full-cube", "every voxel occupied: probabilities near 1", lattice(16, 16, 16), 4);
+  add("only-children", "most nodes around a node, each of one child", one_in_most_blocks(), 4);
   add("line", "one row", lattice(256, 1, 1), 8);
   add("plane", "one layer", lattice(64, 64, 1), 6);
   add("scattered", "no structure", scattered(3000, 9, 3), 9);

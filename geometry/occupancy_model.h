@@ -7,14 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "base/multiversion.h"
 #include "base/prefetch.h"
 #include "entropy/context_bit.h"
-#include "entropy/context_shape.h"
 #include "entropy/mixer.h"
 #include "geometry/occupancy_history.h"
+#include "geometry/occupancy_states.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
 
@@ -28,47 +27,6 @@ inline unsigned occupied_columns(unsigned o, unsigned axis) {
   return (m & 1) | (m >> 1 & 2) | (m >> 2 & 4) | (m >> 3 & 8);
 }
 
-/// What the decisions of a unit leave to those of the next: a value, so that several slices may
-/// start from the same. Spec 8.4.1.
-struct OccupancyStates {
-  /// points: of all slices; hashed contexts are as many as they can fill.
-  explicit OccupancyStates(std::uint64_t points);
-
-  // Tables that are not hashed. Spec table 8-3.
-  using Faces = ContextShape<256, 8>;     // 27 * 8 of them; child
-  using Corner = ContextShape<128, 256>;  // of the node; siblings
-  // Sets of weights.
-  using BySiblings = ContextShape<8, 256>;  // class of the node's neighbours; siblings
-  using ByDensity = ContextShape<22, 27>;   // level; cells around
-  using ByFaces = ContextShape<27 * 8>;
-
-  static constexpr int kMostHashedBits = 18;
-  static constexpr std::uint32_t kHashed = 3;
-
-  // Found on the clouds of docs/rate.md.
-  static constexpr std::int16_t kFirstWeight = 900;  // of 8192
-  static constexpr std::uint32_t kFirstRate = 8, kLastRate = 4;
-
-  std::uint32_t num_nodes = 0;
-  std::int32_t rate = kFirstRate;
-  int hashed_bits;  ///< log2 of the number of contexts of a hashed table
-  std::vector<ContextBit> faces, corner;
-  std::array<std::vector<ContextBit>, kHashed> hashed;
-  WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
-  WeightSets by_density{ByDensity::kCount, kFirstWeight};
-  WeightSets by_faces{ByFaces::kCount, kFirstWeight};
-
-  static constexpr int hashed_bits_of(std::uint64_t points) {
-    return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);
-  }
-  /// Of what states for so many points hold.
-  static constexpr std::size_t bytes(std::uint64_t points) {
-    return sizeof(ContextBit) *
-               (Faces::kCount + Corner::kCount + (std::size_t{kHashed} << hashed_bits_of(points))) +
-           sizeof(EightLanes) * (BySiblings::kCount + ByDensity::kCount + ByFaces::kCount);
-  }
-};
-
 class OccupancyModel {
  public:
   explicit OccupancyModel(OccupancyStates states) : states_(std::move(states)) {}
@@ -76,9 +34,12 @@ class OccupancyModel {
   const OccupancyStates& states() const { return states_; }
   void start_from(const OccupancyStates& states) { states_ = states; }
 
-  void start_level(int level) {
+  /// only: do most nodes of the level have one child only? Spec 8.4.1; the encoder's.
+  template <class Coder>
+  void start_level(Coder& coder, int level, bool only = false) {
     history_.start_level(level);
     level_ = static_cast<std::uint32_t>(level);
+    only_ = coder.raw(1, only) != 0;
   }
   /// nodes: of the level, all coded.
   void finish_level(const OctreeLevel& nodes) { history_.finish_level(nodes.morton); }
@@ -87,21 +48,12 @@ class OccupancyModel {
   /// encoder passes the occupancy, the decoder 0; both get it back: 1 .. 255.
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
-    Node node = node_contexts(nodes, n);
+    const View view = view_of(nodes, n);
     if (n + 1 < nodes.size())  // for the cache alone
-      group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, 0, 4);
-    unsigned coded = 0;
-    code_child<0>(coder, node, coded, occupancy);
-    code_child<1>(coder, node, coded, occupancy);
-    code_child<2>(coder, node, coded, occupancy);
-    code_child<3>(coder, node, coded, occupancy);
-    code_child<4>(coder, node, coded, occupancy);
-    code_child<5>(coder, node, coded, occupancy);
-    code_child<6>(coder, node, coded, occupancy);
-    if (coded == 0)
-      coded = 1u << 7;  // a node has a child: it must be the last
-    else
-      code_child<7>(coder, node, coded, occupancy);
+      group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, only_ ? kOnly : 0,
+            only_ ? 3 : 4);
+    unsigned coded = only_ ? code_only(coder, view, nodes, n, occupancy) : 0;
+    if (coded == 0) coded = code_children(coder, view, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
     constexpr std::uint32_t kFirst = OccupancyStates::kFirstRate,
                             kLast = OccupancyStates::kLastRate;
@@ -111,6 +63,14 @@ class OccupancyModel {
   }
 
  private:
+  /// What is around a node, and latest in its columns.
+  struct View {
+    std::uint32_t neighbours, neighbours_class;
+    Window occupied, unknown;
+    std::array<std::uint8_t, 3> latest;
+    std::uint64_t columns;
+  };
+
   /// What is known of a child before its node is coded, and where its contexts are.
   struct Child {
     unsigned faces;     ///< those outside the node
@@ -124,7 +84,7 @@ class OccupancyModel {
   struct Node {
     std::array<Child, 8> child;
     std::uint32_t neighbours_class;
-    std::uint64_t neighbours, columns;              // hashes of them
+    std::uint64_t neighbours, columns;              // keys of their hashes
     std::uint32_t neighbours_group, columns_group;  // of the contexts of four children
     std::uint32_t next_neighbours_group, next_columns_group;
   };
@@ -134,35 +94,101 @@ class OccupancyModel {
   /// Rows of table 8-3.
   enum Hashed { kByNeighbours, kByColumns, kByCells };
 
+  static constexpr unsigned kOnly = 256;  // as the second argument of group()
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
-  Node node_contexts(const OctreeLevel& nodes, std::size_t n) {
-    Node node;
-    const std::uint32_t neighbours = nodes.around[n].directions;
+  View view_of(const OctreeLevel& nodes, std::size_t n) {
+    View view{nodes.around[n].directions, 0, 0, 0, history_.at(nodes.morton[n]), 1};
     const std::uint32_t* neighbour = nodes.neighbours.data() + nodes.around[n].first;
-    Window occupied = 0, unknown = 0;
-    for (std::uint32_t left = neighbours; left != 0; left &= left - 1) {
+    for (std::uint32_t left = view.neighbours; left != 0; left &= left - 1) {
       const auto d = static_cast<std::size_t>(std::countr_zero(left));
       const unsigned occupancy = nodes.occupancy[*neighbour++];
-      occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
-      unknown |= occupancy == 0 ? kWindowParts[d] : 0;
+      view.occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
+      view.unknown |= occupancy == 0 ? kWindowParts[d] : 0;
     }
-    const auto latest = history_.at(nodes.morton[n]);
-    std::uint64_t columns = 1;
     for (unsigned axis = 0; axis < 3; ++axis)
-      columns = columns << 4 | occupied_columns(latest[axis], axis);
-    node.neighbours_class = std::min(static_cast<std::uint32_t>(std::popcount(neighbours)) / 3, 7u);
-    node.neighbours = neighbours * kFactorA;
-    node.columns = columns * kFactorA;
+      view.columns = view.columns << 4 | occupied_columns(view.latest[axis], axis);
+    view.neighbours_class =
+        std::min(static_cast<std::uint32_t>(std::popcount(view.neighbours)) / 3, 7u);
+    return view;
+  }
+
+  template <class Coder>
+  unsigned code_children(Coder& coder, const View& view, unsigned occupancy) {
+    Node node = node_contexts(view);
+    unsigned coded = 0;
+    code_child<0>(coder, node, coded, occupancy);
+    code_child<1>(coder, node, coded, occupancy);
+    code_child<2>(coder, node, coded, occupancy);
+    code_child<3>(coder, node, coded, occupancy);
+    code_child<4>(coder, node, coded, occupancy);
+    code_child<5>(coder, node, coded, occupancy);
+    code_child<6>(coder, node, coded, occupancy);
+    if (coded == 0) return 1u << 7;  // a node has a child: it must be the last
+    code_child<7>(coder, node, coded, occupancy);
+    return coded;
+  }
+
+  /// Spec 8.4.6: has the node one child only, and which? 0 where it has more.
+  template <class Coder>
+  unsigned code_only(Coder& coder, const View& view, const OctreeLevel& nodes, std::size_t n,
+                     unsigned occupancy) {
+    const std::uint32_t by_neighbours = group(kByNeighbours, view.neighbours * kFactorA, kOnly, 3);
+    const std::uint32_t by_columns = group(kByColumns, view.columns * kFactorA, kOnly, 3);
+    const std::uint32_t by_cells =
+        group(kByCells, view.occupied * kFactorA + view.unknown * kFactorB, kOnly, 3);
+    const auto beside = [&](unsigned d) {  // towards a lower coordinate: coded before
+      return only_child((view.neighbours >> d & 1) != 0 ? nodes.occupancy[nodes.neighbour(n, d)]
+                                                        : 0);
+    };
+    ContextBit* const by_beside =
+        &states_.beside[States::Places::index(beside(4), beside(10), beside(12), 0)];
+    ContextBit* const by_latest =
+        &states_.latest[States::Places::index(only_child(view.latest[2]), only_child(view.latest[1]),
+                                              only_child(view.latest[0]), 0)];
+    const auto code_place = [&](unsigned place, unsigned bit) {  // table 8-4
+      const std::array<ContextBit*, 5> selected = {
+          by_beside + place, by_latest + place,
+          &states_.hashed[kByNeighbours][by_neighbours + place],
+          &states_.hashed[kByColumns][by_columns + place],
+          &states_.hashed[kByCells][by_cells + place]};
+      const SelectedContexts<5> contexts(selected);
+      const Mixed<2> mixed(
+          contexts.inputs(),
+          {&states_.place_by_class[States::PlaceByClass::index(place, view.neighbours_class)],
+           &states_.place_by_level[States::PlaceByLevel::index(place, level_)]});
+      bit = coder.bit(mixed.p1(), bit);
+      mixed.update(bit, states_.rate);
+      contexts.update(bit);
+      return bit;
+    };
+    if (code_place(0, std::has_single_bit(occupancy)) == 0) return 0;
+    const unsigned child = only_child(occupancy);
+    unsigned place = 1;
+    for (unsigned axis = 3; axis-- > 0;) place = 2 * place | code_place(place, child >> axis & 1);
+    return 1u << (place & 7);
+  }
+
+  /// Which child an occupancy of one has; 8: there is none, 9: there are several.
+  static unsigned only_child(unsigned occupancy) {
+    if (occupancy == 0) return 8;
+    return std::has_single_bit(occupancy) ? static_cast<unsigned>(std::countr_zero(occupancy)) : 9;
+  }
+
+  Node node_contexts(const View& view) {
+    Node node;
+    node.neighbours_class = view.neighbours_class;
+    node.neighbours = view.neighbours * kFactorA;
+    node.columns = view.columns * kFactorA;
     node.neighbours_group = group(kByNeighbours, node.neighbours, 0, 4);
     node.columns_group = group(kByColumns, node.columns, 0, 4);
     SLF_UNROLL_8
     for (unsigned c = 0; c < 8; ++c) {
       Child& child = node.child[c];
-      const Surroundings around = surroundings(occupied, unknown, c);
+      const Surroundings around = surroundings(view.occupied, view.unknown, c);
       child.faces = outer_faces_of(around, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
-      child.corner = corner_of(neighbours, c);
+      child.corner = corner_of(view.neighbours, c);
       if (c < 6) prefetch(&states_.corner[States::Corner::index(child.corner, 1u << c)]);
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
@@ -222,6 +248,7 @@ class OccupancyModel {
 
   OccupancyHistory history_;
   std::uint32_t level_ = 0;
+  bool only_ = false;
   OccupancyStates states_;
 };
 

@@ -816,11 +816,21 @@ class OctreeState:
         widths = (11, 15, self.hash_bits, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
         self.mixers = [Mixer(900) for _ in range(3)]
+        self.only_tables = [MixedContexts(8000) for _ in range(2)]      # 8.4.6
+        self.only_mixers = [Mixer(900) for _ in range(2)]
         self.nodes_coded = 0
 
     def copy(self):
         """8.1: as that of Contexts."""
-        return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers))
+        return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers),
+                      only_tables=copied_all(self.only_tables), only_mixers=copied_all(self.only_mixers))
+
+
+def lone(occupancy):
+    """8.4.6: which child it is, 8 where there is none, 9 where there are several."""
+    if not occupancy:
+        return 8
+    return occupancy.bit_length() - 1 if occupancy & occupancy - 1 == 0 else 9
 
 
 class Octree:
@@ -835,7 +845,8 @@ class Octree:
         index = {node: i for i, node in enumerate(self.nodes)}
         occupancies = []
         history = [{} for _ in range(3)]
-        following = []
+        following, state = [], self.state
+        only = decoder.raw(1)
         for i, (x, y, z) in enumerate(self.nodes):
             neighbours = occupied = unknown = 0
             for d, (dx, dy, dz) in enumerate(DIRECTIONS):
@@ -848,7 +859,12 @@ class Octree:
                         unknown |= WINDOW[d][255]
             entries = self.history_entries(x, y, z)
             around_node = neighbours, occupied, unknown
-            coded = self.decode_node(decoder, around_node, self.read_history(history, entries))
+            latest = [table.get(k, 0) for table, k in zip(history, entries)]
+            beside = [occupancies[index[cell]] if cell in index else 0 for cell in ((x - 1, y, z), (x, y - 1, z), (x, y, z - 1))]
+            rate = 8 - min(state.nodes_coded >> 13, 4)
+            coded = self.decode_only(decoder, around_node, latest, beside, rate) if only else 0
+            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rate)
+            state.nodes_coded += 1
             for table, entry in zip(history, entries):
                 table[entry] = coded
             occupancies.append(coded)
@@ -858,24 +874,46 @@ class Octree:
         self.nodes = following
         self.level += 1
 
-    def decode_node(self, decoder, around_node, history):
+    def decode_node(self, decoder, around_node, columns, rate):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded, state = 0, self.state
-        rate = 8 - min(state.nodes_coded >> 13, 4)
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
                 break
-            indices, sets = self.predict(c, coded, around_node, history)
+            indices, sets = self.predict(c, coded, around_node, columns)
             weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
             coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate) << c
-        state.nodes_coded += 1
         return coded
 
-    def predict(self, c, coded, around_node, history):
+    def decode_only(self, decoder, around_node, latest, beside, rate):
+        """8.4.6: the occupancy of a node of one child, 0 of another."""
+        state, place = self.state, 1
+        tables = state.only_tables + state.tables[2:]
+        first, sets = self.predict_only(around_node, latest, beside)
+
+        def decide(p):
+            weights = [mixer.select(k) for mixer, k in zip(state.only_mixers, sets(p))]
+            return decide_mixed(decoder, [(table, i + p) for table, i in zip(tables, first)], weights, rate)
+
+        if not decide(0):
+            return 0
+        for _ in range(3):
+            place = 2 * place + decide(place)
+        return 1 << place - 8
+
+    def predict_only(self, around_node, latest, beside):
+        """8.4.6: the indices of table 8-4 but for p, and the sets of weights by p."""
+        neighbours, occupied, unknown = around_node
+        bits, nN = self.state.hash_bits, neighbours.bit_count()
+        first = [((10 * lone(of[2]) + lone(of[1])) * 10 + lone(of[0])) * 8 for of in (beside, latest)]
+        for key in (neighbours * HASH_A, self.columns(latest) * HASH_A, occupied * HASH_A + unknown * HASH_B):
+            first.append(hash_group(key, 256, bits, 3))
+        return first, lambda p: (8 * p + min(nN // 3, 7), 22 * p + self.level)
+
+    def predict(self, c, coded, around_node, columns):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
-        columns = history
         bits = self.state.hash_bits
         siblings = 1 << c | coded
         O = occupied >> WINDOW_SHIFT[c] & ALL
@@ -911,9 +949,9 @@ class Octree:
         return entries
 
     @staticmethod
-    def read_history(history, entries):
+    def columns(latest):
         """8.4.3: columns of a node."""
-        by_yz, by_xz, by_xy = [table.get(k, 0) for table, k in zip(history, entries)]
+        by_yz, by_xz, by_xy = latest
         return 4096 + COLUMNS_X[by_yz] * 256 + COLUMNS_Y[by_xz] * 16 + COLUMNS_Z[by_xy]
 
 

@@ -90,6 +90,11 @@ class Trace:
         self.about = (f"level {octree.level} child {c}: neighbours {neighbours:07x} occupied {occupied:x} unknown {unknown:x} "
                       f"columns {columns}: contexts {indices} sets {sets}")
 
+    def predicted_only(self, result, octree, _around_node, latest, beside):
+        first, sets = result
+        self.about = (f"level {octree.level} only child: latest {latest} beside {beside}: contexts {first} + place, sets {sets(0)} "
+                      "at place 0")
+
     def level_decoded(self, _result, octree, _decoder):
         self.say(f"  nodes of level {octree.level}: " + self.few(octree.nodes))
 
@@ -143,6 +148,7 @@ class Trace:
                 self.wrap(decoder, "decide", self.after_decision, self.before_decision),
                 self.wrap(decoder, "adaptive", before=self.adaptive),
                 self.wrap(text.Octree, "predict", self.predicted),
+                self.wrap(text.Octree, "predict_only", self.predicted_only),
                 self.wrap(text.Octree, "decode_level", self.level_decoded),
                 self.wrap(text.VectorState, "__init__", self.named),
                 self.wrap(text.MixedDecision, "decode", before=self.mixed),

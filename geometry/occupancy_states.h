@@ -1,0 +1,65 @@
+// What the decisions of child occupancy have learnt. Spec 8.4.2.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "entropy/context_bit.h"
+#include "entropy/context_shape.h"
+#include "entropy/mixer.h"
+
+namespace slf {
+
+/// What the decisions of a unit leave to those of the next: a value, so that several slices may
+/// start from the same. Spec 8.4.1.
+struct OccupancyStates {
+  /// points: of all slices; hashed contexts are as many as they can fill.
+  explicit OccupancyStates(std::uint64_t points);
+
+  // Tables that are not hashed. Spec table 8-3.
+  using Faces = ContextShape<256, 8>;     // 27 * 8 of them; child
+  using Corner = ContextShape<128, 256>;  // of the node; siblings
+  using Places = ContextShape<10, 10, 10, 8>;  // of only children, three axes; place (table 8-4)
+  // Sets of weights.
+  using BySiblings = ContextShape<8, 256>;  // class of the node's neighbours; siblings
+  using ByDensity = ContextShape<22, 27>;   // level; cells around
+  using ByFaces = ContextShape<27 * 8>;
+  using PlaceByClass = ContextShape<8, 8>;   // place; class of the node's neighbours
+  using PlaceByLevel = ContextShape<8, 22>;  // place; level
+
+  static constexpr int kMostHashedBits = 18;
+  static constexpr std::uint32_t kHashed = 3;
+
+  // Found on the clouds of docs/rate.md.
+  static constexpr std::int16_t kFirstWeight = 900;  // of 8192
+  static constexpr std::uint32_t kFirstRate = 8, kLastRate = 4;
+
+  std::uint32_t num_nodes = 0;
+  std::int32_t rate = kFirstRate;
+  int hashed_bits;  ///< log2 of the number of contexts of a hashed table
+  std::vector<ContextBit> faces, corner, beside, latest;
+  std::array<std::vector<ContextBit>, kHashed> hashed;
+  WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
+  WeightSets by_density{ByDensity::kCount, kFirstWeight};
+  WeightSets by_faces{ByFaces::kCount, kFirstWeight};
+  WeightSets place_by_class{PlaceByClass::kCount, kFirstWeight};
+  WeightSets place_by_level{PlaceByLevel::kCount, kFirstWeight};
+
+  static constexpr int hashed_bits_of(std::uint64_t points) {
+    return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);
+  }
+  /// Of what states for so many points hold.
+  static constexpr std::size_t bytes(std::uint64_t points) {
+    return sizeof(ContextBit) *
+               (Faces::kCount + Corner::kCount + 2 * Places::kCount +
+                (std::size_t{kHashed} << hashed_bits_of(points))) +
+           sizeof(EightLanes) * (BySiblings::kCount + ByDensity::kCount + ByFaces::kCount +
+                                 PlaceByClass::kCount + PlaceByLevel::kCount);
+  }
+};
+
+}  // namespace slf
