@@ -173,5 +173,14 @@ TEST(Spec_8_4_Rate, AClosedSurfaceTakesLessThanABitAPoint) {
             1.0 * static_cast<double>(voxels.size()));
 }
 
+TEST(Spec_8_4_6_OnlyChild, OneThatSitsAlikeInEveryNodeTakesATenthOfABit) {
+  std::vector<Voxel> apart = test::sphere_cloud(7);
+  for (Voxel& v : apart)
+    for (std::size_t axis = 0; axis < 3; ++axis) v[axis] = 2 * v[axis] + (axis != 1);
+  const std::vector<int> ends = {7, 8};
+  EXPECT_LT(80.0 * static_cast<double>(encode_octree(codes(apart), 8, ends)[1].size()),
+            1.0 * static_cast<double>(apart.size()));
+}
+
 }  // namespace
 }  // namespace slf::octree_test
