@@ -143,9 +143,8 @@ class OccupancyModel {
     };
     ContextBit* const by_beside =
         &states_.beside[States::Places::index(beside(4), beside(10), beside(12), 0)];
-    ContextBit* const by_latest =
-        &states_.latest[States::Places::index(only_child(view.latest[2]), only_child(view.latest[1]),
-                                              only_child(view.latest[0]), 0)];
+    ContextBit* const by_latest = &states_.latest[States::Places::index(
+        only_child(view.latest[2]), only_child(view.latest[1]), only_child(view.latest[0]), 0)];
     const auto code_place = [&](unsigned place, unsigned bit) {  // table 8-4
       const std::array<ContextBit*, 5> selected = {
           by_beside + place, by_latest + place,

@@ -21,8 +21,8 @@ struct OccupancyStates {
   explicit OccupancyStates(std::uint64_t points);
 
   // Tables that are not hashed. Spec table 8-3.
-  using Faces = ContextShape<256, 8>;     // 27 * 8 of them; child
-  using Corner = ContextShape<128, 256>;  // of the node; siblings
+  using Faces = ContextShape<256, 8>;          // 27 * 8 of them; child
+  using Corner = ContextShape<128, 256>;       // of the node; siblings
   using Places = ContextShape<10, 10, 10, 8>;  // of only children, three axes; place (table 8-4)
   // Sets of weights.
   using BySiblings = ContextShape<8, 256>;  // class of the node's neighbours; siblings
@@ -54,9 +54,8 @@ struct OccupancyStates {
   }
   /// Of what states for so many points hold.
   static constexpr std::size_t bytes(std::uint64_t points) {
-    return sizeof(ContextBit) *
-               (Faces::kCount + Corner::kCount + 2 * Places::kCount +
-                (std::size_t{kHashed} << hashed_bits_of(points))) +
+    return sizeof(ContextBit) * (Faces::kCount + Corner::kCount + 2 * Places::kCount +
+                                 (std::size_t{kHashed} << hashed_bits_of(points))) +
            sizeof(EightLanes) * (BySiblings::kCount + ByDensity::kCount + ByFaces::kCount +
                                  PlaceByClass::kCount + PlaceByLevel::kCount);
   }
