@@ -158,7 +158,8 @@ TEST(Spec_8_4_Bounds, AnExhaustedCodewordEndsTheWorkNotTheUnit) {
     OctreeDecoder decoder(21, kPoints, OccupancyStates(kPoints));
     const auto decoded = decoder.decode(payload, 21);
     ASSERT_FALSE(decoded);
-    // 8.3.3: at most 16600 decisions a byte, of which a node takes seven or eight.
+    // 8.3.3: at most 16600 decisions a byte, of which a node of several children takes seven or
+    // more.
     EXPECT_LT(decoder.morton().size(), std::size_t{8} * 16600 * 20 / 7);
   }
 }

@@ -3,21 +3,12 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { pictureOf, psnr, settled, skip, slf } from './support.mjs';
-import { viewerUnderTest } from './viewer_support.mjs';
+import { slide, viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
 
 const pose = (page) => page.evaluate(() => ({ ...window.viewer.stage.pose }));
 const points = (page) => page.evaluate(() => window.viewer.stage.field.points);
-const slide = (page, id, value) =>
-  page.evaluate(
-    ([name, to]) => {
-      const input = document.getElementById(name);
-      input.value = to;
-      for (const type of ['input', 'change']) input.dispatchEvent(new Event(type, { bubbles: true }));
-    },
-    [id, value],
-  );
 
 test("a file of the address is shown, titled and asked for alone, from the page's own server", { skip }, async () => {
   const page = await here.opened('src=/files/can.slf&title=A%20can');

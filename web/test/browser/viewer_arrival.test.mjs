@@ -2,19 +2,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pictureOf, psnr, settled, skip, slf } from './support.mjs';
-import { viewerUnderTest } from './viewer_support.mjs';
+import { slide, viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
-
-const slide = (page, id, value) =>
-  page.evaluate(
-    ([name, to]) => {
-      const input = document.getElementById(name);
-      input.value = to;
-      for (const type of ['input', 'change']) input.dispatchEvent(new Event(type, { bubbles: true }));
-    },
-    [id, value],
-  );
 
 test('a slider that moves while a file arrives holds for what comes, and nothing is said to be wrong', { skip }, async () => {
   const page = await here.open('src=/files/slow.slf');

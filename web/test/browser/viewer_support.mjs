@@ -32,6 +32,17 @@ export function viewerUnderTest() {
   return here;
 }
 
+/** Moves a slider as a hand does. */
+export const slide = (page, id, value) =>
+  page.evaluate(
+    ([name, to]) => {
+      const input = document.getElementById(name);
+      input.value = to;
+      for (const type of ['input', 'change']) input.dispatchEvent(new Event(type, { bubbles: true }));
+    },
+    [id, value],
+  );
+
 /** The can, whole; one byte of it changed; cut; slow; and over a connection that breaks. */
 function serveWithFaults({ dir, bytes }) {
   const write = (name, content) => writeFileSync(join(dir, name), content);
