@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::int32_t kMeanLimit = (1 << 17) - 1;
 
-std::int32_t clamped(std::int32_t mean) { return std::clamp(mean, -kMeanLimit, kMeanLimit); }
-
 /// The three faces and three edges of a child that its parent does not share.
 constexpr auto kOutward = [] {
   std::array<std::array<std::uint8_t, 6>, 8> table{};
@@ -67,17 +65,13 @@ inline void accumulate(std::int32_t* __restrict sum, const std::int32_t* __restr
   if (term.root_q30 == 0) {
     for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * source[j];
   } else if (term.root_q30 == 1 << 30) {
-    for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * clamped(source[j]);
+    for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * limited(source[j], kMeanLimit);
   } else {
-    for (std::size_t j = 0; j < lanes; ++j)
-      sum[j] += weight * clamped(round_q30(std::int64_t{source[j]} * term.root_q30));
+    for_values(lanes, [=, root = term.root_q30](auto at) {
+      const auto mean = limited(rounded<30>(product(value_at(source, at), root)), kMeanLimit);
+      set_value(sum, at, value_at(sum, at) + mean * weight);
+    });
   }
-}
-
-/// x / 2^25 to nearest, ties away from zero; the result has 32 bits.
-inline std::int32_t round_q25(std::int64_t x) {
-  const auto bits = static_cast<std::uint64_t>(x);
-  return static_cast<std::int32_t>((bits + (1u << 24) - (bits >> 63)) >> 25);
 }
 
 /// Means of the corrections over the children, weighted with their shares.
@@ -90,8 +84,9 @@ inline void mean_correction(const NodePrediction& plan, const Corrections& out, 
     for (std::size_t j = 0; j < lanes; ++j) mean[j] = out[0][j];
     for (std::size_t i = 1; i < plan.children; ++i)
       for (std::size_t j = 0; j < lanes; ++j) mean[j] += out[i][j];
-    for (std::size_t j = 0; j < lanes; ++j)
-      mean[j] = round_q30(std::int64_t{plan.child[0].share_q30} * mean[j]);
+    for_values(lanes, [of = mean.data(), share = plan.child[0].share_q30](auto at) {
+      set_value(of, at, rounded<30>(product(value_at(of, at), share)));
+    });
     return;
   }
   std::array<std::int64_t, kPredictionLanes> total;
@@ -100,7 +95,7 @@ inline void mean_correction(const NodePrediction& plan, const Corrections& out, 
   for (std::size_t i = 1; i < plan.children; ++i)
     for (std::size_t j = 0; j < lanes; ++j)
       total[j] += std::int64_t{plan.child[i].share_q30} * out[i][j];
-  for (std::size_t j = 0; j < lanes; ++j) mean[j] = round_q30(total[j]);
+  for (std::size_t j = 0; j < lanes; ++j) mean[j] = rounded<30>(total[j]);
 }
 
 inline void finish_prediction(const NodePrediction& plan, std::size_t lanes, Corrections& out) {
@@ -108,22 +103,25 @@ inline void finish_prediction(const NodePrediction& plan, std::size_t lanes, Cor
   mean_correction(plan, out, lanes, mean);
   for (std::size_t i = 0; i < plan.children; ++i) {
     const std::int32_t root = plan.child[i].root_q19;
-    if (root % (1 << 17) == 0 && root <= 1 << 22) {  // as for one point: round_q25 in 32 bits
+    if (root % (1 << 17) == 0 && root <= 1 << 22) {  // as for one point: rounded<25> in 32 bits
       const std::int32_t root_q2 = root >> 17;
       for (std::size_t j = 0; j < lanes; ++j) {
         const std::int32_t difference = out[i][j] - mean[j];  // at most 2^25
         out[i][j] = (difference * root_q2 + 128 - (difference < 0)) >> 8;
       }
     } else {
-      for (std::size_t j = 0; j < lanes; ++j)
-        out[i][j] = round_q25(std::int64_t{out[i][j] - mean[j]} * root);
+      for_values(lanes, [to = out[i].data(), from = mean.data(), root](auto at) {
+        set_value(to, at, rounded<25>(product(value_at(to, at) - value_at(from, at), root)));
+      });
     }
   }
 }
 
-inline void mean_row(const std::int32_t* __restrict value, std::int64_t root_q30,
+inline void mean_row(const std::int32_t* __restrict value, std::int32_t root_q30,
                      std::int32_t* __restrict mean, std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) mean[j] = clamped(round_q30(value[j] * root_q30));
+  for_values(lanes, [=](auto at) {
+    set_value(mean, at, limited(rounded<30>(product(value_at(value, at), root_q30)), kMeanLimit));
+  });
 }
 
 /// Where a sum begins: its terms are differences from the node's own mean.

@@ -3,16 +3,13 @@
 
 #include <cstdint>
 
+#include "attributes/four_values.h"
 #include "attributes/raht_tree.h"
 
 namespace slf {
 
-/// x / 2^30 rounded to nearest, ties away from zero. |x| < 2^61, so the result has 32 bits and the
-/// sign bits that a logical shift loses are not part of it; AVX2 has no other for 64 bits.
-constexpr std::int32_t round_q30(std::int64_t x) {
-  const auto bits = static_cast<std::uint64_t>(x);
-  return static_cast<std::int32_t>((bits + (1u << 29) - (bits >> 63)) >> 30);
-}
+/// x / 2^30 rounded to nearest, ties away from zero. |x| < 2^61.
+constexpr std::int32_t round_q30(std::int64_t x) { return rounded<30>(x); }
 
 /// The butterfly of a merge, of both rows in one plane: values of left and right to the sum, which
 /// stays in the left row, and the difference.
@@ -23,10 +20,12 @@ inline void forward_merge(const Merge& m, std::int32_t& left, std::int32_t& righ
 }
 
 /// And back. Spec 8.8.1.
-inline void inverse_merge(const Merge& m, std::int32_t sum, std::int32_t difference,
-                          std::int32_t& left, std::int32_t& right) {
-  left = round_q30(std::int64_t{m.cos_q30} * sum - std::int64_t{m.sin_q30} * difference);
-  right = round_q30(std::int64_t{m.sin_q30} * sum + std::int64_t{m.cos_q30} * difference);
+template <class Values>
+SLF_IN_LINE void inverse_merge(const Merge& m, Values sum, Values difference, Values& left,
+                               Values& right) {
+  const Values cosine = m.cos_q30, sine = m.sin_q30;
+  left = rounded<30>(product(sum, cosine) - product(difference, sine));
+  right = rounded<30>(product(sum, sine) + product(difference, cosine));
 }
 
 }  // namespace slf

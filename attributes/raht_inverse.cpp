@@ -33,31 +33,33 @@ struct Steps {
 /// `lanes` of both rows of a merge where the difference is zero, as most are.
 inline void spread_mean(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                         std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) {
-    const std::int32_t mean = low[j];
-    low[j] = round_q30(std::int64_t{m.cos_q30} * mean);
-    high[j] = round_q30(std::int64_t{m.sin_q30} * mean);
-  }
+  for_values(lanes, [=, &m](auto at) {
+    const auto mean = value_at(low, at);
+    set_value(low, at, rounded<30>(product(mean, m.cos_q30)));
+    set_value(high, at, rounded<30>(product(mean, m.sin_q30)));
+  });
 }
 
 /// The same for any difference, still quantised. Not zero: a coefficient is too large; it counts
-/// as 0.
+/// as the largest.
 inline std::int32_t inverse_rows(const Merge& m, std::int32_t* __restrict low,
                                  std::int32_t* __restrict high, const std::int32_t* __restrict step,
                                  const std::int32_t* __restrict most, std::size_t lanes) {
   std::int32_t bad = 0;
-  for (std::size_t j = 0; j < lanes; ++j) {
-    const bool good = high[j] <= most[j] && high[j] >= -most[j];
-    bad |= !good;
-    const std::int32_t mean = low[j], difference = (good ? high[j] : 0) * step[j];
-    inverse_merge(m, mean, difference, low[j], high[j]);
-  }
+  for_values(lanes, [=, &m, &bad](auto at) {
+    auto left = value_at(low, at), right = value_at(high, at);
+    const auto within = limited(right, value_at(most, at));
+    bad |= differ(right, within);
+    inverse_merge(m, left, within * value_at(step, at), left, right);
+    set_value(low, at, left);
+    set_value(high, at, right);
+  });
   return bad;
 }
 
 inline bool any_nonzero(const std::int32_t* values, std::size_t lanes) {
   std::int32_t any = 0;
-  for (std::size_t j = 0; j < lanes; ++j) any |= values[j];
+  for_values(lanes, [&any, values](auto at) { any |= differ(value_at(values, at), 0); });
   return any != 0;
 }
 

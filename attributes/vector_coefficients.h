@@ -39,8 +39,9 @@ class VectorCoefficients {
   /// the encoder gives the values after. Returns false where the decoder met a value no encoder
   /// writes.
   template <class Coder>
-  bool code(Coder& coder, const CoefficientRows& rows, const CoefficientNeighbours& neighbours,
-            const VectorCoefficients* lower, std::size_t begin, std::size_t end) {
+  SLF_OWN_CALL bool code(Coder& coder, const CoefficientRows& rows,
+                         const CoefficientNeighbours& neighbours, const VectorCoefficients* lower,
+                         std::size_t begin, std::size_t end) {
     states_.begin(functions_.size());
     if constexpr (!Coder::kDecodes) find_rows(rows);
     for (std::size_t i = begin; i < end; ++i) {
@@ -95,7 +96,7 @@ class VectorCoefficients {
   }
 
   template <class Coder>
-  bool code_node(Coder& coder, const Around& around, std::uint32_t below, bool any) {
+  SLF_OWN_CALL bool code_node(Coder& coder, const Around& around, std::uint32_t below, bool any) {
     std::uint32_t parents = 0, beside = 0;
     std::array<std::uint32_t, Around::kRows> size;
     for (std::size_t k = 0; k < Around::kRows; ++k) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/multiversion.h"
 #include "codec/decode_cost.h"
 #include "codec/node_voxels.h"
 #include "geometry/cell_box.h"
@@ -50,6 +51,7 @@ Result<Done> decode_geometry_unit(const PartUnit& unit, const SequencePlan& plan
 
 }  // namespace
 
+SLF_OWN_CALL
 Result<Base> decode_base_geometry(const PartUnits& units, const SequencePlan& plan) {
   Base base{{0}, 0, OccupancyStates(plan.table.num_points()), {}, {}, {}, true};
   const std::uint64_t cells = plan.table.num_cells();

@@ -117,15 +117,15 @@ class OccupancyModel {
   unsigned code_children(Coder& coder, const View& view, unsigned occupancy) {
     Node node = node_contexts(view);
     unsigned coded = 0;
-    code_child<0>(coder, node, coded, occupancy);
-    code_child<1>(coder, node, coded, occupancy);
-    code_child<2>(coder, node, coded, occupancy);
-    code_child<3>(coder, node, coded, occupancy);
-    code_child<4>(coder, node, coded, occupancy);
-    code_child<5>(coder, node, coded, occupancy);
-    code_child<6>(coder, node, coded, occupancy);
+    code_child(0, coder, node, coded, occupancy);
+    code_child(1, coder, node, coded, occupancy);
+    code_child(2, coder, node, coded, occupancy);
+    code_child(3, coder, node, coded, occupancy);
+    code_child(4, coder, node, coded, occupancy);
+    code_child(5, coder, node, coded, occupancy);
+    code_child(6, coder, node, coded, occupancy);
     if (coded == 0) return 1u << 7;  // a node has a child: it must be the last
-    code_child<7>(coder, node, coded, occupancy);
+    code_child(7, coder, node, coded, occupancy);
     return coded;
   }
 
@@ -205,8 +205,10 @@ class OccupancyModel {
     return first;
   }
 
-  template <unsigned c, class Coder>
-  void code_child(Coder& coder, Node& node, unsigned& coded, unsigned occupancy) {
+  /// c: a constant where the function becomes a part of its caller.
+  template <class Coder>
+  SLF_OWN_CALL void code_child(unsigned c, Coder& coder, Node& node, unsigned& coded,
+                               unsigned occupancy) {
     const Child& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
     const unsigned faces = child.faces | (coded >> (c ^ 1) & 1) | (coded >> (c ^ 2) & 1) << 1 |
@@ -233,13 +235,12 @@ class OccupancyModel {
     contexts.update(bit);
     coded |= bit << c;
     // Where the later contexts are is known long before their turn.
-    if constexpr (c < 4)
-      node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
-    if constexpr (c == 2) {
+    if (c < 4) node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
+    if (c == 2) {
       node.next_neighbours_group = group(kByNeighbours, node.neighbours, 8 | coded, 5);
       node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
     }
-    if constexpr (c == 3) {
+    if (c == 3) {
       node.neighbours_group = node.next_neighbours_group;
       node.columns_group = node.next_columns_group;
     }

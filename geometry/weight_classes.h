@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/multiversion.h"
 #include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 #include "geometry/octree_levels.h"
@@ -32,7 +33,7 @@ class WeightClassModel {
   /// Of the next cell. The encoder passes the class, the decoder 0; both get it back: 0 ..
   /// kMostWeightClass.
   template <class Coder>
-  std::uint8_t code(Coder& coder, std::uint8_t value) {
+  SLF_OWN_CALL std::uint8_t code(Coder& coder, std::uint8_t value) {
     const auto selected = more_.select(next_contexts());
     std::uint8_t k = 0;
     while (k < kMostWeightClass && more_.code(coder, selected, k, k, value > k)) ++k;
