@@ -51,6 +51,8 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   Job job{capture, cameras, given, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
+  if (cameras.empty() && !capture.cameras.empty())
+    return InputError{Errc::kInvalidArgument, "none of the capture's cameras is to be used"};
   if (cameras.empty()) fit_colours_alone(settings);
   settings.observe.threads = settings.fit.threads = settings.threads;
   SLF_CHECK(check_settings(settings));

@@ -223,6 +223,12 @@ TEST_F(CameraTrustTest, ACloudThatNoPhotographSupportsIsRefused) {
   EXPECT_TRUE(encode(capture, input_, off));
 }
 
+TEST_F(CameraTrustTest, NoneOfTheCamerasThereAreIsRefusedAndNotTakenForACloudOfColours) {
+  const auto encoded = encode(capture_, {}, settings());
+  ASSERT_FALSE(encoded);
+  EXPECT_EQ(encoded.error().code, Errc::kInvalidArgument);
+}
+
 TEST_F(CameraTrustTest, FewerThanFourCamerasAreNotJudged) {
   Capture capture = capture_;
   expose(capture.images[std::size_t(input_[1])], 4);

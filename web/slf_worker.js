@@ -129,9 +129,14 @@ export class SlfWorker {
   }
 
   async open(url, { signal, stallMs, headers, credentials } = {}) {
+    let address;
+    try {
+      address = new URL(url, globalThis.location?.href).href;
+    } catch (cause) {
+      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${url} is no address`, { cause });
+    }
     const id = this.#next;
-    const opened = await this.#call('open', { url: String(new URL(url, globalThis.location?.href)),
-      options: { stallMs, headers, credentials } }, { signal });
+    const opened = await this.#call('open', { url: address, options: { stallMs, headers, credentials } }, { signal });
     return {
       ...opened,
       decode: (options = {}, { onRead, signal: stop, ...wanted } = {}) =>

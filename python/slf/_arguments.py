@@ -47,6 +47,15 @@ def pixels(size: Tuple[int, int]) -> Tuple[int, int]:
     return whole(width, 'width', 1, MOST_PIXELS), whole(height, 'height', 1, MOST_PIXELS)
 
 
+def colour(value: Any, name: str) -> Tuple[int, int, int]:
+    """Red, green and blue of 8 bits."""
+    channels = tuple(value) if np.iterable(value) else ()
+    if len(channels) != 3:
+        raise wrong(name, f'{name} is three whole numbers, not {value!r:.40}')
+    red, green, blue = (whole(c, name, 0, 255) for c in channels)
+    return red, green, blue
+
+
 def whole_array(values: npt.ArrayLike, name: str, kind: Type[_Whole]) -> npt.NDArray[_Whole]:
     """Of another type only where that has no fractions and none of its values is lost."""
     array = np.asarray(values)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, pixels, whole
+from ._arguments import MOST_BYTES, colour, pixels, whole
 from ._types import Box, Camera, Info, Source, Vector
 
 
@@ -130,7 +130,7 @@ class LightField:
         ValueError, InputError of a field without colours.
         """
         view = camera if size is None else camera.resized(size)
-        return self._renderer.render(view, background, view_dependent)
+        return self._renderer.render(view, colour(background, 'background'), view_dependent)
 
     def orbit(self, turn: float, elevation: float = 20, size: Tuple[int, int] = (800, 800),
               fov: float = 30) -> Camera:

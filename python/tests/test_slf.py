@@ -76,6 +76,9 @@ class ReadTest(unittest.TestCase):
         self.assertTrue((self.field.render(around) != 128).any())
         with self.assertRaises(ValueError):
             self.field.render(slf.Camera(10, 10, np.eye(2), np.eye(3), np.zeros(3)))
+        for background in [(300, 0, 0), (0, 0), 7, (0.5, 0, 0), None]:
+            with self.assertRaises(slf.ArgumentError):
+                self.field.render(camera, background=background)
 
     def test_parts_are_read(self):
         coarse = slf.read(self.encoded.data, levels=4)

@@ -49,3 +49,9 @@ test('what cannot be posted is a refused argument', async () => {
   const { slf } = await client();
   await assert.rejects(slf.decode(new Uint8Array(8), { onProgress() {} }), code('INVALID_ARGUMENT'));
 });
+
+test('what is no address is a refused argument, and nothing is asked for', async () => {
+  const { slf, asked } = await client();
+  await assert.rejects(slf.open('http://['), code('INVALID_ARGUMENT'));
+  assert.equal(asked.length, 0);
+});
