@@ -13,6 +13,7 @@
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
 #include "geometry/occupancy_history.h"
+#include "geometry/occupancy_rows.h"
 #include "geometry/occupancy_states.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
@@ -49,11 +50,10 @@ class OccupancyModel {
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
     const View view = view_of(nodes, n);
-    if (n + 1 < nodes.size())  // for the cache alone
-      group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, only_ ? kOnly : 0,
-            only_ ? 3 : 4);
+    if (only_ && n + 1 < nodes.size())  // for the cache alone
+      group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, kOnly, 3);
     unsigned coded = only_ ? code_only(coder, view, nodes, n, occupancy) : 0;
-    if (coded == 0) coded = code_children(coder, view, occupancy);
+    if (coded == 0) coded = code_children(coder, view, nodes, n, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
     constexpr std::uint32_t kFirst = OccupancyStates::kFirstRate,
                             kLast = OccupancyStates::kLastRate;
@@ -66,6 +66,8 @@ class OccupancyModel {
   /// What is around a node, and latest in its columns.
   struct View {
     std::uint32_t neighbours, neighbours_class;
+    std::uint32_t coded_neighbours;       ///< those whose occupancy is known
+    std::array<std::uint16_t, 27> known;  ///< [direction] 0: no neighbour, 256: one not coded yet
     Window occupied, unknown;
     std::array<std::uint8_t, 3> latest;
     std::uint64_t columns;
@@ -73,7 +75,6 @@ class OccupancyModel {
 
   /// What is known of a child before its node is coded, and where its contexts are.
   struct Child {
-    unsigned faces;     ///< those outside the node
     unsigned occupied;  ///< number of cells around it, outside the node
     unsigned corner;
     std::uint64_t cells;  ///< hash of the cells around it outside the node
@@ -84,27 +85,30 @@ class OccupancyModel {
   struct Node {
     std::array<Child, 8> child;
     std::uint32_t neighbours_class;
-    std::uint64_t neighbours, columns;              // keys of their hashes
-    std::uint32_t neighbours_group, columns_group;  // of the contexts of four children
-    std::uint32_t next_neighbours_group, next_columns_group;
+    std::uint64_t columns;        // key of their hash
+    std::uint32_t columns_group;  // of the contexts of four children
+    std::uint32_t next_columns_group;
+    std::array<std::int16_t, 8> by_rows;  // what the rows say of each child
   };
 
   using States = OccupancyStates;
 
-  /// Rows of table 8-3.
+  /// Rows of table 8-3; the first of only children alone (8.4.6).
   enum Hashed { kByNeighbours, kByColumns, kByCells };
 
   static constexpr unsigned kOnly = 256;  // as the second argument of group()
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
   View view_of(const OctreeLevel& nodes, std::size_t n) {
-    View view{nodes.around[n].directions, 0, 0, 0, history_.at(nodes.morton[n]), 1};
+    View view{nodes.around[n].directions, 0, 0, {}, 0, 0, history_.at(nodes.morton[n]), 1};
     const std::uint32_t* neighbour = nodes.neighbours.data() + nodes.around[n].first;
     for (std::uint32_t left = view.neighbours; left != 0; left &= left - 1) {
       const auto d = static_cast<std::size_t>(std::countr_zero(left));
       const unsigned occupancy = nodes.occupancy[*neighbour++];
       view.occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
       view.unknown |= occupancy == 0 ? kWindowParts[d] : 0;
+      view.known[d] = static_cast<std::uint16_t>(occupancy == 0 ? 256 : occupancy);
+      view.coded_neighbours |= static_cast<std::uint32_t>(occupancy != 0) << d;
     }
     for (unsigned axis = 0; axis < 3; ++axis)
       view.columns = view.columns << 4 | occupied_columns(view.latest[axis], axis);
@@ -114,8 +118,11 @@ class OccupancyModel {
   }
 
   template <class Coder>
-  unsigned code_children(Coder& coder, const View& view, unsigned occupancy) {
+  unsigned code_children(Coder& coder, const View& view, const OctreeLevel& nodes, std::size_t n,
+                         unsigned occupancy) {
     Node node = node_contexts(view);
+    const SelectedRows rows = rows_of(view, nodes, n, states_.rows);
+    node.by_rows = rows.logistic();
     unsigned coded = 0;
     code_child(0, coder, node, coded, occupancy);
     code_child(1, coder, node, coded, occupancy);
@@ -124,8 +131,11 @@ class OccupancyModel {
     code_child(4, coder, node, coded, occupancy);
     code_child(5, coder, node, coded, occupancy);
     code_child(6, coder, node, coded, occupancy);
-    if (coded == 0) return 1u << 7;  // a node has a child: it must be the last
-    code_child(7, coder, node, coded, occupancy);
+    if (coded == 0)
+      coded = 1u << 7;  // a node has a child: it must be the last
+    else
+      code_child(7, coder, node, coded, occupancy);
+    rows.update(0xFF, coded, states_.rate);
     return coded;
   }
 
@@ -145,6 +155,9 @@ class OccupancyModel {
         &states_.beside[States::Places::index(beside(4), beside(10), beside(12), 0)];
     ContextBit* const by_latest = &states_.latest[States::Places::index(
         only_child(view.latest[2]), only_child(view.latest[1]), only_child(view.latest[0]), 0)];
+    const SelectedRows rows = rows_of(view, nodes, n, states_.only_rows);
+    const std::array<std::int16_t, 8> by_rows = rows.logistic();
+    unsigned decided = 0, ones = 0;                              // places, as bits
     const auto code_place = [&](unsigned place, unsigned bit) {  // table 8-4
       const std::array<ContextBit*, 5> selected = {
           by_beside + place, by_latest + place,
@@ -152,20 +165,27 @@ class OccupancyModel {
           &states_.hashed[kByColumns][by_columns + place],
           &states_.hashed[kByCells][by_cells + place]};
       const SelectedContexts<5> contexts(selected);
+      const EightLanes seventh(std::array<std::int16_t, 8>{0, 0, 0, 0, 0, 0, by_rows[place]});
       const Mixed<2> mixed(
-          contexts.inputs(),
+          contexts.inputs().saturating_plus(seventh),
           {&states_.place_by_class[States::PlaceByClass::index(place, view.neighbours_class)],
            &states_.place_by_level[States::PlaceByLevel::index(place, level_)]});
       bit = coder.bit(mixed.p1(), bit);
       mixed.update(bit, states_.rate);
       contexts.update(bit);
+      decided |= 1u << place;
+      ones |= bit << place;
       return bit;
     };
-    if (code_place(0, std::has_single_bit(occupancy)) == 0) return 0;
-    const unsigned child = only_child(occupancy);
-    unsigned place = 1;
-    for (unsigned axis = 3; axis-- > 0;) place = 2 * place | code_place(place, child >> axis & 1);
-    return 1u << (place & 7);
+    unsigned coded = 0;
+    if (code_place(0, std::has_single_bit(occupancy)) != 0) {
+      const unsigned child = only_child(occupancy);
+      unsigned place = 1;
+      for (unsigned axis = 3; axis-- > 0;) place = 2 * place | code_place(place, child >> axis & 1);
+      coded = 1u << (place & 7);
+    }
+    rows.update(decided, ones, states_.rate);
+    return coded;
   }
 
   /// Which child an occupancy of one has; 8: there is none, 9: there are several.
@@ -174,18 +194,49 @@ class OccupancyModel {
     return std::has_single_bit(occupancy) ? static_cast<unsigned>(std::countr_zero(occupancy)) : 9;
   }
 
+  /// Spec 8.4.7, table 8-5.
+  static SelectedRows rows_of(const View& view, const OctreeLevel& nodes, std::size_t n,
+                              std::vector<EightLanes>& table) {
+    SelectedRows rows(table.data());
+    const auto each = [](auto bits, auto&& add) {
+      for (; bits != 0; bits &= bits - 1) add(static_cast<std::size_t>(std::countr_zero(bits)));
+    };
+    const auto by_neighbour = [&](std::size_t d, unsigned occupancy) {
+      rows.add(States::CellRows::kCount + States::NeighbourRows::index(d, occupancy));
+    };
+    const auto hashed = [&](std::size_t kind, std::uint64_t value) {
+      const std::uint64_t h = (kind << 27 | value) * kFactorA;
+      rows.add(States::kHashedRows + static_cast<std::size_t>(h >> (64 - States::kHashedRowBits)));
+    };
+    // One of its own cells stands for the node.
+    each(view.occupied | own_cell(0), [&](std::size_t cell) { rows.add(cell); });
+    each(view.neighbours & ~view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, 0); });
+    const Voxel cell = from_morton(nodes.morton[n]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      hashed(axis, static_cast<std::uint32_t>(cell[axis]));
+    rows.end_slow();
+    each(view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, view.known[d]); });
+    constexpr std::array<std::size_t, 3> kLower = {12, 10, 4}, kUpper = {14, 16, 22};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t lower = view.known[kLower[axis]];
+      hashed(3 + axis, lower << 9 | view.known[kUpper[axis]]);
+      hashed(6 + axis, lower << 9 | view.known[kLower[(axis + 1) % 3]]);
+      if (view.known[kUpper[axis]] != 0)
+        hashed(9 + axis, nodes.around[nodes.neighbour(n, kUpper[axis])].directions);
+    }
+    hashed(12, view.neighbours);
+    return rows;
+  }
+
   Node node_contexts(const View& view) {
     Node node;
     node.neighbours_class = view.neighbours_class;
-    node.neighbours = view.neighbours * kFactorA;
     node.columns = view.columns * kFactorA;
-    node.neighbours_group = group(kByNeighbours, node.neighbours, 0, 4);
     node.columns_group = group(kByColumns, node.columns, 0, 4);
     SLF_UNROLL_8
     for (unsigned c = 0; c < 8; ++c) {
       Child& child = node.child[c];
       const Surroundings around = surroundings(view.occupied, view.unknown, c);
-      child.faces = outer_faces_of(around, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
       child.corner = corner_of(view.neighbours, c);
       if (c < 6) prefetch(&states_.corner[States::Corner::index(child.corner, 1u << c)]);
@@ -211,39 +262,31 @@ class OccupancyModel {
                                unsigned occupancy) {
     const Child& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
-    const unsigned faces = child.faces | (coded >> (c ^ 1) & 1) | (coded >> (c ^ 2) & 1) << 1 |
-                           (coded >> (c ^ 4) & 1) << 2;
     const unsigned occupied = child.occupied + static_cast<unsigned>(std::popcount(coded));
-    // Groups by node hold four children's contexts, those by cells the last three siblings'.
-    const unsigned in_node = c < 4 ? siblings : (coded & 8) << 1 | 1u << (c & 3) | coded >> 4;
+    // Groups by columns hold four children's contexts, those by cells the last three siblings'.
+    const unsigned in_columns = c < 4 ? siblings : (coded & 8) << 1 | 1u << (c & 3) | coded >> 4;
     const unsigned in_cells = c < 4 ? coded : coded >> (c - 3);
-    const std::array<ContextBit*, 5> selected = {
+    const std::array<ContextBit*, 3> selected = {
         // spec table 8-3
-        &states_.faces[States::Faces::index(faces, c)],
         &states_.corner[States::Corner::index(child.corner, siblings)],
-        &states_.hashed[kByNeighbours][node.neighbours_group + in_node],
-        &states_.hashed[kByColumns][node.columns_group + in_node],
+        &states_.hashed[kByColumns][node.columns_group + in_columns],
         &states_.hashed[kByCells][child.group + in_cells]};
-    const SelectedContexts<5> contexts(selected);
+    const SelectedContexts<3> contexts(selected);
+    const std::int16_t by_rows = node.by_rows[c];
+    const EightLanes fifth(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows});
     const Mixed<3> mixed(
-        contexts.inputs(),
+        contexts.inputs().saturating_plus(fifth),
         {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
          &states_.by_density[States::ByDensity::index(level_, occupied)],
-         &states_.by_faces[States::ByFaces::index(faces)]});
+         &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))]});
     const unsigned bit = coder.bit(mixed.p1(), occupancy >> c & 1u);
     mixed.update(bit, states_.rate);
     contexts.update(bit);
     coded |= bit << c;
     // Where the later contexts are is known long before their turn.
     if (c < 4) node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
-    if (c == 2) {
-      node.next_neighbours_group = group(kByNeighbours, node.neighbours, 8 | coded, 5);
-      node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
-    }
-    if (c == 3) {
-      node.neighbours_group = node.next_neighbours_group;
-      node.columns_group = node.next_columns_group;
-    }
+    if (c == 2) node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
+    if (c == 3) node.columns_group = node.next_columns_group;
   }
 
   OccupancyHistory history_;

@@ -4,10 +4,11 @@ namespace slf {
 
 OccupancyStates::OccupancyStates(std::uint64_t points)
     : hashed_bits(hashed_bits_of(points)),
-      faces(Faces::kCount),
       corner(Corner::kCount),
       beside(Places::kCount),
-      latest(Places::kCount) {
+      latest(Places::kCount),
+      rows(kRows),
+      only_rows(kRows) {
   for (auto& contexts : hashed) contexts.resize(std::size_t{1} << hashed_bits);
 }
 

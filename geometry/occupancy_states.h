@@ -21,15 +21,21 @@ struct OccupancyStates {
   explicit OccupancyStates(std::uint64_t points);
 
   // Tables that are not hashed. Spec table 8-3.
-  using Faces = ContextShape<256, 8>;          // 27 * 8 of them; child
   using Corner = ContextShape<128, 256>;       // of the node; siblings
   using Places = ContextShape<10, 10, 10, 8>;  // of only children, three axes; place (table 8-4)
   // Sets of weights.
-  using BySiblings = ContextShape<8, 256>;  // class of the node's neighbours; siblings
-  using ByDensity = ContextShape<22, 27>;   // level; cells around
-  using ByFaces = ContextShape<27 * 8>;
+  using BySiblings = ContextShape<8, 256>;   // class of the node's neighbours; siblings
+  using ByDensity = ContextShape<22, 27>;    // level; cells around
+  using ByRows = ContextShape<16>;           // what the rows say of the child, in halves
   using PlaceByClass = ContextShape<8, 8>;   // place; class of the node's neighbours
   using PlaceByLevel = ContextShape<8, 22>;  // place; level
+
+  // Rows. Spec table 8-5.
+  using CellRows = ContextShape<64>;            // cell of the window
+  using NeighbourRows = ContextShape<27, 256>;  // direction; occupancy, 0: not known yet
+  static constexpr int kHashedRowBits = 14;
+  static constexpr std::uint32_t kHashedRows = CellRows::kCount + NeighbourRows::kCount,
+                                 kRows = kHashedRows + (1u << kHashedRowBits);
 
   static constexpr int kMostHashedBits = 18;
   static constexpr std::uint32_t kHashed = 3;
@@ -41,11 +47,12 @@ struct OccupancyStates {
   std::uint32_t num_nodes = 0;
   std::int32_t rate = kFirstRate;
   int hashed_bits;  ///< log2 of the number of contexts of a hashed table
-  std::vector<ContextBit> faces, corner, beside, latest;
+  std::vector<ContextBit> corner, beside, latest;
   std::array<std::vector<ContextBit>, kHashed> hashed;
+  std::vector<EightLanes> rows, only_rows;
   WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
   WeightSets by_density{ByDensity::kCount, kFirstWeight};
-  WeightSets by_faces{ByFaces::kCount, kFirstWeight};
+  WeightSets by_rows{ByRows::kCount, kFirstWeight};
   WeightSets place_by_class{PlaceByClass::kCount, kFirstWeight};
   WeightSets place_by_level{PlaceByLevel::kCount, kFirstWeight};
 
@@ -54,10 +61,10 @@ struct OccupancyStates {
   }
   /// Of what states for so many points hold.
   static constexpr std::size_t bytes(std::uint64_t points) {
-    return sizeof(ContextBit) * (Faces::kCount + Corner::kCount + 2 * Places::kCount +
+    return sizeof(ContextBit) * (Corner::kCount + 2 * Places::kCount +
                                  (std::size_t{kHashed} << hashed_bits_of(points))) +
-           sizeof(EightLanes) * (BySiblings::kCount + ByDensity::kCount + ByFaces::kCount +
-                                 PlaceByClass::kCount + PlaceByLevel::kCount);
+           sizeof(EightLanes) * (2 * kRows + BySiblings::kCount + ByDensity::kCount +
+                                 ByRows::kCount + PlaceByClass::kCount + PlaceByLevel::kCount);
   }
 };
 

@@ -74,18 +74,6 @@ inline Surroundings surroundings(Window occupied, Window unknown, unsigned child
   return {occupied >> base & kAllAround, unknown >> base & kAllAround};
 }
 
-/// The states of the faces towards the outside of the node (0 empty, 1 occupied, 2 unknown each),
-/// of which three bits below are left for those inside: 0, 8, .. 208.
-inline unsigned outer_faces_of(const Surroundings& around, unsigned child) {
-  const unsigned x = 2 * (child & 1), y = 8 * (child >> 1 & 1), z = 32 * (child >> 2);
-  const auto state = [&](unsigned cell) {
-    const auto occupied = static_cast<unsigned>(around.occupied >> cell & 1);
-    const auto unknown = static_cast<unsigned>(around.unknown >> cell & 1);
-    return occupied | (unknown & ~occupied) << 1;
-  };
-  return 8 * (state(20 + x) + 3 * state(17 + y) + 9 * state(5 + z));
-}
-
 /// By child and by which of the eight nodes around its outer corner are occupied, x + 2y + 4z
 /// there: the seven that are not its own, over faces in x, y, z, over edges in xy, xz, yz, over the
 /// corner.
