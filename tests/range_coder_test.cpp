@@ -176,14 +176,13 @@ TEST(Spec_8_3_5_Context, FollowsTheShareOfOnesAndStaysWithinItsRange) {
 }
 
 TEST(Spec_8_3_5_Context, SeveralMoveTogetherAsEachAlone) {
-  // A context never seen is one half: other states with a count of 0 there are not.
+  constexpr std::uint32_t kAll = ContextStates::kAll;
   const auto context = [](std::uint32_t state) {
-    return state % 16 == 0 ? ContextBit()
-                           : std::bit_cast<ContextBit>(static_cast<std::uint16_t>(state));
+    return std::bit_cast<ContextBit>(static_cast<std::uint16_t>(state));
   };
-  for (std::uint32_t state = 0; state < 65536; ++state)
+  for (std::uint32_t state = 0; state < kAll; ++state)
     for (const unsigned bit : {0u, 1u}) {
-      std::array<ContextBit, 3> alone = {context(state), ContextBit(), context(65535 - state)};
+      std::array<ContextBit, 3> alone = {context(state), ContextBit(), context(kAll - 1 - state)};
       std::array<ContextBit, 6> together;
       std::copy(alone.begin(), alone.end(), together.begin() + 3);
       const std::array<ContextBit*, 3> first = {&together[0], &together[1], &together[2]};
