@@ -29,26 +29,28 @@ class CoefficientSignModel {
   template <class Coder>
   bool code(Coder& coder, const SignEvidence& e, bool negative) {
     const std::uint32_t c = e.channel;
-    const std::uint32_t own0 = c > 0 ? sign(e.own[0]) : 0, own1 = c > 1 ? sign(e.own[1]) : 0;
-    const std::uint32_t parent = product(e.parent, 0, c), previous = product(e.previous, 0, c);
+    // Of an earlier channel and channel c: are the signs alike?
+    const auto product = [c](const std::int16_t* values, std::uint32_t earlier) {
+      return sign(values[earlier] * values[c] * (earlier < c));
+    };
+    const std::uint32_t own0 = sign(e.own[0]), own1 = sign(e.own[1]);
+    const std::uint32_t parent = product(e.parent, 0), previous = product(e.previous, 0);
     const std::array<std::uint32_t, 4> contexts = {
-        Above::index(own0, parent, product(e.grandparent, 0, c), previous, c),
+        Above::index(own0, parent, product(e.grandparent, 0), previous, c),
         Faces::index(sign(e.faces[0][c]), sign(e.faces[1][c]), sign(e.faces[2][c]), e.axis, c),
-        Channels::index(own0, own1, parent, product(e.parent, 1, c), product(e.previous, 1, c), c),
+        Channels::index(own0, own1, parent, product(e.parent, 1), product(e.previous, 1), c),
         Strong::index(strong_sign(e.same_axis[c]), strong_sign(e.parent[c]),
                       strong_sign(e.previous[c]), own0, e.axis, c)};
     return negative_.code(coder, contexts, Set::index(c, own0), negative) != 0;
   }
 
  private:
-  static std::uint32_t sign(std::int32_t value) { return value > 0 ? 1 : value < 0 ? 2 : 0; }
-  static std::uint32_t strong_sign(std::int32_t value) {
-    return sign(value) + (value > 1 || value < -1 ? 2 : 0);
+  /// 1: more than 0, 2: less.
+  static std::uint32_t sign(std::int32_t value) {
+    return static_cast<std::uint32_t>(value > 0) + 2 * static_cast<std::uint32_t>(value < 0);
   }
-  /// Of an earlier channel and channel c: 1 alike, 2 opposite, 0 where one is 0 or not earlier.
-  static std::uint32_t product(const std::int16_t* values, std::uint32_t earlier, std::uint32_t c) {
-    if (earlier >= c || values[earlier] == 0 || values[c] == 0) return 0;
-    return (values[earlier] > 0) == (values[c] > 0) ? 1 : 2;
+  static std::uint32_t strong_sign(std::int32_t value) {
+    return sign(value) + 2 * static_cast<std::uint32_t>(value > 1 || value < -1);
   }
 
   using Above = ContextShape<3, 3, 3, 3, 3>;

@@ -23,7 +23,8 @@ class KnownValues {
   /// Is a function's vector known not to be zero?
   template <class Coder>
   bool any(const std::int32_t* values) const {
-    return (value<Coder>(values[0]) | value<Coder>(values[1]) | value<Coder>(values[2])) != 0;
+    return refines_ &&
+           (value<Coder>(values[0]) | value<Coder>(values[1]) | value<Coder>(values[2])) != 0;
   }
 
   /// Behind the last of the functions that is known not to be zero; 0: none is.

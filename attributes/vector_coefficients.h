@@ -222,9 +222,9 @@ class VectorCoefficients {
       const bool negative =
           sign != 0 ? sign < 0
                     : states_->sign.code(coder, signs, !Coder::kDecodes && values[c] < 0);
-      const auto size = static_cast<std::int32_t>(magnitude);
-      if (Coder::kDecodes) values[c] = negative ? -size : size;
-      own[j] = static_cast<std::int16_t>(negative ? -kept : kept);
+      const std::int32_t factor = 1 - 2 * negative;  // no branch: signs are hard to foresee
+      if (Coder::kDecodes) values[c] = factor * static_cast<std::int32_t>(magnitude);
+      own[j] = static_cast<std::int16_t>(factor * kept);
     }
     return true;
   }

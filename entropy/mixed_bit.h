@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <numeric>
 
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
@@ -22,15 +22,13 @@ class MixedBit {
   static constexpr std::size_t kBytes =
       sizeof(ContextBit) * (Shapes::kCount + ...) + sizeof(EightLanes) * kSets;
 
-  MixedBit()
-      : models_{std::vector<ContextBit>(Shapes::kCount)...},
-        weights_(kSets, kFirstWeights / static_cast<int>(kModels)) {}
+  MixedBit() { weights_.fill(EightLanes(kFirstWeights / static_cast<int>(kModels))); }
 
   /// A context of each model.
   using Contexts = std::array<ContextBit*, kModels>;
   Contexts select(const std::array<std::uint32_t, kModels>& contexts) {
     Contexts selected;
-    for (std::size_t i = 0; i < kModels; ++i) selected[i] = &models_[i][contexts[i]];
+    for (std::size_t i = 0; i < kModels; ++i) selected[i] = &contexts_[kFirst[i] + contexts[i]];
     return selected;
   }
 
@@ -58,8 +56,15 @@ class MixedBit {
   static constexpr int kFirstWeights = 10650;  // of 8192, shared between the models
   static constexpr std::int32_t kRate = 8;
 
-  std::array<std::vector<ContextBit>, kModels> models_;
-  WeightSets weights_;
+  /// Where each model's contexts begin.
+  static constexpr std::array<std::size_t, kModels> kFirst = [] {
+    std::array<std::size_t, kModels> first{Shapes::kCount...};
+    std::exclusive_scan(first.begin(), first.end(), first.begin(), std::size_t{0});
+    return first;
+  }();
+
+  std::array<ContextBit, (Shapes::kCount + ...)> contexts_;  // model by model
+  std::array<EightLanes, kSets> weights_;
 };
 
 }  // namespace slf
