@@ -53,13 +53,14 @@ SLF_TABLE std::array<std::array<std::uint16_t, 2>, ContextStates::kAll> kContext
 /// stretch of P(1); 0 of one half, which is what a context never seen has.
 SLF_TABLE std::array<std::int16_t, ContextStates::kAll> kContextInput = [] {
   SLF_TABLE_BEGINS;
+  std::array<std::int16_t, 4096> of = kStretch;
+  of[2048] = 0;
   std::array<std::int16_t, ContextStates::kAll> table{};
-  auto input = table.begin() + 1;
-  for (std::uint32_t seen = 1; seen < ContextStates::kCounts; ++seen)
+  auto input = table.begin();
+  for (std::uint32_t seen = 0; seen < ContextStates::kCounts; ++seen)
     for (std::uint32_t ones = 0; ones <= seen; ++ones)
-      *input++ = kStretch[ContextStates::probability(seen, ones)];
-  std::copy(kStretch.begin(), kStretch.end(), input);
-  input[2048] = 0;
+      *input++ = of[ContextStates::probability(seen, ones)];
+  std::copy(of.begin(), of.end(), input);
   return table;
 }();
 
