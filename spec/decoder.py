@@ -656,9 +656,6 @@ SQUASH = [squash(x) for x in range(-2815, 2816)]
 STRETCH = stretch_table()
 
 
-INPUT = [0 if p == 2048 else x for p, x in enumerate(STRETCH)]                 # of 8.3.5
-
-
 def saturate(x):
     """8.3.3: 16 bits."""
     return max(-32768, min(x, 32767))
@@ -680,9 +677,31 @@ class Mixer:
         return copied(self, sets={chosen: weights[:] for chosen, weights in self.sets.items()})
 
 
-def decide_mixed(decoder, contexts, weights, rate):
-    """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt."""
-    inputs = [INPUT[table.probability[i]] for table, i in contexts] + [256]
+def probability(context):
+    """8.3.5: q of a mixed context, which is a pair (n, k), and later q alone."""
+    if isinstance(context, int):
+        return context
+    n, k = context
+    return (4096 * (4 * k + 1) + 2 * n + 1) // (4 * n + 2)
+
+
+def moved(context, bit):
+    """8.3.5: a mixed context after a decision."""
+    if isinstance(context, int):
+        target = 4095 if bit else 0
+        return context + ((target - context) * 3972 + (1 << 15) >> 16)
+    after = context[0] + 1, context[1] + bit
+    return after if after[0] < 15 else probability(after)
+
+
+MIXED = [(n, k) for n in range(15) for k in range(n + 1)] + list(range(4096))
+NEXT = {context: (moved(context, 0), moved(context, 1)) for context in MIXED}
+INPUT = {context: 0 if probability(context) == 2048 else STRETCH[probability(context)] for context in MIXED}
+
+
+def decide_mixed(decoder, contexts, weights, rate, more=()):
+    """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt. more: inputs behind 256."""
+    inputs = [INPUT[table.contexts[i]] for table, i in contexts] + [256, *more]
     summed = weights[0]
     for row in weights[1:]:
         summed = [saturate(a + b) for a, b in zip(summed, row)]
@@ -692,25 +711,21 @@ def decide_mixed(decoder, contexts, weights, rate):
     steps = [x * error + (1 << 15) >> 16 for x in inputs]
     for row in weights:
         row[:len(steps)] = [saturate(w + step) for w, step in zip(row, steps)]
-    target = 4095 if bit else 0
     for table, i in contexts:
-        before, count = table.probability[i], table.count[i]
-        table.probability[i] = before + ((target - before) * RATES[count] + (1 << 15) >> 16)
-        table.count[i] = min(count + 1, 15)
+        table.contexts[i] = NEXT[table.contexts[i]][bit]
     return bit
 
 
 class MixedContexts:
-    """8.3.5: a table of contexts: probabilities with 12 fractional bits, and counts."""
+    """8.3.5: a table of mixed contexts."""
 
     def __init__(self, size):
         """8.3.5: the initial state."""
-        self.probability = [2048] * size
-        self.count = [0] * size
+        self.contexts = [(0, 0)] * size
 
     def copy(self):
         """8.1: as that of Contexts."""
-        return copied(self, probability=self.probability[:], count=self.count[:])
+        return copied(self, contexts=self.contexts[:])
 
 
 class MixedDecision:
@@ -764,16 +779,6 @@ def around(distances):
                if abs(dx) + abs(dy) + abs(dz) in distances)
 
 
-def face_cells(child):
-    """8.4.2: window bits, around (1, 1, 1), of a child's face neighbours outside the node."""
-    cells = []
-    for axis in range(3):
-        cell = [1, 1, 1]
-        cell[axis] = 2 if child[axis] else 0
-        cells.append(window_bit(*cell))
-    return cells
-
-
 def corner_directions(child):
     """8.4.2: the directions whose neighbours make up corner."""
     signs = [1 if side else -1 for side in child]
@@ -790,7 +795,6 @@ def columns_table(first, second):
 
 WINDOW = window_table()
 ALL = around((1, 2, 3))
-OUTSIDE = [face_cells(child) for child in CHILDREN]
 CORNER = [corner_directions(child) for child in CHILDREN]
 WINDOW_SHIFT = [x + 4 * y + 16 * z for x, y, z in CHILDREN]
 COLUMNS_X, COLUMNS_Y, COLUMNS_Z = columns_table(1, 2), columns_table(0, 2), columns_table(0, 1)
@@ -807,23 +811,73 @@ def hash_group(key, coded, bits, group_bits):
     return h >> 64 - bits >> group_bits << group_bits
 
 
+CELL_ROWS, NEIGHBOUR_ROWS, HASHED_ROWS = 64, 27 * 256, 1 << 14      # of table 8-5
+OWN_CELL = window_bit(1, 1, 1)
+LOWER, UPPER = (12, 10, 4), (14, 16, 22)    # directions along x, y, z
+
+
+def bits_of(bits):
+    """8.4.7: the numbers of the bits that are set, ascending."""
+    return [i for i in range(bits.bit_length()) if bits >> i & 1]
+
+
+def hashed_row(kind, value):
+    """8.4.7: the row of a value of a kind."""
+    h = (kind * 2**27 + value) * HASH_A % 2**64
+    return CELL_ROWS + NEIGHBOUR_ROWS + (h >> 50)
+
+
+class Rows:
+    """8.4.7: a table of rows."""
+
+    def __init__(self):
+        """8.4.7: the initial state: eight lanes of 0, with 12 fractional bits."""
+        self.values = np.zeros((CELL_ROWS + NEIGHBOUR_ROWS + HASHED_ROWS, 8), np.int32)
+
+    def copy(self):
+        """8.1: as that of Contexts."""
+        return copied(self, values=self.values.copy())
+
+    def logistic(self, selected):
+        """8.4.7: what the rows of a node say of each decision; row by row saturated, which matters to few nodes."""
+        sums = self.values[selected].cumsum(axis=0)
+        if abs(sums).max() < 32768:
+            total = sums[-1]
+        else:
+            total = np.zeros(8, np.int32)
+            for row in self.values[selected]:
+                total = np.clip(total + row, -32768, 32767)
+        return (total >> 4).tolist()
+
+    def learn(self, selected, slow, logistic, decided, rate):
+        """8.4.7: all rows of a node move, the first `slow` of them by less; decided: bits by lane, None where there was none."""
+        errors = [0 if bit is None else (bit << 16) - SQUASH[x + 2815] >> 1 for bit, x in zip(decided, logistic)]
+        steps = np.empty((len(selected), 8), np.int32)
+        steps[:slow] = [error * 32 * rate + (1 << 15) >> 16 for error in errors]
+        steps[slow:] = [error * 128 * rate + (1 << 15) >> 16 for error in errors]
+        np.add.at(self.values, selected, steps)             # a row may be there twice
+        self.values[selected] = np.clip(self.values[selected], -32768, 32767)
+
+
 class OctreeState:
     """8.1: what geometry units hand on."""
 
     def __init__(self, points):
-        """8.4.2: contexts of table 8-3, three mixers, by the points of all slices."""
+        """8.4.2: contexts of table 8-3, three mixers, by the points of all slices; rows."""
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
-        widths = (11, 15, self.hash_bits, self.hash_bits, self.hash_bits)
+        widths = (15, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
         self.mixers = [Mixer(900) for _ in range(3)]
-        self.only_tables = [MixedContexts(8000) for _ in range(2)]      # 8.4.6
+        self.only_tables = [MixedContexts(size) for size in (8000, 8000, 1 << self.hash_bits)]      # 8.4.6
         self.only_mixers = [Mixer(900) for _ in range(2)]
+        self.rows, self.only_rows = Rows(), Rows()
         self.nodes_coded = 0
 
     def copy(self):
         """8.1: as that of Contexts."""
         return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers),
-                      only_tables=copied_all(self.only_tables), only_mixers=copied_all(self.only_mixers))
+                      only_tables=copied_all(self.only_tables), only_mixers=copied_all(self.only_mixers),
+                      rows=self.rows.copy(), only_rows=self.only_rows.copy())
 
 
 def lone(occupancy):
@@ -842,65 +896,96 @@ class Octree:
 
     def decode_level(self, decoder):
         """8.4.1: the children of all nodes of a level."""
-        index = {node: i for i, node in enumerate(self.nodes)}
-        occupancies = []
+        adjacent = self.all_neighbours()
+        occupancies = [0] * len(self.nodes)                 # 0: not coded yet
         history = [{} for _ in range(3)]
         following, state = [], self.state
         only = decoder.raw(1)
         for i, (x, y, z) in enumerate(self.nodes):
             neighbours = occupied = unknown = 0
-            for d, (dx, dy, dz) in enumerate(DIRECTIONS):
-                j = index.get((x + dx, y + dy, z + dz), i)
-                if j != i:
-                    neighbours |= 1 << d
-                    if j < i:
-                        occupied |= WINDOW[d][occupancies[j]]
-                    else:
-                        unknown |= WINDOW[d][255]
+            for d, j in adjacent[i].items():
+                neighbours |= 1 << d
+                if occupancies[j]:
+                    occupied |= WINDOW[d][occupancies[j]]
+                else:
+                    unknown |= WINDOW[d][255]
             entries = self.history_entries(x, y, z)
             around_node = neighbours, occupied, unknown
             latest = [table.get(k, 0) for table, k in zip(history, entries)]
-            beside = [occupancies[index[cell]] if cell in index else 0 for cell in ((x - 1, y, z), (x, y - 1, z), (x, y, z - 1))]
+            beside = [occupancies[adjacent[i][d]] if d in adjacent[i] else 0 for d in LOWER]
+            known = {d: occupancies[j] or 256 for d, j in adjacent[i].items()}
+            further = [sum(1 << d for d in adjacent[adjacent[i][u]]) if u in adjacent[i] else 0 for u in UPPER]
+            rows = self.select_rows((x, y, z), around_node, known, further)
             rate = 8 - min(state.nodes_coded >> 13, 4)
-            coded = self.decode_only(decoder, around_node, latest, beside, rate) if only else 0
-            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rate)
+            coded = self.decode_only(decoder, around_node, latest, beside, rows, rate) if only else 0
+            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rows, rate)
             state.nodes_coded += 1
             for table, entry in zip(history, entries):
                 table[entry] = coded
-            occupancies.append(coded)
+            occupancies[i] = coded
             following += [(2 * x + cx, 2 * y + cy, 2 * z + cz)
                           for c, (cx, cy, cz) in enumerate(CHILDREN) if coded >> c & 1]
             require(len(following) <= self.most, "gu_occupancy")
         self.nodes = following
         self.level += 1
 
-    def decode_node(self, decoder, around_node, columns, rate):
+    def all_neighbours(self):
+        """8.4.1: the nodes in the directions around every node, by direction."""
+        index, adjacent = {node: i for i, node in enumerate(self.nodes)}, []
+        for i, (x, y, z) in enumerate(self.nodes):
+            beside = [index.get((x + dx, y + dy, z + dz), i) for dx, dy, dz in DIRECTIONS]
+            adjacent.append({d: j for d, j in enumerate(beside) if j != i})
+        return adjacent
+
+    def select_rows(self, node, around_node, known, further):
+        """8.4.7: the rows of a node by table 8-5, and how many of them are slow."""
+        neighbours, occupied, _ = around_node
+        rows = bits_of(occupied | OWN_CELL)
+        rows += [CELL_ROWS + 256 * d for d in known if known[d] == 256]
+        rows += [hashed_row(axis, node[axis]) for axis in range(3)]
+        slow = len(rows)
+        rows += [CELL_ROWS + 256 * d + known[d] for d in known if known[d] < 256]
+        lower, upper = [[known.get(d, 0) for d in directions] for directions in (LOWER, UPPER)]
+        for axis in range(3):
+            rows.append(hashed_row(3 + axis, 512 * lower[axis] + upper[axis]))
+            rows.append(hashed_row(6 + axis, 512 * lower[axis] + lower[(axis + 1) % 3]))
+            if upper[axis]:
+                rows.append(hashed_row(9 + axis, further[axis]))
+        rows.append(hashed_row(12, neighbours))
+        return rows, slow
+
+    def decode_node(self, decoder, around_node, columns, rows, rate):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded, state = 0, self.state
+        by_rows = state.rows.logistic(rows[0])
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
                 break
-            indices, sets = self.predict(c, coded, around_node, columns)
+            indices, sets = self.predict(c, coded, around_node, columns, by_rows[c])
             weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
-            coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate) << c
+            coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate, [by_rows[c]]) << c
+        state.rows.learn(*rows, by_rows, [coded >> c & 1 for c in range(8)], rate)
         return coded
 
-    def decode_only(self, decoder, around_node, latest, beside, rate):
+    def decode_only(self, decoder, around_node, latest, beside, rows, rate):
         """8.4.6: the occupancy of a node of one child, 0 of another."""
-        state, place = self.state, 1
-        tables = state.only_tables + state.tables[2:]
+        state, place, decided = self.state, 1, [None] * 8
+        tables = state.only_tables + state.tables[1:]
         first, sets = self.predict_only(around_node, latest, beside)
+        by_rows = state.only_rows.logistic(rows[0])
 
         def decide(p):
             weights = [mixer.select(k) for mixer, k in zip(state.only_mixers, sets(p))]
-            return decide_mixed(decoder, [(table, i + p) for table, i in zip(tables, first)], weights, rate)
+            contexts = [(table, i + p) for table, i in zip(tables, first)]
+            decided[p] = decide_mixed(decoder, contexts, weights, rate, [by_rows[p]])
+            return decided[p]
 
-        if not decide(0):
-            return 0
-        for _ in range(3):
-            place = 2 * place + decide(place)
-        return 1 << place - 8
+        if decide(0):
+            for _ in range(3):
+                place = 2 * place + decide(place)
+        state.only_rows.learn(*rows, by_rows, decided, rate)
+        return 1 << place - 8 if decided[0] else 0
 
     def predict_only(self, around_node, latest, beside):
         """8.4.6: the indices of table 8-4 but for p, and the sets of weights by p."""
@@ -911,16 +996,13 @@ class Octree:
             first.append(hash_group(key, 256, bits, 3))
         return first, lambda p: (8 * p + min(nN // 3, 7), 22 * p + self.level)
 
-    def predict(self, c, coded, around_node, columns):
+    def predict(self, c, coded, around_node, columns, by_rows):
         """8.4.2: the indices of table 8-3 and the sets of weights."""
         neighbours, occupied, unknown = around_node
         bits = self.state.hash_bits
         siblings = 1 << c | coded
         O = occupied >> WINDOW_SHIFT[c] & ALL
         U = unknown >> WINDOW_SHIFT[c] & ALL
-        ax, ay, az = [1 if O & cell else 2 if U & cell else 0 for cell in OUTSIDE[c]]
-        bx, by, bz = [coded >> (c ^ side) & 1 for side in (1, 2, 4)]
-        faces = 8 * (ax + 3 * ay + 9 * az) + bx + 2 * by + 4 * bz
         corner = 0
         for k, d in enumerate(CORNER[c]):
             corner |= (neighbours >> d & 1) << k
@@ -931,12 +1013,10 @@ class Octree:
         in_node = siblings if first_half else (coded >> 3 & 1) * 16 + (1 << c - 4 | coded >> 4)
         older = max(c - 3, 0)
         indices = (
-            faces * 8 + c,
             siblings * 128 + corner,
-            hash_group(neighbours * HASH_A, node_key, bits, node_bits) + in_node,
             hash_group(columns * HASH_A, node_key, bits, node_bits) + in_node,
             hash_group(O * HASH_A + (U * 8 + c) * HASH_B, coded & (1 << older) - 1, bits, 3) + (coded >> older))
-        return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, faces)
+        return indices, (siblings * 8 + min(nN // 3, 7), nO * 22 + self.level, min(max(by_rows + 1024 >> 7, 0), 15))
 
     def history_entries(self, x, y, z):
         """8.4.3: a node's entries in the three tables: (y, z), (x, z), (x, y)."""
