@@ -658,7 +658,7 @@ STRETCH = stretch_table()
 
 def saturate(x):
     """8.3.3: 16 bits."""
-    return max(-32768, min(x, 32767))
+    return x if -32768 <= x <= 32767 else max(-32768, min(x, 32767))
 
 
 class Mixer:
@@ -839,15 +839,15 @@ class Rows:
         return copied(self, values=self.values.copy())
 
     def logistic(self, selected):
-        """8.4.7: what the rows of a node say of each decision; row by row saturated, which matters to few nodes."""
-        sums = self.values[selected].cumsum(axis=0)
-        if abs(sums).max() < 32768:
-            total = sums[-1]
-        else:
-            total = np.zeros(8, np.int32)
-            for row in self.values[selected]:
-                total = np.clip(total + row, -32768, 32767)
-        return (total >> 4).tolist()
+        """8.4.7: what the rows of a node say of each decision."""
+        rows = self.values[selected]
+        sums = rows.cumsum(axis=0)
+        total = sums[-1].tolist()
+        for lane in np.flatnonzero(abs(sums).max(axis=0) > 32767):
+            total[lane] = 0
+            for value in rows[:, lane].tolist():
+                total[lane] = saturate(total[lane] + value)
+        return [x >> 4 for x in total]
 
     def learn(self, selected, slow, logistic, decided, rate):
         """8.4.7: all rows of a node move, the first `slow` of them by less; decided: bits by lane, None where there was none."""

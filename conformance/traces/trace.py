@@ -84,11 +84,20 @@ class Trace:
             self.say(f"  {self.count:4} {p:5} {self.state[0]:08x} {self.state[1]:08x} {bit}  {self.about}")
         self.about = ""
 
-    def predicted(self, result, octree, c, coded, around_node, columns):
+    def rows_selected(self, result, _octree, node, *_):
+        rows, slow = result
+        if self.count < self.most:
+            self.say(f"  rows (8.4.7) of node {node}: {rows[:slow]}, then {rows[slow:]}")
+
+    def rows_added(self, result, _rows, _selected):
+        if self.count < self.most:
+            self.say(f"  values of the rows: {result}")
+
+    def predicted(self, result, octree, c, coded, around_node, columns, by_rows):
         neighbours, occupied, unknown = around_node
         indices, sets = result
         self.about = (f"level {octree.level} child {c}: neighbours {neighbours:07x} occupied {occupied:x} unknown {unknown:x} "
-                      f"columns {columns}: contexts {indices} sets {sets}")
+                      f"columns {columns} rows {by_rows}: contexts {indices} sets {sets}")
 
     def predicted_only(self, result, octree, _around_node, latest, beside):
         first, sets = result
@@ -147,6 +156,7 @@ class Trace:
                 self.wrap(text.LightField, "read_coefficients", self.modes_read),
                 self.wrap(decoder, "decide", self.after_decision, self.before_decision),
                 self.wrap(decoder, "adaptive", before=self.adaptive),
+                self.wrap(text.Octree, "select_rows", self.rows_selected), self.wrap(text.Rows, "logistic", self.rows_added),
                 self.wrap(text.Octree, "predict", self.predicted),
                 self.wrap(text.Octree, "predict_only", self.predicted_only),
                 self.wrap(text.Octree, "decode_level", self.level_decoded),
