@@ -43,7 +43,7 @@ struct Place {
 
 constexpr Place kPlaces[] = {
     {"signature", Errc::kNotSlf, "signature", "", 0},
-    {"bytes-after-end", Errc::kOutOfRange, "end_of_stream", "", 45104},
+    {"bytes-after-end", Errc::kOutOfRange, "end_of_stream", "", 45096},
     {"length-of-seven-bytes", Errc::kOutOfRange, "unit_length", "sequence", 72},
     {"crc", Errc::kChecksum, "unit_crc", "coefficients", 29272},
     {"version-major", Errc::kUnsupported, "sps_version_major", "sequence", 80},
@@ -54,19 +54,19 @@ constexpr Place kPlaces[] = {
     {"values-beyond-level", Errc::kOutOfRange, "sps_level", "sequence", 64},
     {"slices-longer", Errc::kOutOfRange, "slices_trailing_bits", "slices", 204},
     {"points-one-more", Errc::kOutOfRange, "slice_num_points_minus1", "slices", 272},
-    {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 5640},
+    {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 5656},
     {"slices-late", Errc::kOutOfRange, "unit_type", "geometry", 272},
     {"normals-escape", Errc::kOutOfRange, "nu_magnitude", "normals", 440},
     {"coefficients-alignment", Errc::kReserved, "alignment_zero_bits", "coefficients", 427},
     {"coefficient-limit", Errc::kOutOfRange, "cu_magnitude", "coefficients", 632},
-    {"layers-shorter", Errc::kTruncated, "cu_coefficients", "refinement", 28608},
+    {"layers-shorter", Errc::kTruncated, "cu_coefficients", "refinement", 28648},
     {"index-box-range", Errc::kOutOfRange, "index_box", "index", 793},
     {"index-ids", Errc::kOutOfRange, "index_unit_ids", "index", 288},
-    {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 44216},
-    {"digest", Errc::kChecksum, "digest_sha256", "digest", 43280},
-    {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 1304},
+    {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 44208},
+    {"digest", Errc::kChecksum, "digest_sha256", "digest", 43272},
+    {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 1296},
     {"transform-rank", Errc::kOutOfRange, "tr_rank_minus1", "transform", 251},
-    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44208},
+    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44200},
 };
 
 TEST(Spec_F_Places, AreThatOfTheElementInTheStream) {
