@@ -35,7 +35,7 @@ class EightLanes {
     return _mm_cvtsi128_si32(sum);
   }
 
-  /// Per lane (x * factor + 2^15) >> 16, factor within -2^14 .. 2^14 - 1, |x| below 2^15 - 1.
+  /// Per lane (x * factor + 2^15) >> 16, factor within -2^14 .. 2^14 - 1.
   EightLanes times(std::int32_t factor) const {
     const __m128i high = _mm_mulhi_epi16(v_, _mm_set1_epi16(static_cast<std::int16_t>(2 * factor)));
     return EightLanes(_mm_srai_epi16(_mm_add_epi16(high, _mm_set1_epi16(1)), 1));

@@ -154,11 +154,11 @@ TEST(Spec_8_3_3_Lanes, AreTheIntegersOfTheText) {
     const int factor = static_cast<int>(random() % 32768) - (1 << 14);
     int dot = 0;
     const auto sum = EightLanes(x).saturating_plus(EightLanes(w)).values();
-    const auto step = EightLanes(x).times(factor).values();
+    const auto step = EightLanes(w).times(factor).values();
     for (std::size_t k = 0; k < 8; ++k) {
       dot += x[k] * w[k];
       EXPECT_EQ(sum[k], std::clamp(x[k] + w[k], -32768, 32767));
-      EXPECT_EQ(step[k], (x[k] * factor + (1 << 15)) >> 16);
+      EXPECT_EQ(step[k], (w[k] * factor + (1 << 15)) >> 16);
     }
     EXPECT_EQ(EightLanes(x).dot(EightLanes(w)), dot);
   }
