@@ -7,8 +7,7 @@ OccupancyStates::OccupancyStates(std::uint64_t points)
       corner(Corner::kCount),
       beside(Places::kCount),
       latest(Places::kCount),
-      rows(kRows),
-      only_rows(kRows) {
+      rows(kRows) {
   for (auto& contexts : hashed) contexts.resize(std::size_t{1} << hashed_bits);
 }
 

@@ -49,7 +49,7 @@ struct OccupancyStates {
   int hashed_bits;  ///< log2 of the number of contexts of a hashed table
   std::vector<ContextBit> corner, beside, latest;
   std::array<std::vector<ContextBit>, kHashed> hashed;
-  std::vector<EightLanes> rows, only_rows;
+  std::vector<EightLanes> rows, only_rows;  // the latter empty until a level asks for them
   WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
   WeightSets by_density{ByDensity::kCount, kFirstWeight};
   WeightSets by_rows{ByRows::kCount, kFirstWeight};
