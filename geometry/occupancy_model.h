@@ -41,7 +41,8 @@ class OccupancyModel {
     history_.start_level(level);
     level_ = static_cast<std::uint32_t>(level);
     only_ = coder.raw(1, only) != 0;
-    if (only_) states_.only_rows.resize(States::kRows);
+    if (only_ && states_.only_rows.empty())
+      states_.only_rows = std::vector<EightLanes>(States::kRows);
   }
   /// nodes: of the level, all coded.
   void finish_level(const OctreeLevel& nodes) { history_.finish_level(nodes.morton); }
