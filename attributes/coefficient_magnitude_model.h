@@ -99,9 +99,6 @@ class CoefficientMagnitudeModel {
   using Set = ContextShape<2, 3, 16>;            // first of the vector; as above
   MixedBit<Set::kCount, Split, Other, Sides, Expected, Channels, Ratio> more_;
   std::array<PrefixContexts, 12> prefix_;
-
- public:
-  static constexpr std::size_t kBytes = decltype(more_)::kBytes + sizeof(prefix_);
 };
 
 }  // namespace slf

@@ -59,9 +59,6 @@ class CoefficientSignModel {
   using Strong = ContextShape<5, 5, 5, 3, 3, 3>;
   using Set = ContextShape<3, 3>;  // channel; the sign of the first
   MixedBit<Set::kCount, Above, Faces, Channels, Strong> negative_;
-
- public:
-  static constexpr std::size_t kBytes = decltype(negative_)::kBytes;
 };
 
 }  // namespace slf

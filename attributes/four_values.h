@@ -45,10 +45,7 @@ struct FourPlaces {
 class FourValues {
  public:
   explicit FourValues(v128_t values) : v(values) {}
-  /// The shuffle changes nothing. Without it compilers widen `every` by itself, and find no
-  /// multiplication of 32 by 32 bits any more.
-  FourValues(std::int32_t every)
-      : v(wasm_i32x4_shuffle(wasm_i32x4_splat(every), wasm_i32x4_const_splat(0), 0, 1, 2, 3)) {}
+  FourValues(std::int32_t every) : v(wasm_i32x4_splat(every)) {}
   FourValues operator+(FourValues o) const { return FourValues(wasm_i32x4_add(v, o.v)); }
   FourValues operator-(FourValues o) const { return FourValues(wasm_i32x4_sub(v, o.v)); }
   FourValues operator*(FourValues o) const { return FourValues(wasm_i32x4_mul(v, o.v)); }

@@ -8,15 +8,12 @@
 
 namespace slf {
 
-/// x / 2^30 rounded to nearest, ties away from zero. |x| < 2^61.
-constexpr std::int32_t round_q30(std::int64_t x) { return rounded<30>(x); }
-
 /// The butterfly of a merge, of both rows in one plane: values of left and right to the sum, which
 /// stays in the left row, and the difference.
 inline void forward_merge(const Merge& m, std::int32_t& left, std::int32_t& right) {
   const std::int32_t a = left, b = right;
-  left = round_q30(std::int64_t{m.cos_q30} * a + std::int64_t{m.sin_q30} * b);
-  right = round_q30(std::int64_t{m.cos_q30} * b - std::int64_t{m.sin_q30} * a);
+  left = rounded<30>(product(a, m.cos_q30) + product(b, m.sin_q30));
+  right = rounded<30>(product(b, m.cos_q30) - product(a, m.sin_q30));
 }
 
 /// And back. Spec 8.8.1.

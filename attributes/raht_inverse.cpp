@@ -268,7 +268,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
 void to_node_means(std::span<std::int32_t> row, std::uint32_t weight) {
   if (weight == 1) return;
   const auto reciprocal_root = static_cast<std::int64_t>(isqrt((std::uint64_t{1} << 60) / weight));
-  for (std::int32_t& value : row) value = round_q30(value * reciprocal_root);
+  for (std::int32_t& value : row) value = rounded<30>(value * reciprocal_root);
 }
 
 }  // namespace slf

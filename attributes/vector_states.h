@@ -53,11 +53,6 @@ struct VectorStates {
   MixedBit<Any::Set::kCount, Any::Activity, Any::Expected, Any::Sides, Any::Ratio, Any::Scale> any;
   CoefficientMagnitudeModel magnitude;
   CoefficientSignModel sign;
-
-  /// Of what it holds, but for `activity`.
-  static constexpr std::size_t kBytes = decltype(node)::kBytes + decltype(rest)::kBytes +
-                                        decltype(any)::kBytes + CoefficientMagnitudeModel::kBytes +
-                                        CoefficientSignModel::kBytes;
 };
 
 }  // namespace slf

@@ -44,7 +44,7 @@ constexpr double kUsualMeans = 0.02;  // of all rows, whose means are needed at 
 constexpr double kSample = 2, kPicturesMost = 17, kPictures = 4, kSamplesMost = 16, kSamples = 2;
 constexpr double kCellOfAtlas = 60;
 
-constexpr double kCoefficientStates = VectorStates::kBytes;  // a group
+constexpr double kCoefficientStates = sizeof(VectorStates);  // a group
 constexpr double kIndependentStates = 300;                   // a plane
 constexpr double kHistory = 3 << 18;  // of columns, while an octree is decoded
 

@@ -12,15 +12,12 @@
 namespace slf {
 
 /// A model for each shape of contexts, and a mixer with kSets sets of weights over them and a
-/// constant.
+/// constant. Too large for a stack where the shapes are.
 template <std::size_t kSets, class... Shapes>
 class MixedBit {
  public:
   static constexpr std::size_t kModels = sizeof...(Shapes);
   static_assert(kModels < EightLanes::kCount, "a lane is the constant's");
-  /// Of all that it learns.
-  static constexpr std::size_t kBytes =
-      sizeof(ContextBit) * (Shapes::kCount + ...) + sizeof(EightLanes) * kSets;
 
   MixedBit() { weights_.fill(EightLanes(kFirstWeights / static_cast<int>(kModels))); }
 

@@ -25,12 +25,12 @@ TEST(Spec_8_6_1_Isqrt, IsTheFloorOfTheRoot) {
 
 TEST(Spec_8_6_2_Rounding, TiesGoAwayFromZero) {
   const std::int64_t half = std::int64_t{1} << 29;
-  EXPECT_EQ(round_q30(half), 1);
-  EXPECT_EQ(round_q30(-half), -1);
-  EXPECT_EQ(round_q30(half - 1), 0);
-  EXPECT_EQ(round_q30(-half + 1), 0);
-  EXPECT_EQ(round_q30(5 * half), 3);
-  EXPECT_EQ(round_q30(-5 * half), -3);
+  EXPECT_EQ(rounded<30>(half), 1);
+  EXPECT_EQ(rounded<30>(-half), -1);
+  EXPECT_EQ(rounded<30>(half - 1), 0);
+  EXPECT_EQ(rounded<30>(-half + 1), 0);
+  EXPECT_EQ(rounded<30>(5 * half), 3);
+  EXPECT_EQ(rounded<30>(-5 * half), -3);
 }
 
 class RahtTreeTest : public testing::TestWithParam<test::NamedCloud> {};
