@@ -212,6 +212,15 @@ bool write_case(const fs::path& root, const Case& c) {
   return true;
 }
 
+/// A stream that is refused for something else than before may have lost its purpose.
+void tell_other_refusal(const fs::path& before, const std::string& text) {
+  std::ifstream file(before);
+  std::string line;
+  while (std::getline(file, line))
+    if (line.find("\"refuse\"") != std::string::npos && text.find(line) == std::string::npos)
+      std::fprintf(stderr, "%s: was%s\n", before.parent_path().filename().c_str(), line.c_str());
+}
+
 bool write_refused(const fs::path& root, const RefusedCase& c) {
   if (c.stream.empty()) return leave_out("refused", c.id, true);
   const auto field = decode(c.stream);
@@ -226,6 +235,7 @@ bool write_refused(const fs::path& root, const RefusedCase& c) {
                            ", \"code\": " + quoted(to_string(error.code)) +
                            ", \"element\": " + quoted(error.element) +
                            ", \"unit\": " + quoted(error.unit) + "}\n}\n";
+  tell_other_refusal(root / "refused" / c.id / "case.json", text);
   write(root / "refused" / c.id, c.stream, text);
   return true;
 }

@@ -177,10 +177,12 @@ std::vector<RefusedCase> refused_layers() {
   add("layers-of-a-texture", "a texture in layers", "7.2",
       [](auto& units) { edit_set(units, [](auto& s) { s.sps_profile = kTextureProfile; }); });
   add("layers-magnitude", "a value of 2^26 that is refined", "8.7.7", [](auto& units) {
-    auto& coefficients = first_of(units, UnitType::kCoefficients).payload;
-    coefficients = {0xE0};  // ids 0, 0, 0; no prediction
+    auto& unit = first_of(units, UnitType::kCoefficients);
+    unit.payload = {0xE0};  // ids 0, 0, 0; no prediction
     const Bytes large = codeword_of(1 << 26);
-    coefficients.insert(coefficients.end(), large.begin(), large.end());
+    unit.payload.insert(unit.payload.end(), large.begin(), large.end());
+    // Empty codewords behind their headers: others would be coded around what is there now.
+    (&unit + 1)->payload.resize(1);
     first_of(units, UnitType::kRefinement).payload.resize(1);  // an empty codeword
   });
   cases.push_back({"layers-unannounced",
