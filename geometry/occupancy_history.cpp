@@ -17,7 +17,7 @@ void OccupancyHistory::finish_level(std::span<const std::uint64_t> cells) {
   const std::size_t slots = std::size_t{1} << std::min(2 * level_, kSlotBits);
   if (cells.size() * kCellCost < slots) {
     for (const std::uint64_t cell : cells) {
-      at(cell);
+      at(from_morton(cell));
       store(0);
     }
   } else {

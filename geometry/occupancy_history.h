@@ -21,8 +21,7 @@ class OccupancyHistory {
 
   /// Occupancy of the latest coded node in the same slot, by key: (y, z), (x, z), (x, y).
   /// 0: none yet.
-  std::array<std::uint8_t, 3> at(std::uint64_t morton) {
-    const Voxel cell = from_morton(morton);
+  std::array<std::uint8_t, 3> at(const Voxel& cell) {
     const auto x = static_cast<std::uint32_t>(cell[0]), y = static_cast<std::uint32_t>(cell[1]),
                z = static_cast<std::uint32_t>(cell[2]);
     slot_ = {slot_of(y, z), slot_of(x, z), slot_of(x, y)};

@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/by_branch.h"
 #include "base/multiversion.h"
 #include "base/prefetch.h"
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
+#include "geometry/node_view.h"
 #include "geometry/occupancy_history.h"
 #include "geometry/occupancy_rows.h"
 #include "geometry/occupancy_states.h"
@@ -19,14 +21,6 @@
 #include "geometry/octree_levels.h"
 
 namespace slf {
-
-/// The 2 x 2 columns along the axis that hold a child, the lower of the other axes first.
-inline unsigned occupied_columns(unsigned o, unsigned axis) {
-  if (axis == 2) return (o | o >> 4) & 15;
-  if (axis == 1) return ((o | o >> 2) & 3) | ((o | o >> 2) >> 2 & 12);
-  const unsigned m = o | o >> 1;
-  return (m & 1) | (m >> 1 & 2) | (m >> 2 & 4) | (m >> 3 & 8);
-}
 
 class OccupancyModel {
  public:
@@ -51,7 +45,7 @@ class OccupancyModel {
   /// encoder passes the occupancy, the decoder 0; both get it back: 1 .. 255.
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
-    const View view = view_of(nodes, n);
+    const NodeView view = view_of(nodes, n, history_);
     if (only_ && n + 1 < nodes.size())  // for the cache alone
       group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, kOnly, 3);
     unsigned coded = only_ ? code_only(coder, view, nodes, n, occupancy) : 0;
@@ -65,16 +59,6 @@ class OccupancyModel {
   }
 
  private:
-  /// What is around a node, and latest in its columns.
-  struct View {
-    std::uint32_t neighbours, neighbours_class;
-    std::uint32_t coded_neighbours;       ///< those whose occupancy is known
-    std::array<std::uint16_t, 27> known;  ///< [direction] 0: no neighbour, 256: one not coded yet
-    Window occupied, unknown;
-    std::array<std::uint8_t, 3> latest;
-    std::uint64_t columns;
-  };
-
   /// What is known of a child before its node is coded, and where its contexts are.
   struct Child {
     unsigned occupied;  ///< number of cells around it, outside the node
@@ -101,27 +85,9 @@ class OccupancyModel {
   static constexpr unsigned kOnly = 256;  // as the second argument of group()
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
-  View view_of(const OctreeLevel& nodes, std::size_t n) {
-    View view{nodes.around[n].directions, 0, 0, {}, 0, 0, history_.at(nodes.morton[n]), 1};
-    const std::uint32_t* neighbour = nodes.neighbours.data() + nodes.around[n].first;
-    for (std::uint32_t left = view.neighbours; left != 0; left &= left - 1) {
-      const auto d = static_cast<std::size_t>(std::countr_zero(left));
-      const unsigned occupancy = nodes.occupancy[*neighbour++];
-      view.occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
-      view.unknown |= occupancy == 0 ? kWindowParts[d] : 0;
-      view.known[d] = static_cast<std::uint16_t>(occupancy == 0 ? 256 : occupancy);
-      view.coded_neighbours |= static_cast<std::uint32_t>(occupancy != 0) << d;
-    }
-    for (unsigned axis = 0; axis < 3; ++axis)
-      view.columns = view.columns << 4 | occupied_columns(view.latest[axis], axis);
-    view.neighbours_class =
-        std::min(static_cast<std::uint32_t>(std::popcount(view.neighbours)) / 3, 7u);
-    return view;
-  }
-
   template <class Coder>
-  unsigned code_children(Coder& coder, const View& view, const OctreeLevel& nodes, std::size_t n,
-                         unsigned occupancy) {
+  unsigned code_children(Coder& coder, const NodeView& view, const OctreeLevel& nodes,
+                         std::size_t n, unsigned occupancy) {
     Node node = node_contexts(view);
     const SelectedRows rows = rows_of(view, nodes, n, states_.rows);
     node.by_rows = rows.logistic();
@@ -143,7 +109,7 @@ class OccupancyModel {
 
   /// Spec 8.4.6: has the node one child only, and which? 0 where it has more.
   template <class Coder>
-  unsigned code_only(Coder& coder, const View& view, const OctreeLevel& nodes, std::size_t n,
+  unsigned code_only(Coder& coder, const NodeView& view, const OctreeLevel& nodes, std::size_t n,
                      unsigned occupancy) {
     const std::uint32_t by_neighbours = group(kByNeighbours, view.neighbours * kFactorA, kOnly, 3);
     const std::uint32_t by_columns = group(kByColumns, view.columns * kFactorA, kOnly, 3);
@@ -172,7 +138,7 @@ class OccupancyModel {
           contexts.inputs().saturating_plus(seventh),
           {&states_.place_by_class[States::PlaceByClass::index(place, view.neighbours_class)],
            &states_.place_by_level[States::PlaceByLevel::index(place, level_)]});
-      bit = coder.bit(mixed.p1(), bit);
+      bit = by_branch(coder.bit(mixed.p1(), bit));
       mixed.update(bit, states_.rate);
       contexts.update(bit);
       decided |= 1u << place;
@@ -197,9 +163,9 @@ class OccupancyModel {
   }
 
   /// Spec 8.4.7, table 8-5.
-  static SelectedRows rows_of(const View& view, const OctreeLevel& nodes, std::size_t n,
-                              std::vector<EightLanes>& table) {
-    SelectedRows rows(table.data());
+  SelectedRows rows_of(const NodeView& view, const OctreeLevel& nodes, std::size_t n,
+                       std::vector<EightLanes>& table) {
+    SelectedRows rows(table.data(), selected_);
     const auto each = [](auto bits, auto&& add) {
       for (; bits != 0; bits &= bits - 1) add(static_cast<std::size_t>(std::countr_zero(bits)));
     };
@@ -213,9 +179,8 @@ class OccupancyModel {
     // One of its own cells stands for the node.
     each(view.occupied | own_cell(0), [&](std::size_t cell) { rows.add(cell); });
     each(view.neighbours & ~view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, 0); });
-    const Voxel cell = from_morton(nodes.morton[n]);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      hashed(axis, static_cast<std::uint32_t>(cell[axis]));
+      hashed(axis, static_cast<std::uint32_t>(view.cell[axis]));
     rows.end_slow();
     each(view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, view.known[d]); });
     constexpr std::array<std::size_t, 3> kLower = {12, 10, 4}, kUpper = {14, 16, 22};
@@ -230,7 +195,7 @@ class OccupancyModel {
     return rows;
   }
 
-  Node node_contexts(const View& view) {
+  Node node_contexts(const NodeView& view) {
     Node node;
     node.neighbours_class = view.neighbours_class;
     node.columns = view.columns * kFactorA;
@@ -281,7 +246,7 @@ class OccupancyModel {
         {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
          &states_.by_density[States::ByDensity::index(level_, occupied)],
          &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))]});
-    const unsigned bit = coder.bit(mixed.p1(), occupancy >> c & 1u);
+    const unsigned bit = by_branch(coder.bit(mixed.p1(), occupancy >> c & 1u));
     mixed.update(bit, states_.rate);
     contexts.update(bit);
     coded |= bit << c;
@@ -292,6 +257,7 @@ class OccupancyModel {
   }
 
   OccupancyHistory history_;
+  SelectedRows::List selected_;
   std::uint32_t level_ = 0;
   bool only_ = false;
   OccupancyStates states_;

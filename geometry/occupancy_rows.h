@@ -14,7 +14,11 @@ namespace slf {
 /// places of an only child. They are added, and all move by how wrong their sum was.
 class SelectedRows {
  public:
-  explicit SelectedRows(EightLanes* rows) : rows_(rows) {}
+  /// As many as a node may select. Apart from the rest, which is for registers.
+  using List = std::array<EightLanes*, 1 + 56 + 26 + 3 + 10>;  // OccupancyModel::rows_of
+
+  /// list: kept by reference.
+  SelectedRows(EightLanes* rows, List& list) : rows_(rows), selected_(list) {}
 
   void add(std::size_t row) {
     selected_[count_++] = rows_ + row;
@@ -43,8 +47,7 @@ class SelectedRows {
   }
 
  private:
-  static constexpr std::int32_t kSlow = 32, kFast = 128;      // found on the clouds of docs/rate.md
-  static constexpr std::size_t kMost = 1 + 56 + 26 + 3 + 10;  // OccupancyModel::rows_of
+  static constexpr std::int32_t kSlow = 32, kFast = 128;  // found on the clouds of docs/rate.md
 
   void move(std::size_t begin, std::size_t end, EightLanes step) const {
     for (std::size_t i = begin; i < end; ++i) {
@@ -56,7 +59,7 @@ class SelectedRows {
   EightLanes* rows_;
   EightLanes sum_;
   std::size_t count_ = 0, slow_ = 0;
-  std::array<EightLanes*, kMost> selected_;
+  List& selected_;
 };
 
 }  // namespace slf

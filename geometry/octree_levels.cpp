@@ -72,22 +72,40 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-/// Of the children of node n, which has some.
-void add_neighbours(const OctreeLevel& parents, std::size_t n, OctreeLevel& children) {
-  const ChildWindow window = window_of(parents, n);
-  std::array<std::uint32_t, std::size_t{8} * 26> found;
-  std::size_t count = 0;
-  for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
-    const auto child = static_cast<unsigned>(std::countr_zero(left));
-    const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
-    const Window around = window.occupied >> corner & kAllAround;
-    const std::size_t first = children.neighbours.size() + count;
-    children.around.push_back({directions_of(around), static_cast<std::uint32_t>(first)});
-    for (Window cells = around; cells != 0; cells &= cells - 1)
-      found[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
+/// Lists of nodes, on their way to `neighbours` many at a time.
+class NeighbourLists {
+ public:
+  explicit NeighbourLists(std::vector<std::uint32_t>& all) : all_(all) {}
+
+  /// Of the children of node n, which has some.
+  void add(const OctreeLevel& parents, std::size_t n, OctreeLevel::Around*& around) {
+    if (count_ > kKept) flush();
+    const ChildWindow window = window_of(parents, n);
+    const auto before = static_cast<std::uint32_t>(all_.size());
+    std::uint32_t count = count_;
+    for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
+      const auto child = static_cast<unsigned>(std::countr_zero(left));
+      const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
+      Window cells = window.occupied >> corner & kAllAround;
+      *around++ = {directions_of(cells), before + count};
+      for (; cells != 0; cells &= cells - 1)
+        found_[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
+    }
+    count_ = count;
   }
-  children.neighbours.insert(children.neighbours.end(), found.data(), found.data() + count);
-}
+  /// Those kept here; at last, too.
+  void flush() {
+    all_.insert(all_.end(), found_.data(), found_.data() + count_);
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 1024;
+
+  std::vector<std::uint32_t>& all_;
+  std::uint32_t count_ = 0;
+  std::array<std::uint32_t, kKept + std::size_t{8} * 26> found_;
+};
 
 }  // namespace
 
@@ -123,10 +141,13 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
   children.occupancy.assign(count, 0);
   if (!with_neighbours) return children;
 
-  children.around.reserve(count);
+  children.around.resize(count);
   children.neighbours.reserve(std::size_t{8} * count);  // what a surface has, about
+  NeighbourLists lists(children.neighbours);
+  OctreeLevel::Around* around = children.around.data();
   for (std::size_t n = 0; n < parents.size(); ++n)
-    if (parents.occupancy[n] != 0) add_neighbours(parents, n, children);
+    if (parents.occupancy[n] != 0) lists.add(parents, n, around);
+  lists.flush();
   return children;
 }
 

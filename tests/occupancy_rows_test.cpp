@@ -10,7 +10,8 @@ namespace {
 
 SelectedRows select(std::vector<EightLanes>& table, std::initializer_list<std::size_t> slow,
                     std::initializer_list<std::size_t> fast) {
-  SelectedRows rows(table.data());
+  static SelectedRows::List list;
+  SelectedRows rows(table.data(), list);
   for (const std::size_t row : slow) rows.add(row);
   rows.end_slow();
   for (const std::size_t row : fast) rows.add(row);
