@@ -24,7 +24,7 @@ Result<Done> check_boxes_of_index(const Units& units, const SequencePlan& plan, 
 
 /// Is what comes out less than the stream was made of?
 bool is_partial(const Units& units, const SequencePlan& plan) {
-  return !units.complete || !plan.whole || plan.set.sps_cut_flag || plan.region;
+  return !units.complete || plan.missing || plan.set.sps_cut_flag || plan.region;
 }
 
 /// The points of the scene, with what goes with them.

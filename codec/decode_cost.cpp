@@ -249,7 +249,7 @@ Result<CostOnThreads> check_limits(const SequencePlan& plan, const DecodeOptions
   const std::uint64_t points = shape.base_alone ? plan.table.num_cells() : plan.table.num_points();
   SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
   // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
-  const bool told = plan.complete && plan.whole && !plan.region;
+  const bool told = plan.complete && !plan.missing && !plan.region;
   if (told || plan.set.has_draco())
     SLF_CHECK(check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan))));
   return cost;

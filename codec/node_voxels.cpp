@@ -1,5 +1,6 @@
 #include "codec/node_voxels.h"
 
+#include "base/multiversion.h"
 #include "geometry/morton.h"
 
 namespace slf {
@@ -13,10 +14,23 @@ Voxel node_voxel(std::uint64_t code, int level, const SequencePlan& plan) {
   return voxel;
 }
 
+namespace {
+
+SLF_MULTIVERSION
+void from_mortons(std::span<const std::uint64_t> codes, Voxel* voxels) {
+  for (const std::uint64_t code : codes) *voxels++ = from_morton(code);
+}
+
+}  // namespace
+
 std::vector<Voxel> node_voxels(std::span<const std::uint64_t> codes, int level,
                                const SequencePlan& plan) {
   std::vector<Voxel> voxels;
-  voxels.reserve(level == plan.levels ? codes.size() : 0);
+  if (level == plan.levels && level == plan.grid_bits()) {
+    voxels.resize(codes.size());
+    from_mortons(codes, voxels.data());
+    return voxels;
+  }
   for (const std::uint64_t code : codes)
     if (const Voxel v = node_voxel(code, level, plan); voxels.empty() || v != voxels.back())
       voxels.push_back(v);

@@ -1,6 +1,7 @@
 #include "codec/sequence_plan.h"
 
 #include <algorithm>
+#include <span>
 
 #include "codec/sequence.h"
 #include "codec/transform_units.h"
@@ -24,6 +25,17 @@ std::size_t least(std::size_t all, int asked, std::uint32_t left) {
   return left > 0 ? std::min(all, std::size_t{left}) : all;
 }
 
+/// Groups up to the last with a part in function 0, which alone has a mean.
+std::size_t groups_of_means(const SequenceParameterSet& set,
+                            std::span<const PlaneTransform> transforms) {
+  if (set.num_groups() == 0) return 0;
+  const auto group = static_cast<std::size_t>(function_groups(set)[0]);
+  for (const PlaneTransform& t : transforms)
+    if (group >= t.first_group && group < t.first_group + t.num_groups)
+      return t.first_group + t.num_groups;
+  return group + 1;
+}
+
 }  // namespace
 
 bool SequencePlan::meets_region(const Voxel& node, int level) const {
@@ -40,7 +52,10 @@ bool SequencePlan::meets_region(const Voxel& node, int level) const {
 Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
                                    const SliceTable& table, const DecodeOptions& options) {
   SLF_CHECK(check_options(set, options));
-  SequencePlan plan{set, table, {}, {}, {}, {}, 0, 1, true, options.region, 0, false};
+  SequencePlan plan;
+  plan.set = set;
+  plan.table = table;
+  plan.region = options.region;
   if (!units.units.empty())
     plan.stream_bytes = units.units.back().offset + units.units.back().bytes;
   plan.complete = units.complete && !set.sps_cut_flag;
@@ -48,7 +63,9 @@ Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSe
   plan.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));
   PlaneGroups groups = plane_groups(set);
   SLF_TRY(plan.transforms, collect_transforms(units, set, groups));  // 7.11
-  const std::size_t kept = least(groups.size(), options.groups, set.sps_cut_groups);
+  const std::size_t asked = least(groups.size(), options.groups, set.sps_cut_groups);
+  const std::size_t kept =
+      options.means_only ? std::min(asked, groups_of_means(set, plan.transforms)) : asked;
   SLF_CHECK(read_matrices(units, set, groups, kept, plan.transforms));
   groups.resize(kept);
   CodedFunctions coded = code_functions(std::move(groups), plan.transforms);  // 8.7.1
@@ -56,8 +73,9 @@ Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSe
   plan.coded = std::move(coded.functions);
   if (plan.planes() > options.limits.max_planes)
     return of_sequence(Errc::kLimitExceeded, "sps_num_functions");
-  plan.whole = !plan.kept_levels_only() && plan.groups.size() == set.num_groups() &&
-               plan.layers == static_cast<int>(set.num_layers());
+  plan.missing = plan.kept_levels_only() || asked < set.num_groups() ||
+                 plan.layers < static_cast<int>(set.num_layers());
+  plan.whole = !plan.missing && kept == asked;
   const auto steps = function_steps(set);
   for (const std::uint16_t k : plan.coded)
     plan.steps.insert(plan.steps.end(), steps[k].begin(), steps[k].end());

@@ -24,7 +24,8 @@ struct SequencePlan {
   std::vector<std::uint32_t> steps;  ///< [3 R]
   int levels = 0;                    ///< octree levels to keep, 1 .. grid_bits
   int layers = 1;                    ///< of coefficients to decode, at most
-  bool whole = true;  ///< no levels, groups or layers are left out: digests are checked
+  bool whole = true;     ///< no levels, groups or layers are left out: digests are checked
+  bool missing = false;  ///< some are that would be part of what was asked for
   std::optional<VoxelBox> region;                ///< of the whole grid
   std::uint64_t stream_bytes = 0;                ///< of signature and units
   bool complete = false;                         ///< no unit is missing

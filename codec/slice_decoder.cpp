@@ -163,6 +163,7 @@ Result<Done> SliceDecoder::decode_part(std::span<std::int32_t> components, int t
   const int levels = levels_ahead();
   SLF_CHECK(levels > plan_->levels ? decode_ahead(decoder, components, levels)
                                    : decode_units(decoder, components));
+  decoder.drop_models();
   SLF_CHECK(decoder.reconstruct(components, threads));
   if (plan_->kept_levels_only()) decoder.to_means(components);
   return Done{};

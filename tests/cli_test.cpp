@@ -87,7 +87,9 @@ TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   EXPECT_EQ(metadata["title"], "can");
   EXPECT_EQ(metadata["functions"], "32");
 
+  ASSERT_EQ(slf("decode a.slf -o means.ply --quiet").code, 0);
   ASSERT_EQ(slf("decode a.slf -o a.ply --dump dump").code, 0);
+  EXPECT_EQ(read("means.ply"), read("a.ply")) << "decoded of less";
   EXPECT_NE(read("a.ply").find("element vertex " + std::to_string(report["points"].get<int>())),
             std::string::npos);
   EXPECT_NE(read("a.ply").find("property float nx"), std::string::npos);
@@ -170,6 +172,7 @@ TEST_F(TinyCaptureTest, PartsOfAFileDecode) {
   EXPECT_LT(coarse["points"], whole["points"]);
   EXPECT_EQ(coarse["grid_bits"], 4);
   EXPECT_EQ(smooth["points"], whole["points"]);
+  EXPECT_EQ(whole["partial"], false);
   EXPECT_EQ(points("--max-bytes " + std::to_string(read("a.slf").size() / 2))["partial"], true);
   expect_failure(slf("decode a.slf -o b.ply --levels 7"), 2, "a.slf", "that many");
   EXPECT_FALSE(exists("b.ply"));

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "lightfield/nodes.h"
+#include "slf/decoder.h"
+#include "slf/encoder.h"
 #include "slf/given_planes.h"
 #include "slf/view_map.h"
 
@@ -247,6 +249,32 @@ TEST(ViewMapsOfCodedFunctions, ManyAtOnceAreWithinAFiftiethOfOneByOne) {
       const auto expected = maps.radiance(p, theta, gamma);
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colours[p][c], expected[c], 0.02);
     }
+  }
+}
+
+/// Spec 8.9: the groups of a file that function 0 has a part in, and no more.
+TEST(MeanColours, NeedNoGroupThatFunction0HasNoPartIn) {
+  LightField field =
+      random_field({BasisId::kHarmonics, 2, 0, 0, 3}, ColourTransform::kOpponent, 90);
+  field.header.grid = {{0, 0, 0}, 1, 7};
+  CodingParameters parameters;
+  parameters.step.assign(16, {9, 9, 9});
+  parameters.group = {0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2};
+  for (const auto mode : {TransformMode::kNone, TransformMode::kFunctions, TransformMode::kJoint}) {
+    parameters.transform = mode;
+    const auto stream = pack(field, parameters);
+    ASSERT_TRUE(stream) << stream.error().message;
+    DecodeOptions options;
+    options.means_only = true;
+    const auto whole = decode(*stream), part = decode(*stream, options);
+    ASSERT_TRUE(whole && part);
+    EXPECT_EQ(mean_colours(*part), mean_colours(*whole));
+    EXPECT_FALSE(part->partial);
+    EXPECT_LE(part->header.num_components(), 4);
+    options.groups = 1;  // asked for: others are missed
+    const auto less = decode(*stream, options);
+    ASSERT_TRUE(less);
+    EXPECT_TRUE(less->partial);
   }
 }
 

@@ -102,6 +102,7 @@ DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
   options.levels = part.levels;
   options.groups = part.groups;
   options.layers = part.layers;
+  options.means_only = part.means_only;
   options.max_bytes = part.max_bytes;
   if (!part.region.empty()) options.region = voxel_box(info.header.grid, part.region);
   return options;

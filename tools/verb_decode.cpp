@@ -39,8 +39,9 @@ Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "decode: --json and --output - both want standard output"};
   if (!given.output.empty()) SLF_CHECK(check_output(given.output));
-  SLF_TRY(const DecodedFile decoded,
-          decode_file(given.input, given.part, given.limits, given.common));
+  PartOptions part = given.part;
+  part.means_only = given.dump.empty();
+  SLF_TRY(const DecodedFile decoded, decode_file(given.input, part, given.limits, given.common));
   const auto peak = static_cast<std::uint64_t>(peak_memory_mib() * (1 << 20));
   if (!given.output.empty() && !fits_a_cloud(decoded.field.header.grid))
     return Failure{kInputInvalid, input_name(given.input) +
@@ -68,7 +69,8 @@ void add_decode(CLI::App& program, Run& run) {
       ->required();
   verb->add_option("-o,--output", o->output,
                    "PLY with positions (world units), normals where coded, and the colour averaged "
-                   "over all directions; - is standard output")
+                   "over all directions; - is standard output. Without --dump only what these "
+                   "need is decoded, and no digest is checked where that is not all")
       ->type_name("FILE");
   verb->add_option(
           "--dump", o->dump,

@@ -88,8 +88,9 @@ Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t
 
 /// The same file as slf decode writes.
 Outcome export_points(const ExportOptions& given) {
-  SLF_TRY(const DecodedFile decoded,
-          decode_file(given.input, given.part, given.limits, given.common));
+  PartOptions part = given.part;
+  part.means_only = true;
+  SLF_TRY(const DecodedFile decoded, decode_file(given.input, part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
   SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
   if (given.common.json)

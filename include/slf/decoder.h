@@ -30,6 +30,8 @@ struct DecodeOptions {
   int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
                    ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
+  bool means_only = false;  ///< no group beyond those that mean_colours() needs, which then is all
+                            ///< that the components are good for. Not what `partial` is about
   int layers = 0;  ///< quality layers to decode, 1 .. those of the group that has most; 0: all.
                    ///< Values that are not refined to the end stand for what they may be
   std::uint64_t max_bytes = 0;       ///< use only units that end within the first max_bytes; 0: all
