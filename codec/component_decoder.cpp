@@ -12,8 +12,9 @@ namespace slf {
 ComponentDecoder::ComponentDecoder(const SequencePlan& plan, const ComponentRows& rows)
     : plan_(plan),
       rows_(rows),
-      models_(std::in_place, plan.groups, rows.tree, rows.codes, rows.first, plan.set.has_vectors(),
-              rows.weights, static_cast<std::size_t>(plan.layers)),
+      models_(std::make_unique<CoefficientModels>(plan.groups, rows.tree, rows.codes, rows.first,
+                                                  plan.set.has_vectors(), rows.weights,
+                                                  static_cast<std::size_t>(plan.layers))),
       nonzero_(rows.tree.size(), 0),
       of_unit_(rows.tree.size()),
       any_(plan.groups.size(), false),

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -81,7 +81,7 @@ class ComponentDecoder {
 
   const SequencePlan& plan_;
   ComponentRows rows_;
-  std::optional<CoefficientModels> models_;
+  std::unique_ptr<CoefficientModels> models_;
   SliceCells cells_;                                // of a slice with a base; else empty
   std::vector<std::uint8_t> nonzero_, of_unit_;     // [rows]
   std::vector<std::uint8_t> any_;                   // [groups] a value or coefficient is not zero

@@ -1,39 +1,32 @@
 #include "codec/node_voxels.h"
 
+#include <algorithm>
+
 #include "base/multiversion.h"
 #include "geometry/morton.h"
 
 namespace slf {
 
-Voxel node_voxel(std::uint64_t code, int level, const SequencePlan& plan) {
-  const int below = plan.grid_bits() - level;
-  const std::int32_t middle = below > 0 ? 1 << (below - 1) : 0;
-  Voxel voxel = from_morton(code);
-  for (auto& coordinate : voxel)
-    coordinate = ((coordinate << below) + middle) >> plan.dropped_levels();
-  return voxel;
-}
-
 namespace {
 
+/// Coordinates of nodes to those of voxels: shifted up, to the middle of the node, and down.
 SLF_MULTIVERSION
-void from_mortons(std::span<const std::uint64_t> codes, Voxel* voxels) {
-  for (const std::uint64_t code : codes) *voxels++ = from_morton(code);
+void to_voxels(std::span<const std::uint64_t> codes, int up, int down, Voxel* voxels) {
+  const std::int32_t middle = (1 << up) >> 1;
+  for (const std::uint64_t code : codes) {
+    Voxel voxel = from_morton(code);
+    for (auto& coordinate : voxel) coordinate = ((coordinate << up) + middle) >> down;
+    *voxels++ = voxel;
+  }
 }
 
 }  // namespace
 
 std::vector<Voxel> node_voxels(std::span<const std::uint64_t> codes, int level,
                                const SequencePlan& plan) {
-  std::vector<Voxel> voxels;
-  if (level == plan.levels && level == plan.grid_bits()) {
-    voxels.resize(codes.size());
-    from_mortons(codes, voxels.data());
-    return voxels;
-  }
-  for (const std::uint64_t code : codes)
-    if (const Voxel v = node_voxel(code, level, plan); voxels.empty() || v != voxels.back())
-      voxels.push_back(v);
+  std::vector<Voxel> voxels(codes.size());
+  to_voxels(codes, plan.grid_bits() - level, plan.dropped_levels(), voxels.data());
+  if (level > plan.levels) voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
 

@@ -9,10 +9,8 @@
 
 namespace slf {
 
-/// The voxel of a node at `level`: that of its middle, where it is larger than a voxel of the grid.
-Voxel node_voxel(std::uint64_t code, int level, const SequencePlan& plan);
-
-/// Those of all nodes, each voxel once.
+/// The voxels of nodes at `level`, each once: those of their middles, where nodes are larger than
+/// voxels of the grid.
 /// @param codes  ascending
 std::vector<Voxel> node_voxels(std::span<const std::uint64_t> codes, int level,
                                const SequencePlan& plan);

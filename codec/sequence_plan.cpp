@@ -26,14 +26,14 @@ std::size_t least(std::size_t all, int asked, std::uint32_t left) {
 }
 
 /// Groups up to the last with a part in function 0, which alone has a mean.
-std::size_t groups_of_means(const SequenceParameterSet& set,
-                            std::span<const PlaneTransform> transforms) {
-  if (set.num_groups() == 0) return 0;
-  const auto group = static_cast<std::size_t>(function_groups(set)[0]);
+std::size_t groups_of_means(const PlaneGroups& groups, std::span<const PlaneTransform> transforms) {
+  std::size_t end = 0;
+  while (end < groups.size() && groups[end++].front() != 0) {
+  }
   for (const PlaneTransform& t : transforms)
-    if (group >= t.first_group && group < t.first_group + t.num_groups)
-      return t.first_group + t.num_groups;
-  return group + 1;
+    if (t.first_group < end && end < t.first_group + t.num_groups)
+      end = t.first_group + t.num_groups;
+  return end;
 }
 
 }  // namespace
@@ -52,10 +52,7 @@ bool SequencePlan::meets_region(const Voxel& node, int level) const {
 Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSet& set,
                                    const SliceTable& table, const DecodeOptions& options) {
   SLF_CHECK(check_options(set, options));
-  SequencePlan plan;
-  plan.set = set;
-  plan.table = table;
-  plan.region = options.region;
+  SequencePlan plan{set, table, {}, {}, {}, {}, 0, 1, true, false, options.region};
   if (!units.units.empty())
     plan.stream_bytes = units.units.back().offset + units.units.back().bytes;
   plan.complete = units.complete && !set.sps_cut_flag;
@@ -65,7 +62,7 @@ Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSe
   SLF_TRY(plan.transforms, collect_transforms(units, set, groups));  // 7.11
   const std::size_t asked = least(groups.size(), options.groups, set.sps_cut_groups);
   const std::size_t kept =
-      options.means_only ? std::min(asked, groups_of_means(set, plan.transforms)) : asked;
+      options.means_only ? std::min(asked, groups_of_means(groups, plan.transforms)) : asked;
   SLF_CHECK(read_matrices(units, set, groups, kept, plan.transforms));
   groups.resize(kept);
   CodedFunctions coded = code_functions(std::move(groups), plan.transforms);  // 8.7.1

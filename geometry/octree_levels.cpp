@@ -72,40 +72,25 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-/// Lists of nodes, on their way to `neighbours` many at a time.
-class NeighbourLists {
- public:
-  explicit NeighbourLists(std::vector<std::uint32_t>& all) : all_(all) {}
-
-  /// Of the children of node n, which has some.
-  void add(const OctreeLevel& parents, std::size_t n, OctreeLevel::Around*& around) {
-    if (count_ > kKept) flush();
-    const ChildWindow window = window_of(parents, n);
-    const auto before = static_cast<std::uint32_t>(all_.size());
-    std::uint32_t count = count_;
-    for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
-      const auto child = static_cast<unsigned>(std::countr_zero(left));
-      const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
-      Window cells = window.occupied >> corner & kAllAround;
-      *around++ = {directions_of(cells), before + count};
-      for (; cells != 0; cells &= cells - 1)
-        found_[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
-    }
-    count_ = count;
+/// Of the children of node n, which has some. around: the first of theirs. Returns what is behind.
+OctreeLevel::Around* add_neighbours(const OctreeLevel& parents, std::size_t n,
+                                    OctreeLevel::Around* around,
+                                    std::vector<std::uint32_t>& neighbours) {
+  const ChildWindow window = window_of(parents, n);
+  const auto first = static_cast<std::uint32_t>(neighbours.size());
+  std::array<std::uint32_t, std::size_t{8} * 26> found;
+  std::uint32_t count = 0;
+  for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
+    const auto child = static_cast<unsigned>(std::countr_zero(left));
+    const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
+    Window cells = window.occupied >> corner & kAllAround;
+    *around++ = {directions_of(cells), first + count};
+    for (; cells != 0; cells &= cells - 1)
+      found[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
   }
-  /// Those kept here; at last, too.
-  void flush() {
-    all_.insert(all_.end(), found_.data(), found_.data() + count_);
-    count_ = 0;
-  }
-
- private:
-  static constexpr std::size_t kKept = 1024;
-
-  std::vector<std::uint32_t>& all_;
-  std::uint32_t count_ = 0;
-  std::array<std::uint32_t, kKept + std::size_t{8} * 26> found_;
-};
+  neighbours.insert(neighbours.end(), found.data(), found.data() + count);
+  return around;
+}
 
 }  // namespace
 
@@ -143,11 +128,9 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
 
   children.around.resize(count);
   children.neighbours.reserve(std::size_t{8} * count);  // what a surface has, about
-  NeighbourLists lists(children.neighbours);
   OctreeLevel::Around* around = children.around.data();
   for (std::size_t n = 0; n < parents.size(); ++n)
-    if (parents.occupancy[n] != 0) lists.add(parents, n, around);
-  lists.flush();
+    if (parents.occupancy[n] != 0) around = add_neighbours(parents, n, around, children.neighbours);
   return children;
 }
 
