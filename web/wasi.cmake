@@ -1,5 +1,6 @@
 # Debian's clang 19 with WASI's libc++: decoders in WebAssembly, without exceptions and threads.
 set(CMAKE_SYSTEM_NAME WASI)
+list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}/wasm")  # Platform/WASI
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_C_COMPILER clang-19)
 set(CMAKE_CXX_COMPILER clang++-19)
@@ -13,3 +14,4 @@ foreach(language C CXX)
   set(CMAKE_${language}_ARCHIVE_APPEND "")
   set(CMAKE_${language}_ARCHIVE_FINISH "")
 endforeach()
+set(CMAKE_INSTALL_LIBDIR lib)  # nothing is installed; without it CMake warns
