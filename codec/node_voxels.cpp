@@ -6,7 +6,6 @@
 #include "geometry/morton.h"
 
 namespace slf {
-
 namespace {
 
 /// Coordinates of nodes to those of voxels: shifted up, to the middle of the node, and down.
