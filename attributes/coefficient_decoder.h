@@ -54,6 +54,9 @@ class CoefficientModels {
   std::vector<CoefficientStates> all_states();
   void start_from_all(std::span<const CoefficientStates> states);
 
+  /// Leaves memory to what follows: it codes no more.
+  void drop() { vector_.clear(); }
+
   /// Codes rows order[begin .. end) of a layer of a group; see VectorCoefficients::code.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,

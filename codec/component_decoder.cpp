@@ -12,9 +12,8 @@ namespace slf {
 ComponentDecoder::ComponentDecoder(const SequencePlan& plan, const ComponentRows& rows)
     : plan_(plan),
       rows_(rows),
-      models_(std::make_unique<CoefficientModels>(plan.groups, rows.tree, rows.codes, rows.first,
-                                                  plan.set.has_vectors(), rows.weights,
-                                                  static_cast<std::size_t>(plan.layers))),
+      models_(plan.groups, rows.tree, rows.codes, rows.first, plan.set.has_vectors(), rows.weights,
+              static_cast<std::size_t>(plan.layers)),
       nonzero_(rows.tree.size(), 0),
       of_unit_(rows.tree.size()),
       any_(plan.groups.size(), false),
@@ -27,8 +26,8 @@ ComponentDecoder::ComponentDecoder(const SequencePlan& plan, const ComponentRows
 void ComponentDecoder::start_from_base(const BaseComponents& base, const CodeWeights& weights,
                                        std::size_t first_cell, std::span<std::int32_t> components) {
   cells_ = find_cells(rows_.tree, rows_.first, plan_.lowest_split(rows_.start), first_cell);
-  if (!base.models.empty()) models_->adopt(base.models.front(), cells_);
-  models_->start_from_all(base.states);
+  if (!base.models.empty()) models_.adopt(base.models.front(), cells_);
+  models_.start_from_all(base.states);
   slf::start_from_base(cells_, base.values, weights, plan_.planes(), components);
   any_ = base.any;
   last_ = base.last;
@@ -55,7 +54,7 @@ Result<Done> ComponentDecoder::decode(const PartUnit& unit, std::span<std::int32
   std::fill(of_unit_.begin(), of_unit_.end(), std::uint8_t{0});
   const CoefficientRows rows{rows_.tree, components, plan_.planes(), of_unit_};
   const bool cut = end > static_cast<std::uint32_t>(rows_.levels);
-  SLF_CHECK(in_unit(unit, decode_coefficients(unit.payload, *models_, rows, group, order_at(begin),
+  SLF_CHECK(in_unit(unit, decode_coefficients(unit.payload, models_, rows, group, order_at(begin),
                                               order_at(end), cut, unit.header.layer)));
   layers_[group][unit.header.range] = unit.header.layer + 1;
   for (std::size_t row = 0; row < nonzero_.size(); ++row) nonzero_[row] |= of_unit_[row];
@@ -163,8 +162,8 @@ void ComponentDecoder::take_rows(const ComponentDecoder& finer, std::span<const 
 }
 
 BaseComponents ComponentDecoder::take_base(std::vector<std::int32_t> values) {
-  BaseComponents base{{}, models_->all_states(), std::move(values), std::move(any_), last_};
-  base.models.push_back(std::move(*models_));
+  BaseComponents base{{}, models_.all_states(), std::move(values), std::move(any_), last_};
+  base.models.push_back(std::move(models_));
   return base;
 }
 

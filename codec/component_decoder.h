@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,7 +47,7 @@ class ComponentDecoder {
   Result<Done> decode(const PartUnit& unit, std::span<std::int32_t> components);
   /// All units are decoded, and nothing else is going to start from them: leaves memory to what
   /// follows.
-  void drop_models() { models_.reset(); }
+  void drop_models() { models_.drop(); }
   /// Dequantisation and inverse transform, when all units are decoded. An error is of the last.
   Result<Done> reconstruct(std::span<std::int32_t> components, int threads);
   /// The mean of each node, of what reconstruct() left.
@@ -59,10 +58,10 @@ class ComponentDecoder {
 
   /// Of the layer of a group that a unit is of.
   CoefficientStates states(const SliceUnitHeader& unit) {
-    return models_->states(unit.group, unit.layer);
+    return models_.states(unit.group, unit.layer);
   }
   void start_from(const SliceUnitHeader& unit, const CoefficientStates& states) {
-    models_->start_from(unit.group, states, unit.layer);
+    models_.start_from(unit.group, states, unit.layer);
   }
   /// Leaves nothing here.
   BaseComponents take_base(std::vector<std::int32_t> values);
@@ -81,7 +80,7 @@ class ComponentDecoder {
 
   const SequencePlan& plan_;
   ComponentRows rows_;
-  std::unique_ptr<CoefficientModels> models_;
+  CoefficientModels models_;
   SliceCells cells_;                                // of a slice with a base; else empty
   std::vector<std::uint8_t> nonzero_, of_unit_;     // [rows]
   std::vector<std::uint8_t> any_;                   // [groups] a value or coefficient is not zero
