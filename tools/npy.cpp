@@ -7,6 +7,8 @@
 #include <limits>
 #include <string_view>
 
+#include "base/huge_pages.h"
+
 namespace slf::tools {
 namespace {
 
@@ -107,9 +109,12 @@ std::vector<std::uint8_t> written(const std::vector<std::size_t>& shape, std::sp
   head.append({'\1', '\0', static_cast<char>(dictionary.size() & 255),
                static_cast<char>(dictionary.size() >> 8)});
   head.append(dictionary);
-  std::vector<std::uint8_t> file(head.size() + values.size_bytes());
-  std::memcpy(file.data(), head.data(), head.size());
-  if (!values.empty()) std::memcpy(file.data() + head.size(), values.data(), values.size_bytes());
+  const auto bytes = std::as_bytes(values);
+  std::vector<std::uint8_t> file;
+  reserve_large(file, head.size() + bytes.size());
+  file.assign(head.begin(), head.end());
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  file.insert(file.end(), first, first + bytes.size());
   return file;
 }
 
