@@ -75,8 +75,8 @@ def measure(slf, work, points, settings):
     out, wall, user, peak = run([slf, "encode", str(path), "-o", str(coded), "--memory", "2G", "--json", "--quiet",
                                  "--work", str(work / f"work-{points}"), *settings])
     report = json.loads(out)
-    part = work / "region.ply"
-    said, _, region_user, region_peak = run([slf, "decode", str(coded), "-o", str(part), "--region",
+    part = work / "region"
+    said, _, region_user, region_peak = run([slf, "decode", str(coded), "--dump", str(part), "--region",
                                              middle_box(slf, coded), "--max-memory", "256M", "--json", "-j", "1"])
     size = coded.stat().st_size
     return [report["points"], cameras, 2048, report["slices"], round(wall, 1), round(user, 1), round(peak), size,

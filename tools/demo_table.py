@@ -37,7 +37,9 @@ if measured:
         quality("held-out", measured["held_out"])
 row("encode", "%.2f s (observe %.2f, fit %.2f, code %.2f), peak %.0f MiB" % (
     seconds["total"], seconds["observe"], seconds["fit"], seconds["code"], encode["peak_memory_mib"]))
-row("decode", "%.3f s on all cores" % decode["seconds"])
+if measured:
+    row("decode", "%.3f s on all cores" % measured["decode"]["total"])
+row("decode to PLY", "%.3f s, of the mean colour alone" % decode["seconds"])
 views = render["images"]
 row("render", "%.3f s per view of %d x %d" % (statistics.median(v["seconds"] for v in views), *views[0]["size"]))
 row("the whole demo", "%s s after the build" % sys.argv[3])
