@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "base/huge_pages.h"
+#include "tools/heap.h"
 
 namespace slf::tools {
 namespace {
@@ -111,7 +111,8 @@ std::vector<std::uint8_t> written(const std::vector<std::size_t>& shape, std::sp
   head.append(dictionary);
   const auto bytes = std::as_bytes(values);
   std::vector<std::uint8_t> file;
-  reserve_large(file, head.size() + bytes.size());
+  file.reserve(head.size() + bytes.size());
+  ask_for_huge_pages(file.data(), file.data() + file.capacity());
   file.assign(head.begin(), head.end());
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
   file.insert(file.end(), first, first + bytes.size());
