@@ -8,7 +8,7 @@ export class Comparison {
   constructor(viewer) {
     this.viewer = viewer;
     this.cameras = [];
-    this.shown = null; // index, camera and photograph of the one that is looked through
+    this.shown = null; // of the one that is looked through: index, camera, photograph, is it wanted to be seen
   }
 
   async open(capture) {
@@ -31,7 +31,7 @@ export class Comparison {
     const camera = this.cameras[index];
     if (!camera || !this.viewer.stage.field) return;
     this.viewer.spin(0);
-    this.shown = { index, camera, photograph: null };
+    this.shown = { index, camera, photograph: null, wanted: true };
     const own = this.shown;
     this.viewer.controls.pose = poseOfCamera(camera, this.viewer.stage.field);
     this.viewer.stage.pose = this.viewer.controls.pose;
@@ -47,7 +47,7 @@ export class Comparison {
     }
     if (this.shown !== own) return;
     this.measure();
-    this.show(true);
+    if (own.wanted) this.show(true);
   }
 
   /** The camera that sees the object most as it is seen now. */
@@ -76,6 +76,7 @@ export class Comparison {
 
   show(shown) {
     if (shown && !this.shown) return this.lookThrough(this.nearest());
+    if (this.shown) this.shown.wanted = shown;
     if (shown && !this.shown.photograph) return; // it shows when it comes
     at('compare').hidden = !shown;
     press('compare', shown);

@@ -225,10 +225,18 @@ test('through a camera of the capture the photograph lies beside the rendering, 
   assert.ok(await page.isVisible('#photograph'));
   await slide(page, 'divider', 80);
   assert.equal(await page.evaluate(() => document.getElementById('compare').style.getPropertyValue('--at')), '80%');
+  await page.evaluate(() => {
+    const camera = window.viewer.comparison.cameras[3],
+      load = camera.photograph;
+    const arrived = new Promise((go) => (window.arrive = go));
+    camera.photograph = () => arrived.then(() => load.call(camera));
+  });
   await page.keyboard.press(']');
   await page.waitForFunction(() => document.getElementById('cameras').value === '3');
   await page.keyboard.press('c');
-  await page.waitForFunction(() => document.getElementById('compare').hidden);
+  await page.evaluate(() => window.arrive());
+  await page.waitForFunction(() => document.getElementById('psnr').textContent !== '');
+  assert.ok(await page.isHidden('#compare'), 'put away before the photograph came, it stays away');
   assert.deepEqual(page.wrong, []);
   await page.close();
 });
