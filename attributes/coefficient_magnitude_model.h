@@ -15,12 +15,9 @@ namespace slf {
 
 /// What is known of a value before it is coded.
 struct MagnitudeEvidence {
-  std::uint32_t split;        ///< 0 .. 24
-  std::uint32_t scale_class;  ///< 0 .. 23
-  std::uint32_t channel;      ///< 0 .. 2
-  /// Expected magnitudes, 8 fractional bits: by the rows above, by those beside; by both and the
-  /// plane's own mean, of this channel and the function's earlier ones.
-  std::uint32_t parents, beside;
+  std::uint32_t channel;  ///< 0 .. 2
+  /// Expected magnitudes, 8 fractional bits: by the rows above and beside and the plane's own mean,
+  /// of this channel and the function's earlier ones.
   std::array<std::uint32_t, 3> expected;
   std::array<std::uint32_t, 3> magnitude;  ///< of the function's earlier channels
   std::uint32_t functions_before;  ///< 0 .. 15: sizes of channel 0 of the two before, 16: none
@@ -64,7 +61,7 @@ class CoefficientMagnitudeModel {
   static constexpr std::uint32_t kUnary = 15;  // decisions "more than 0" to "more than 14"
   static constexpr std::uint32_t kLimit = 255;
 
-  static std::array<std::uint32_t, 6> contexts_of(const MagnitudeEvidence& e) {
+  static std::array<std::uint32_t, 3> contexts_of(const MagnitudeEvidence& e) {
     const std::uint32_t c = e.channel;
     const std::uint32_t other =
         c == 0   ? e.functions_before
@@ -81,23 +78,17 @@ class CoefficientMagnitudeModel {
     if (c == 1) ratios = {to_first / 24, to_first % 24};  // all of its 48 classes
     if (c == 2) ratios = {by_channel(1) / 2, to_first / 2};
     const std::uint32_t size = log_class(e.expected[c] >> 4, 47);
-    return {Split::index(e.split, e.scale_class, c, 0),
-            Other::index(other, c, 0),
-            Sides::index(log_class(e.parents >> 4, 39) / 2, log_class(e.beside >> 4, 39) / 2, c, 0),
-            Expected::index(std::min(size / 2, Expected::kMost<0>), other, c, 0),
+    return {Expected::index(std::min(size / 2, Expected::kMost<0>), other, c, 0),
             Channels::index(ratios[0], ratios[1], c, 0),
             Ratio::index(e.vector_ratio / 3, size / 3, c, 0)};
   }
 
   // The last two: the channel, and the place in the unary code.
-  using Split = ContextShape<25, 24, 3, 16>;     // and scale
-  using Other = ContextShape<64, 3, 16>;         // magnitudes that are known
-  using Sides = ContextShape<20, 20, 3, 16>;     // expected above; beside
   using Expected = ContextShape<20, 64, 3, 16>;  // magnitude; those that are known
   using Channels = ContextShape<24, 24, 3, 16>;  // of earlier channels to their expectation
   using Ratio = ContextShape<16, 16, 3, 16>;     // of the vector so far; magnitude
   using Set = ContextShape<2, 3, 16>;            // first of the vector; as above
-  MixedBit<Set::kCount, Split, Other, Sides, Expected, Channels, Ratio> more_;
+  MixedBit<Set::kCount, Expected, Channels, Ratio> more_;
   std::array<PrefixContexts, 12> prefix_;
 };
 

@@ -106,9 +106,8 @@ class VectorCoefficients {
       size[k] = std::min<std::uint32_t>(sum, Node::Above::kMost<0>);
     }
     const std::uint32_t expected = (parents + (around.any_beside ? beside : parents)) / 2;
-    const std::array<std::uint32_t, 4> contexts = {
+    const std::array<std::uint32_t, 3> contexts = {
         Node::Expected::index(log_class(expected >> 4, Node::Expected::kMost<0>), below),
-        Node::Split::index(around.split, around.scale_class),
         Node::Above::index(size[0], size[1], size[2], size[6], around.axis),
         Node::Beside::index(size[3], size[4], size[5], around.axis,
                             std::min(below, Node::Beside::kMost<4>))};
@@ -163,12 +162,11 @@ class VectorCoefficients {
     const auto run = std::min(static_cast<std::uint32_t>(f / kRun), Rest::Run::kMost<0>);
     const auto ahead = [&](std::size_t k) {  // how far on a vector around goes
       const std::uint32_t there = kept_.runs(around.row[k]);
-      return there <= run ? 0u : std::min(there - run, Rest::Ahead::kMost<0>);
+      return there <= run ? 0u : std::min(there - run, Rest::Run::kMost<2>);
     };
     const std::uint32_t size = log_class(expected_.rest(f / kRun) >> 4, Rest::Expected::kMost<1>);
-    const std::array<std::uint32_t, 4> contexts = {
+    const std::array<std::uint32_t, 3> contexts = {
         Rest::Expected::index(run, size),
-        Rest::Ahead::index(ahead(0), ahead(3), ahead(4), ahead(5), ahead(6)),
         Rest::Before::index(log_class(progress.sum, Rest::Before::kMost<0>), progress.recent,
                             size / 4),
         Rest::Run::index(run, progress.recent, ahead(0), ahead(6))};
@@ -179,8 +177,6 @@ class VectorCoefficients {
   bool code_function(Coder& coder, const Around& around, std::size_t f, std::int32_t* values,
                      std::int16_t* own, Progress& progress) {
     MagnitudeEvidence evidence{};
-    evidence.split = std::min(around.split, 24u);
-    evidence.scale_class = around.scale_class;
     evidence.functions_before = functions_before(f, own);
     const bool known =  // the vector is not zero
         (progress.sum == 0 && f + 1 == functions_.size()) || known_.any<Coder>(values);
@@ -200,8 +196,6 @@ class VectorCoefficients {
       const std::size_t j = 3 * f + c;
       const auto activity = static_cast<std::uint32_t>(states_->activity[j]);
       evidence.channel = signs.channel = c;
-      evidence.parents = expected_.parents(j);
-      evidence.beside = expected_.beside(j);
       evidence.expected[c] = expected_.both(j) + (activity >> 5);
       evidence.vector_ratio = log_class(
           (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 47);
@@ -253,14 +247,12 @@ class VectorCoefficients {
     const auto activity = static_cast<std::uint32_t>(
         states_->activity[j] + states_->activity[j + 1] + states_->activity[j + 2]);
     const std::uint32_t size =
-        log_class(((up + side) / 2 + (activity >> 5)) >> 4, Any::Expected::kMost<0>);
+        log_class(((up + side) / 2 + (activity >> 5)) >> 4, 2 * Any::Ratio::kMost<1> + 1);
     const std::uint32_t ratio =
         log_class((std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256),
                   Any::Ratio::kMost<0>);
-    const std::uint32_t act = log_class(activity >> 2, Any::Activity::kMost<1>);
-    const std::array<std::uint32_t, 5> contexts = {
-        Any::Activity::index(std::min(around.split, Any::Activity::kMost<0>), act),
-        Any::Expected::index(size, before),
+    const std::uint32_t act = log_class(activity >> 2, Any::Scale::kMost<0>);
+    const std::array<std::uint32_t, 3> contexts = {
         Any::Sides::index(log_class(up >> 4, 39) / 2, log_class(side >> 4, 39) / 2),
         Any::Ratio::index(ratio, size / 2), Any::Scale::index(act, around.scale_class)};
     const std::uint32_t set = Any::Set::index(progress.sum == 0, before);

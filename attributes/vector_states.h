@@ -25,32 +25,28 @@ struct VectorStates {
 
   /// Is a vector other than 0?
   struct Node {
-    using Expected = ContextShape<48, 16>;          // magnitude; of the group below
-    using Split = ContextShape<kTopSplit + 1, 24>;  // and scale
-    using Above = ContextShape<5, 5, 5, 5, 3>;      // sizes of three parents, the previous; axis
-    using Beside = ContextShape<5, 5, 5, 3, 4>;     // sizes at three faces; axis; below
+    using Expected = ContextShape<48, 16>;       // magnitude; of the group below
+    using Above = ContextShape<5, 5, 5, 5, 3>;   // sizes of three parents, the previous; axis
+    using Beside = ContextShape<5, 5, 5, 3, 4>;  // sizes at three faces; axis; below
   };
   /// Has it a value other than 0 from a run of functions on?
   struct Rest {
-    using Expected = ContextShape<kRuns, 48>;   // run; magnitude
-    using Ahead = ContextShape<4, 4, 4, 4, 4>;  // how far on the vectors around go
-    using Before = ContextShape<24, 5, 12>;     // sum so far; functions of the run; magnitude
-    using Run = ContextShape<kRuns, 5, 4, 4>;   // run; its functions; parent, previous ahead
+    using Expected = ContextShape<kRuns, 48>;  // run; magnitude
+    using Before = ContextShape<24, 5, 12>;    // sum so far; functions of the run; magnitude
+    using Run = ContextShape<kRuns, 5, 4, 4>;  // run; its functions; parent, previous ahead
   };
   /// Has a function of it a value other than 0?
   struct Any {
-    using Activity = ContextShape<25, 48>;  // split; activity
-    using Expected = ContextShape<48, 17>;  // magnitude; functions before
-    using Sides = ContextShape<20, 20>;     // above; beside
-    using Ratio = ContextShape<56, 24>;     // of the vector so far to its activity; magnitude
-    using Scale = ContextShape<48, 24>;     // activity; scale
-    using Set = ContextShape<2, 17>;        // first of the vector; functions before
+    using Sides = ContextShape<20, 20>;  // above; beside
+    using Ratio = ContextShape<56, 24>;  // of the vector so far to its activity; magnitude
+    using Scale = ContextShape<48, 24>;  // activity; scale
+    using Set = ContextShape<2, 17>;     // first of the vector; functions before
   };
 
   std::vector<std::int32_t> activity;  ///< [planes] running mean of min(magnitude, 7), in 1/4096
-  MixedBit<kTopSplit + 1, Node::Expected, Node::Split, Node::Above, Node::Beside> node;
-  MixedBit<kRuns, Rest::Expected, Rest::Ahead, Rest::Before, Rest::Run> rest;
-  MixedBit<Any::Set::kCount, Any::Activity, Any::Expected, Any::Sides, Any::Ratio, Any::Scale> any;
+  MixedBit<kTopSplit + 1, Node::Expected, Node::Above, Node::Beside> node;
+  MixedBit<kRuns, Rest::Expected, Rest::Before, Rest::Run> rest;
+  MixedBit<Any::Set::kCount, Any::Sides, Any::Ratio, Any::Scale> any;
   CoefficientMagnitudeModel magnitude;
   CoefficientSignModel sign;
 };

@@ -62,7 +62,7 @@ Result<Base> decode_base_geometry(const PartUnits& units, const SequencePlan& pl
     next += static_cast<std::uint32_t>(slice.cells());
   }
   if (!plan.has_base()) return base;
-  OctreeDecoder octree(plan.base_levels(), cells, base.states);
+  OctreeDecoder octree(plan.base_levels(), cells, std::move(base.states));
   for (const PartUnit& unit : units) {
     if (unit.type != UnitType::kGeometry) continue;
     if (!plan.needs_points() && octree.level() >= plan.levels) break;
@@ -71,8 +71,8 @@ Result<Base> decode_base_geometry(const PartUnits& units, const SequencePlan& pl
     last = &unit;
   }
   base.level = octree.level();
-  base.states = octree.states();
-  base.cells = octree.morton();
+  base.states = octree.take_states();
+  base.cells = octree.take_morton();
   if (base.level == 0) base.cells.clear();  // 8.9.2: nothing is known without a geometry unit
   base.whole = base.is_known(plan) || (!plan.needs_points() && base.level >= plan.levels);
   if (base.is_known(plan) && base.cells.size() != cells)

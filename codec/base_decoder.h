@@ -16,7 +16,7 @@ namespace slf {
 struct Base {
   std::vector<std::uint64_t> cells;  ///< Morton codes of the nodes at `level`
   int level = 0;                     ///< that is known; sps_base_levels where nothing is missing
-  OccupancyStates states;            ///< of the last geometry unit
+  OccupancyStates states;            ///< of the last geometry unit, until a slice takes them
   std::vector<std::uint32_t> weight_before;  ///< [cells + 1], of those before each; with functions
   BaseComponents components;
   std::vector<std::uint32_t> first;  ///< [slices] first cell

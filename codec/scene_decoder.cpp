@@ -102,7 +102,16 @@ class SceneDecoder {
 
   void decode_geometry(Task& task) {
     const CloseAtEnd<OccupancyStates> close{lead_.geometry, is_first(task)};
-    task.run([&] { return task.slice.decode_geometry(); });
+    task.run([&] { return task.slice.decode_geometry(first_states(task)); });
+  }
+
+  /// What the octree of a slice starts from. Spec 8.4.1.
+  OccupancyStates first_states(const Task& task) {
+    const SliceTable& table = plan_.table;
+    if (plan_.has_base() && table.apart()) return OccupancyStates(task.slice.points());
+    if (table.shared() && !is_first(task)) return OccupancyStates(0);  // of slice 0, unit by unit
+    if (table.shared() || tasks_.size() == 1) return std::move(base_.states);  // nobody else's
+    return base_.states;
   }
 
   /// Room for the values of the next slice, if that is not too much.

@@ -31,10 +31,9 @@ std::span<const std::uint64_t> SliceDecoder::cells() const {
   return base_->cells_of(plan_->table, slice_);
 }
 
-Result<Done> SliceDecoder::decode_octree() {
+Result<Done> SliceDecoder::decode_octree(OccupancyStates first_states) {
   const SequenceParameterSet& set = plan_->set;
-  OctreeDecoder octree(plan_->grid_bits(), points(),
-                       apart() ? OccupancyStates(points()) : base_->states, plan_->base_levels(),
+  OctreeDecoder octree(plan_->grid_bits(), points(), std::move(first_states), plan_->base_levels(),
                        cells());
   for (std::size_t place = 0; place < units_->size(); ++place) {
     const PartUnit& unit = (*units_)[place];
@@ -49,11 +48,13 @@ Result<Done> SliceDecoder::decode_octree() {
     SLF_CHECK(plan_->begin_unit(unit.payload.size()));
     const int end = static_cast<int>(set.geometry_end(unit.header.range));
     SLF_CHECK(in_unit(unit, octree.decode(unit.payload, end)));
-    if (leads()) lead_->geometry.publish(place, octree.states());
+    if (!leads()) continue;
+    lead_->geometry.publish(place,
+                            end < plan_->grid_bits() ? octree.states() : octree.take_states());
   }
   level_ = octree.level();
   partial = level_ < plan_->grid_bits() && (plan_->needs_points() || level_ < plan_->levels);
-  codes_ = octree.morton();
+  codes_ = octree.take_morton();
   return Done{};
 }
 
@@ -73,13 +74,13 @@ Result<Done> SliceDecoder::check_count() const {
   return Done{};
 }
 
-Result<Done> SliceDecoder::decode_geometry() {
+Result<Done> SliceDecoder::decode_geometry(OccupancyStates states) {
   partial = units_->empty();
   if (!partial && plan_->set.has_draco()) {
     SLF_CHECK(decode_draco_unit());
     SLF_CHECK(check_count());
   } else if (!partial) {
-    SLF_CHECK(decode_octree());
+    SLF_CHECK(decode_octree(std::move(states)));
     SLF_CHECK(check_count());
   } else if (plan_->has_base() && plan_->set.sps_cut_slices_flag == 0) {
     level_ = plan_->base_levels();  // its cells stand for it

@@ -24,7 +24,8 @@ class SliceDecoder {
                std::size_t slice, SliceLead* lead);
 
   /// Occupancy to `positions` (on the grid of plan.levels bits) and the transform tree.
-  Result<Done> decode_geometry();
+  /// states: what the first unit starts from, unless slice 0 has left some for it.
+  Result<Done> decode_geometry(OccupancyStates states);
   /// Coefficients to components [positions][3 R]; the span is zero on entry.
   Result<Done> decode_components(std::span<std::int32_t> components, int threads);
   Result<Done> decode_normals(std::span<std::array<std::uint16_t, 2>> normals);
@@ -47,7 +48,7 @@ class SliceDecoder {
   bool follows() const { return lead_ != nullptr && slice_ != 0; }
   bool apart() const { return plan_->has_base() && plan_->table.apart(); }
   std::span<const std::uint64_t> cells() const;
-  Result<Done> decode_octree();
+  Result<Done> decode_octree(OccupancyStates states);
   Result<Done> decode_draco_unit();
   Result<Done> check_count() const;
   void keep();

@@ -1,6 +1,7 @@
 #include "codec/slice_digest.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -61,9 +62,14 @@ std::array<std::uint8_t, 32> slice_digest(std::span<const Voxel> positions,
                                           std::span<const std::array<std::uint16_t, 2>> normals) {
   Sha256 sha;
   hash_little_endian(sha, positions.data()->data(), positions.size() * 3);
-  std::vector<std::uint64_t> rows(positions.size());
-  hash_rows(components.data(), plane_multipliers(components.size() / positions.size()), rows);
-  hash_little_endian(sha, rows.data(), rows.size());
+  const auto multipliers = plane_multipliers(components.size() / positions.size());
+  std::array<std::uint64_t, 512> hashes;
+  while (!components.empty()) {
+    const std::size_t rows = std::min(hashes.size(), components.size() / multipliers.size());
+    hash_rows(components.data(), multipliers, std::span(hashes).first(rows));
+    hash_little_endian(sha, hashes.data(), rows);
+    components = components.subspan(rows * multipliers.size());
+  }
   if (!normals.empty()) hash_little_endian(sha, normals.data()->data(), normals.size() * 2);
   return sha.finish();
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "attributes/coefficient_decoder.h"
@@ -19,8 +20,8 @@ class SharedStates {
   /// units: the most that slice 0 has.
   explicit SharedStates(std::size_t units) : states_(units) {}
 
-  void publish(std::size_t unit, const States& states) {
-    monitor_.change([&] { states_[unit] = states; });
+  void publish(std::size_t unit, States states) {
+    monitor_.change([&] { states_[unit] = std::move(states); });
   }
 
   /// Nothing else will be published.

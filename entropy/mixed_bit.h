@@ -6,10 +6,24 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/multiversion.h"
 #include "entropy/context_bit.h"
 #include "entropy/mixer.h"
 
 namespace slf {
+
+/// Codes one decision in the contexts `next` places after those selected.
+template <class Coder, std::size_t kModels>
+SLF_OWN_CALL unsigned code_mixed(Coder& coder, const std::array<ContextBit*, kModels>& selected,
+                                 std::size_t next, EightLanes& weights, unsigned bit) {
+  constexpr std::int32_t kRate = 8;  // found on the light fields and clouds of docs/rate.md
+  const SelectedContexts<kModels> states(selected, next);
+  const Mixed<1> mixed(states.inputs(), {&weights});
+  bit = coder.bit(mixed.p1(), bit);
+  mixed.update(bit, kRate);
+  states.update(bit);
+  return bit;
+}
 
 /// A model for each shape of contexts, and a mixer with kSets sets of weights over them and a
 /// constant. Too large for a stack where the shapes are.
@@ -40,18 +54,11 @@ class MixedBit {
   template <class Coder>
   unsigned code(Coder& coder, const Contexts& selected, std::size_t next, std::size_t set,
                 unsigned bit) {
-    const SelectedContexts<kModels> states(selected, next);
-    const Mixed<1> mixed(states.inputs(), {&weights_[set]});
-    bit = coder.bit(mixed.p1(), bit);
-    mixed.update(bit, kRate);
-    states.update(bit);
-    return bit;
+    return code_mixed(coder, selected, next, weights_[set], bit);
   }
 
  private:
-  // Found on the light fields and clouds of docs/rate.md.
-  static constexpr int kFirstWeights = 10650;  // of 8192, shared between the models
-  static constexpr std::int32_t kRate = 8;
+  static constexpr int kFirstWeights = 10650;  // of 8192, shared between the models; as kRate
 
   /// Where each model's contexts begin.
   static constexpr std::array<std::size_t, kModels> kFirst = [] {

@@ -24,6 +24,13 @@ class WeightSets {
   std::vector<EightLanes> weights_;
 };
 
+/// P(1) of 65536 of a logistic value in 1/256. No decision is cheaper than 1/2070 of a bit, so that
+/// a byte bounds the work it asks for.
+inline std::uint32_t bounded_probability(std::int32_t logistic) {
+  constexpr std::int32_t kLimit = 2047;
+  return static_cast<std::uint32_t>(squash(std::clamp(logistic, -kLimit, kLimit)));
+}
+
 /// The probability that the sum of kSets selected vectors gives, and what learning from the
 /// decision needs.
 template <std::size_t kSets>
@@ -33,8 +40,7 @@ class Mixed {
       : inputs_(inputs), weights_(weights) {
     EightLanes sum = *weights_[0];
     for (std::size_t i = 1; i < kSets; ++i) sum = sum.saturating_plus(*weights_[i]);
-    const std::int32_t logistic = std::clamp(sum.dot(inputs_) >> 13, -kLimit, kLimit);
-    p1_ = static_cast<std::uint32_t>(squash(logistic));
+    p1_ = bounded_probability(sum.dot(inputs_) >> 13);
   }
 
   std::uint32_t p1() const { return p1_; }  ///< of 65536
@@ -48,9 +54,6 @@ class Mixed {
   }
 
  private:
-  /// No decision is cheaper than 1/2070 of a bit, so that a byte bounds the work it asks for.
-  static constexpr std::int32_t kLimit = 2047;
-
   EightLanes inputs_;
   std::array<EightLanes*, kSets> weights_;
   std::uint32_t p1_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include "base/by_branch.h"
@@ -27,6 +28,7 @@ class OccupancyModel {
   explicit OccupancyModel(OccupancyStates states) : states_(std::move(states)) {}
 
   const OccupancyStates& states() const { return states_; }
+  OccupancyStates take_states() { return std::move(states_); }
   void start_from(const OccupancyStates& states) { states_ = states; }
 
   /// only: do most nodes of the level have one child only? Spec 8.4.1; the encoder's.
@@ -83,6 +85,9 @@ class OccupancyModel {
   enum Hashed { kByNeighbours, kByColumns, kByCells };
 
   static constexpr unsigned kOnly = 256;  // as the second argument of group()
+  /// From here on what the rows say is not asked to be confirmed. Found on the clouds of
+  /// docs/rate.md.
+  static constexpr std::int32_t kCertain = 1152;
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
   template <class Coder>
@@ -227,6 +232,21 @@ class OccupancyModel {
   template <class Coder>
   SLF_OWN_CALL void code_child(unsigned c, Coder& coder, Node& node, unsigned& coded,
                                unsigned occupancy) {
+    const unsigned given = occupancy >> c & 1u;
+    const std::int32_t by_rows = node.by_rows[c];
+    const unsigned bit = std::abs(by_rows) < kCertain
+                             ? by_contexts(c, coder, node, coded, given)
+                             : by_branch(coder.bit(bounded_probability(by_rows), given));
+    coded |= bit << c;
+    // Where the later contexts are is known long before their turn.
+    if (c < 4) node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
+    if (c == 2) node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
+    if (c == 3) node.columns_group = node.next_columns_group;
+  }
+
+  /// coded: the siblings before c. bit: the encoder's.
+  template <class Coder>
+  unsigned by_contexts(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit) {
     const Child& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
     const unsigned occupied = child.occupied + static_cast<unsigned>(std::popcount(coded));
@@ -246,14 +266,10 @@ class OccupancyModel {
         {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
          &states_.by_density[States::ByDensity::index(level_, occupied)],
          &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))]});
-    const unsigned bit = by_branch(coder.bit(mixed.p1(), occupancy >> c & 1u));
+    bit = by_branch(coder.bit(mixed.p1(), bit));
     mixed.update(bit, states_.rate);
     contexts.update(bit);
-    coded |= bit << c;
-    // Where the later contexts are is known long before their turn.
-    if (c < 4) node.child[c + 4].group = group(kByCells, node.child[c + 4].cells, coded, 3);
-    if (c == 2) node.next_columns_group = group(kByColumns, node.columns, 8 | coded, 5);
-    if (c == 3) node.columns_group = node.next_columns_group;
+    return bit;
   }
 
   OccupancyHistory history_;

@@ -37,6 +37,9 @@ class OctreeDecoder {
   const std::vector<std::uint64_t>& morton() const { return nodes_.morton; }
 
   const OccupancyStates& states() const { return model_.states(); }  ///< after the last unit
+  /// The same and the nodes, out of a decoder that is done: memory that was never touched is dear.
+  OccupancyStates take_states() { return model_.take_states(); }
+  std::vector<std::uint64_t> take_morton() { return std::move(nodes_.morton); }
   void start_from(const OccupancyStates& states) { model_.start_from(states); }
 
  private:

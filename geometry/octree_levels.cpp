@@ -18,40 +18,29 @@ OctreeLevel octree_root() {
 
 namespace {
 
-/// The children of a direction's neighbour that lie in the window, as bits, and where.
-struct WindowChildren {
-  std::uint8_t children = 0;
-  std::array<std::uint8_t, 8> cell{};  ///< bit of Window
-};
-/// [direction]
-constexpr std::array<WindowChildren, 27> kWindowChildren = [] {
-  std::array<WindowChildren, 27> table{};
-  for (std::size_t d = 0; d < 27; ++d)
-    for (unsigned c = 0; c < 8; ++c) {
-      const Window cell = turned(own_cell(static_cast<int>(c)), kWindowShift[d]) & kWindowParts[d];
-      if (cell == 0) continue;
-      table[d].children = static_cast<std::uint8_t>(table[d].children | 1u << c);
-      table[d].cell[c] = static_cast<std::uint8_t>(std::countr_zero(cell));
-    }
+/// How many of the children before child c there are. [occupancy][c]
+SLF_TABLE std::array<std::array<std::uint8_t, 8>, 256> kChildrenBefore = [] {
+  SLF_TABLE_BEGINS;
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (unsigned o = 0; o < 256; ++o)
+    for (unsigned c = 0; c < 8; ++c)
+      table[o][c] = static_cast<std::uint8_t>(std::popcount(o & ((1u << c) - 1)));
   return table;
 }();
 
 /// The cells of the level below around a node's children, and its children.
 struct ChildWindow {
   Window occupied = 0;
-  std::array<std::uint32_t, 64> node;  ///< [cell] index of the node there, where there is one
+  /// [direction][child] index of the child of the neighbour there, where both are.
+  std::array<std::array<std::uint32_t, 8>, 27> node;
 
   /// m: the neighbour in direction d.
   void add(const OctreeLevel& parents, std::size_t d, std::size_t m) {
     const unsigned occupancy = parents.occupancy[m];
-    const std::uint32_t first = parents.first_child[m];
-    const WindowChildren& part = kWindowChildren[d];
     occupied |= turned(kOwnCells[occupancy], kWindowShift[d]) & kWindowParts[d];
-    for (unsigned left = occupancy & part.children; left != 0; left &= left - 1) {
-      const unsigned before = occupancy & ((left & (0u - left)) - 1);
-      node[part.cell[static_cast<std::size_t>(std::countr_zero(left))]] =
-          first + static_cast<std::uint32_t>(std::popcount(before));
-    }
+    const std::uint32_t first = parents.first_child[m];
+    const auto& before = kChildrenBefore[occupancy];
+    for (std::size_t c = 0; c < 8; ++c) node[d][c] = first + before[c];  // all: no branches
   }
 };
 
@@ -83,10 +72,13 @@ OctreeLevel::Around* add_neighbours(const OctreeLevel& parents, std::size_t n,
   for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
     const auto child = static_cast<unsigned>(std::countr_zero(left));
     const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
-    Window cells = window.occupied >> corner & kAllAround;
-    *around++ = {directions_of(cells), first + count};
-    for (; cells != 0; cells &= cells - 1)
-      found[count++] = window.node[corner + static_cast<unsigned>(std::countr_zero(cells))];
+    std::uint32_t directions = directions_of(window.occupied >> corner & kAllAround);
+    *around++ = {directions, first + count};
+    for (; directions != 0; directions &= directions - 1) {
+      const auto d = static_cast<std::size_t>(std::countr_zero(directions));
+      const ChildNeighbour at = kChildNeighbours[child][d];
+      found[count++] = window.node[at.node][at.child];
+    }
   }
   neighbours.insert(neighbours.end(), found.data(), found.data() + count);
   return around;

@@ -501,13 +501,14 @@ def check_metadata(payload):
 
 def check_digest(digest, positions, components, normals):
     """7.9: SHA-256 of the decoded slice; normals is None where the stream has none."""
-    components = components.reshape(len(positions), -1)
+    data = positions.astype("<i4").tobytes()
     hashes = np.zeros(len(positions), np.uint64)  # sums wrap at 2^64
     multiplier = 1
-    for plane in components.T:
+    for plane in components.reshape(len(positions), -1).T:
         multiplier = multiplier * 0x9E3779B5 % 2**32
         hashes += (plane.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) * np.uint64(multiplier)
-    data = positions.astype("<i4").tobytes() + hashes.astype("<u8").tobytes()
+    if components.size > 0:
+        data += hashes.astype("<u8").tobytes()
     if normals is not None:
         data += normals.astype("<u2").tobytes()
     require(hashlib.sha256(data).digest() == digest, "digest_sha256")
@@ -962,6 +963,9 @@ class Octree:
             if c == 7 and coded == 0:
                 coded = 128
                 break
+            if abs(by_rows[c]) >= 1152:                     # certain
+                coded |= decoder.decide(SQUASH[min(max(by_rows[c], -2047), 2047) + 2815]) << c
+                continue
             indices, sets = self.predict(c, coded, around_node, columns, by_rows[c])
             weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
             coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate, [by_rows[c]]) << c
@@ -1151,10 +1155,10 @@ class VectorState:
 
     def __init__(self, functions):
         """8.7.2: contexts and activities."""
-        self.node = MixedDecision([48 * 16, 45 * 24, 5**4 * 3, 5**3 * 3 * 4])
-        self.more = MixedDecision([n * 48 for n in (25 * 24, 64, 20 * 20, 20 * 64, 24 * 24, 16 * 16)])
-        self.rest = MixedDecision([32 * 48, 4**5, 24 * 5 * 12, 32 * 5 * 16])
-        self.any = MixedDecision([25 * 48, 48 * 17, 20 * 20, 56 * 24, 48 * 24])
+        self.node = MixedDecision([48 * 16, 5**4 * 3, 5**3 * 3 * 4])
+        self.more = MixedDecision([n * 48 for n in (20 * 64, 24 * 24, 16 * 16)])
+        self.rest = MixedDecision([32 * 48, 24 * 5 * 12, 32 * 5 * 16])
+        self.any = MixedDecision([20 * 20, 56 * 24, 48 * 24])
         self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
         self.activity = [16 if functions > 1 else 0] * (3 * functions)
@@ -1195,7 +1199,7 @@ class VectorCoder:
             self.axis = self.tree.split[r] % 3 if r else 2
             known = self.coarser.quantised.get(r) if self.coarser else None
             if known or self.decode_node(decoder, r, split):
-                self.decode_row(decoder, r, split, same_axis, known or [0] * self.planes)
+                self.decode_row(decoder, r, same_axis, known or [0] * self.planes)
 
     def double(self, rows):
         """8.7.7: a refinement whose codeword is empty."""
@@ -1242,11 +1246,10 @@ class VectorCoder:
         below = size_class(self.group_before.sums[r], 15) if self.group_before else 0
         return self.state.node.decode(decoder, [
             size_class(sum(self.expected([min(n, 4095) for n in sums])) // 2 >> 4, 47) * 16 + below,
-            split * 24 + self.scale_class,
             (((z[0] * 5 + z[1]) * 5 + z[2]) * 5 + z[6]) * 3 + self.axis,
             (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
 
-    def decode_row(self, decoder, r, split, same_axis, known):
+    def decode_row(self, decoder, r, same_axis, known):
         """8.7.2, 2: the values of a row; 8.7.7: what is known of them."""
         known_end = max((j // 3 + 1 for j, v in enumerate(known) if v), default=0)
         values, kept = [0] * self.planes, [0] * self.planes
@@ -1254,7 +1257,6 @@ class VectorCoder:
         means = [self.expected([abs(row[j]) for row in around[:7]]) for j in range(self.planes)]
         ahead = [min((up + side) // 2 + (a >> 5), 1 << 18) for (up, side), a in zip(means, self.state.activity)]
         functions, total, activity_total, recent, last = self.planes // 3, 0, 0, 0, 0
-        split = min(split, 24)
         for f in range(functions):
             planes = range(3 * f, 3 * f + 3)
             if f % 4 == 0:
@@ -1268,7 +1270,7 @@ class VectorCoder:
             if functions > 1 and (total or f < functions - 1) and not any(known[j] for j in planes):
                 evidence = [sum(part) for part in zip(*[means[j] for j in planes])]
                 activity = sum(self.state.activity[j] for j in planes)
-                if not self.decode_any(decoder, split, before, evidence, activity, total, activity_total):
+                if not self.decode_any(decoder, before, evidence, activity, total, activity_total):
                     activity_total += activity
                     for j in planes:
                         self.state.activity[j] += -self.state.activity[j] >> 6
@@ -1279,7 +1281,7 @@ class VectorCoder:
                 up, side = means[j]
                 expected.append((up + side) // 2 + (activity >> 5))
                 ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 47)
-                contexts = self.magnitude_contexts(kept, j, split, means[j], expected, ratio)
+                contexts = self.magnitude_contexts(kept, j, expected, ratio)
                 magnitude = self.decode_magnitude(decoder, contexts, j, expected[-1], total, kept, known[j])
                 if magnitude:
                     negative = known[j] < 0 if known[j] else self.decode_sign(decoder, kept, j, around)
@@ -1303,27 +1305,24 @@ class VectorCoder:
     def decode_rest(self, decoder, f, expected, total, recent):
         """8.7.2, 3: has the vector a value from function f on?"""
         run, size = min(f // 4, 31), size_class(expected >> 4, 47)
-        h = [min(max(self.runs[row] - run, 0), 3) for row in self.rows]
+        h = [min(max(self.runs[row] - run, 0), 3) for row in (self.rows[0], self.rows[6])]
         return self.state.rest.decode(decoder, [
             run * 48 + size,
-            (((h[0] * 4 + h[3]) * 4 + h[4]) * 4 + h[5]) * 4 + h[6],
             (size_class(total, 23) * 5 + recent) * 12 + size // 4,
-            (run * 5 + recent) * 16 + h[0] * 4 + h[6]], run)
+            (run * 5 + recent) * 16 + h[0] * 4 + h[1]], run)
 
-    def decode_any(self, decoder, split, before, evidence, activity, total, activity_total):
+    def decode_any(self, decoder, before, evidence, activity, total, activity_total):
         """8.7.2, 4: has the function a value?"""
         up, side = evidence
         size = size_class((up + side) // 2 + (activity >> 5) >> 4, 47)
         ratio = size_class((total * 64 + 16) * activity // (activity_total + 256), 55)
         act = size_class(activity >> 2, 47)
         return self.state.any.decode(decoder, [
-            split * 48 + act,
-            size * 17 + before,
             size_class(up >> 4, 39) // 2 * 20 + size_class(side >> 4, 39) // 2,
             ratio * 24 + size // 2,
             act * 24 + self.scale_class], before + (0 if total else 17))
 
-    def magnitude_contexts(self, kept, j, split, means, expected, ratio):
+    def magnitude_contexts(self, kept, j, expected, ratio):
         """8.7.2, 5: the contexts of a magnitude."""
         channel = j % 3
         earlier = [abs(v) for v in kept[j - channel:j]]
@@ -1338,9 +1337,7 @@ class VectorCoder:
             other = min(earlier[1], 3) * 16 + size_class(earlier[0], 15)
             channels = by_channel[1] // 2 * 24 + by_channel[0] // 2
         level = size_class(expected[channel] >> 4, 47)
-        up, side = [size_class(mean >> 4, 39) // 2 for mean in means]
-        contexts = [split * 24 + self.scale_class, other, up * 20 + side, min(level // 2, 19) * 64 + other,
-                    channels, ratio // 3 * 16 + level // 3]
+        contexts = [min(level // 2, 19) * 64 + other, channels, ratio // 3 * 16 + level // 3]
         return [(context * 3 + channel) * 16 for context in contexts]
 
     def decode_magnitude(self, decoder, contexts, j, expected, total, kept, known):

@@ -151,8 +151,6 @@ def check(mutant):
     """A misreading, the stream that notices it, and how; found out in a process of its own, which may find no end."""
     if not mutant.streams:
         return mutant, "", ""
-    if missing := [stream for stream in mutant.streams if not (SUITE / stream / "case.json").exists()]:
-        raise SystemExit(f"{mutant.name}: there is no {missing[0]}")
     source = mutant.source()
     reader, writer = os.pipe()
     child = os.fork()
@@ -257,6 +255,10 @@ def main():
     excused = [m for m in chosen if m.excuse]
     still_open = [m for m in chosen if not m.excuse and not m.streams]
     chosen = [m for m in chosen if m.streams]
+    for mutant in chosen:                   # here: a process of the pool that ends would be waited for
+        mutant.source()
+        if missing := [stream for stream in mutant.streams if not (SUITE / stream / "case.json").exists()]:
+            raise SystemExit(f"{mutant.name}: there is no {missing[0]}")
     missed = 0
     with multiprocessing.Pool(arguments.jobs) as pool:
         for mutant, stream, said in pool.imap_unordered(check, chosen):
