@@ -40,7 +40,7 @@ const TransformLevel& TransformLevels::next() {
     current_.rows = rows_of(0);
     current_.nodes = octree_level(cells_of(current_.rows), start_);
   } else {
-    current_.nodes = octree_children(current_.nodes, true);
+    current_.nodes = octree_children(current_.nodes, true, current_.child_rows);
     current_.rows = std::move(current_.child_rows);
   }
   current_.child_rows = rows_of(level_ - start_ + 1);

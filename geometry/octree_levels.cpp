@@ -61,19 +61,20 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-/// Of the children of node n, which has some. around: the first of theirs. Returns what is behind.
-OctreeLevel::Around* add_neighbours(const OctreeLevel& parents, std::size_t n,
-                                    OctreeLevel::Around* around,
-                                    std::vector<std::uint32_t>& neighbours) {
+/// Of the children of node n, or of those of them with more than one row. around: of the first of
+/// them.
+void add_neighbours(const OctreeLevel& parents, std::size_t n, const std::uint32_t* rows,
+                    OctreeLevel::Around* around, std::vector<std::uint32_t>& neighbours) {
   const ChildWindow window = window_of(parents, n);
   const auto first = static_cast<std::uint32_t>(neighbours.size());
   std::array<std::uint32_t, std::size_t{8} * 26> found;
-  std::uint32_t count = 0;
-  for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1) {
+  std::uint32_t count = 0, i = 0;
+  for (unsigned left = parents.occupancy[n]; left != 0; left &= left - 1, ++i) {
+    if (rows != nullptr && rows[i + 1] - rows[i] == 1) continue;
     const auto child = static_cast<unsigned>(std::countr_zero(left));
     const unsigned corner = (child & 1) + 4 * (child >> 1 & 1) + 16 * (child >> 2);
     std::uint32_t directions = directions_of(window.occupied >> corner & kAllAround);
-    *around++ = {directions, first + count};
+    around[i] = {directions, first + count};
     for (; directions != 0; directions &= directions - 1) {
       const auto d = static_cast<std::size_t>(std::countr_zero(directions));
       const ChildNeighbour at = kChildNeighbours[child][d];
@@ -81,7 +82,6 @@ OctreeLevel::Around* add_neighbours(const OctreeLevel& parents, std::size_t n,
     }
   }
   neighbours.insert(neighbours.end(), found.data(), found.data() + count);
-  return around;
 }
 
 }  // namespace
@@ -102,7 +102,8 @@ OctreeLevel octree_level(std::span<const std::uint64_t> cells, int level) {
 }
 
 SLF_MULTIVERSION_ALL
-OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
+OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours,
+                            std::span<const std::uint32_t> rows) {
   OctreeLevel children;
   std::uint32_t count = 0;
   parents.first_child.resize(parents.size());
@@ -120,9 +121,13 @@ OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours) {
 
   children.around.resize(count);
   children.neighbours.reserve(std::size_t{8} * count);  // what a surface has, about
-  OctreeLevel::Around* around = children.around.data();
-  for (std::size_t n = 0; n < parents.size(); ++n)
-    if (parents.occupancy[n] != 0) around = add_neighbours(parents, n, around, children.neighbours);
+  for (std::size_t n = 0; n < parents.size(); ++n) {
+    const std::size_t child = parents.first_child[n];
+    const auto end = child + static_cast<std::size_t>(std::popcount(parents.occupancy[n]));
+    if (child == end || (!rows.empty() && rows[end] - rows[child] == 1)) continue;
+    add_neighbours(parents, n, rows.empty() ? nullptr : &rows[child], &children.around[child],
+                   children.neighbours);
+  }
   return children;
 }
 

@@ -76,6 +76,9 @@ OctreeLevel octree_level(std::span<const std::uint64_t> cells, int level);
 
 /// The level below one whose occupancies are all known: O(nodes). with_neighbours: needed unless
 /// the level is the leaves, whose children are not coded.
-OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours);
+/// @param rows  [children + 1] first row of each. Where given, children of one row stay without
+///              neighbours
+OctreeLevel octree_children(OctreeLevel& parents, bool with_neighbours,
+                            std::span<const std::uint32_t> rows = {});
 
 }  // namespace slf
