@@ -6,7 +6,7 @@
 
 #include "attributes/level_prediction.h"
 #include "attributes/mode_trial.h"
-#include "attributes/quantiser.h"
+#include "attributes/quantiser_step.h"
 #include "attributes/raht_arithmetic.h"
 #include "attributes/rate_model.h"
 #include "attributes/row_quantiser.h"
@@ -37,6 +37,7 @@ class LevelQuantiser {
         coefficients_(coefficients),
         values_(values),
         planes_(input.steps.size()),
+        steps_(input.steps.begin(), input.steps.end()),
         threads_(threads),
         levels_(input.morton, input.depth, input.dropped,
                 input.base != nullptr ? input.base->level : 0, input.weights) {
@@ -239,8 +240,8 @@ class LevelQuantiser {
     if (tried != nullptr) {
       for (std::size_t j = 0; j < lanes; ++j) {
         const std::int32_t residual = coefficient[j] - (predicted != nullptr ? predicted[j] : 0);
-        const std::uint32_t step = input_.steps[begin + j];
-        const std::int32_t quantised = quantise(residual, step);
+        const QuantiserStep& step = steps_[begin + j];
+        const std::int32_t quantised = step.quantise(residual);
         value[j] = dequantised(begin + j, quantised);
         tried[begin + j].add(static_cast<std::uint32_t>(std::abs(residual - value[j])),
                              static_cast<std::uint32_t>(std::abs(quantised)), step);
@@ -251,7 +252,7 @@ class LevelQuantiser {
       for (std::size_t j = 0; j < lanes; ++j) coefficient[j] -= predicted[j];
     if (needs_whole_rows()) return code_whole_row(row);
     for (std::size_t j = 0; j < lanes; ++j) {
-      coefficient[j] = quantise(coefficient[j], input_.steps[begin + j]);
+      coefficient[j] = steps_[begin + j].quantise(coefficient[j]);
       value[j] = dequantised(begin + j, coefficient[j]);
     }
   }
@@ -259,6 +260,7 @@ class LevelQuantiser {
   const QuantiserInput& input_;
   std::span<std::int32_t> coefficients_, values_;
   std::size_t planes_;
+  std::vector<QuantiserStep> steps_;  // [planes]
   int threads_;
   TransformLevels levels_;
   const TransformLevel* level_ = nullptr;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "attributes/quantiser_step.h"
 #include "attributes/rate_model.h"
 
 namespace slf {
@@ -16,10 +17,11 @@ struct ModeTrial {
   std::array<std::uint32_t, 17> count{};
   std::uint64_t long_bits_q8 = 0, distortion_q12 = 0;
 
-  void add(std::uint32_t error, std::uint32_t magnitude, std::uint32_t step) {
+  void add(std::uint32_t error, std::uint32_t magnitude, const QuantiserStep& step) {
     ++count[std::min(magnitude, 16u)];
     if (magnitude >= 16) long_bits_q8 += 2 * log2_q8(magnitude - 15) + 256;
-    const std::uint64_t e = std::min<std::uint64_t>(std::uint64_t{64} * error / step, 1u << 20);
+    const std::uint64_t e =
+        std::min<std::uint64_t>(step.divide(std::uint64_t{64} * error), 1u << 20);
     distortion_q12 += e * e;
   }
   /// Bits by the plane's own statistics, and distortion at 0.15 squared steps a bit; 256ths.

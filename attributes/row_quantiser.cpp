@@ -4,17 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "attributes/quantiser.h"
-
 namespace slf {
 namespace {
 
 /// Squared error in 4096ths of a squared step. Larger ones than 2^20 steps are alike.
-std::uint64_t distortion(std::uint32_t magnitude, std::uint32_t level, std::uint32_t step) {
+std::uint64_t distortion(std::uint32_t magnitude, std::uint32_t level, const QuantiserStep& step) {
+  const std::int64_t difference = std::int64_t{magnitude} - std::int64_t{level} * step.step();
   const std::uint64_t error =
-      std::uint64_t{64} *
-      static_cast<std::uint64_t>(std::abs(std::int64_t{magnitude} - std::int64_t{level} * step)) /
-      step;
+      step.divide(std::uint64_t{64} * static_cast<std::uint64_t>(std::abs(difference)));
   const std::uint64_t bounded = std::min<std::uint64_t>(error, 1u << 26);
   return bounded * bounded;
 }
@@ -28,7 +25,7 @@ RowQuantiser::RowQuantiser(std::vector<std::size_t> planes, std::span<const std:
       model_(planes_.size()),
       counts_(rows, 0),
       chosen_(planes_.size()) {
-  for (const std::size_t j : planes_) step_.push_back(steps[j]);
+  for (const std::size_t j : planes_) step_.emplace_back(steps[j]);
 }
 
 void RowQuantiser::adopt(const std::int32_t* coefficients, std::uint32_t row) {
@@ -46,7 +43,7 @@ std::uint64_t RowQuantiser::choose_block(const std::int32_t* coefficients,
     const std::int32_t value = coefficients[planes_[i]];
     const std::int32_t above = parent != nullptr ? parent[planes_[i]] : 0;
     const auto magnitude = static_cast<std::uint32_t>(std::abs(std::int64_t{value}));
-    const auto nearest = static_cast<std::uint32_t>(std::abs(quantise(value, step_[i])));
+    const auto nearest = static_cast<std::uint32_t>(std::abs(step_[i].quantise(value)));
     const AdaptiveCost& nonzero = model_.value(i, above);
     const std::uint64_t zero = distortion(magnitude, 0, step_[i]);
     all_zero += zero;
@@ -92,7 +89,7 @@ void RowQuantiser::quantise_row(std::int32_t* coefficients, std::uint32_t row,
   if (lambda_q12_ == 0) {
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       std::int32_t& value = coefficients[planes_[i]];
-      value = quantise(value, step_[i]);
+      value = step_[i].quantise(value);
     }
     return;
   }

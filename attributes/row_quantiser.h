@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "attributes/quantiser_step.h"
 #include "attributes/rate_model.h"
 
 namespace slf {
@@ -37,7 +38,7 @@ class RowQuantiser {
   std::uint64_t cost(std::uint32_t bits_q8) const { return (bits_q8 * lambda_q12_) >> 8; }
 
   std::vector<std::size_t> planes_;
-  std::vector<std::uint32_t> step_;
+  std::vector<QuantiserStep> step_;
   std::uint64_t lambda_q12_;
   RateModel model_;
   std::vector<std::uint8_t> counts_;  // [rows] non-zero values

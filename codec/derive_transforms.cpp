@@ -75,6 +75,9 @@ class Derivation {
         std::max(1.0, std::ceil(vectors * static_cast<double>(n * n) / kMostWork)));
     s.scale = static_cast<double>(stride) * input_.scale;
     std::vector<float> rows;
+    std::vector<double> of_plane(planes), roots(n);
+    for (std::size_t j = 0; j < planes; ++j) of_plane[j] = weights[j * n / planes];
+    for (std::size_t i = 0; i < n; ++i) roots[i] = std::sqrt(weights[i]);
     for (const SliceCut& cut : input_.cuts) {
       const std::size_t points = cut.end - cut.begin;
       std::vector<std::int32_t> values(points * planes);
@@ -85,19 +88,20 @@ class Derivation {
       const RahtTree tree = build_raht_tree(input_.morton.subspan(cut.begin, points));
       raht_forward(tree, static_cast<int>(planes), values, threads_);
       double energy = 0;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const double v = values[i] / step_;
-        energy += weights[i % planes * n / planes] * v * v;
-      }
+      for (std::size_t p = 0; p < points; ++p)
+        for (std::size_t j = 0; j < planes; ++j) {
+          const double v = values[p * planes + j] / step_;
+          energy += of_plane[j] * v * v;
+        }
       s.largest = std::max(s.largest, std::sqrt(energy));
       // Row 0, the mean, is one of them: it must not fall outside a span of lower rank. It counts
       // once, the others for those between them.
       for (std::size_t p = 0; p < points; p += p == 0 ? 1 : stride)
         for (std::size_t lane = 0; lane < t.lanes; ++lane)
           for (std::size_t i = 0; i < n; ++i)
-            rows.push_back(static_cast<float>(values[p * planes + i * t.lanes + lane] *
-                                              std::sqrt(weights[i] / (p == 0 ? s.scale : 1)) /
-                                              step_));
+            rows.push_back(
+                static_cast<float>(values[p * planes + i * t.lanes + lane] *
+                                   (p == 0 ? std::sqrt(weights[i] / s.scale) : roots[i]) / step_));
     }
     s.samples = Eigen::Map<const Samples>(rows.data(), index(rows.size() / n), index(n));
     return s;
