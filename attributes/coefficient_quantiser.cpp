@@ -11,6 +11,7 @@
 #include "attributes/rate_model.h"
 #include "attributes/row_quantiser.h"
 #include "base/multiversion.h"
+#include "base/prefetch.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -82,6 +83,7 @@ class LevelQuantiser {
   }
 
  private:
+  static constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for before they are needed
   using Plans = std::array<NodePrediction, kPredictionModes - 1>;  // of mode 1 and up
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
@@ -171,6 +173,11 @@ class LevelQuantiser {
         if (used(mode)) plan_node(*level_, n, mode, plans[mode - 1u]);
       const std::span<const Merge> own = merges_.subspan(merge, plan.children - 1);
       merge += own.size();
+      for (std::size_t i = merge + kMergesAhead;
+           i < std::min(merge + kMergesAhead + own.size(), merges_.size()); ++i) {
+        prefetch_row(coefficients_.data() + merges_[i].right * planes_ + begin, lanes);
+        prefetch_row(values_.data() + merges_[i].right * planes_ + begin, lanes);
+      }
       const bool predicted = predict(plans, begin, end, modes, corrections);
       if (predicted) transform(plan, own, corrections, lanes, transformed);
       for (const Merge& m : own) {
