@@ -58,7 +58,8 @@ class MixedBit {
   }
 
  private:
-  static constexpr int kFirstWeights = 10650;  // of 8192, shared between the models; as kRate
+  // Of 8192, shared between the models; found as kRate was.
+  static constexpr int kFirstWeights = 10650;
 
   /// Where each model's contexts begin.
   static constexpr std::array<std::size_t, kModels> kFirst = [] {
