@@ -89,8 +89,8 @@ export class SLFLoader extends Loader {
       const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });
       return new SurfaceLightField(packed, info);
     } catch (error) {
-      const { kind, message } = plainError(error);
-      throw new ViewerError(kind, message);
+      const { kind, words, detail } = plainError(error);
+      throw new ViewerError(kind, words, detail);
     }
   }
 

@@ -8,6 +8,7 @@ import { ViewerError } from './packed_field.js';
  * @property {number} width, height, fx, fy, cx, cy
  * @property {number[]} rotation  [9] world to camera
  * @property {number[]} eye  [3] world
+ * @property {boolean} distorted  its lens bends lines: the picture of a rendering lies beside it, not on it
  * @property {() => Promise<ImageBitmap>} photograph
  */
 
@@ -111,6 +112,7 @@ function readTransforms(root) {
         fy,
         cx: of('cx') ?? width / 2,
         cy: of('cy') ?? height / 2,
+        distorted: ['k1', 'k2', 'p1', 'p2'].some((key) => of(key)),
         rotation: [m[0][0], m[1][0], m[2][0], -m[0][1], -m[1][1], -m[2][1], -m[0][2], -m[1][2], -m[2][2]],
         eye: [m[0][3], m[1][3], m[2][3]],
       };

@@ -37,7 +37,7 @@ export class Comparison {
     this.viewer.stage.pose = this.viewer.controls.pose;
     this.viewer.stage.camera = camera;
     at('cameras').value = index;
-    at('psnr').textContent = '';
+    at('psnr').textContent = 'The photograph is on its way.';
     this.viewer.stage.redraw();
     try {
       own.photograph = await camera.photograph();
@@ -60,6 +60,10 @@ export class Comparison {
   measure() {
     const { camera, photograph } = this.shown,
       { width, height } = camera;
+    if (camera.distorted) {
+      at('psnr').textContent = 'Its lens bends lines, the rendering does not: no PSNR.';
+      return;
+    }
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
     context.drawImage(photograph, 0, 0, width, height);
     const value = psnrWithin(
@@ -93,6 +97,14 @@ export class Comparison {
     const [x, y, w, h] = fittedCamera(this.shown.camera, width, height).frame;
     canvas.getContext('2d').drawImage(this.shown.photograph, x, y, w, h);
     at('compare').style.setProperty('--at', `${at('divider').value}%`);
+  }
+
+  /** The cameras are those of a file that goes. */
+  close() {
+    this.leave();
+    this.cameras = [];
+    at('photographs').hidden = true;
+    document.querySelector('[data-do=compare]').hidden = true;
   }
 
   leave() {

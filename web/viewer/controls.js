@@ -34,6 +34,16 @@ export class Controls {
     listen('blur', () => this.pressed.clear());
   }
 
+  /** The object keeps its size. */
+  setFov(fov) {
+    const { pose } = this;
+    if (!pose) return;
+    const width = (degrees) => Math.tan((degrees * Math.PI) / 360);
+    pose.distance *= width(pose.fov) / width(fov);
+    pose.fov = fov;
+    this.on.change();
+  }
+
   /** Moves what is in motion. @returns {boolean} whether anything still is */
   tick(seconds) {
     if (!this.pose) return false;

@@ -110,11 +110,11 @@ const WORDS = {
 };
 const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network' };
 
-/** An error as a message can carry it: a ViewerError's kind and text. */
+/** An error as a message can carry it: what a ViewerError is made of. */
 export function plainError(error) {
-  if (error instanceof ViewerError) return { kind: error.kind, message: error.message };
+  if (error instanceof ViewerError) return { kind: error.kind, words: error.words, detail: error.detail };
   if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError)
-    return { kind: 'memory', message: 'There is not enough memory to decode this file.' };
+    return { kind: 'memory', words: 'There is not enough memory to decode this file.' };
   const words = WORDS[error?.code] ?? 'Some of it says what cannot be.';
-  return { kind: KINDS[error?.code] ?? 'damaged', message: `${words} (${error?.message ?? error})` };
+  return { kind: KINDS[error?.code] ?? 'damaged', words, detail: String(error?.message ?? error) };
 }

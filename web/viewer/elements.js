@@ -62,8 +62,8 @@ export function writeProgress(received, total) {
   else bar.removeAttribute('aria-valuenow');
 }
 
-/** What is known of a file. @param facts  of a Viewer @param field  of its Stage */
-export function writeFacts(facts, field) {
+/** What is known of a file. @param facts  of a Viewer @param stage  what shows it */
+export function writeFacts(facts, { field, frameTime }) {
   const { info, bytes, first, loaded } = facts;
   const rows = {
     Name: facts.name,
@@ -79,21 +79,23 @@ export function writeFacts(facts, field) {
     'Graphics memory': sizeText(field.bytes),
     'First picture': first && `${(first / 1000).toFixed(2)} s`,
     Loaded: loaded && `${(loaded / 1000).toFixed(2)} s`,
+    'Frame in motion': frameTime && `${frameTime.toFixed(frameTime < 10 ? 1 : 0)} ms`,
     Format: info.version,
     Encoder: info.metadata?.encoder,
   };
   at('facts').replaceChildren(
     ...Object.entries(rows)
-      .filter(([, v]) => v !== undefined && v !== '' && v !== null)
+      .filter(([, v]) => v)
       .flatMap(([k, v]) => [element('dt', k), element('dd', String(v))]),
   );
 }
 
-/** @param again  whether there is a file that could be opened with less in it */
-export function writeProblem(kind, message, again) {
+/** @param {ViewerError} error @param again  whether there is a file that could be opened with less in it */
+export function writeProblem({ kind, words, detail }, again) {
   const problem = at('problem');
   problem.querySelector('h2').textContent = TITLES[kind] ?? TITLES.damaged;
-  problem.querySelector('p').textContent = message;
+  problem.querySelector('p').textContent = words;
+  problem.querySelector('.detail').textContent = detail;
   document.querySelector('[data-do=coarser]').hidden = !(again && (kind === 'too-large' || kind === 'memory'));
   problem.hidden = false;
   at('progress').hidden = true;

@@ -11,12 +11,13 @@ const LARGE = 200_000,
 export class FieldLoader {
   /**
    * @param {object} options  worker: () => Worker; wasm: the decoder's bytes, where the worker cannot
-   *   fetch them; maxMemory: bytes that a decode may take
+   *   fetch them; maxMemory: bytes that a decode may take; stallMs: a server that sends nothing for so long is given up
    */
-  constructor({ worker = newWorker, wasm = null, maxMemory = 2 ** 31 } = {}) {
+  constructor({ worker = newWorker, wasm = null, maxMemory = 2 ** 31, stallMs = 30000 } = {}) {
     this.start = worker;
     this.wasm = wasm;
     this.maxMemory = maxMemory;
+    this.stallMs = stallMs;
     this.waiting = new Map();
     this.next = 1;
     this.turn = 0;
@@ -52,7 +53,7 @@ export class FieldLoader {
 
   async receive(source, on, options, current, signal) {
     const { headers, credentials } = options;
-    const stream = await openStream(source, { signal, headers, credentials });
+    const stream = await openStream(source, { signal, headers, credentials }, this.stallMs);
     if (stream.total > MOST_BYTES) throw new ViewerError('too-large', `This file has ${stream.total} bytes.`);
     let received = 0,
       look = FIRST_LOOK,
@@ -122,7 +123,7 @@ export class FieldLoader {
       if (!own) return;
       this.waiting.delete(data.id);
       if (data.error)
-        own.reject(Object.assign(new ViewerError(data.error.kind, data.error.message), { info: data.info }));
+        own.reject(Object.assign(viewerError(data.error), { info: data.info }));
       else own.resolve(data);
     };
     this.worker.onerror = (event) => {
@@ -137,6 +138,8 @@ export class FieldLoader {
   }
 }
 
+const viewerError = ({ kind, words, detail }) => new ViewerError(kind, words, detail);
+
 function newWorker() {
   return new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });
 }
@@ -144,15 +147,17 @@ function newWorker() {
 const aborted = () => new DOMException('Another file was opened.', 'AbortError');
 
 /** Chunks of a source, and how many bytes there will be; 0 where nobody says. exact: and no fewer. */
-async function openStream(source, request) {
+async function openStream(source, request, stallMs) {
   if (source instanceof ArrayBuffer) source = new Uint8Array(source);
   if (source instanceof Uint8Array) return { total: source.length, exact: true, chunks: [source] };
+  const reads = (read) => within(stallMs, read);
   if (source instanceof Blob) return { total: source.size, exact: true, chunks: chunksOf(source.stream()) };
   let response;
   try {
-    response = await fetch(source, request);
+    response = await reads(fetch(source, request));
   } catch (error) {
     if (request.signal.aborted) throw aborted();
+    if (error instanceof ViewerError) throw error;
     throw new ViewerError('network', `${source} cannot be fetched.`);
   }
   if (!response.ok)
@@ -160,19 +165,30 @@ async function openStream(source, request) {
   const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
   const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
   // Whether that is so is not seen of another origin.
-  return { total, exact: total > 0 && response.type !== 'cors', chunks: chunksOf(response.body) };
+  return { total, exact: total > 0 && response.type !== 'cors', chunks: chunksOf(response.body, reads) };
 }
 
-async function* chunksOf(stream) {
+/** What a server promised; 'network' where it stays silent. */
+async function within(ms, promise) {
+  let timer;
+  const silence = new Promise((_, reject) => {
+    const error = new ViewerError('network', `The server has sent nothing for ${ms / 1000} seconds.`);
+    timer = setTimeout(reject, ms, error);
+  });
+  return Promise.race([promise, silence]).finally(() => clearTimeout(timer));
+}
+
+/** @param {(read: Promise) => Promise} reads  what is done with each read */
+async function* chunksOf(stream, reads = (read) => read) {
   const reader = stream.getReader();
   try {
     for (;;) {
-      const { done, value } = await reader.read();
+      const { done, value } = await reads(reader.read());
       if (done) return;
       yield value;
     }
   } catch (error) {
-    if (error?.name === 'AbortError') throw error;
+    if (error?.name === 'AbortError' || error instanceof ViewerError) throw error;
     throw new ViewerError('network', 'The connection broke.');
   } finally {
     reader.cancel().catch(() => {}); // where it was given up

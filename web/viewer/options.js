@@ -9,6 +9,9 @@ export const BACKGROUNDS = {
   black: '#000000',
 };
 
+/** What is said of the first file and of no other that is opened after it. */
+export const OF_FIRST_FILE = { title: null, poster: null, capture: null, camera: null, view: null };
+
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
   const text = (name) => query.get(name) ?? page[name] ?? null;

@@ -3,8 +3,11 @@ import type { SlfField, SlfGrid } from '../slf.js';
 
 /** Why a file is not shown. */
 export class ViewerError extends Error {
-  constructor(kind: ViewerError['kind'], message: string);
+  constructor(kind: ViewerError['kind'], words: string, detail?: string);
   kind: 'too-large' | 'no-view-maps' | 'no-webgl2' | 'damaged' | 'unsupported' | 'network' | 'memory';
+  /** For everybody, and for those who look for the cause; `message` has both. */
+  words: string;
+  detail: string;
 }
 
 /** A decoded light field as texels of the pipeline, and plain numbers; may be posted to a thread. */

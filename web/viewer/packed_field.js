@@ -5,11 +5,15 @@ const COLUMNS = 1024;
 
 /** What stands in the way of a file that is sound: too large for the device, without view maps. */
 export class ViewerError extends Error {
-  /** @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'} kind */
-  constructor(kind, message) {
-    super(message);
+  /**
+   * @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'} kind
+   * @param {string} words  for everybody
+   * @param {string} detail  for those who look for the cause
+   */
+  constructor(kind, words, detail = '') {
+    super(detail ? `${words} (${detail})` : words);
     this.name = 'ViewerError';
-    this.kind = kind;
+    Object.assign(this, { kind, words, detail });
   }
 }
 

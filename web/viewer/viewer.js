@@ -17,7 +17,7 @@ import {
   writeTheme,
 } from './elements.js';
 import { FieldLoader } from './field_loader.js';
-import { backgroundColour, BACKGROUNDS, readOptions } from './options.js';
+import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
 import { ViewerError } from './packed_field.js';
 import { Stage } from './stage.js';
 import { fittingPose, poseOfCamera } from './view.js';
@@ -68,8 +68,9 @@ export class Viewer {
     const begin = performance.now();
     this.hideProblem();
     document.body.classList.remove('empty');
+    if (this.source && this.source.source !== source) Object.assign(this.options, OF_FIRST_FILE);
     const own = (this.source = this.loading = { source, name });
-    this.comparison.leave();
+    this.comparison.close();
     this.controls.pose = null;
     this.touched = false;
     this.stage.clear();
@@ -191,7 +192,8 @@ export class Viewer {
 
   titleText() {
     const metadata = this.facts.info?.metadata ?? {};
-    return this.options.title ?? metadata.title ?? metadata.source ?? this.facts.name ?? '';
+    const named = (metadata.source ?? this.facts.name ?? '').replace(/\.slf$/, '').replaceAll('_', ' ');
+    return this.options.title ?? metadata.title ?? named;
   }
 
   describe() {
@@ -210,10 +212,11 @@ export class Viewer {
     slider('layers', 1, Math.max(1, info.layers), this.options.layers || info.layers);
     at('layers-row').hidden = !(info.layers > 1);
     writeOutputs();
-    writeFacts(this.facts, field);
+    writeFacts(this.facts, this.stage);
   }
 
   afterDrawing() {
+    if (this.stage.field && !at('panel').hidden) writeFacts(this.facts, this.stage);
     if (!at('compare').hidden && this.comparison.shown?.photograph) this.comparison.lay();
     document.body.dataset.frame = String(Number(document.body.dataset.frame ?? 0) + 1);
   }
@@ -229,13 +232,17 @@ export class Viewer {
   }
 
   fail(error) {
-    const kind = error instanceof ViewerError ? error.kind : 'damaged';
+    if (!(error instanceof ViewerError)) {
+      console.error(error);
+      error = new ViewerError('damaged', error.message);
+    }
     this.facts.info ??= error.info;
-    writeProblem(kind, error.message, this.source !== undefined);
-    document.body.dataset.state = `failed ${kind}`;
+    writeProblem(error, this.source !== undefined);
+    document.body.dataset.state = `failed ${error.kind}`;
     document.body.classList.add('failed');
-    if (!this.stage?.field) document.body.classList.add('empty');
-    if (!(error instanceof ViewerError)) console.error(error);
+    if (this.stage?.field) return;
+    document.body.classList.add('empty');
+    if (!at('panel').hidden) this.togglePanel(); // nothing is left that it is of
   }
 
   hideProblem() {
@@ -265,16 +272,6 @@ export class Viewer {
 
   async save() {
     download(await this.stage.screenshot(), `${(this.titleText() || 'light field').replace(/[^\w.-]+/g, '_')}.png`);
-  }
-
-  /** The object keeps its size. */
-  setFov(fov) {
-    const { pose } = this.controls;
-    if (!pose) return;
-    const width = (degrees) => Math.tan((degrees * Math.PI) / 360);
-    pose.distance *= width(pose.fov) / width(fov);
-    pose.fov = fov;
-    this.moved();
   }
 
   togglePanel() {

@@ -65,8 +65,8 @@ export class Wiring {
       before: () => this.viewer.comparison.step(-1),
       after: () => this.viewer.comparison.step(1),
       dismiss: () => {
-        at('problem').hidden = true;
-        document.body.classList.remove('failed');
+        this.viewer.hideProblem();
+        if (field) document.body.dataset.state = 'ready';
         at('stage').focus();
       },
       coarser: () => this.viewer.openCoarser(),
@@ -141,7 +141,7 @@ export class Wiring {
     on('groups', 'change', (e) => this.viewer.decodeAgain({ groups: e.value === e.max ? 0 : Number(e.value) }));
     on('layers', 'input', () => {});
     on('layers', 'change', (e) => this.viewer.decodeAgain({ layers: e.value === e.max ? 0 : Number(e.value) }));
-    on('fov', 'input', (e) => this.viewer.setFov(Number(e.value)));
+    on('fov', 'input', (e) => this.viewer.controls.setFov(Number(e.value)));
     on('cameras', 'change', (e) =>
       e.value === '' ? this.viewer.reset() : this.viewer.comparison.lookThrough(Number(e.value)),
     );

@@ -74,7 +74,8 @@ const TYPES = {
 /**
  * A static server that has web/ below a path of its own, and other folders beside it.
  * @param {object} folders  name: folder
- * @param {object} slow  name of a file: {bytes of a chunk, ms between, until: bytes after which it cuts off}
+ * @param {object} slow  name of a file: {bytes of a chunk, ms between, until: bytes after which it cuts off, or
+ *   where silent goes on without a word; silent from byte 0 on there is no header either}
  */
 export async function serve(folders = {}, slow = {}) {
   const roots = { 'some/path/web': web, ...folders };
@@ -104,9 +105,9 @@ export async function serve(folders = {}, slow = {}) {
   };
 }
 
-async function trickle(bytes, { chunk, wait, until = Infinity }, response) {
+async function trickle(bytes, { chunk, wait, until = Infinity, silent = false }, response) {
   for (let at = 0; at < bytes.length; at += chunk) {
-    if (at >= until) return response.destroy();
+    if (at >= until) return silent || response.destroy();
     response.write(bytes.subarray(at, at + chunk));
     await new Promise((done) => setTimeout(done, wait));
   }

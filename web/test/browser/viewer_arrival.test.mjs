@@ -92,6 +92,39 @@ test('a capture that was dropped with one file is not laid on another', { skip }
   await page.close();
 });
 
+test('title, capture and camera of an address are of its file, not of the next', { skip }, async () => {
+  const page = await here.opened('src=/files/can.slf&title=A%20can&capture=/files/capture&camera=2');
+  await page.waitForFunction(() => window.viewer.facts.psnr !== undefined);
+  await drop(page, [['a_jug.slf', here.can.bytes.toString('base64')]]);
+  await page.evaluate(() => Promise.all(window.drops));
+  assert.equal(await page.evaluate(() => window.viewer.comparison.cameras.length), 0);
+  for (const gone of ['#photographs', '#compare', '[data-do=compare]']) assert.ok(await page.isHidden(gone), gone);
+  assert.notEqual(await page.textContent('#title'), 'A can');
+  await page.close();
+});
+
+test('a camera whose lens bends lines has its photograph, and no PSNR', { skip }, async () => {
+  const page = await here.opened('src=/files/can.slf&capture=/files/capture');
+  await page.waitForFunction(() => window.viewer.comparison.cameras.length > 0);
+  const flags = await page.evaluate(async () => {
+    const { droppedCapture } = await import(new URL('capture.js', document.baseURI));
+    const frame = { file_path: 'a.png', transform_matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 3]] };
+    const read = async (lens) => {
+      const text = JSON.stringify({ w: 8, h: 8, fl_x: 8, frames: [frame], ...lens });
+      return (await droppedCapture([new File([text], 'transforms.json')]))[0].distorted;
+    };
+    return [await read({}), await read({ k1: 0, p2: 0 }), await read({ k2: 0.01 })];
+  });
+  assert.deepEqual(flags, [false, false, true]);
+  await page.evaluate(() => {
+    window.viewer.comparison.cameras[1].distorted = true;
+    return window.viewer.comparison.lookThrough(1);
+  });
+  assert.match(await page.textContent('#psnr'), /no PSNR/);
+  assert.ok(await page.isVisible('#photograph'));
+  await page.close();
+});
+
 test('a photograph that is missing is said to be, and is compared with nothing', { skip }, async () => {
   const page = await here.opened();
   await drop(page, [CAMERAS_FILE]);

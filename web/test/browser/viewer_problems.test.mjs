@@ -26,6 +26,37 @@ for (const [name, query, kind] of PROBLEMS)
     await page.close();
   });
 
+for (const name of ['stalls', 'silent'])
+  test(`a server that falls silent is given up: ${name}.slf`, { skip }, async () => {
+    const page = await here.open('');
+    await page.evaluate((url) => {
+      window.viewer.loader.stallMs = 700;
+      return window.viewer.open(url, 'can');
+    }, `/files/${name}.slf`);
+    assert.equal(await settled(page), 'failed network');
+    assert.equal(await page.textContent('#problem p'), 'The server has sent nothing for 0.7 seconds.');
+    assert.deepEqual(page.wrong, []);
+    await page.close();
+  });
+
+test('after a file that failed the page is as it was without one, and embedded it has no buttons', { skip }, async () => {
+  const page = await here.opened('src=/files/can.slf&capture=/files/capture');
+  await page.keyboard.press('g');
+  await page.evaluate(() => window.viewer.open('/files/damaged.slf', 'damaged.slf'));
+  assert.equal(await settled(page), 'failed damaged');
+  assert.match(await page.textContent('#problem .detail'), /CHECKSUM: unit_crc/);
+  assert.ok(await page.isHidden('#panel'));
+  await page.click('[data-do=dismiss]');
+  assert.ok(await page.isVisible('#welcome'));
+  assert.equal(await page.evaluate(() => document.body.dataset.state), undefined);
+  await page.close();
+  const embedded = await here.open('src=/files/damaged.slf&embed');
+  assert.equal(await settled(embedded), 'failed damaged');
+  assert.ok(await embedded.isVisible('#problem'));
+  assert.equal(await embedded.locator('button:visible').count(), 0);
+  await embedded.close();
+});
+
 test('a file that takes too much memory is refused, and can be shown coarser', { skip }, async () => {
   const page = await here.open('src=/files/can.slf');
   assert.equal(await settled(page), 'ready');
@@ -108,39 +139,40 @@ test(
   },
 );
 
-test('twenty loads leave one worker, as many textures and no more memory than a few', { skip }, async (t) => {
-  const page = await newPage(here.chrome);
-  await page.addInitScript(() => {
-    window.textures = 0;
-    const { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
-    WebGL2RenderingContext.prototype.createTexture = function () {
-      ++window.textures;
-      return createTexture.call(this);
+for (const [name, end] of [['can', 'ready'], ['damaged', 'failed damaged']])
+  test(`twenty loads of ${name}.slf leave one worker, as many textures and no more memory than a few`, { skip }, async (t) => {
+    const page = await newPage(here.chrome);
+    await page.addInitScript(() => {
+      window.textures = 0;
+      const { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
+      WebGL2RenderingContext.prototype.createTexture = function () {
+        ++window.textures;
+        return createTexture.call(this);
+      };
+      WebGL2RenderingContext.prototype.deleteTexture = function (x) {
+        if (x) --window.textures;
+        return deleteTexture.call(this, x);
+      };
+    });
+    await page.goto(`${here.server.page}?src=/files/${name}.slf`);
+    assert.equal(await settled(page), end);
+    const session = await page.context().newCDPSession(page);
+    const state = async () => {
+      await session.send('HeapProfiler.collectGarbage');
+      const { usedSize } = await session.send('Runtime.getHeapUsage');
+      return { heap: usedSize, textures: await page.evaluate(() => window.textures), workers: page.workers().length };
     };
-    WebGL2RenderingContext.prototype.deleteTexture = function (x) {
-      if (x) --window.textures;
-      return deleteTexture.call(this, x);
-    };
+    const load = (n) =>
+      page.evaluate(async ([file, times]) => {
+        for (let i = 0; i < times; ++i) await window.viewer.open(file, 'again');
+      }, [`/files/${name}.slf`, n]);
+    await load(3);
+    const early = await state();
+    await load(17);
+    const late = await state();
+    t.diagnostic(`heap ${early.heap} -> ${late.heap}, textures ${late.textures}, workers ${late.workers}`);
+    assert.equal(late.workers, 1);
+    assert.equal(late.textures, early.textures);
+    assert.ok(late.heap < early.heap + (1 << 20), `${early.heap} -> ${late.heap}`);
+    await page.close();
   });
-  await page.goto(`${here.server.page}?src=/files/can.slf`);
-  assert.equal(await settled(page), 'ready');
-  const session = await page.context().newCDPSession(page);
-  const state = async () => {
-    await session.send('HeapProfiler.collectGarbage');
-    const { usedSize } = await session.send('Runtime.getHeapUsage');
-    return { heap: usedSize, textures: await page.evaluate(() => window.textures), workers: page.workers().length };
-  };
-  const load = (n) =>
-    page.evaluate(async (times) => {
-      for (let i = 0; i < times; ++i) await window.viewer.open('/files/can.slf', 'can');
-    }, n);
-  await load(3);
-  const early = await state();
-  await load(17);
-  const late = await state();
-  t.diagnostic(`heap ${early.heap} -> ${late.heap}, textures ${late.textures}, workers ${late.workers}`);
-  assert.equal(late.workers, 1);
-  assert.equal(late.textures, early.textures);
-  assert.ok(late.heap < early.heap + (1 << 20), `${early.heap} -> ${late.heap}`);
-  await page.close();
-});

@@ -43,7 +43,7 @@ export const slide = (page, id, value) =>
     [id, value],
   );
 
-/** The can, whole; one byte of it changed; cut; slow; and over a connection that breaks. */
+/** The can, whole; one byte of it changed; cut; slow; over a connection that breaks, or falls silent. */
 function serveWithFaults({ dir, bytes }) {
   const write = (name, content) => writeFileSync(join(dir, name), content);
   write(
@@ -52,9 +52,14 @@ function serveWithFaults({ dir, bytes }) {
   );
   write('cut.slf', bytes.subarray(0, bytes.length >> 1));
   write('slow.slf', bytes);
-  write('breaks.slf', bytes);
+  for (const name of ['breaks', 'stalls', 'silent']) write(`${name}.slf`, bytes);
   return serve(
     { files: dir },
-    { 'slow.slf': { chunk: 512, wait: 250 }, 'breaks.slf': { chunk: 2048, wait: 10, until: bytes.length / 2 } },
+    {
+      'slow.slf': { chunk: 512, wait: 250 },
+      'breaks.slf': { chunk: 2048, wait: 10, until: bytes.length / 2 },
+      'stalls.slf': { chunk: 2048, wait: 10, until: bytes.length / 2, silent: true },
+      'silent.slf': { chunk: 2048, wait: 10, until: 0, silent: true },
+    },
   );
 }

@@ -122,7 +122,7 @@ test('a decoder that did not arrive is asked for again, and is no fault of the f
   });
   const refused = await session.decode({}).catch(plainError);
   assert.equal(refused.kind, 'network');
-  assert.match(refused.message, /^The decoder/);
+  assert.match(refused.words, /^The decoder/);
   assert.equal((await session.decode({})).packed.points, expected.points);
 });
 
