@@ -12,15 +12,14 @@ namespace {
 
 DecodeOptions options_of(const slf_options& given) {
   DecodeOptions options;
-  const slf_limits& limits = given.limits;
   const auto set = [](std::uint64_t value, std::uint64_t& limit) {
     if (value > 0) limit = value;
   };
-  set(limits.max_stream_bytes, options.limits.max_stream_bytes);
-  set(limits.max_points, options.limits.max_points);
-  set(limits.max_planes, options.limits.max_planes);
-  set(limits.max_memory_bytes, options.limits.max_memory);
-  set(limits.max_work, options.limits.max_work);
+  set(given.max_stream_bytes, options.limits.max_stream_bytes);
+  set(given.max_points, options.limits.max_points);
+  set(given.max_planes, options.limits.max_planes);
+  set(given.max_memory_bytes, options.limits.max_memory);
+  set(given.max_work, options.limits.max_work);
   options.levels = static_cast<int>(std::min(given.levels, 255u));
   options.groups = static_cast<int>(std::min(given.groups, 255u));
   options.layers = static_cast<int>(std::min(given.layers, 255u));
@@ -63,7 +62,7 @@ slf_estimate estimate_of(const slf_stream& stream, const ReadPlan& plan) {
 }
 
 slf_code check_memory(const slf_options& options, const slf_estimate& estimate, slf_error* error) {
-  const std::uint64_t limit = options.limits.max_memory_bytes;
+  const std::uint64_t limit = options.max_memory_bytes;
   const bool addressable = estimate.memory_bytes <= ~std::size_t{0};
   if (addressable && (limit == 0 || estimate.memory_bytes <= limit)) return SLF_OK;
   return fail(error, SLF_LIMIT_EXCEEDED, "max_memory_bytes");

@@ -244,14 +244,16 @@ bool write_refused(const fs::path& root, const RefusedCase& c) {
 }  // namespace slf::conformance
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: slf_conformance_generate DIRECTORY\n");
-    return 2;
+  const std::string directory = argc == 2 ? argv[1] : "";
+  if (directory.empty() || directory[0] == '-') {
+    const bool asked = directory == "--help";
+    std::fprintf(asked ? stdout : stderr, "usage: slf_conformance_generate DIRECTORY\n");
+    return asked ? 0 : 2;
   }
   bool good = true;
   for (const auto& c : slf::conformance::valid_cases())
-    good = slf::conformance::write_case(argv[1], c) && good;
+    good = slf::conformance::write_case(directory, c) && good;
   for (const auto& c : slf::conformance::refused_cases())
-    good = slf::conformance::write_refused(argv[1], c) && good;
+    good = slf::conformance::write_refused(directory, c) && good;
   return good ? 0 : 1;
 }

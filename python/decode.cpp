@@ -103,7 +103,7 @@ class Field {
     options.layers = part.layers;
     options.max_bytes = part.max_bytes;
     options.threads = part.threads == 0 ? -1 : part.threads;
-    options.limits.max_memory_bytes = part.max_memory;
+    options.max_memory_bytes = part.max_memory;
     if (part.region) {
       options.has_region = 1;
       for (std::size_t k = 0; k < 3; ++k) {

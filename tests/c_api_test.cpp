@@ -227,12 +227,12 @@ TEST(CApi, LimitsAndThePreflightHold) {
   EXPECT_GE(estimate.memory_bytes, estimate.field_bytes);
   EXPECT_EQ(estimate.memory_bytes, decode_cost(stream.held)->memory_most);
   slf_options options = SLF_OPTIONS_INIT;
-  options.limits.max_memory_bytes = estimate.memory_bytes;
+  options.max_memory_bytes = estimate.memory_bytes;
   EXPECT_EQ(Field(stream.handle, &options).code, SLF_OK);
-  options.limits.max_memory_bytes = estimate.memory_bytes - 1;
+  options.max_memory_bytes = estimate.memory_bytes - 1;
   EXPECT_EQ(Field(stream.handle, &options).code, SLF_LIMIT_EXCEEDED);
   options = SLF_OPTIONS_INIT;
-  options.limits.max_points = field.shape.points - 1;
+  options.max_points = field.shape.points - 1;
   EXPECT_EQ(Field(stream.handle, &options).code, SLF_LIMIT_EXCEEDED);
 }
 

@@ -1,6 +1,6 @@
 /* A program in C99 on slf/slf.h alone: every file named is opened and decoded twenty times, from
  * memory and through a reader; all that is taken of an allocator is given back; no struct that is
- * shorter than the library's is written beyond its end.
+ * shorter than the library's is read or written beyond its end.
  *   c_program decodes|refuses FILE ... */
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,6 +121,20 @@ static void check_growth(const struct file* file) {
   free(info);
 }
 
+/* Options of an older header: limits behind their size are not read. */
+static void check_older_options(const struct file* file) {
+  slf_options options = SLF_OPTIONS_INIT;
+  slf_stream* stream = NULL;
+  slf_field* field = NULL;
+  if (slf_open(file->bytes, file->size, NULL, &stream, NULL) != SLF_OK) return;
+  options.max_stream_bytes = 1;
+  expect(slf_decode(stream, &options, &field, NULL) == SLF_LIMIT_EXCEEDED, "a limit was not held", file->name);
+  options.size = offsetof(slf_options, max_stream_bytes);
+  expect(slf_decode(stream, &options, &field, NULL) == SLF_OK, "read beyond the size of a struct", file->name);
+  slf_release_field(field);
+  slf_release_stream(stream);
+}
+
 /* Without memory from the allocator there is an error, and nothing is kept. */
 static void check_no_memory(const struct file* file) {
   uint64_t sum = 0;
@@ -149,6 +163,7 @@ int main(int argc, char** argv) {
     }
     if (decodes) {
       check_growth(&file);
+      check_older_options(&file);
       check_no_memory(&file);
     }
     free(file.bytes);

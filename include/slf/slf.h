@@ -12,7 +12,7 @@
  *
  * Structs that have a member `size` grow with versions of the interface: the caller sets it to
  * sizeof of the struct it was compiled with (the SLF_..._INIT macros do), and members beyond it are
- * neither read nor written; inputs count as 0 there.
+ * neither read nor written; inputs count as 0 there. A struct without it stays as it is.
  *
  * Every function that can fail returns an slf_code and fills an slf_error where one is given; what
  * it would have written is then left alone, pointers to be returned are NULL. NULL for an error,
@@ -112,10 +112,11 @@ typedef struct slf_reader {
   int (*read_at)(void* user, uint64_t offset, void* to, size_t bytes);
 } slf_reader;
 
-/* Memory for what the library keeps of a stream's bytes: the parts that a reader gave, and the
- * slf_stream and slf_field objects. NOT for what decoding needs inside: that comes from the C++
- * library's operator new, which a program replaces if it wants to; slf_preflight says how much it
- * is. Blocks are given back before slf_release_stream or slf_release_field returns. */
+/* Memory for bytes of a stream that a reader gave, and for the slf_stream and slf_field handles.
+ * NOT for what stands behind a handle, which is most: headers and metadata, a field's arrays, and
+ * what decoding and the functions that read need inside. That comes from the C++ library's operator
+ * new, which a program replaces if it wants to; what a decode takes of both is slf_preflight's
+ * memory_bytes. Blocks are given back before slf_release_stream or slf_release_field returns. */
 typedef struct slf_allocator {
   uint32_t size; /* sizeof(slf_allocator) */
   uint32_t reserved;
@@ -183,15 +184,6 @@ SLF_API slf_code slf_get_metadata(const slf_stream* stream, uint32_t i, const ch
 
 /* ---- decoding ---- */
 
-/* Refused beyond these, before anything that large is allocated; 0: the default. */
-typedef struct slf_limits {
-  uint64_t max_stream_bytes; /* 2^32 */
-  uint64_t max_points;       /* 2^26 */
-  uint64_t max_planes;       /* 12288 */
-  uint64_t max_memory_bytes; /* 2^30: slf_preflight's memory_bytes, and what the library counts */
-  uint64_t max_work;         /* 2^35: decisions and values */
-} slf_limits;
-
 typedef struct slf_options {
   uint32_t size; /* sizeof(slf_options) */
   uint32_t
@@ -203,7 +195,12 @@ typedef struct slf_options {
   uint32_t has_region; /* 1: only points whose voxel of the kept levels meets the box */
   int32_t region_low[3], region_high[3]; /* voxels of the whole grid, both included */
   uint32_t layers;                       /* of quality to decode, 1 .. slf_info.layers; 0: all */
-  slf_limits limits;
+  /* Limits. Refused beyond these, before anything that large is allocated; 0: the default. */
+  uint64_t max_stream_bytes; /* 2^32 */
+  uint64_t max_points;       /* 2^26 */
+  uint64_t max_planes;       /* 12288 */
+  uint64_t max_memory_bytes; /* 2^30: slf_preflight's memory_bytes, and what the library counts */
+  uint64_t max_work;         /* 2^35: decisions and values */
   /* Called between the units of a stream by one thread at a time, which need not be the caller's;
    * fraction: 0 .. 1 of the bytes to decode. Anything but 0 ends the decode with SLF_CANCELLED.
    * NULL: not called. */
@@ -211,7 +208,7 @@ typedef struct slf_options {
   void* user;
 } slf_options;
 #define SLF_OPTIONS_INIT \
-  { sizeof(slf_options), 0, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0, {0, 0, 0, 0, 0}, NULL, NULL }
+  { sizeof(slf_options), 0, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, NULL, NULL }
 
 /* What slf_decode with these options will give and take; nothing is decoded. */
 typedef struct slf_estimate {
@@ -230,7 +227,8 @@ SLF_API slf_code slf_preflight(const slf_stream* stream, const slf_options* opti
 /* Runs of bytes of the stream that slf_decode with these options reads through a reader, ascending,
  * those next to each other joined; what was read when the stream was opened is not among them.
  * ranges: [capacity] receives the first ones; *count: how many there are. NULL with capacity 0 asks
- * for their number. A stream in memory has none. */
+ * for their number. A stream in memory has none. An slf_range stays as it is, since arrays are made
+ * of it. */
 typedef struct slf_range {
   uint64_t offset, bytes;
 } slf_range;

@@ -1,24 +1,36 @@
 // Files of `slf export` as three.js reads them: positions, discs, and colours evaluated from the
 // coefficients that its loaders give, by the formulas of KHR_gaussian_splatting, against what the
-// light field shows. Exits with 77 (skipped) where three is not installed:
+// light field shows. Exits with 77 (skipped) where three is not installed, neither here nor, of the same
+// version, in web/:
 //   npm ci --prefix tests/readers
 //   node tests/readers/read_splats.mjs DIRECTORY        DIRECTORY: written by tests/splat_files
-import { readFileSync } from 'node:fs'
+import { existsSync, readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
 import { join } from 'node:path'
+import { pathToFileURL } from 'node:url'
 
-let loaders
-try {
-  globalThis.self ??= globalThis  // GLTFLoader expects a page or a worker
-  loaders = {
-    ...await import('three/addons/loaders/GaussianSplatPLYLoader.js'),
-    ...await import('three/addons/loaders/SPZLoader.js'),
-    ...await import('three/addons/loaders/GLTFLoader.js'),
-    ...await import('three/addons/loaders/GLTFGaussianSplatLoaderExtension.js'),
-  }
-} catch (error) {
-  if (error.code !== 'ERR_MODULE_NOT_FOUND') throw error
-  console.log('skipped: three is not installed (npm ci --prefix tests/readers)')
+/** The folder whose packages have the version of three that package.json asks for. */
+function folderWithThree() {
+  const wanted = createRequire(import.meta.url)('./package.json').devDependencies.three
+  return ['./', '../../web/'].map((folder) => new URL(folder, import.meta.url)).find((folder) => {
+    const about = new URL('node_modules/three/package.json', folder)
+    return existsSync(about) && JSON.parse(readFileSync(about, 'utf8')).version === wanted
+  })
+}
+
+const folder = folderWithThree()
+if (!folder) {
+  console.log('read_splats: skipped, there is no three of the version of package.json (npm ci --prefix tests/readers)')
   process.exit(77)
+}
+const three = createRequire(folder)
+const addon = (name) => import(pathToFileURL(three.resolve(`three/addons/loaders/${name}.js`)).href)
+globalThis.self ??= globalThis  // GLTFLoader expects a page or a worker
+const loaders = {
+  ...await addon('GaussianSplatPLYLoader'),
+  ...await addon('SPZLoader'),
+  ...await addon('GLTFLoader'),
+  ...await addon('GLTFGaussianSplatLoaderExtension'),
 }
 
 const directory = process.argv[2]

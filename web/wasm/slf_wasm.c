@@ -94,9 +94,9 @@ void EXPORT(slfw_set_options)(void) {
     o.region_low[k] = (int32_t)n[4 + k];
     o.region_high[k] = (int32_t)n[7 + k];
   }
-  o.limits.max_points = (uint64_t)n[10];
-  o.limits.max_memory_bytes = (uint64_t)n[11];
-  o.limits.max_work = (uint64_t)n[12];
+  o.max_points = (uint64_t)n[10];
+  o.max_memory_bytes = (uint64_t)n[11];
+  o.max_work = (uint64_t)n[12];
   if (n[13] != 0) o.progress = progress;
   o.layers = (uint32_t)n[14];
   options = o;
