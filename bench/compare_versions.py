@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Two builds of slf on the same integers, in turns: bytes, user seconds, peak memory, parts.
+"""Two builds of slf, in turns: bytes, user seconds, peak memory; of the same integers, or of captures.
 
     bench/compare_versions.py OLD_SLF NEW_SLF [--runs 3] [--cloud FILE.ply ...]
         [--planes POSITIONS.npy COMPONENTS.npy STEP NAME ...] [--large BITS]
+        [--capture DIR ... [--bits 8 9] [--q 8 16 32]]
 
-Prints a Markdown table, a row an input: what `pack` writes, and what it and `decode` take. Seconds
-are user time, least of the runs; two threads are seconds on the clock. Memory is the greatest
-resident set. Needs numpy.
+Prints Markdown tables, a row an input: what `pack` writes, and what it and `decode` take. Of captures
+what `encode` writes at each version's own defaults, once, and what its pictures of held-out cameras
+are worth. Seconds are user time of one thread, least of the runs; two threads are seconds on the
+clock. Memory is the greatest resident set. Needs numpy.
 """
 import argparse
+import json
 import multiprocessing
 import os
 import pathlib
@@ -19,7 +22,7 @@ import time
 
 import numpy as np
 
-DECODES = {'one thread': ['-j', '1'], 'two threads': ['-j', '2']}
+THREADS = (1, 2)
 
 
 def large_cloud(bits, folder):
@@ -72,16 +75,43 @@ def measure(name, positions, components, options, programs, runs, folder):
     what = [positions] + ([components] if components else [])
     packs = in_turns([[p, 'pack', *what, *options, '-j', '1', '--quiet', '-o', f]
                       for p, f in zip(programs, files)], runs)
-    out = folder / 'out'
-    rows = {'pack': packs}
-    for label, threads in DECODES.items():
-        rows[label] = in_turns([[p, 'decode', f, '--dump', out, '--quiet', *threads]
-                                for p, f in zip(programs, files)], runs)
-    cells = [name, *(str(f.stat().st_size) for f in files)]
-    cells += [f'{r[0]:.2f}' for r in rows['pack']]
-    cells += [f'{r[0]:.3f}, {r[2]:.0f}' for r in rows['one thread']]
-    cells += [f'{r[1]:.3f}' for r in rows['two threads']]
-    print('| ' + ' | '.join(cells) + ' |', flush=True)
+    one, two = decodes(files, programs, runs, ['--dump', folder / 'out'])
+    print_row(name, [str(f.stat().st_size) for f in files], [f'{r[0]:.2f}, {r[2]:.0f}' for r in packs],
+              [f'{r[0]:.3f}, {r[2]:.0f}' for r in one], [f'{r[1]:.3f}' for r in two])
+
+
+def measure_capture(name, capture, bits, q, programs, runs, folder):
+    files = [folder / f'{i}.slf' for i in range(len(programs))]
+    encode = ['encode', capture, '--grid-bits', str(bits), '-q', str(q), '--quiet']
+    one = in_turns([[p, *encode, '-j', '1', '-o', f] for p, f in zip(programs, files)], 1)
+    two = in_turns([[p, *encode, '-j', '2', '-o', f] for p, f in zip(programs, files)], 1)
+    points = decodes(files, programs, runs, ['-o', folder / 'points.ply'])
+    everything = decodes(files, programs, runs, ['--dump', folder / 'out'])
+    print_row(f'{name}, {bits} bits, Q = {q}',
+              [f'{f.stat().st_size}, {held_out(p, f, capture):.2f}' for p, f in zip(programs, files)],
+              [f'{a[0]:.1f}, {b[1]:.1f}, {a[2]:.0f}' for a, b in zip(one, two)],
+              *([f'{a[0]:.3f}, {b[1]:.3f}, {a[2]:.0f}' for a, b in zip(*kind)] for kind in (points, everything)))
+
+
+def held_out(program, file, capture):
+    """PSNR of the pictures of cameras that were held out, dB."""
+    told = subprocess.run([program, 'eval', file, capture, '--json'], check=True, capture_output=True)
+    return json.loads(told.stdout)['held_out']['image']['psnr']
+
+
+def decodes(files, programs, runs, what):
+    return [in_turns([[p, 'decode', f, *what, '--quiet', '-j', str(threads)] for p, f in zip(programs, files)], runs)
+            for threads in THREADS]
+
+
+def print_row(*cells):
+    flat = [c for cell in cells for c in (cell if isinstance(cell, list) else [cell])]
+    print('| ' + ' | '.join(flat) + ' |', flush=True)
+
+
+def print_head(*columns):
+    pairs = [name for column in columns for name in (f'{column}, old', 'new')]
+    print('| | ' + ' | '.join(pairs) + ' |\n' + '|---' * (len(pairs) + 1) + '|')
 
 
 def main():
@@ -94,12 +124,21 @@ def main():
                         metavar=('POSITIONS', 'COMPONENTS', 'STEP', 'NAME'))
     parser.add_argument('--options', default='', help='of pack, for --planes')
     parser.add_argument('--large', type=int, metavar='BITS')
+    parser.add_argument('--capture', nargs='*', default=[])
+    parser.add_argument('--bits', nargs='*', default=[8, 9])
+    parser.add_argument('--q', nargs='*', default=[8, 16, 32])
     args = parser.parse_args()
     programs = [args.old, args.new]
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
-        print('| | bytes, old | new | pack s, old | new | decode s and MiB, old | new '
-              '| two threads s, old | new |\n|---|---|---|---|---|---|---|---|---|')
+        if args.capture:
+            costs = 's, s of two threads, MiB'
+            print_head('bytes, dB', f'encode {costs}', f'decode -o {costs}', f'--dump {costs}')
+        for capture in args.capture:
+            for bits in args.bits:
+                for q in args.q:
+                    measure_capture(pathlib.Path(capture).name, capture, bits, q, programs, args.runs, folder)
+        print_head('bytes', 'pack s, MiB', 'decode s, MiB', 'two threads s')
         for cloud in args.cloud:
             measure(pathlib.Path(cloud).stem, cloud, None, [], programs, args.runs, folder)
         for positions, components, step, name in args.planes:

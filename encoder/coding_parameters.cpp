@@ -7,15 +7,11 @@
 #include "encoder/component_planes.h"
 
 namespace slf {
-namespace {
 
-/// Cuts of the level-of-detail table: all but the two finest levels, then one each.
 std::vector<int> level_ends(int bits) {
   if (bits < 4) return {bits};
   return {bits - 2, bits - 1, bits};
 }
-
-}  // namespace
 
 CodingParameters coding_parameters(const EncoderSettings& settings) {
   CodingParameters parameters;

@@ -74,6 +74,14 @@ TEST_F(PackTest, StepsAndGroupsAreThoseOfTheFiles) {
   EXPECT_FALSE(types.contains("digest"));
 }
 
+TEST_F(PackTest, UnitsEndAtTheLastLevelsUnlessToldOtherwise) {
+  ASSERT_EQ(slf("pack positions.npy components.npy -o a.slf --grid-bits 5").code, 0);
+  ASSERT_EQ(slf("pack positions.npy components.npy -o b.slf --grid-bits 5 --levels 3,4,5").code, 0);
+  ASSERT_EQ(slf("pack positions.npy components.npy -o c.slf --grid-bits 5 --levels 5").code, 0);
+  EXPECT_EQ(read("a.slf"), read("b.slf"));
+  EXPECT_NE(read("a.slf"), read("c.slf"));
+}
+
 TEST_F(PackTest, RefusesArraysThatDoNotFitTogether) {
   const std::vector<std::int32_t> twice{1, 1, 1, 1, 1, 1}, outside{0, 0, -1};
   write("twice.npy", text_of(npy_file({2, 3}, std::span<const std::int32_t>(twice))));

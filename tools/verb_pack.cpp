@@ -144,9 +144,9 @@ Result<CodingParameters, Failure> coding_parameters(const PackOptions& given,
   CodingParameters parameters = coding_parameters(coding);
   SLF_CHECK(read_steps(given, functions, parameters));
   SLF_CHECK(read_groups(given, functions, parameters));
-  if (coding.coefficients != CoefficientCoder::kTexture)
-    parameters.coefficient_level_ends = given.levels;
-  if (coding.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = given.levels;
+  const auto ends = given.levels.empty() ? level_ends(field.header.grid.bits) : given.levels;
+  if (coding.coefficients != CoefficientCoder::kTexture) parameters.coefficient_level_ends = ends;
+  if (coding.geometry == GeometryCoder::kOctree) parameters.geometry_level_ends = ends;
   parameters.digest = !given.no_digest;
   parameters.index = given.index || (functions > 0 && !given.no_index);
   parameters.threads = given.common.threads;
@@ -243,7 +243,8 @@ void add_pack(CLI::App& program, Run& run) {
   verb->get_option("--klt")->default_str("off");
   verb->add_option(
           "--levels", o->levels,
-          "Octree levels at which units end, ascending, the last the grid's bits; e.g. 6,7,8")
+          "Octree levels at which units end, ascending, the last the grid's bits; default: the last "
+          "three, e.g. 6,7,8")
       ->delimiter(',')
       ->check(whole_range(1, 21));
   auto* index =

@@ -91,6 +91,10 @@ struct EncoderSettings;
 /// light field.
 CodingParameters coding_parameters(const EncoderSettings& settings);
 
+/// Level ends of a grid of so many bits that serve most: all but the two finest levels, then one
+/// each, so that a scene of several slices begins with all of it, coarsely.
+std::vector<int> level_ends(int bits);
+
 /// Codes an integer light field (`slf pack`, and the last step of encode).
 /// Positions may come in any order; they are sorted, components and normals with them.
 /// @errors kInvalidArgument: duplicate or out-of-grid positions, sizes that do not fit together, a
