@@ -92,7 +92,8 @@ Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
       end += entry.bytes;
     }
     if (head == 0) head = end;
-    return std::optional(StreamHead{std::min(head, stream_bytes), end == stream_bytes});
+    const bool ends = !index.entries.empty() && index.entries.back().type == UnitType::kEnd;
+    return std::optional(StreamHead{std::min(head, stream_bytes), ends && end == stream_bytes});
   }
   return std::optional<StreamHead>();
 }
@@ -110,6 +111,8 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
   plan.points = sequence.base_alone() ? scene.table.num_cells() : scene.table.num_points();
   const Unit* unit = units.first(UnitType::kIndex);
   plan.whole = is_all || unit == nullptr || wants_all(sequence, options);
+  plan.partial = sequence.missing || sequence.region ||
+                 (options.max_bytes > 0 && options.max_bytes < stream_bytes);
   if (plan.whole) return plan;
   SLF_TRY(const Index index, read_index(*unit, plan.set));
   Selection selection(sequence);

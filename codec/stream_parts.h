@@ -28,7 +28,8 @@ struct StreamPart {
 /// What has to be known of a stream before a part of it can be chosen.
 struct StreamHead {
   std::uint64_t bytes = 0;  ///< up to its first unit of geometry; all where there is no index
-  bool complete = false;    ///< the stream is as long as its index says; without one not known
+  bool complete = false;    ///< the stream ends where its index says, with an end unit; without an
+                            ///< index not known
 };
 
 /// @param begin  the first bytes of a stream
@@ -39,7 +40,9 @@ Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
 
 /// What is to be read of a stream.
 struct ReadPlan {
-  bool whole = false;  ///< all of it: it is then decoded by decode()
+  bool whole = false;    ///< all of it: it is then decoded by decode()
+  bool partial = false;  ///< less comes out than the stream has: LightField::partial. Means alone,
+                         ///< which need not all of it, are not less
   SequenceParameterSet set;
   std::uint64_t components = 0, points = 0;  ///< R; at most so many
   DecodeCost cost;                           ///< of what was asked for

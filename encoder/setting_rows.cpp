@@ -106,7 +106,7 @@ void add_coding(std::vector<SettingRow>& rows) {
               "Quantise by distortion and rate, 0 to 1; 0: to the nearest (paper)"),
        number("quality-layers", SLF_AT(quality_layers), 1, 4,
               "Layers in which coefficients are coded, each at half of the step of the one before: "
-              "quality is a cut of the file (--layers), for 1 to 2 % more bytes"),
+              "quality is a cut of the file (--layers), for some 1 % more bytes"),
        number_or("0", 0, "normal-bits", SLF_AT(normal_bits), 4, 12,
                  "Code normals with so many bits per coordinate; 0: not"),
        number_or("auto", kAutomaticBase, "base-levels", SLF_AT(base_levels), 0, 20,

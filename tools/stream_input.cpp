@@ -6,6 +6,7 @@
 
 #include "slf/capture.h"
 #include "tools/heap.h"
+#include "tools/part_input.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -67,6 +68,15 @@ void add_limits(CLI::App& verb, LimitOptions& options) {
 
 bool is_partial(const StreamInfo& info) { return !info.complete || info.cut.has_value(); }
 
+Outcome check_whole(const std::string& file, const StreamInfo& info, const LimitOptions& given,
+                    const CommonOptions& common) {
+  if (!is_partial(info)) return Done{};
+  const std::string what = input_name(file) + ": " + missing(info);
+  if (given.strict) return Failure{kInputInvalid, what + " (--strict)"};
+  warn(what, common.quiet);
+  return Done{};
+}
+
 Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
                                                       const LimitOptions& given) {
   const DecodeLimits& limits = given.limits;
@@ -86,11 +96,8 @@ Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOpti
 
 Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std::uint8_t> bytes,
                                         const LimitOptions& given, const CommonOptions& common) {
-  const std::string name = input_name(file);
-  SLF_TRY(StreamInfo info, from(name, read_info(bytes, given.limits)));
-  if (is_partial(info) && given.strict)
-    return Failure{kInputInvalid, name + ": " + missing(info) + " (--strict)"};
-  if (is_partial(info)) warn(name + ": " + missing(info), common.quiet);
+  SLF_TRY(StreamInfo info, from(input_name(file), read_info(bytes, given.limits)));
+  SLF_CHECK(check_whole(file, info, given, common));
   return StreamFile{std::move(bytes), std::move(info)};
 }
 
@@ -140,13 +147,14 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
 
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          const LimitOptions& given, const CommonOptions& common) {
-  SLF_TRY(StreamFile stream, read_stream(file, given, common));
-  const DecodeOptions options = decode_options(stream.info, part, given, common);
   share_heap();
+  if (auto decoded = decode_part_alone(file, part, given, common)) return *std::move(decoded);
+  SLF_TRY(const StreamFile stream, read_stream(file, given, common));
+  const DecodeOptions options = decode_options(stream.info, part, given, common);
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(file, field.error(), stream, options);
-  return DecodedFile{*std::move(field), std::move(stream.info), stream.bytes.size(), watch.lap()};
+  return DecodedFile{*std::move(field), stream.bytes.size(), watch.lap()};
 }
 
 Outcome require_view_maps(const LightField& field, const std::string& file) {

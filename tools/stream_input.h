@@ -39,6 +39,10 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
 /// Is the file not all that was coded: cut short, or cut by `slf truncate`?
 bool is_partial(const StreamInfo& info);
 
+/// Warns of what is missing, unless quiet; by --strict that is a failure.
+Outcome check_whole(const std::string& file, const StreamInfo& info, const LimitOptions& given,
+                    const CommonOptions& common);
+
 /// For the library.
 DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
                              const LimitOptions& given, const CommonOptions& common);
@@ -49,10 +53,10 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
 
 struct DecodedFile {
   LightField field;
-  StreamInfo info;
-  std::uint64_t bytes = 0;
-  double seconds = 0;  ///< of decoding alone
+  std::uint64_t bytes = 0;  ///< of the file, whatever was read of it
+  double seconds = 0;       ///< of decoding alone
 };
+/// Of a part of a regular file no more is read than it needs (tools/part_input.h).
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          const LimitOptions& given, const CommonOptions& common);
 

@@ -241,10 +241,10 @@ void add_pack(CLI::App& program, Run& run) {
     return setting.group.starts_with("Texture") || kCoding.contains(setting.name);
   });
   verb->get_option("--klt")->default_str("off");
-  verb->add_option(
-          "--levels", o->levels,
-          "Octree levels at which units end, ascending, the last the grid's bits; default: the last "
-          "three, e.g. 6,7,8")
+  verb->add_option("--levels", o->levels,
+                   "Octree levels at which units end, ascending, the last the grid's bits; "
+                   "default: the last "
+                   "three, e.g. 6,7,8")
       ->delimiter(',')
       ->check(whole_range(1, 21));
   auto* index =
