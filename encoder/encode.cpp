@@ -66,6 +66,10 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
   if (std::string warning = density_warning(encoded.density); automatic && !warning.empty())
     encoded.warnings.push_back(std::move(warning));
+  if (encoded.refined.too_dense_for_grid && encoded.refined.outcome == RefineReport::kNoGain)
+    encoded.warnings.push_back(
+        "the cloud is denser than its photographs tell apart, and they disagree about it: on an "
+        "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
   encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)

@@ -64,6 +64,11 @@ MendingLattice lattice_of(const SurfacePoints& surface, const RefineSettings& s,
   return found;
 }
 
+/// Between points that the photographs of `level` tell apart.
+double apart_at(const MendingJob& job, int level) {
+  return kPatchesApart * job.pixel * std::pow(2.0, level);
+}
+
 }  // namespace
 
 Result<Done, InputError> load_photographs(MendingJob& job, int coarsest) {
@@ -93,13 +98,15 @@ Result<HeldOutErrors, InputError> sampled_errors(const MendingJob& job,
                          every);
 }
 
+bool is_dense(const MendingJob& job, int level) {
+  return apart_at(job, level) > kDenser * job.spacing;
+}
+
 void thin_start(MendingJob& job, int level) {
-  if (!job.settings.free_grid) return;
-  const double apart = kPatchesApart * job.pixel * std::pow(2.0, level);
-  if (!(apart > kDenser * job.spacing)) return;
+  if (!is_dense(job, level)) return;
   Lattice lattice = lattice_of(job.start, job).lattice;
   lattice.size = {};
-  lattice.step = kStepOfSpacing * apart;
+  lattice.step = kStepOfSpacing * apart_at(job, level);
   ResampleSettings sampling;
   sampling.threads = job.settings.threads;
   SurfacePoints thin = resample(job.start, lattice, sampling);

@@ -33,8 +33,10 @@ struct MendingJob {
   bool thinned() const { return captured.size() > 0; }
 };
 
-/// On a free grid: points that the photographs of `level` tell apart in place of those of a denser
-/// capture, more of which say the same again.
+/// Are points nearer to one another than the photographs of `level` tell apart?
+bool is_dense(const MendingJob& job, int level);
+/// Where they are: points that those photographs tell apart in their place, more of which say the
+/// same again.
 void thin_start(MendingJob& job, int level);
 
 /// Photographs down to the size at which a pixel is about half a point spacing, and coarser, up to

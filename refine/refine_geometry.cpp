@@ -107,7 +107,12 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
   if (automatic && typical_miss(job) <= kExact) return Done{};
-  thin_start(job, *std::min_element(kMendingLevels.begin(), kMendingLevels.end()));
+  const int finest = *std::min_element(kMendingLevels.begin(), kMendingLevels.end());
+  if (job.settings.free_grid) {
+    thin_start(job, finest);
+  } else {
+    out.report.too_dense_for_grid = is_dense(job, finest);
+  }
   SLF_TRY(job.judged, silhouettes_of(job, job.parts.held_out));
   SLF_TRY(const HeldOutErrors before, sampled_errors(job, job.start));
   SLF_TRY(Candidate best, mended_whole(job, before, progress));

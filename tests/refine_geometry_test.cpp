@@ -92,6 +92,7 @@ TEST_F(RefineGeometryTest, ACloudDenserThanThePhotographsIsMendedAtTheirScaleAnd
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
   EXPECT_GT(refined->cloud.positions.size(), 40000u);
+  EXPECT_TRUE(refined->report.too_dense_for_grid);
 }
 
 TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePointsThatTheyResolve) {
@@ -105,6 +106,7 @@ TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePoint
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
   EXPECT_LT(refined->cloud.positions.size(), 40000u);
+  EXPECT_FALSE(refined->report.too_dense_for_grid) << "it is thinned";
   ASSERT_GT(refined->voxel_size, voxel);
   const auto voxels = voxelise(refined->cloud, 9, refined->voxel_size);
   ASSERT_TRUE(voxels);
