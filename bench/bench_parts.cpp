@@ -1,8 +1,8 @@
 // What parts of a file cost beside the whole: bench_parts FILE.slf [RUNS]
 //
-// For every number of levels, some of groups, and two regions in the middle of the points' box (an
-// eighth of it, and a tenth of each side): points and bytes that come out, user seconds (the least
-// of RUNS, one thread) and their share of the whole's, and the peak memory of a process that
+// For every number of levels, some of groups, and two regions (cubes around a point on the object,
+// half and a tenth as wide as it): points and bytes that come out, user seconds (the least of RUNS,
+// one thread) and their share of the whole's, and the peak memory of a process that
 // decodes once beside 1.5 times the output and 64 MiB.
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -88,37 +88,38 @@ Cost geometry_alone(const std::vector<std::uint8_t>& stream, int runs) {
   return packed ? measure(*packed, {}, runs) : Cost{};
 }
 
-/// The box of the points to a 256th of the grid: what a decode of all of them leaves on the heap
-/// would count for the children.
-VoxelBox box_of_points(const std::vector<std::uint8_t>& stream, int bits) {
+/// The point in the middle of the coding order, and the longest side of the points' box, to a 256th
+/// of the grid: what a decode of all of them leaves on the heap would count for the children.
+struct Middle {
+  Voxel point{};
+  double side = 0;
+};
+
+Middle middle_of(const std::vector<std::uint8_t>& stream, int bits) {
   DecodeOptions options;
   options.levels = std::min(bits, 8);
   const auto field = decode(stream, options);
   if (!field || field->positions.empty()) return {};
-  VoxelBox box{field->positions.front(), field->positions.front()};
-  for (const Voxel& voxel : field->positions)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], voxel[axis]);
-      box.high[axis] = std::max(box.high[axis], voxel[axis]);
-    }
   const std::int32_t cells = 1 << (bits - options.levels);
+  Middle middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] *= cells;
-    box.high[axis] = (box.high[axis] + 1) * cells - 1;
+    const auto along = [axis](const Voxel& a, const Voxel& b) { return a[axis] < b[axis]; };
+    const auto [low, high] =
+        std::minmax_element(field->positions.begin(), field->positions.end(), along);
+    middle.side = std::max(middle.side, double((*high)[axis] - (*low)[axis] + 1) * cells);
+    middle.point[axis] = field->positions[field->positions.size() / 2][axis] * cells;
   }
-  return box;
+  return middle;
 }
 
-/// The middle of a box, with a share of each of its sides.
-VoxelBox middle_of(const VoxelBox& box, double share) {
-  VoxelBox part;
+VoxelBox cube_around(const Middle& middle, double share) {
+  const auto half = std::int32_t(std::lround(middle.side * share / 2));
+  VoxelBox cube{middle.point, middle.point};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double middle = (double(box.low[axis]) + double(box.high[axis])) / 2;
-    const double half = (double(box.high[axis]) - double(box.low[axis])) / 2 * share;
-    part.low[axis] = std::int32_t(std::lround(middle - half));
-    part.high[axis] = std::int32_t(std::lround(middle + half));
+    cube.low[axis] -= half;
+    cube.high[axis] += half;
   }
-  return part;
+  return cube;
 }
 
 }  // namespace
@@ -160,9 +161,10 @@ int main(int argc, char** argv) {
               whole.seconds);
   }
   options = {};
-  const VoxelBox box = box_of_points(*bytes, bits);
-  options.region = middle_of(box, 0.5);
-  print_row("region 1/8", measure(*bytes, options, runs), whole.seconds);
-  options.region = middle_of(box, 0.1);
-  print_row("region 0.1 a side", measure(*bytes, options, runs), whole.seconds);
+  const Middle middle = middle_of(*bytes, bits);
+  for (const double share : {0.5, 0.1}) {
+    options.region = cube_around(middle, share);
+    print_row("cube of " + std::string(share == 0.5 ? "half" : "a tenth"),
+              measure(*bytes, options, runs), whole.seconds);
+  }
 }
