@@ -184,9 +184,33 @@ def prediction():
     return figure
 
 
+def parts():
+    """8.9: what is decoded of a stream for a part of it."""
+    figure = Figure(960, 232)
+    every, levels, none = ("coefficients",), ("levels < n", "≥ n"), ()
+    panels = [("n ≤ B levels", [levels, none, none, none]), ("n > B levels", [every, levels, levels, levels]),
+              ("a region that meets slice 2 alone", [every, every, none, every])]
+    for p, (title, lanes) in enumerate(panels):
+        left = 70 + 305 * p
+        figure.word(left + 120, 20, title)
+        for lane, decoded in enumerate(lanes):
+            y, fill = 40 + 40 * lane, BASE if lane == 0 else SLICES[lane - 1]
+            figure.box(left, y, 80, 26, fill if decoded else "none", "geometry", not decoded)
+            words = decoded or every
+            for k, word in enumerate(words):
+                wanted = k == 0 and decoded
+                width = 160 / len(words) - 4
+                figure.box(left + 84 + k * (width + 4), y, width, 26, fill if wanted else "none", word, not wanted)
+    for lane in range(4):
+        figure.word(8, 58 + 40 * lane, f"slice {lane - 1}" if lane else "base", "start")
+    figure.word(70, 214, "dashed: not decoded. Geometry of what is given out is needed whole, for weights count all points; "
+                "of slice 0, where slices are shared, the states.", "start", 11)
+    return figure
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent)
-    for draw in (units, base, around, prediction):
+    for draw in (units, base, around, prediction, parts):
         draw().write(folder / f"{draw.__name__}.svg")
 
 
