@@ -16,7 +16,9 @@ namespace {
 // All measured on middlebury_dino: docs/pictures/geometry.md.
 constexpr std::size_t kLeastCameras = 8, kMostPoints = 2'000'000;
 constexpr double kLeastGain = 0.15;  // of the squared error, for kAuto: less may be the smoothing
-constexpr double kExact = 0.25;      // pixels of half-size photographs: a cloud that kAuto leaves
+// Pixels of half-size photographs: a cloud that kAuto leaves (the can: 0), one that is wrong for
+// sure (the dino: 1.5; an exact can in photographs of 48 pixels: 0.5).
+constexpr double kExact = 0.25, kWrong = 1;
 
 SurfacePoints surface_of(const Capture& capture, int threads) {
   SurfacePoints surface{capture.cloud.positions, capture.cloud.normals, {}};
@@ -106,12 +108,13 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   SLF_CHECK(load_photographs(job, *std::max_element(kMendingLevels.begin(), kMendingLevels.end())));
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
-  if (automatic && typical_miss(job) <= kExact) return Done{};
+  const double miss = typical_miss(job);
+  if (automatic && miss <= kExact) return Done{};
   const int finest = *std::min_element(kMendingLevels.begin(), kMendingLevels.end());
   if (job.settings.free_grid) {
     thin_start(job, finest);
   } else {
-    out.report.too_dense_for_grid = is_dense(job, finest);
+    out.report.too_dense_for_grid = miss >= kWrong && is_dense(job, finest);
   }
   SLF_TRY(job.judged, silhouettes_of(job, job.parts.held_out));
   SLF_TRY(const HeldOutErrors before, sampled_errors(job, job.start));

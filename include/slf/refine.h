@@ -31,8 +31,8 @@ struct RefineReport {
   std::size_t kept_back = 0;  ///< of those before: kept in place, as mending did not help there
   double median_move = 0, max_move = 0;            ///< along the normal, voxels, of those moved
   double held_out_before = 0, held_out_after = 0;  ///< dB
-  /// Nearer to one another than the photographs tell apart, which is thinned first on an automatic
-  /// grid alone: on a given one such a cloud is hardly ever mended.
+  /// Photographs disagree about points that are nearer to one another than they tell apart. Such a
+  /// cloud is thinned first on an automatic grid alone: on a given one it is hardly ever mended.
   bool too_dense_for_grid = false;
   double seconds = 0;
 };
