@@ -22,8 +22,6 @@ import time
 
 import numpy as np
 
-THREADS = (1, 2)
-
 
 def large_cloud(bits, folder):
     """Writes a wavy torus of some 0.33 * 4^bits voxels with a colour that changes slowly along it."""
@@ -83,8 +81,7 @@ def measure(name, positions, components, options, programs, runs, folder):
 def measure_capture(name, capture, bits, q, programs, runs, folder):
     files = [folder / f'{i}.slf' for i in range(len(programs))]
     encode = ['encode', capture, '--grid-bits', str(bits), '-q', str(q), '--quiet']
-    one = in_turns([[p, *encode, '-j', '1', '-o', f] for p, f in zip(programs, files)], 1)
-    two = in_turns([[p, *encode, '-j', '2', '-o', f] for p, f in zip(programs, files)], 1)
+    one, two = on_threads([[p, *encode, '-o', f] for p, f in zip(programs, files)], 1)
     points = decodes(files, programs, runs, ['-o', folder / 'points.ply'])
     everything = decodes(files, programs, runs, ['--dump', folder / 'out'])
     print_row(f'{name}, {bits} bits, Q = {q}',
@@ -100,8 +97,12 @@ def held_out(program, file, capture):
 
 
 def decodes(files, programs, runs, what):
-    return [in_turns([[p, 'decode', f, *what, '--quiet', '-j', str(threads)] for p, f in zip(programs, files)], runs)
-            for threads in THREADS]
+    return on_threads([[p, 'decode', f, *what, '--quiet'] for p, f in zip(programs, files)], runs)
+
+
+def on_threads(commands, runs):
+    """in_turns() on one and on two threads."""
+    return [in_turns([[*command, '-j', threads] for command in commands], runs) for threads in ('1', '2')]
 
 
 def print_row(*cells):

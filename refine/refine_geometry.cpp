@@ -108,7 +108,7 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   SLF_CHECK(load_photographs(job, *std::max_element(kMendingLevels.begin(), kMendingLevels.end())));
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
-  const double miss = typical_miss(job);
+  const double miss = automatic ? typical_miss(job) : 0;
   if (automatic && miss <= kExact) return Done{};
   const int finest = *std::min_element(kMendingLevels.begin(), kMendingLevels.end());
   if (job.settings.free_grid) {

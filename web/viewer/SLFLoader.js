@@ -89,8 +89,7 @@ export class SLFLoader extends Loader {
       const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });
       return new SurfaceLightField(packed, info);
     } catch (error) {
-      const { kind, words, detail } = plainError(error);
-      throw new ViewerError(kind, words, detail);
+      throw ViewerError.from(plainError(error));
     }
   }
 

@@ -122,8 +122,7 @@ export class FieldLoader {
       const own = this.waiting.get(data.id);
       if (!own) return;
       this.waiting.delete(data.id);
-      if (data.error)
-        own.reject(Object.assign(viewerError(data.error), { info: data.info }));
+      if (data.error) own.reject(Object.assign(ViewerError.from(data.error), { info: data.info }));
       else own.resolve(data);
     };
     this.worker.onerror = (event) => {
@@ -137,8 +136,6 @@ export class FieldLoader {
     if (this.wasm) this.worker.postMessage({ wasm: this.wasm });
   }
 }
-
-const viewerError = ({ kind, words, detail }) => new ViewerError(kind, words, detail);
 
 function newWorker() {
   return new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });

@@ -15,6 +15,11 @@ export class ViewerError extends Error {
     this.name = 'ViewerError';
     Object.assign(this, { kind, words, detail });
   }
+
+  /** Of what plainError() made. */
+  static from({ kind, words, detail }) {
+    return new ViewerError(kind, words, detail);
+  }
 }
 
 /**

@@ -216,7 +216,11 @@ export class Viewer {
   }
 
   afterDrawing() {
-    if (this.stage.field && !at('panel').hidden) writeFacts(this.facts, this.stage);
+    const now = performance.now();
+    if (this.stage.field && !at('panel').hidden && !(now < this.factsDue)) {
+      this.factsDue = now + 500; // ms
+      writeFacts(this.facts, this.stage);
+    }
     if (!at('compare').hidden && this.comparison.shown?.photograph) this.comparison.lay();
     document.body.dataset.frame = String(Number(document.body.dataset.frame ?? 0) + 1);
   }
