@@ -145,7 +145,9 @@ class LevelQuantiser {
       std::array<std::uint64_t, kPredictionModes> cost{};
       for (std::size_t mode = 0; mode < kPredictionModes; ++mode)
         for (const std::size_t j : planes_of(functions)) cost[mode] += tried[mode][j].cost_q8();
-      cost[0] -= cost[0] / 256;  // a tie costs the decoder nothing
+      // A mode takes a decoder's time: it has to save a 256th of a bit a node, and of all.
+      const std::uint64_t least = level_->nodes.size() * planes_of(functions).size();
+      cost[0] -= std::min(cost[0], std::max(cost[0] / 256, least));
       modes.push_back(
           static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin()));
     }

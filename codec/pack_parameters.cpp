@@ -187,7 +187,7 @@ void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
   add_end(set.sps_base_levels, set.sps_geometry_range_end, set.sps_num_geometry_ranges_minus1);
   if (set.sps_num_functions == 0) return;
   // Where levels are to be had one after the other, the first bytes have colours of all groups.
-  const std::uint32_t coarser = set.sps_num_coefficient_ranges_minus1 > 0 ? 2 : 0;
+  const std::uint32_t coarser = set.sps_num_coefficient_ranges_minus1 > 0 ? 3 : 0;
   for (std::uint32_t up = 0; up <= std::min(coarser, set.sps_base_levels - 1); ++up)
     add_end(set.sps_base_levels - up, set.sps_coefficient_range_end,
             set.sps_num_coefficient_ranges_minus1);

@@ -9,9 +9,8 @@
 
 namespace slf {
 
-/// SHA-256 of positions, then a 64-bit hash of the components of each point, where there are any,
-/// then normals, all little endian. It finds the mistakes of decoders; it is no protection against
-/// forgery.
+/// SHA-256 of a sum of 64 bits for every 64 points: of positions, components, where there are any,
+/// and normals. It finds the mistakes of decoders; it is no protection against forgery.
 /// @param components  [positions][3 K]
 std::array<std::uint8_t, 32> slice_digest(std::span<const Voxel> positions,
                                           std::span<const std::int32_t> components,

@@ -500,18 +500,22 @@ def check_metadata(payload):
 
 
 def check_digest(digest, positions, components, normals):
-    """7.9: SHA-256 of the decoded slice; normals is None where the stream has none."""
-    data = positions.astype("<i4").tobytes()
+    """7.9: SHA-256 of sums over runs of 64 points; normals is None where the stream has none."""
+    numbers = [*positions.T, *components.reshape(len(positions), -1).T]
+    if normals is not None:
+        numbers += [*normals.T]
     hashes = np.zeros(len(positions), np.uint64)  # sums wrap at 2^64
     multiplier = 1
-    for plane in components.reshape(len(positions), -1).T:
+    for of_points in numbers:
         multiplier = multiplier * 0x9E3779B5 % 2**32
-        hashes += (plane.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) * np.uint64(multiplier)
-    if components.size > 0:
-        data += hashes.astype("<u8").tobytes()
-    if normals is not None:
-        data += normals.astype("<u2").tobytes()
-    require(hashlib.sha256(data).digest() == digest, "digest_sha256")
+        hashes += (of_points.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) * np.uint64(multiplier)
+    runs = []
+    for begin in range(0, len(hashes), 64):
+        run = 0
+        for value in hashes[begin : begin + 64].tolist():
+            run = (run * 0x9E3779B97F4A7C15 + value) % 2**64
+        runs.append(run)
+    require(hashlib.sha256(np.array(runs, "<u8").tobytes()).digest() == digest, "digest_sha256")
 
 
 def check_end(payload, number):
