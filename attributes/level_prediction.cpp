@@ -232,4 +232,6 @@ void add_corrections(const NodePrediction& plan, const Corrections& corrections,
     add_row(values.row(plan.child[i].row), corrections[i].data(), lanes);
 }
 
+std::int32_t reciprocal_root_q30(std::uint32_t weight) { return roots_of(weight).reciprocal_q30; }
+
 }  // namespace slf

@@ -74,4 +74,7 @@ void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std
 void add_corrections(const NodePrediction& plan, const Corrections& corrections, Lanes values,
                      std::size_t lanes);
 
+/// 1 / sqrt(weight), spec 8.7.6; of most weights from a table.
+std::int32_t reciprocal_root_q30(std::uint32_t weight);
+
 }  // namespace slf

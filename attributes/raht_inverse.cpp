@@ -33,20 +33,27 @@ struct Steps {
 /// `lanes` of both rows of a merge where the difference is zero, as most are.
 inline void spread_mean(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                         std::size_t lanes) {
-  for_values(lanes, [=, &m](auto at) {
+  const std::int32_t cosine = m.cos_q30, sine = m.sin_q30;
+  if (cosine == sine)  // of the same weight, as single points are
+    return for_values(lanes, [=](auto at) {
+      const auto half = rounded<30>(product(value_at(low, at), cosine));
+      set_value(low, at, half);
+      set_value(high, at, half);
+    });
+  for_values(lanes, [=](auto at) {
     const auto mean = value_at(low, at);
-    set_value(low, at, rounded<30>(product(mean, m.cos_q30)));
-    set_value(high, at, rounded<30>(product(mean, m.sin_q30)));
+    set_value(low, at, rounded<30>(product(mean, cosine)));
+    set_value(high, at, rounded<30>(product(mean, sine)));
   });
 }
 
 /// The same for any difference, still quantised. Not zero: a coefficient is too large; it counts
-/// as the largest.
-inline std::int32_t inverse_rows(const Merge& m, std::int32_t* __restrict low,
+/// as the largest. m: a copy, since a compiler takes what is stored for a part of any other.
+inline std::int32_t inverse_rows(const Merge m, std::int32_t* __restrict low,
                                  std::int32_t* __restrict high, const std::int32_t* __restrict step,
                                  const std::int32_t* __restrict most, std::size_t lanes) {
   std::int32_t bad = 0;
-  for_values(lanes, [=, &m, &bad](auto at) {
+  for_values(lanes, [=, &bad](auto at) {
     auto left = value_at(low, at), right = value_at(high, at);
     const auto within = limited(right, value_at(most, at));
     bad |= differ(right, within);
@@ -265,10 +272,11 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
   return Done{};
 }
 
+SLF_MULTIVERSION_LANES
 void to_node_means(std::span<std::int32_t> row, std::uint32_t weight) {
   if (weight == 1) return;
-  const auto reciprocal_root = static_cast<std::int64_t>(isqrt((std::uint64_t{1} << 60) / weight));
-  for (std::int32_t& value : row) value = rounded<30>(value * reciprocal_root);
+  const std::int64_t root = reciprocal_root_q30(weight);
+  for (std::int32_t& value : row) value = rounded<30>(value * root);
 }
 
 }  // namespace slf

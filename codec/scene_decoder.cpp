@@ -146,7 +146,10 @@ class SceneDecoder {
 
   void decode_values(Task& task, int plane_threads) {
     const CloseAtEnd<CoefficientStates> close{lead_.coefficients, is_first(task)};
-    if (!in_place_) make_room(task, task.apart);
+    if (!in_place_) {
+      if (is_first(task) && !plan_.region) reserve_levels(task);
+      make_room(task, task.apart);
+    }
     const std::span components(task.components, task.points * plan_.planes());
     const std::span normals(task.normals, task.normals == nullptr ? 0 : task.points);
     if (task.normals != nullptr) task.run([&] { return task.slice.decode_normals(normals); });
@@ -182,6 +185,13 @@ class SceneDecoder {
     reserve_large(field_.positions, points);
     reserve_large(field_.components, points * plan_.planes());
     if (plan_.set.sps_normal_bits > 0) field_.normals.octahedral.reserve(points);
+  }
+
+  /// Room for the levels kept of all slices behind those of the first, if they have as many points
+  /// in proportion: more or less, where it is wrong.
+  void reserve_levels(Task& task) const {
+    const std::uint64_t all = task.points * plan_.table.num_points() / task.slice.points();
+    reserve_large(task.apart.components, static_cast<std::size_t>(all + all / 32) * plan_.planes());
   }
 
   Result<bool> finish() const {
