@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string>
 
 #include "capture/descriptor.h"
@@ -21,15 +22,18 @@ InputError unwritable(const fs::path& file, int error) {
   return {Errc::kUnwritable, file.string() + ": cannot be written: " + std::strerror(error)};
 }
 
+using Pieces = std::span<const std::span<const std::byte>>;
+
 // 0 or errno.
-int write_all(int fd, const unsigned char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(fd, data, std::min(size, std::size_t{1} << 30));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    data += written;
-    size -= static_cast<std::size_t>(written);
-  }
+int write_all(int fd, Pieces pieces) {
+  for (std::span<const std::byte> piece : pieces)
+    while (!piece.empty()) {
+      const ssize_t written =
+          ::write(fd, piece.data(), std::min(piece.size(), std::size_t{1} << 30));
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return errno;
+      piece = piece.subspan(static_cast<std::size_t>(written));
+    }
   return 0;
 }
 
@@ -46,16 +50,15 @@ fs::path target_of(fs::path file) {
 }
 
 // Devices, pipes and what /dev/stdout leads to: there is nothing to rename over.
-int write_directly(const fs::path& file, const unsigned char* data, std::size_t size) {
+int write_directly(const fs::path& file, Pieces pieces) {
   Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
   if (!out.ok()) return errno;
-  const int failed = write_all(out.get(), data, size);
+  const int failed = write_all(out.get(), pieces);
   const int failed_close = out.close();
   return failed != 0 ? failed : failed_close;
 }
 
-int write_beside_and_rename(const fs::path& file, const struct stat* old, const unsigned char* data,
-                            std::size_t size) {
+int write_beside_and_rename(const fs::path& file, const struct stat* old, Pieces pieces) {
   std::string temporary;
   int fd = -1;
   for (int n = 0; n < 1000 && fd < 0; ++n) {
@@ -65,7 +68,7 @@ int write_beside_and_rename(const fs::path& file, const struct stat* old, const 
   }
   if (fd < 0) return EEXIST;
   Descriptor out(fd);
-  int failed = write_all(fd, data, size);
+  int failed = write_all(fd, pieces);
   if (failed == 0 && old != nullptr && ::fchmod(fd, old->st_mode & 07777) != 0) failed = errno;
   if (failed == 0 && ::fsync(fd) != 0) failed = errno;
   const int failed_close = out.close();
@@ -78,9 +81,13 @@ int write_beside_and_rename(const fs::path& file, const struct stat* old, const 
 }  // namespace
 
 Result<Done, InputError> write_file(const fs::path& file, const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const unsigned char*>(data);
+  const std::span<const std::byte> bytes(static_cast<const std::byte*>(data), size);
+  return write_file(file, Pieces(&bytes, 1));
+}
+
+Result<Done, InputError> write_file(const fs::path& file, Pieces pieces) {
   if (file == "-") {
-    if (const int failed = write_all(STDOUT_FILENO, bytes, size); failed != 0)
+    if (const int failed = write_all(STDOUT_FILENO, pieces); failed != 0)
       return unwritable("standard output", failed);
     return Done{};
   }
@@ -89,8 +96,8 @@ Result<Done, InputError> write_file(const fs::path& file, const void* data, std:
   if (exists && S_ISDIR(status.st_mode)) return unwritable(file, EISDIR);
   const bool direct = exists && (!S_ISREG(status.st_mode) || names_descriptor(file));
   const int failed =
-      direct ? write_directly(file, bytes, size)
-             : write_beside_and_rename(target_of(file), exists ? &status : nullptr, bytes, size);
+      direct ? write_directly(file, pieces)
+             : write_beside_and_rename(target_of(file), exists ? &status : nullptr, pieces);
   if (failed != 0) return unwritable(file, failed);
   return Done{};
 }

@@ -7,7 +7,10 @@ namespace {
 
 using tools::npy_file;
 
-std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+std::string text_of(const tools::NpyFile& file) {
+  return file.head +
+         std::string(reinterpret_cast<const char*>(file.elements.data()), file.elements.size());
+}
 
 /// positions.npy with four points and components.npy with two functions of them.
 class PackTest : public CliTest {

@@ -3,8 +3,10 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <csignal>
 #include <fstream>
+#include <span>
 #include <thread>
 
 #include "capture_support.h"
@@ -25,6 +27,15 @@ TEST(WriteFile, ReplacesTheOldFileAndKeepsItsMode) {
   ASSERT_EQ(::stat((directory / "a").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
   EXPECT_EQ(directory.num_entries(), 1u);
+}
+
+TEST(WriteFile, WritesPiecesOneAfterTheOther) {
+  const TemporaryDirectory directory;
+  const std::string head = "head ", body = "body";
+  const std::array pieces = {std::as_bytes(std::span(head)), std::span<const std::byte>(),
+                             std::as_bytes(std::span(body))};
+  ASSERT_TRUE(write_file(directory / "a", pieces));
+  EXPECT_EQ(test::read_text(directory / "a"), "head body");
 }
 
 TEST(WriteFile, FailsOnAFullDiskNamingFileAndCause) {

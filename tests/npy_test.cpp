@@ -85,15 +85,21 @@ TEST(Npy, EveryTruncationIsRefused) {
   EXPECT_TRUE(parse_npy(whole));
 }
 
+std::vector<std::uint8_t> bytes_of(const NpyFile& file) {
+  std::vector<std::uint8_t> bytes(file.head.begin(), file.head.end());
+  for (const std::byte b : file.elements) bytes.push_back(std::to_integer<std::uint8_t>(b));
+  return bytes;
+}
+
 TEST(Npy, WhatIsWrittenReadsBackAndIsAligned) {
   const std::vector<std::int32_t> values{1, -2, 3, 4, 5, -2147483647};
   const auto file = npy_file({2, 3}, std::span<const std::int32_t>(values));
-  const auto array = parse_npy(file);
+  const auto array = parse_npy(bytes_of(file));
   ASSERT_TRUE(array);
   EXPECT_EQ(array->first % 64, 0u);
   EXPECT_THAT(array->shape, testing::ElementsAre(2, 3));
   EXPECT_THAT(*int32_values(*array), testing::ElementsAreArray(values));
-  const auto empty = parse_npy(npy_file({7, 0, 3}, std::span<const std::int32_t>()));
+  const auto empty = parse_npy(bytes_of(npy_file({7, 0, 3}, std::span<const std::int32_t>())));
   ASSERT_TRUE(empty);
   EXPECT_THAT(empty->shape, testing::ElementsAre(7, 0, 3));
 }

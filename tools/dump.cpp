@@ -1,6 +1,7 @@
 #include "tools/dump.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -44,9 +45,9 @@ bool floats_hold(const Grid& grid) {
   return farthest < double(1 << 23);
 }
 
-Outcome save_array(const std::string& directory, const char* name,
-                   const std::vector<std::uint8_t>& file) {
-  return save(inside(directory, name), file.data(), file.size());
+Outcome save_array(const std::string& directory, const char* name, const NpyFile& file) {
+  return save(inside(directory, name),
+              std::array{std::as_bytes(std::span(file.head)), file.elements});
 }
 
 /// Names of matrices: there are at most as many as groups.

@@ -7,8 +7,6 @@
 #include <limits>
 #include <string_view>
 
-#include "tools/heap.h"
-
 namespace slf::tools {
 namespace {
 
@@ -95,9 +93,7 @@ Result<std::vector<std::int32_t>, InputError> converted(const NpyArray& array) {
   return out;
 }
 
-template <class T>
-std::vector<std::uint8_t> written(const std::vector<std::size_t>& shape, std::span<const T> values,
-                                  const char* descr) {
+std::string head_of(const std::vector<std::size_t>& shape, const char* descr) {
   std::string dictionary = "{'descr': '";
   dictionary.append(descr).append("', 'fortran_order': False, 'shape': (");
   for (std::size_t i = 0; i < shape.size(); ++i)
@@ -108,15 +104,7 @@ std::vector<std::uint8_t> written(const std::vector<std::size_t>& shape, std::sp
   std::string head(kMagic);
   head.append({'\1', '\0', static_cast<char>(dictionary.size() & 255),
                static_cast<char>(dictionary.size() >> 8)});
-  head.append(dictionary);
-  const auto bytes = std::as_bytes(values);
-  std::vector<std::uint8_t> file;
-  file.reserve(head.size() + bytes.size());
-  ask_for_huge_pages(file.data(), file.data() + file.capacity());
-  file.assign(head.begin(), head.end());
-  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  file.insert(file.end(), first, first + bytes.size());
-  return file;
+  return head + dictionary;
 }
 
 }  // namespace
@@ -166,19 +154,16 @@ Result<std::vector<std::int32_t>, InputError> int32_values(const NpyArray& array
   }
 }
 
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const std::int32_t> values) {
-  return written(shape, values, "<i4");
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const std::int32_t> values) {
+  return {head_of(shape, "<i4"), std::as_bytes(values)};
 }
 
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const std::uint16_t> values) {
-  return written(shape, values, "<u2");
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const std::uint16_t> values) {
+  return {head_of(shape, "<u2"), std::as_bytes(values)};
 }
 
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const float> values) {
-  return written(shape, values, "<f4");
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const float> values) {
+  return {head_of(shape, "<f4"), std::as_bytes(values)};
 }
 
 }  // namespace slf::tools

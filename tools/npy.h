@@ -2,6 +2,7 @@
 // Source: numpy.lib.format documentation ("NPY format").
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -33,12 +34,13 @@ Result<NpyArray, InputError> parse_npy(std::vector<std::uint8_t> file);
 /// @errors kInvalidInput: the array holds floats, or a value that does not fit 32 bits (signed).
 Result<std::vector<std::int32_t>, InputError> int32_values(const NpyArray& array);
 
-/// A version 1 file.
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const std::int32_t> values);
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const std::uint16_t> values);
-std::vector<std::uint8_t> npy_file(const std::vector<std::size_t>& shape,
-                                   std::span<const float> values);
+/// A version 1 file: its head, and the elements where they are.
+struct NpyFile {
+  std::string head;
+  std::span<const std::byte> elements;
+};
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const std::int32_t> values);
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const std::uint16_t> values);
+NpyFile npy_file(const std::vector<std::size_t>& shape, std::span<const float> values);
 
 }  // namespace slf::tools

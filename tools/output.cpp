@@ -52,6 +52,10 @@ Outcome save(const std::string& file, const void* data, std::size_t size) {
   return written(file, [&] { return write_file(file, data, size); });
 }
 
+Outcome save(const std::string& file, std::span<const std::span<const std::byte>> pieces) {
+  return written(file, [&] { return write_file(file, pieces); });
+}
+
 Outcome save(const std::string& file, const std::string& text) {
   return save(file, text.data(), text.size());
 }

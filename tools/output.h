@@ -1,6 +1,8 @@
 // Writing results: checked before the work, atomic after it.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ Outcome make_directory(const std::string& directory);
 
 /// Atomic: the whole file or nothing, and an interrupt waits for it. "-" is standard output.
 Outcome save(const std::string& file, const void* data, std::size_t size);
+Outcome save(const std::string& file, std::span<const std::span<const std::byte>> pieces);
 Outcome save(const std::string& file, const std::string& text);
 Outcome save(const std::string& file, const Image& image);
 Outcome save(const std::string& file, const PointCloud& cloud);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -163,6 +164,9 @@ Result<Done, InputError> write_ply(const std::filesystem::path& file, const Poin
 /// @errors kUnwritable
 Result<Done, InputError> write_file(const std::filesystem::path& file, const void* data,
                                     std::size_t size);
+/// The same of bytes that are not in one place: pieces, one after the other.
+Result<Done, InputError> write_file(const std::filesystem::path& file,
+                                    std::span<const std::span<const std::byte>> pieces);
 /// All bytes of a file; "-" is standard input.
 /// @errors kUnreadable; kLimitExceeded: more than max_bytes
 Result<std::vector<std::uint8_t>, InputError> read_file(const std::filesystem::path& file,
