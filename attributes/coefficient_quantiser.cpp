@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 
 #include "attributes/level_prediction.h"
@@ -84,7 +85,9 @@ class LevelQuantiser {
 
  private:
   static constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for before they are needed
-  using Plans = std::array<NodePrediction, kPredictionModes - 1>;  // of mode 1 and up
+  static constexpr std::size_t kMostTried = 8192;  // nodes that branch, or nearly
+  static constexpr std::size_t kTriedRun = 1024;
+  using Plans = std::array<NodePrediction, kPredictionModes>;
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
     return quantised * static_cast<std::int32_t>(input_.steps[plane]);
@@ -122,22 +125,37 @@ class LevelQuantiser {
     for (std::size_t j = 0; j < planes_; ++j) values[j] = dequantised(j, coefficients[j]);
   }
 
+  /// Are modes tried on this node of the level? On all, or on runs of them some way apart.
+  bool is_tried(std::size_t n) const { return n / kTriedRun % apart_ == 0; }
+
+  std::vector<std::size_t> nodes_to_try() {
+    std::size_t branching = 0;
+    for (std::size_t n = 0; n < level_->nodes.size(); ++n) branching += level_->branches(n);
+    apart_ = std::max(branching / kMostTried, std::size_t{1});
+    std::vector<std::size_t> nodes;
+    for (std::size_t n = 0; n < level_->nodes.size(); ++n)
+      if (is_tried(n)) nodes.push_back(n);
+    return nodes;
+  }
+
   /// Tries every mode on all planes; a group takes the one that its planes together like best.
   std::vector<std::uint8_t> choose_modes() {
-    std::vector<std::int32_t> parents(level_->nodes.size() * planes_);
-    for (std::size_t n = 0; n < level_->nodes.size(); ++n)
-      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[n] * planes_), planes_,
-                  parents.begin() + static_cast<std::ptrdiff_t>(n * planes_));
+    const std::vector<std::size_t> nodes = nodes_to_try();
+    std::vector<std::int32_t> parents(nodes.size() * planes_);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[nodes[i]] * planes_),
+                  planes_, parents.begin() + static_cast<std::ptrdiff_t>(i * planes_));
     std::array<std::vector<ModeTrial>, kPredictionModes> tried;
     for (std::uint8_t mode = 0; mode < kPredictionModes; ++mode) {
       tried[mode].resize(planes_);
       const std::vector<std::uint8_t> same(planes_, mode);
       parallel_ranges(planes_, kPredictionLanes, threads_, [&](std::size_t begin, std::size_t end) {
         code(begin, end, same, tried[mode].data());
-        for (std::size_t n = 0; n < level_->nodes.size(); ++n)
-          std::copy_n(
-              parents.begin() + static_cast<std::ptrdiff_t>(n * planes_ + begin), end - begin,
-              values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[n] * planes_ + begin));
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          std::copy_n(parents.begin() + static_cast<std::ptrdiff_t>(i * planes_ + begin),
+                      end - begin,
+                      values_.begin() +
+                          static_cast<std::ptrdiff_t>(level_->rows[nodes[i]] * planes_ + begin));
       });
     }
     std::vector<std::uint8_t> modes;
@@ -146,7 +164,7 @@ class LevelQuantiser {
       for (std::size_t mode = 0; mode < kPredictionModes; ++mode)
         for (const std::size_t j : planes_of(functions)) cost[mode] += tried[mode][j].cost_q8();
       // A mode takes a decoder's time: it has to save a 256th of a bit a node, and of all.
-      const std::uint64_t least = level_->nodes.size() * planes_of(functions).size();
+      const std::uint64_t least = nodes.size() * planes_of(functions).size();
       cost[0] -= std::min(cost[0], std::max(cost[0] / 256, least));
       modes.push_back(
           static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin()));
@@ -158,10 +176,10 @@ class LevelQuantiser {
   void code(std::size_t begin, std::size_t end, const std::vector<std::uint8_t>& modes,
             ModeTrial* tried) {
     Plans plans;
-    const NodePrediction& plan = plans[0];  // any has the rows
-    const auto used = [&](std::uint8_t mode) {
-      return mode == kWide || std::find(modes.begin(), modes.end(), mode) != modes.end();
-    };
+    std::vector<std::uint8_t> used = modes;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const NodePrediction& plan = plans[used.back()];  // any has the rows
     const std::size_t lanes = end - begin;
     std::vector<std::int32_t> transformed(8 * lanes);  // predicted coefficients
     std::vector<Corrections> corrections((lanes + kPredictionLanes - 1) / kPredictionLanes);
@@ -171,8 +189,12 @@ class LevelQuantiser {
         level_means(*level_, mean, level_->means_end[n], {values_.data() + begin, planes_},
                     {means_.data() + begin, planes_}, lanes);
       mean = level_->means_end[n];
-      for (std::uint8_t mode = kWide; mode < kPredictionModes; ++mode)
-        if (used(mode)) plan_node(*level_, n, mode, plans[mode - 1u]);
+      if (tried != nullptr && !is_tried(n)) {
+        merge += static_cast<std::size_t>(std::popcount(level_->nodes.occupancy[n])) - 1;
+        continue;
+      }
+      for (const std::uint8_t mode : used)
+        if (mode != kUnpredicted || used.size() == 1) plan_node(*level_, n, mode, plans[mode]);
       const std::span<const Merge> own = merges_.subspan(merge, plan.children - 1);
       merge += own.size();
       for (std::size_t i = merge + kMergesAhead;
@@ -219,7 +241,7 @@ class LevelQuantiser {
         while (j < block_end && modes[j] == modes[first]) ++j;
         if (modes[first] == 0) continue;
         Corrections some;
-        const NodePrediction& plan = plans[modes[first] - 1u];
+        const NodePrediction& plan = plans[modes[first]];
         predict_children(plan, {values_.data() + first, planes_}, {means_.data() + first, planes_},
                          j - first, some);
         for (std::size_t i = 0; i < plan.children; ++i)
@@ -273,6 +295,7 @@ class LevelQuantiser {
   int threads_;
   TransformLevels levels_;
   const TransformLevel* level_ = nullptr;
+  std::size_t apart_ = 1;  // every apart_-th run of nodes is tried
   std::span<const Merge> merges_;
   std::vector<RowQuantiser> rows_;
   std::vector<std::int32_t> means_;
