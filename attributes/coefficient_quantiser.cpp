@@ -7,6 +7,7 @@
 
 #include "attributes/level_prediction.h"
 #include "attributes/mode_trial.h"
+#include "attributes/predicted_node.h"
 #include "attributes/quantiser_step.h"
 #include "attributes/raht_arithmetic.h"
 #include "attributes/rate_model.h"
@@ -23,12 +24,6 @@ SLF_MULTIVERSION
 void inverse_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                   std::size_t lanes) {
   for (std::size_t j = 0; j < lanes; ++j) inverse_merge(m, low[j], high[j], low[j], high[j]);
-}
-
-SLF_MULTIVERSION
-void forward_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
-                  std::size_t lanes) {
-  for (std::size_t j = 0; j < lanes; ++j) forward_merge(m, low[j], high[j]);
 }
 
 class LevelQuantiser {
@@ -87,7 +82,6 @@ class LevelQuantiser {
   static constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for before they are needed
   static constexpr std::size_t kMostTried = 8192;  // nodes that branch, or nearly
   static constexpr std::size_t kTriedRun = 1024;
-  using Plans = std::array<NodePrediction, kPredictionModes>;
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
     return quantised * static_cast<std::int32_t>(input_.steps[plane]);
@@ -172,96 +166,34 @@ class LevelQuantiser {
     return modes;
   }
 
+  Lanes lanes_of(std::span<std::int32_t> rows, std::size_t begin) const {
+    return {rows.data() + begin, planes_};
+  }
+
   /// Codes planes begin .. end - 1 of the level, or tries to: then coefficients stay as they are.
   void code(std::size_t begin, std::size_t end, const std::vector<std::uint8_t>& modes,
             ModeTrial* tried) {
-    Plans plans;
-    std::vector<std::uint8_t> used = modes;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    const NodePrediction& plan = plans[used.back()];  // any has the rows
     const std::size_t lanes = end - begin;
-    std::vector<std::int32_t> transformed(8 * lanes);  // predicted coefficients
-    std::vector<Corrections> corrections((lanes + kPredictionLanes - 1) / kPredictionLanes);
+    const Lanes values = lanes_of(values_, begin), means = lanes_of(means_, begin);
+    PredictedNode node(std::span<const std::uint8_t>(modes).subspan(begin, lanes));
     for (std::size_t n = 0, merge = 0, mean = 0; n < level_->nodes.size(); ++n) {
       if (!level_->branches(n)) continue;
-      if (input_.predict)
-        level_means(*level_, mean, level_->means_end[n], {values_.data() + begin, planes_},
-                    {means_.data() + begin, planes_}, lanes);
+      if (input_.predict) level_means(*level_, mean, level_->means_end[n], values, means, lanes);
       mean = level_->means_end[n];
-      if (tried != nullptr && !is_tried(n)) {
-        merge += static_cast<std::size_t>(std::popcount(level_->nodes.occupancy[n])) - 1;
-        continue;
-      }
-      for (const std::uint8_t mode : used)
-        if (mode != kUnpredicted || used.size() == 1) plan_node(*level_, n, mode, plans[mode]);
-      const std::span<const Merge> own = merges_.subspan(merge, plan.children - 1);
+      const auto children = static_cast<std::size_t>(std::popcount(level_->nodes.occupancy[n]));
+      const std::span<const Merge> own = merges_.subspan(merge, children - 1);
       merge += own.size();
+      if (tried != nullptr && !is_tried(n)) continue;
       for (std::size_t i = merge + kMergesAhead;
            i < std::min(merge + kMergesAhead + own.size(), merges_.size()); ++i) {
         prefetch_row(coefficients_.data() + merges_[i].right * planes_ + begin, lanes);
-        prefetch_row(values_.data() + merges_[i].right * planes_ + begin, lanes);
+        prefetch_row(values.row(merges_[i].right), lanes);
       }
-      const bool predicted = predict(plans, begin, end, modes, corrections);
-      if (predicted) transform(plan, own, corrections, lanes, transformed);
-      for (const Merge& m : own) {
-        const std::size_t child = child_of(plan, m.right);
-        code_row(m.right, begin, lanes, predicted ? &transformed[child * lanes] : nullptr, tried);
-      }
-      for (const Merge& m : own)
-        inverse_rows(m, values_.data() + m.left * planes_ + begin,
-                     values_.data() + m.right * planes_ + begin, lanes);
-      if (predicted)
-        for (std::size_t j = 0; j < lanes; j += kPredictionLanes)
-          add_corrections(plan, corrections[j / kPredictionLanes],
-                          {values_.data() + begin + j, planes_},
-                          std::min(kPredictionLanes, lanes - j));
+      node.predict(*level_, n, own, values, means);
+      for (const Merge& m : own) code_row(m.right, begin, lanes, node.coefficients(m.right), tried);
+      for (const Merge& m : own) inverse_rows(m, values.row(m.left), values.row(m.right), lanes);
+      node.correct(values);
     }
-  }
-
-  static std::size_t child_of(const NodePrediction& plan, std::uint32_t row) {
-    std::size_t i = 0;
-    while (plan.child[i].row != row) ++i;
-    return i;
-  }
-
-  /// False: no plane is predicted.
-  bool predict(const Plans& plans, std::size_t begin, std::size_t end,
-               const std::vector<std::uint8_t>& modes, std::vector<Corrections>& corrections) {
-    bool any = false;
-    for (std::size_t j = begin; j < end; ++j) any |= modes[j] != 0;
-    if (!any) return false;
-    for (auto& block : corrections)
-      for (auto& child : block) child.fill(0);
-    for (std::size_t block = 0; block < corrections.size(); ++block) {
-      const std::size_t block_end = std::min(end, begin + (block + 1) * kPredictionLanes);
-      std::size_t j = begin + block * kPredictionLanes;
-      while (j < block_end) {  // lanes of one mode
-        const std::size_t first = j;
-        while (j < block_end && modes[j] == modes[first]) ++j;
-        if (modes[first] == 0) continue;
-        Corrections some;
-        const NodePrediction& plan = plans[modes[first]];
-        predict_children(plan, {values_.data() + first, planes_}, {means_.data() + first, planes_},
-                         j - first, some);
-        for (std::size_t i = 0; i < plan.children; ++i)
-          std::copy_n(some[i].begin(), j - first,
-                      corrections[block][i].begin() +
-                          static_cast<std::ptrdiff_t>(first - begin - block * kPredictionLanes));
-      }
-    }
-    return true;
-  }
-
-  void transform(const NodePrediction& plan, std::span<const Merge> own,
-                 const std::vector<Corrections>& corrections, std::size_t lanes,
-                 std::vector<std::int32_t>& transformed) const {
-    for (std::size_t i = 0; i < plan.children; ++i)
-      for (std::size_t j = 0; j < lanes; ++j)
-        transformed[i * lanes + j] = corrections[j / kPredictionLanes][i][j % kPredictionLanes];
-    for (std::size_t m = own.size(); m-- > 0;)
-      forward_rows(own[m], &transformed[child_of(plan, own[m].left) * lanes],
-                   &transformed[child_of(plan, own[m].right) * lanes], lanes);
   }
 
   void code_row(std::uint32_t row, std::size_t begin, std::size_t lanes,

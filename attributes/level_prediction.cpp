@@ -150,7 +150,6 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
     NodePrediction::Child& child = plan.child[plan.children++];
     const NodePlace& place = level.child_places[index];
     child.row = level.child_rows[index++];
-    if (mode == kUnpredicted) continue;
     child.share_q30 = static_cast<std::int32_t>((std::uint64_t{place.weight} << 30) / own.weight);
     child.root_q19 = roots_of(place.weight).root_q19;
     if (mode == kSharpDamped) child.root_q19 -= child.root_q19 >> 2;

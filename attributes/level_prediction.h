@@ -48,7 +48,7 @@ struct NodePrediction {
   std::array<Child, 8> child;
 };
 
-/// Weights and places, for all planes; places alone where mode is 0. Node n branches.
+/// Weights and places, for all planes. Node n branches; mode 1 .. 3.
 void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
                NodePrediction& plan);
 
