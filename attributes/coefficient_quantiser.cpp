@@ -80,7 +80,7 @@ class LevelQuantiser {
 
  private:
   static constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for before they are needed
-  static constexpr std::size_t kMostTried = 8192;  // nodes that branch, or nearly
+  static constexpr std::size_t kTried = 8192;     // nodes that branch, to twice as many
   static constexpr std::size_t kTriedRun = 1024;
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
@@ -125,7 +125,7 @@ class LevelQuantiser {
   std::vector<std::size_t> nodes_to_try() {
     std::size_t branching = 0;
     for (std::size_t n = 0; n < level_->nodes.size(); ++n) branching += level_->branches(n);
-    apart_ = std::max(branching / kMostTried, std::size_t{1});
+    apart_ = std::max(branching / kTried, std::size_t{1});
     std::vector<std::size_t> nodes;
     for (std::size_t n = 0; n < level_->nodes.size(); ++n)
       if (is_tried(n)) nodes.push_back(n);

@@ -190,8 +190,10 @@ class SceneDecoder {
   /// Room for the levels kept of all slices behind those of the first, if they have as many points
   /// in proportion: more or less, where it is wrong.
   void reserve_levels(Task& task) const {
-    const std::uint64_t all = task.points * plan_.table.num_points() / task.slice.points();
-    reserve_large(task.apart.components, static_cast<std::size_t>(all + all / 32) * plan_.planes());
+    const std::uint64_t most = plan_.table.num_points(),
+                        all = task.points * most / task.slice.points();
+    reserve_large(task.apart.components,
+                  static_cast<std::size_t>(std::min(all + all / 32, most)) * plan_.planes());
   }
 
   Result<bool> finish() const {
