@@ -13,10 +13,13 @@ std::size_t find_before(std::span<const std::uint64_t> cells, std::size_t from,
                         std::uint64_t cell) {
   std::size_t step = 1;
   while (step < from && cells[from - step] > cell) step *= 2;
-  const auto begin = cells.begin() + static_cast<std::ptrdiff_t>(from - std::min(step, from));
-  const auto end = cells.begin() + static_cast<std::ptrdiff_t>(from - step / 2);
-  const auto found = std::lower_bound(begin, end, cell);
-  return found != end && *found == cell ? static_cast<std::size_t>(found - cells.begin()) : from;
+  std::size_t first = from - std::min(step, from), count = from - step / 2 - first;
+  while (count > 1) {  // without branches: what they would be is by chance
+    const std::size_t half = count / 2;
+    first += cells[first + half - 1] < cell ? half : 0;
+    count -= half;
+  }
+  return count == 1 && cells[first] == cell ? first : from;
 }
 
 /// Scales of merges; most are of few points, and are worked out once.

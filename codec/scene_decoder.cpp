@@ -190,10 +190,11 @@ class SceneDecoder {
   /// Room for the levels kept of all slices behind those of the first, if they have as many points
   /// in proportion: more or less, where it is wrong.
   void reserve_levels(Task& task) const {
-    const std::uint64_t most = plan_.table.num_points(),
-                        all = task.points * most / task.slice.points();
-    reserve_large(task.apart.components,
-                  static_cast<std::size_t>(std::min(all + all / 32, most)) * plan_.planes());
+    const double share =
+        1.03 * static_cast<double>(task.points) / static_cast<double>(task.slice.points());
+    const auto points =
+        static_cast<std::size_t>(share * static_cast<double>(plan_.table.num_points()));
+    reserve_large(task.apart.components, points * plan_.planes());
   }
 
   Result<bool> finish() const {
