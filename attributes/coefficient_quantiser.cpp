@@ -167,7 +167,7 @@ class LevelQuantiser {
   }
 
   Lanes lanes_of(std::span<std::int32_t> rows, std::size_t begin) const {
-    return {rows.data() + begin, planes_};
+    return {rows.empty() ? nullptr : rows.data() + begin, planes_};
   }
 
   /// Codes planes begin .. end - 1 of the level, or tries to: then coefficients stay as they are.
