@@ -51,7 +51,7 @@ class ModeChoice : public testing::Test {
   Values coefficients_;
 };
 
-TEST_F(ModeChoice, IsPredictionWhereItSavesMoreThanItTakes) {
+TEST_F(ModeChoice, PredictsWhatIsSmoothAndNoNoise) {
   Values coefficients = coefficients_;
   const Quantised quantised = quantise(1, coefficients);
   EXPECT_NE(quantised.modes[0].back(), kUnpredicted);

@@ -12,19 +12,6 @@
 
 namespace slf::tools {
 
-/// For memory that nothing was written to yet. Advice that a system does not follow changes
-/// nothing.
-inline void ask_for_huge_pages([[maybe_unused]] const void* begin,
-                               [[maybe_unused]] const void* end) {
-#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) & ~(page - 1);
-  const auto last = reinterpret_cast<std::uintptr_t>(end);
-  if (first < last)
-    static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
-#endif
-}
-
 /// For the beginning of main(): the first 64 MiB of malloc's heap are address space taken in one
 /// step, resident as they are used, 2 MiB at a time. On small pages a third of a decode was page
 /// faults (docs/format-0.4.md). Where the C library is another, or gives less, nothing changes.
@@ -34,10 +21,13 @@ inline void heap_on_huge_pages() {
   mallopt(M_TOP_PAD, kHeap);
   mallopt(M_TRIM_THRESHOLD, 2 * kHeap);
   mallopt(M_MMAP_THRESHOLD, kHeap / 2);
-  const void* const begin = sbrk(0);
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = (reinterpret_cast<std::uintptr_t>(sbrk(0)) + page - 1) & ~(page - 1);
   void* volatile grown = std::malloc(1 << 20);  // volatile: or the compiler leaves both out
   std::free(grown);
-  ask_for_huge_pages(begin, sbrk(0));
+  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+  if (begin < end)
+    static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
 #endif
 }
 
