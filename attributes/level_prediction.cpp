@@ -1,10 +1,9 @@
 #include "attributes/level_prediction.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "attributes/raht_arithmetic.h"
-#include "attributes/raht_tree.h"
+#include "attributes/weight_roots.h"
 #include "base/multiversion.h"
 #include "base/prefetch.h"
 
@@ -12,52 +11,6 @@ namespace slf {
 namespace {
 
 constexpr std::int32_t kMeanLimit = (1 << 17) - 1;
-
-/// The three faces and three edges of a child that its parent does not share.
-constexpr auto kOutward = [] {
-  std::array<std::array<std::uint8_t, 6>, 8> table{};
-  for (int c = 0; c < 8; ++c) {
-    const int x = (c & 1) * 2 - 1, y = (c >> 1 & 1) * 2 - 1, z = (c >> 2 & 1) * 2 - 1;
-    const std::array<int, 6> d = {direction_index(x, 0, 0), direction_index(0, y, 0),
-                                  direction_index(0, 0, z), direction_index(x, y, 0),
-                                  direction_index(x, 0, z), direction_index(0, y, z)};
-    for (std::size_t i = 0; i < 6; ++i)
-      table[static_cast<std::size_t>(c)][i] = static_cast<std::uint8_t>(d[i]);
-  }
-  return table;
-}();
-
-/// Most nodes have few points: their roots are worked out once.
-struct Roots {
-  std::int32_t reciprocal_q30;
-  std::int32_t root_q19;  // of a child: it weighs less than 2^24
-};
-Roots compute_roots(std::uint32_t weight) {
-  return {static_cast<std::int32_t>(isqrt((std::uint64_t{1} << 60) / weight)),
-          static_cast<std::int32_t>(isqrt(std::uint64_t{weight} << 38))};
-}
-const std::array<Roots, 512>& small_roots() {
-  static const auto table = [] {
-    std::array<Roots, 512> roots{};
-    for (std::uint32_t w = 1; w < roots.size(); ++w) roots[w] = compute_roots(w);
-    return roots;
-  }();
-  return table;
-}
-Roots roots_of(std::uint32_t weight) {
-  const auto& table = small_roots();
-  return weight < table.size() ? table[weight] : compute_roots(weight);
-}
-
-/// Weight of a neighbour; 51 / 256 keeps that of coinciding centres finite.
-std::uint32_t closeness(const NodePlace& a, const NodePlace& b, std::uint32_t mode) {
-  std::uint32_t square = 51;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::int32_t d = a.centre[i] - b.centre[i];  // within 64
-    square += static_cast<std::uint32_t>(d * d);
-  }
-  return mode == kWide ? (1u << 24) / square : (1u << 30) / (square * square);
-}
 
 inline void accumulate(std::int32_t* __restrict sum, const std::int32_t* __restrict source,
                        const NodePrediction::Term& term, std::size_t lanes) {
@@ -138,62 +91,16 @@ inline void add_row(std::int32_t* __restrict value, const std::int32_t* __restri
 
 }  // namespace
 
-SLF_MULTIVERSION_ALL
-void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
-               NodePrediction& plan) {
-  const OctreeLevel& nodes = level.nodes;
-  const NodePlace& own = level.places[n];
-  plan.slot = level.slot[n];
-  plan.children = 0;
-  for (std::uint32_t c = 0, index = nodes.first_child[n]; c < 8; ++c) {
-    if (!(nodes.occupancy[n] >> c & 1u)) continue;
-    NodePrediction::Child& child = plan.child[plan.children++];
-    const NodePlace& place = level.child_places[index];
-    child.row = level.child_rows[index++];
-    child.share_q30 = static_cast<std::int32_t>((std::uint64_t{place.weight} << 30) / own.weight);
-    child.root_q19 = roots_of(place.weight).root_q19;
-    if (mode == kSharpDamped) child.root_q19 -= child.root_q19 >> 2;
-    child.terms = 0;
-    std::uint32_t sum = closeness(place, own, mode);
-    for (const std::uint8_t d : kOutward[c]) {
-      if (!(nodes.around[n].directions >> d & 1u)) continue;
-      const std::size_t m = nodes.neighbour(n, d);
-      NodePrediction::Term& term = child.term[child.terms++];
-      const std::uint32_t other = kChildNeighbours[c][d].child;
-      const NodePlace* there = &level.places[m];
-      if (m < n && (nodes.occupancy[m] >> other & 1u)) {  // known already
-        const auto before = static_cast<unsigned>(nodes.occupancy[m]) & ((1u << other) - 1);
-        const std::uint32_t at =
-            nodes.first_child[m] + static_cast<std::uint32_t>(std::popcount(before));
-        there = &level.child_places[at];
-        term.index = level.child_rows[at];
-        term.root_q30 = roots_of(there->weight).reciprocal_q30;
-      } else {
-        term.index = level.slot[m];
-        term.root_q30 = 0;
-      }
-      const std::uint32_t close = closeness(place, *there, mode);
-      term.weight = static_cast<std::int32_t>(close);
-      sum += close;
-    }
-    child.others = 0;
-    for (std::size_t t = 0; t < child.terms; ++t) {
-      std::int32_t& weight = child.term[t].weight;
-      weight = static_cast<std::int32_t>(static_cast<std::uint32_t>(weight) * 4096 / sum);
-      child.others += weight;
-    }
-  }
-}
-
 SLF_MULTIVERSION_LANES
 void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
                  Lanes means, std::size_t lanes) {
+  const SmallRoots& roots = small_roots();
   constexpr std::size_t kAhead = 8;  // rows that nothing of has been read yet
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t n = level.means[i], row = level.rows[n];
     if (i + kAhead < level.means.size())
       prefetch_row(values.row(level.rows[level.means[i + kAhead]]), lanes);
-    mean_row(values.row(row), roots_of(level.places[n].weight).reciprocal_q30,
+    mean_row(values.row(row), roots_of(roots, level.places[n].weight).reciprocal_q30,
              means.row(level.slot[n]), lanes);
   }
 }
@@ -222,6 +129,7 @@ SLF_MULTIVERSION_LANES
 void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
                       Corrections& out) {
   if (lanes == kPredictionLanes) return predict_lanes(plan, values, means, kPredictionLanes, out);
+  if (lanes == 3) return predict_lanes(plan, values, means, 3, out);  // one function: the means
   predict_lanes(plan, values, means, lanes, out);
 }
 
@@ -231,7 +139,5 @@ void add_corrections(const NodePrediction& plan, const Corrections& corrections,
   for (std::size_t i = 0; i < plan.children; ++i)
     add_row(values.row(plan.child[i].row), corrections[i].data(), lanes);
 }
-
-std::int32_t reciprocal_root_q30(std::uint32_t weight) { return roots_of(weight).reciprocal_q30; }
 
 }  // namespace slf

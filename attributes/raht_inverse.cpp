@@ -8,6 +8,7 @@
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
+#include "attributes/weight_roots.h"
 #include "base/huge_pages.h"
 #include "base/multiversion.h"
 #include "base/prefetch.h"
@@ -275,7 +276,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
 SLF_MULTIVERSION_LANES
 void to_node_means(std::span<std::int32_t> row, std::uint32_t weight) {
   if (weight == 1) return;
-  const std::int64_t root = reciprocal_root_q30(weight);
+  const std::int64_t root = roots_of(small_roots(), weight).reciprocal_q30;
   for (std::int32_t& value : row) value = rounded<30>(value * root);
 }
 

@@ -20,8 +20,8 @@ for kind in simd scalar; do
   # low memory: the far end of the stack (--stack-first), where no pointer to an object is
   if [[ $linked -nt web/$name.wasm || web/build_wasm.sh -nt web/$name.wasm ]]; then
     # what has one caller stays a function: engines compile a large one late (base/multiversion.h)
-    wasm-opt "${features[@]}" -O3 --one-caller-inline-max-function-size=60 --low-memory-unused --strip-debug \
-      --strip-producers "$linked" -o "$build/$name.wasm"
+    wasm-opt "${features[@]}" -O3 --converge --one-caller-inline-max-function-size=60 --low-memory-unused --strip-debug \
+      --strip-producers --strip-target-features "$linked" -o "$build/$name.wasm"
     mv "$build/$name.wasm" "web/$name.wasm"  # whole or not at all
   fi
   printf '%s %d bytes, brotli %d\n' "web/$name.wasm" "$(stat -c %s "web/$name.wasm")" \
