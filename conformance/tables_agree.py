@@ -141,11 +141,11 @@ def check_limits():
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
     agree("version of the text decoder", version, re.search(
         r'v == (\d+), "sps_version_major"\)\s+checked\(8, lambda v: v == (\d+)', DECODER).groups())
-    first = re.search(r"all weights \(those of 256 and 0 too\) ⌊(\d+) / N⌋", SPEC).group(1)
-    agree("first weights of 8.3.5", first, re.search(r"Mixer\((\d+) // len", DECODER).group(1))
+    first = re.search(r"the weights of the N contexts are ⌊(\d+) / N⌋,\nthe others 0\.", SPEC).group(1)
+    agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
     first = re.findall(r"(?:Three|Two) families of sets, all weights (\d+) at first", SPEC)
-    agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\((\d+)\)", DECODER))
+    agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\(\[(\d+)\] \* 8\)", DECODER))
     constants = [re.search(rf"{letter} = (0x\w{{16}})", section("**8.4.4", "**8.5")).group(1) for letter in "AB"]
     agree("constants of 8.4.4", constants, re.findall(r"0x\w{16}", re.search("HASH_A, HASH_B = .*", DECODER).group(0)))
     coded = code("geometry/occupancy_model.h")

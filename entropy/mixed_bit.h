@@ -1,6 +1,7 @@
 // One kind of binary decision, predicted in several contexts at a time and mixed. Spec 8.3.5.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +34,12 @@ class MixedBit {
   static constexpr std::size_t kModels = sizeof...(Shapes);
   static_assert(kModels < EightLanes::kCount, "a lane is the constant's");
 
-  MixedBit() { weights_.fill(EightLanes(kFirstWeights / static_cast<int>(kModels))); }
+  MixedBit() {
+    std::array<std::int16_t, EightLanes::kCount> first{};  // the constant's is 0: no decision is
+                                                           // more likely than the other
+    std::fill_n(first.begin(), kModels, kFirstWeights / static_cast<int>(kModels));
+    weights_.fill(EightLanes(first));
+  }
 
   /// A context of each model.
   using Contexts = std::array<ContextBit*, kModels>;
@@ -58,8 +64,8 @@ class MixedBit {
   }
 
  private:
-  // Of 8192, shared between the models; found as kRate was.
-  static constexpr int kFirstWeights = 10650;
+  // Of 8192, shared between the models; found on synthetic scenes (docs/format-0.4.md).
+  static constexpr int kFirstWeights = 8500;
 
   /// Where each model's contexts begin.
   static constexpr std::array<std::size_t, kModels> kFirst = [] {

@@ -670,12 +670,12 @@ class Mixer:
     """8.3.3: sets of weights, of which each decision takes one or more."""
 
     def __init__(self, first):
-        """8.3.3: all weights of all sets are `first`."""
+        """8.3.3: the weights of all sets are `first`."""
         self.first, self.sets = first, {}
 
     def select(self, chosen):
         """8.3.3: the weights of a set."""
-        return self.sets.setdefault(chosen, [self.first] * 8)
+        return self.sets.setdefault(chosen, self.first[:])
 
     def copy(self):
         """8.1: as that of Contexts."""
@@ -739,7 +739,8 @@ class MixedDecision:
     def __init__(self, sizes):
         """8.3.5: the initial state."""
         self.tables = [MixedContexts(size) for size in sizes]
-        self.mixer = Mixer(10650 // len(sizes))
+        n = len(sizes)
+        self.mixer = Mixer([8500 // n] * n + [0] * (8 - n))
 
     def copy(self):
         """8.1: as that of Contexts."""
@@ -872,9 +873,9 @@ class OctreeState:
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
         widths = (15, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
-        self.mixers = [Mixer(900) for _ in range(3)]
+        self.mixers = [Mixer([900] * 8) for _ in range(3)]
         self.only_tables = [MixedContexts(size) for size in (8000, 8000, 1 << self.hash_bits)]      # 8.4.6
-        self.only_mixers = [Mixer(900) for _ in range(2)]
+        self.only_mixers = [Mixer([900] * 8) for _ in range(2)]
         self.rows, self.only_rows = Rows(), Rows()
         self.nodes_coded = 0
 

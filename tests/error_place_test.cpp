@@ -43,9 +43,9 @@ struct Place {
 
 constexpr Place kPlaces[] = {
     {"signature", Errc::kNotSlf, "signature", "", 0},
-    {"bytes-after-end", Errc::kOutOfRange, "end_of_stream", "", 45792},
+    {"bytes-after-end", Errc::kOutOfRange, "end_of_stream", "", 46160},
     {"length-of-seven-bytes", Errc::kOutOfRange, "unit_length", "sequence", 72},
-    {"crc", Errc::kChecksum, "unit_crc", "coefficients", 29528},
+    {"crc", Errc::kChecksum, "unit_crc", "coefficients", 29936},
     {"version-major", Errc::kUnsupported, "sps_version_major", "sequence", 80},
     {"version-minor", Errc::kUnsupported, "sps_version_minor", "sequence", 88},
     {"profile", Errc::kUnsupported, "sps_profile", "sequence", 96},
@@ -54,19 +54,19 @@ constexpr Place kPlaces[] = {
     {"values-beyond-level", Errc::kOutOfRange, "sps_level", "sequence", 64},
     {"slices-longer", Errc::kOutOfRange, "slices_trailing_bits", "slices", 204},
     {"points-one-more", Errc::kOutOfRange, "slice_num_points_minus1", "slices", 272},
-    {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 5728},
+    {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 6160},
     {"slices-late", Errc::kOutOfRange, "unit_type", "geometry", 272},
     {"normals-escape", Errc::kOutOfRange, "nu_magnitude", "normals", 440},
     {"coefficients-alignment", Errc::kReserved, "alignment_zero_bits", "coefficients", 427},
     {"coefficient-limit", Errc::kOutOfRange, "cu_magnitude", "coefficients", 632},
-    {"layers-shorter", Errc::kTruncated, "cu_coefficients", "refinement", 29416},
+    {"layers-shorter", Errc::kTruncated, "cu_coefficients", "refinement", 29400},
     {"index-box-range", Errc::kOutOfRange, "index_box", "index", 793},
     {"index-ids", Errc::kOutOfRange, "index_unit_ids", "index", 288},
-    {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 44904},
-    {"digest", Errc::kChecksum, "digest_sha256", "digest", 43968},
+    {"metadata-not-utf8", Errc::kOutOfRange, "metadata_text", "metadata", 45272},
+    {"digest", Errc::kChecksum, "digest_sha256", "digest", 44336},
     {"matrix-shorter", Errc::kTruncated, "cu_matrix", "coefficients", 1296},
     {"transform-rank", Errc::kOutOfRange, "tr_rank_minus1", "transform", 251},
-    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 44896},
+    {"units-lost", Errc::kOutOfRange, "end_num_units", "end", 45264},
 };
 
 TEST(Spec_F_Places, AreThatOfTheElementInTheStream) {
