@@ -178,7 +178,7 @@ class LevelQuantiser {
     PredictedNode node(std::span<const std::uint8_t>(modes).subspan(begin, lanes));
     for (std::size_t n = 0, merge = 0, mean = 0; n < level_->nodes.size(); ++n) {
       if (!level_->branches(n)) continue;
-      if (input_.predict) level_means(*level_, mean, level_->means_end[n], values, means, lanes);
+      if (node.is_predicted()) level_means(*level_, mean, level_->means_end[n], values, means, lanes);
       mean = level_->means_end[n];
       const auto children = static_cast<std::size_t>(std::popcount(level_->nodes.occupancy[n]));
       const std::span<const Merge> own = merges_.subspan(merge, children - 1);

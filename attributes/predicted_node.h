@@ -20,6 +20,9 @@ class PredictedNode {
   PredictedNode(const PredictedNode&) = delete;
   PredictedNode& operator=(const PredictedNode&) = delete;
 
+  /// Are any of the planes? Else they need no means.
+  bool is_predicted() const { return used_.back() != kUnpredicted; }
+
   /// own: the merges of the node. values, means: rows of the planes, as for predict_children.
   void predict(const TransformLevel& level, std::size_t n, std::span<const Merge> own, Lanes values,
                Lanes means);
@@ -31,7 +34,6 @@ class PredictedNode {
   void correct(Lanes values) const;
 
  private:
-  bool is_predicted() const { return used_.back() != kUnpredicted; }
   std::size_t child_of(std::uint32_t row) const;
   void predict_block(std::size_t block, Lanes values, Lanes means);
 
