@@ -47,7 +47,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
   const std::uint32_t directions = nodes.around[n].directions;
   const std::uint32_t* const beside = nodes.neighbours.data() + nodes.around[n].first;
   const bool wide = mode == kWide;
-  const auto& roots = small_roots();
+  const SmallRoots& roots = small_roots();
   const NodePlace own = places[n];
   NodePrediction::Child* child = plan.child.data();
   std::uint32_t index = first_child[n];
@@ -64,13 +64,14 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
       const auto d = static_cast<std::uint32_t>(std::countr_zero(out));
       const std::uint32_t m = beside[std::popcount(directions & ((1u << d) - 1))];
       const std::uint32_t other = kChildNeighbours[c][d].child;
-      const std::uint32_t there = occupancy[m];
+      const std::uint32_t children = occupancy[m];
       const NodePlace* from = &places[m];
       term->index = slot[m];
       term->root_q30 = 0;
-      if (m < n && (there >> other & 1u)) {  // known already
+      if (m < n && (children >> other & 1u)) {  // known already
         const std::uint32_t at =
-            first_child[m] + static_cast<std::uint32_t>(std::popcount(there & ((1u << other) - 1)));
+            first_child[m] +
+            static_cast<std::uint32_t>(std::popcount(children & ((1u << other) - 1)));
         from = &child_places[at];
         term->index = child_rows[at];
         term->root_q30 = roots_of(roots, from->weight).reciprocal_q30;
@@ -80,13 +81,11 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
       sum += close;
     }
     child->terms = static_cast<std::uint32_t>(term - child->term.data());
-    // weight * 4096 / sum: the reciprocal is exact enough while weight * sum < 2^41
-    const std::uint64_t reciprocal_q53 = (std::uint64_t{1} << 53) / sum + 1;
     std::int32_t others = 0;
     while (term != child->term.data()) {
       --term;
-      term->weight = static_cast<std::int32_t>(
-          static_cast<std::uint64_t>(term->weight) * reciprocal_q53 >> 41);
+      term->weight =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(term->weight) * 4096 / sum);
       others += term->weight;
     }
     child->others = others;

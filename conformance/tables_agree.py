@@ -141,7 +141,7 @@ def check_limits():
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
     agree("version of the text decoder", version, re.search(
         r'v == (\d+), "sps_version_major"\)\s+checked\(8, lambda v: v == (\d+)', DECODER).groups())
-    first = re.search(r"the weights of the N contexts are ⌊(\d+) / N⌋,\nthe others 0\.", SPEC).group(1)
+    first = re.search(r"the weights of the N contexts are ⌊(\d+) / N⌋,\s+the others 0\.", SPEC).group(1)
     agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
     first = re.findall(r"(?:Three|Two) families of sets, all weights (\d+) at first", SPEC)

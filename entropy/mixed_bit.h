@@ -35,8 +35,8 @@ class MixedBit {
   static_assert(kModels < EightLanes::kCount, "a lane is the constant's");
 
   MixedBit() {
-    std::array<std::int16_t, EightLanes::kCount> first{};  // the constant's is 0: no decision is
-                                                           // more likely than the other
+    // The constant's is 0: neither decision is the likelier before anything is known.
+    std::array<std::int16_t, EightLanes::kCount> first{};
     std::fill_n(first.begin(), kModels, kFirstWeights / static_cast<int>(kModels));
     weights_.fill(EightLanes(first));
   }

@@ -1,16 +1,17 @@
 #include "geometry/isqrt.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace slf {
 
 std::uint64_t isqrt(std::uint64_t n) {
-  constexpr std::uint64_t kMost = 0xFFFFFFFFu;
-  // A guess, off by one at most; what it is made into does not depend on how it was rounded.
-  auto root = std::min(static_cast<std::uint64_t>(std::sqrt(static_cast<double>(n))), kMost);
-  while (root * root > n) --root;
-  while (n - root * root > 2 * root) ++root;  // (root + 1)^2 <= n
+  std::uint64_t root = 0;
+  for (std::uint64_t bit = std::uint64_t{1} << 62; bit > 0; bit >>= 2) {
+    if (n >= root + bit) {
+      n -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
+  }
   return root;
 }
 
