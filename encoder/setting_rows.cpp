@@ -194,7 +194,7 @@ void add_hierarchy(std::vector<SettingRow>& rows) {
        number("block-growth", SLF_AT(fit.hierarchy.growth), 1, 10,
               "Growth of its penalties with a function's fineness"),
        number("point-penalty", SLF_AT(fit.hierarchy.point_penalty), 1e-6, 1e9,
-              "Pull of a point towards its block"),
+              "Pull of a point towards the blocks around it"),
        number("point-growth", SLF_AT(fit.hierarchy.point_growth), 1, 10, "Growth of its penalties"),
        number("environment-degree", SLF_AT(fit.environment.degree), 0, 16,
               "Degree of the light about the object that its surface reflects; 0: none"),

@@ -1,37 +1,17 @@
 #include "fit/block_prior.h"
 
+#include <utility>
+
 #include "fit/fit_cholesky.h"
 #include "fit/lane_products.h"
-#include "geometry/morton.h"
 #include "slf/parallel.h"
 
 namespace slf {
 
 BlockPrior::BlockPrior(std::span<const Voxel> positions, int block_log2, std::size_t functions)
-    : functions_(functions), width_(padded(functions + 3)) {
-  std::vector<std::uint64_t> codes;  // of the level at hand
-  for (std::size_t p = 0; p < positions.size(); ++p) {
-    const std::uint64_t code = morton(positions[p]) >> (3 * block_log2);
-    if (!codes.empty() && codes.back() == code) continue;
-    if (codes.empty()) first_.emplace_back();
-    codes.push_back(code);
-    first_.back().push_back(p);
-  }
-  first_.back().push_back(positions.size());
-  while (codes.size() > 1) {  // up to the block that holds all
-    std::vector<std::uint64_t> above;
-    std::vector<std::size_t> first;
-    for (std::size_t b = 0; b < codes.size(); ++b) {
-      if (!above.empty() && above.back() == codes[b] >> 3) continue;
-      above.push_back(codes[b] >> 3);
-      first.push_back(b);
-    }
-    first.push_back(codes.size());
-    first_.push_back(std::move(first));
-    codes = std::move(above);
-  }
-  for (const auto& first : first_) {
-    sums_.emplace_back(first.size() - 1);
+    : tree_(positions, block_log2), functions_(functions), width_(padded(functions + 3)) {
+  for (std::size_t level = 0; level < tree_.levels(); ++level) {
+    sums_.emplace_back(tree_.blocks(level));
     for (Sums& sums : sums_.back()) sums.matrix.assign(width_ * width_, 0);
   }
 }
@@ -53,7 +33,8 @@ void BlockPrior::sum_up(int threads) {
   for (std::size_t level = 1; level < sums_.size(); ++level)
     parallel_ranges(sums_[level].size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b)
-        for (std::size_t child = first_[level][b]; child < first_[level][b + 1]; ++child) {
+        for (std::size_t child = tree_.first(level, b); child < tree_.first(level, b + 1);
+             ++child) {
           const Sums& from = sums_[level - 1][child];
           Sums& to = sums_[level][b];
           for (std::size_t i = 0; i < to.matrix.size(); ++i) to.matrix[i] += from.matrix[i];
@@ -62,14 +43,24 @@ void BlockPrior::sum_up(int threads) {
     });
 }
 
-/// [K][3] of a block; element 0 is 0.
-/// @param above  the same of the block above it
+/// What the level above says of a block; 0 where there is none.
+BlockPrior::Solution BlockPrior::from_above(std::size_t level, std::size_t b,
+                                            std::span<const Solution> above) const {
+  Solution mean(3 * functions_, 0.0);
+  if (level + 1 == tree_.levels()) return mean;
+  const BlockBlend blend = tree_.above(level, b);
+  for (std::size_t i = 0; i < blend.count; ++i)
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] += double{blend.weight[i]} * above[blend.block[i]][k];
+  return mean;
+}
+
+/// Element 0 is 0.
 /// @param penalty  [K] in full
-std::vector<double> BlockPrior::solve_block(const Sums& sums, std::span<const double> above,
-                                            std::span<const double> penalty) const {
-  std::vector<double> solution(above.begin(), above.end());
+BlockPrior::Solution BlockPrior::solve_block(const Sums& sums, Solution above,
+                                             std::span<const double> penalty) const {
   const std::size_t n = functions_ - 1;
-  if (sums.observations == 0 || n == 0) return solution;
+  if (sums.observations == 0 || n == 0) return above;
   std::vector<Lanes<double>> residual(n);
   std::vector<double> factor(packed_size(n));
   for (std::size_t j = 0; j < n; ++j)
@@ -89,29 +80,23 @@ std::vector<double> BlockPrior::solve_block(const Sums& sums, std::span<const do
   cholesky_factorise(factor.data(), n, 1e-12);
   cholesky_solve(factor.data(), n, residual.data());
   for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t c = 0; c < 3; ++c) solution[3 * (j + 1) + c] += residual[j].c[c];
-  return solution;
+    for (std::size_t c = 0; c < 3; ++c) above[3 * (j + 1) + c] += residual[j].c[c];
+  return above;
 }
 
 std::vector<float> BlockPrior::solve(double strength, std::span<const double> penalty,
                                      int threads) const {
-  using Solution = std::vector<double>;                           // [K][3]
-  std::vector<Solution> above(1, Solution(3 * functions_, 0.0));  // of the level above
-  std::vector<std::size_t> parent(sums_.back().size(), 0);
-  for (std::size_t level = sums_.size(); level-- > 0;) {
-    std::vector<Solution> here(sums_[level].size());
+  std::vector<Solution> above;  // of the level above
+  for (std::size_t level = tree_.levels(); level-- > 0;) {
+    std::vector<Solution> here(tree_.blocks(level));
     parallel_ranges(here.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
+        const Sums& sums = sums_[level][b];
         std::vector<double> full(penalty.begin(), penalty.end());
-        for (double& p : full) p *= strength * sums_[level][b].observations;
-        here[b] = solve_block(sums_[level][b], above[parent[b]], full);
+        for (double& p : full) p *= strength * sums.observations;
+        here[b] = solve_block(sums, from_above(level, b, above), full);
       }
     });
-    if (level > 0) {
-      parent.assign(sums_[level - 1].size(), 0);
-      for (std::size_t b = 0; b < here.size(); ++b)
-        for (std::size_t c = first_[level][b]; c < first_[level][b + 1]; ++c) parent[c] = b;
-    }
     above = std::move(here);
   }
   std::vector<float> solution;

@@ -1,12 +1,12 @@
 // What the surface around a point says about its view map: one solution per octree block, each
-// shrunk towards that of the block above it.
+// shrunk towards those of the blocks above it, and between blocks what is interpolated.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "fit/block_tree.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -27,19 +27,18 @@ class BlockPrior {
   /// @param block_log2  side of the finest blocks
   BlockPrior(std::span<const Voxel> positions, int block_log2, std::size_t functions);
 
-  std::size_t num_blocks() const { return first_.front().size() - 1; }
-  /// Points [first, last) of finest block b.
-  std::size_t first_point(std::size_t b) const { return first_.front()[b]; }
+  const BlockTree& tree() const { return tree_; }
 
   /// Adds what was seen of a point of finest block b. Blocks may be filled in parallel.
   void add(std::size_t b, const PointColumns& seen);
   /// Sums of the coarser blocks; after all points were added.
   void sum_up(int threads);
 
-  /// Solves from the root down: in each block the excess over its parent's solution x, of least
+  /// Solves from the root down: in each block the excess over x, interpolated at its middle between
+  /// the solutions of the level above, of least
   ///     |c - G (x + e)|^2 + sum_k strength * n * penalty_k e_k^2,   n observations in the block.
   /// @param penalty  [K], > 0 but for element 0, which is not used
-  /// @return [num_blocks][K][3]; element 0 of each is 0
+  /// @return [finest blocks][K][3]; element 0 of each is 0
   std::vector<float> solve(double strength, std::span<const double> penalty, int threads) const;
 
  private:
@@ -48,13 +47,13 @@ class BlockPrior {
     std::vector<float> matrix;  // [width_][width_], lower triangle; row and column 0 are 0
     double observations = 0;
   };
-  std::vector<double> solve_block(const Sums& sums, std::span<const double> above,
-                                  std::span<const double> penalty) const;
+  using Solution = std::vector<double>;  // [K][3]
+  Solution from_above(std::size_t level, std::size_t b, std::span<const Solution> above) const;
+  Solution solve_block(const Sums& sums, Solution above, std::span<const double> penalty) const;
 
-  std::size_t functions_;  // K
-  std::size_t width_;      // K + 3, up to whole lanes
-  std::vector<std::vector<std::size_t>>
-      first_;  // [levels, finest first][blocks + 1] points, or blocks of the finer level
+  BlockTree tree_;
+  std::size_t functions_;                // K
+  std::size_t width_;                    // K + 3, up to whole lanes
   std::vector<std::vector<Sums>> sums_;  // [levels][blocks]
 };
 

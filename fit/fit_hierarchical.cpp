@@ -37,6 +37,15 @@ void read_columns(const Observations& observations, std::span<const float> light
           observations.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]);
 }
 
+/// out += what is between blocks.
+/// @param of_block  [blocks][out.size()]
+void add_between(std::span<const float> of_block, const BlockBlend& blend, std::span<float> out) {
+  for (std::size_t i = 0; i < blend.count; ++i) {
+    const auto from = of_block.subspan(blend.block[i] * out.size(), out.size());
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += blend.weight[i] * from[k];
+  }
+}
+
 /// min |c - G a|^2 + sum_k penalty_k (a_k - m_k)^2, a_0 free: in the dual form, M x M.
 class PointSystem {
  public:
@@ -105,13 +114,14 @@ class PointSystem {
 template <class Each>
 void HierarchicalFit::for_points(double from, double to, const Progress& progress,
                                  const Each& each) const {
-  const std::size_t blocks = prior_.num_blocks();
+  const BlockTree& tree = prior_.tree();
+  const std::size_t blocks = tree.blocks(0);
   parallel_ranges(
       blocks, 1, threads_,
       [&](std::size_t begin, std::size_t end) {
         PointColumns seen;
         for (std::size_t b = begin; b < end; ++b)
-          for (std::size_t p = prior_.first_point(b); p < prior_.first_point(b + 1); ++p) {
+          for (std::size_t p = tree.first(0, b); p < tree.first(0, b + 1); ++p) {
             read_columns(observations_, light_, p, basis_, seen);
             if (seen.count > 0) each(b, p, seen);
           }
@@ -125,6 +135,7 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
                                  const FitSettings& settings, const EnvironmentPrior& environment,
                                  const Progress& progress)
     : observations_(observations),
+      positions_(positions),
       light_(environment.along(observations, settings.threads)),
       threads_(settings.threads),
       basis_(settings.basis),
@@ -144,14 +155,15 @@ void HierarchicalFit::solve(std::span<const HierarchySettings> tried, const Body
     inverse_root.push_back(static_cast<float>(1 / std::sqrt(p)));
   inverse_root[0] = 0;
   const std::size_t size = 3 * basis_.size();
-  for_points(0.5, 1, progress, [&](std::size_t b, std::size_t p, PointColumns& seen) {
+  for_points(0.5, 1, progress, [&](std::size_t, std::size_t p, PointColumns& seen) {
+    const BlockBlend around = prior_.tree().around(positions_[p]);
     PointSystem system(inverse_root);
     system.factorise(seen);
-    std::vector<float> solutions;
-    for (const auto& prior : blocks) {
-      const auto mean = prior.begin() + static_cast<std::ptrdiff_t>(b * size);
-      solutions.insert(solutions.end(), mean, mean + static_cast<std::ptrdiff_t>(size));
-      system.solve(&solutions[solutions.size() - size]);
+    std::vector<float> solutions(tried.size() * size, 0.0f);
+    for (std::size_t t = 0; t < tried.size(); ++t) {
+      float* solution = solutions.data() + t * size;
+      add_between(blocks[t], around, std::span(solution, size));
+      system.solve(solution);
     }
     body(p, solutions);
   });

@@ -16,7 +16,7 @@ namespace slf {
 /// the solution for given strengths.
 class HierarchicalFit {
  public:
-  /// @param observations  of the frame's directions; kept by reference
+  /// @param observations  of the frame's directions; kept by reference, as positions are
   HierarchicalFit(const Observations& observations, std::span<const Voxel> positions,
                   const FitSettings& settings, const EnvironmentPrior& environment,
                   const Progress& progress = {});
@@ -35,6 +35,7 @@ class HierarchicalFit {
   void for_points(double from, double to, const Progress& progress, const Each& each) const;
 
   const Observations& observations_;
+  std::span<const Voxel> positions_;
   std::vector<float> light_;  // [observations][3] what is subtracted from the colours; empty: 0
   int threads_;
   DirectionRows basis_;

@@ -22,7 +22,8 @@ struct FoldSample {
   Observations seen;
 };
 
-/// Whole blocks, every n-th: priors of blocks stay what they are.
+/// Whole blocks, every n-th: the sums of a block stay what they are. Blocks beside it are missing
+/// more often than not, so that less is interpolated.
 FoldSample sample_blocks(const Observations& seen, std::span<const Voxel> positions,
                          const MirrorPoints& points, int block_log2, std::size_t about);
 

@@ -57,15 +57,16 @@ enum class FitMethod : std::uint8_t {
   kHierarchical,  ///< a prior from octree blocks, which share what they reflect
 };
 
-/// The hierarchical fit: a point's view map is its mean colour, what its block and the blocks above
-/// have in common, and what is left. Functions count with mean square 1; the penalty of one grows
-/// with its fineness (the degree of a harmonic, the sum of the scales of a wavelet).
+/// The hierarchical fit: a point's view map is its mean colour, what the blocks around it and those
+/// above have in common, interpolated at the point, and what is left. Functions count with mean
+/// square 1; the penalty of one grows with its fineness (the degree of a harmonic, the sum of the
+/// scales of a wavelet).
 struct HierarchySettings {
   int block_log2 =
       3;  ///< side of the finest blocks in voxels (encode: in spacings of points), 0 .. 21
   double strength = 0.3;      ///< > 0: pull of a block towards the one above, per observation
   double growth = 1.3;        ///< >= 1: of its penalties, 0.8 growth^fineness
-  double point_penalty = 12;  ///< > 0: pull of a point towards its block
+  double point_penalty = 12;  ///< > 0: pull of a point towards the blocks around it
   double point_growth = 1.5;  ///< >= 1: of its penalties
 };
 
