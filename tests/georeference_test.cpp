@@ -92,8 +92,9 @@ TEST_F(Georeference, AColouredCloudKeepsItsMillimetresThereAndBack) {
 
 TEST_F(Georeference, ACaptureHasTheFieldFiguresAndPicturesOfTheSameNearZero) {
   for (const std::string name : {"near", "far"})
-    reported("encode " + name + " -o " + name + ".slf --effort 5 --grid-bits 6 -q 8");
-  // Cameras are the same to a nanometre: hardly a coefficient is rounded the other way.
+    reported("encode " + name + " -o " + name + ".slf --effort 5 --grid-bits 6 -q 8 --predict off");
+  // Cameras are the same to a nanometre: hardly a coefficient is rounded the other way. (Where two
+  // modes of prediction cost the same, one of them can change the mode, and that all of a level.)
   expect_same_fields(0.001);
   const auto near = reported("eval near.slf near"), far = reported("eval far.slf far");
   for (const char* cameras : {"input", "held_out"}) {
