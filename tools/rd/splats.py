@@ -181,7 +181,7 @@ def main():
         parser.error("--jobs: a number from 1 is expected")
     try:
         held_out = judge.Capture(given.capture, given.points).held_out
-    except judge.NotJudged as error:
+    except (OSError, ValueError) as error:
         print(f"splats.py: {error}", file=sys.stderr)
         return BAD_INPUT
     given.out.mkdir(parents=True, exist_ok=True)
