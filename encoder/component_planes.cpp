@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "attributes/quantiser.h"
+#include "slf/given_planes.h"
 #include "slf/parallel.h"
 #include "slf/view_map.h"
 
@@ -68,6 +69,24 @@ std::vector<std::int32_t> to_components(std::span<const float> coefficients,
                 std::lround(std::clamp(coefficients[p * row + j] * scale[j], -1e9f, 1e9f)));
       });
   return components;
+}
+
+std::vector<float> decoded_coefficients(const LightField& field, int threads) {
+  const auto to_rgb = colour_matrix(field.header.colour);
+  const std::vector<std::int32_t> planes = given_planes(field, threads);
+  std::vector<float> coefficients(planes.size());
+  const std::vector<int>& shift = field.header.shift;
+  parallel_ranges(
+      planes.size() / 3, kPointGrain * 64, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (std::size_t from = 0; from < 3; ++from)
+              sum += to_rgb[c][from] * planes[3 * i + from];
+            coefficients[3 * i + c] = static_cast<float>(std::ldexp(sum, -shift[i % shift.size()]));
+          }
+      });
+  return coefficients;
 }
 
 std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,

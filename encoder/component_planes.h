@@ -23,6 +23,9 @@ std::vector<int> component_shifts(std::span<const float> coefficients, std::size
 std::vector<std::int32_t> to_components(std::span<const float> coefficients,
                                         const std::vector<int>& shifts, int threads);
 
+/// What a decoder has: R, G, B coefficients [P][K][3].
+std::vector<float> decoded_coefficients(const LightField& field, int threads);
+
 /// [K][3] Q, or Q / (2 ||b_k||), in component units, at least 1. The half brings the quality at one
 /// Q nearer to that of the uniform step, which spends most of its bits on functions of small norm.
 std::vector<std::array<std::uint32_t, 3>> quantiser_steps(const Basis& basis,
