@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fit/camera_folds.h"
+#include "fit/held_out_pictures.h"
 #include "fit/picture_system.h"
 #include "fit/picture_views.h"
 #include "render/surfel_cloud.h"
@@ -67,7 +68,8 @@ void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, co
 Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
                                                const FitSettings& settings, bool search,
                                                std::vector<float>& coefficients,
-                                               const Progress& progress) {
+                                               const Progress& progress,
+                                               std::shared_ptr<const HeldOutPictures>* held_out) {
   const SurfelCloud cloud =
       surfel_cloud(input.grid, input.positions, input.normals, 0, settings.threads);
   SLF_TRY(PictureViews pictures,
@@ -77,14 +79,14 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   for (const int c : input.cameras)
     eyes.push_back(input.capture.cameras[static_cast<std::size_t>(c)].centre());
   const std::vector<int> fold = camera_folds(towards(eyes, cloud));
-  PictureSystem system(input.grid, input.positions, settings, input.gamma_range, pictures,
-                       std::move(eyes));
+  PictureSystem system(input.grid, input.positions, settings, input.gamma_range, pictures, eyes);
   auto colours = system.colours(coefficients);
   PictureSystem::Vector z(colours.size());
   PictureFit fit;
   fit.pull = 1;
   const PictureFitSettings& s = settings.pictures;
-  const double parts = s.rounds + (search ? 2 : 0);
+  const bool hold_out = held_out != nullptr && input.seen != nullptr;
+  const double parts = s.rounds + (search ? 2 : 0) + (hold_out ? 1 : 0);
   double done = 0;
   const auto next = [&] {
     if (progress) progress("fit pictures", done++ / parts);
@@ -97,17 +99,21 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
     done = 2;
   }
   fit.psnr_before = fit.psnr_after = psnr(system.errors(colours), all);
-  if (fit.pull == 0) return fit;
-  system.set_pull(fit.pull);
-  for (int round = 0; round < s.rounds; ++round) {
+  for (int round = 0; fit.pull > 0 && round < s.rounds; ++round) {
     if (round > 0) {
       next();
       system.set_trust(colours, s.outlier);
     }
+    system.set_pull(fit.pull);
     system.improve(all, s.steps, colours, z);
   }
-  fit.psnr_after = psnr(system.errors(colours), all);
-  system.add(z, coefficients);
+  if (fit.pull > 0) {
+    fit.psnr_after = psnr(system.errors(colours), all);
+    system.add(z, coefficients);
+  }
+  if (!hold_out) return fit;
+  next();
+  SLF_TRY(*held_out, HeldOutPictures::of({input, settings, pictures, eyes, fold, fit.pull}));
   return fit;
 }
 

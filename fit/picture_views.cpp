@@ -19,7 +19,8 @@ constexpr std::array<float, 3> kNoGain{1, 1, 1};
 constexpr double kMemory = 3.0 * (1u << 30), kMemoryOfPart = 0.75 * (1u << 30);
 constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
 constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, directions
-constexpr double kSeen = 0.5;                   // share of the points that a camera sees, at most
+constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+constexpr double kSeen = 0.5;  // share of the points that a camera sees, at most
 
 /// Of the rectangle about a part of a scene in its picture.
 double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
@@ -80,7 +81,6 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
   SLF_TRY(const auto hidden, hidden_pixels(splatted, camera, camera_index, hidden_by));
   PictureView view;
   view.first.push_back(0);
-  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
   std::vector<std::uint32_t> local_of(cloud.size(), kUnseen);
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
@@ -104,6 +104,34 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
     view.points.push_back(p);
   }
   for (std::uint32_t& p : view.local) p = local_of[p];
+  view.trust.assign(view.pixels(), 1.0f);
+  return view;
+}
+
+/// The pixels of a view that show nothing but points that have a place.
+PictureView view_of_points(const PictureView& from, const std::vector<std::uint32_t>& place) {
+  PictureView view;
+  view.first.push_back(0);
+  std::vector<std::uint32_t> local_of(from.points.size(), kUnseen);
+  for (std::size_t i = 0; i < from.pixels(); ++i) {
+    const std::span all(from.local);
+    const auto shown = all.subspan(from.first[i], from.first[i + 1] - from.first[i]);
+    if (std::any_of(shown.begin(), shown.end(),
+                    [&](std::uint32_t l) { return place[from.points[l]] == kUnseen; }))
+      continue;
+    for (const std::uint32_t l : shown) local_of[l] = 0;
+    view.local.insert(view.local.end(), shown.begin(), shown.end());
+    view.weight.insert(view.weight.end(), from.weight.begin() + from.first[i],
+                       from.weight.begin() + from.first[i + 1]);
+    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
+    view.photograph.push_back(from.photograph[i]);
+  }
+  for (std::size_t l = 0; l < local_of.size(); ++l) {
+    if (local_of[l] == kUnseen) continue;
+    local_of[l] = static_cast<std::uint32_t>(view.points.size());
+    view.points.push_back(place[from.points[l]]);
+  }
+  for (std::uint32_t& l : view.local) l = local_of[l];
   view.trust.assign(view.pixels(), 1.0f);
   return view;
 }
@@ -160,6 +188,20 @@ Result<PictureViews, InputError> picture_views(const Capture& capture, std::span
     if (view.first.empty()) view.first.push_back(0);
   pictures.rays = connect(pictures.views, cloud.size());
   return pictures;
+}
+
+PictureViews views_of_points(const PictureViews& of, std::span<const std::uint32_t> points,
+                             std::size_t count, const std::vector<bool>& wanted) {
+  std::vector<std::uint32_t> place(count, kUnseen);
+  for (std::size_t i = 0; i < points.size(); ++i) place[points[i]] = static_cast<std::uint32_t>(i);
+  PictureViews part;
+  part.views.resize(of.views.size());
+  for (std::size_t v = 0; v < of.views.size(); ++v) {
+    part.views[v].first.push_back(0);
+    if (wanted[v]) part.views[v] = view_of_points(of.views[v], place);
+  }
+  part.rays = connect(part.views, points.size());
+  return part;
 }
 
 }  // namespace slf

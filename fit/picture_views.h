@@ -45,8 +45,8 @@ struct PictureViews {
 /// @param gains  [cameras] of R, G, B; where one is not 1, what is at the upper end does not count.
 /// Or
 ///               empty: 1. A pixel counts if discs cover it and no mask or alpha is in it. Where
-/// pixels or rays are too many for the memory of a fit (3 GiB; of a part of a scene, with hidden_by,
-/// 0.75 GiB), every n-th camera shows something, the others nothing.
+/// pixels or rays are too many for the memory of a fit (3 GiB; of a part of a scene, with
+/// hidden_by, 0.75 GiB), every n-th camera shows something, the others nothing.
 /// @param hidden_by  of what is not in the cloud: a pixel where it is in front does not count; may
 ///                   be empty
 /// @errors those of load_image and of hidden_by
@@ -56,5 +56,12 @@ Result<PictureViews, InputError> picture_views(const Capture& capture, std::span
                                                const SurfelCloud& cloud, Transfer transfer,
                                                const DepthOfCamera& hidden_by, int threads,
                                                const Progress& progress);
+
+/// What of some photographs shows some of the points and nothing else; other views are empty.
+/// @param points  ascending indices; those of the result are into these
+/// @param count   how many points there are
+/// @param wanted  [views]
+PictureViews views_of_points(const PictureViews& of, std::span<const std::uint32_t> points,
+                             std::size_t count, const std::vector<bool>& wanted);
 
 }  // namespace slf
