@@ -3,6 +3,7 @@
 
 #include "base/stopwatch.h"
 #include "capture/density.h"
+#include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
@@ -44,6 +45,22 @@ Result<Done, InputError> code(Job& job, double q) {
   return Done{};
 }
 
+/// A step for settings without one. A target looks for its own, from the plain one on.
+Result<Done, InputError> resolve_step(Job& job) {
+  EncoderSettings& settings = job.settings;
+  if (settings.q != kAutomaticQ) return Done{};
+  if (has_target(settings)) {
+    settings.q = kPlainQ;
+    return Done{};
+  }
+  SLF_TRY(const StepAndOrigin step, choose_step(settings, job.fit, job.cloud.grid,
+                                                job.cloud.positions.size(), job.cameras.size()));
+  settings.q = step.q;
+  job.encoded.step = step.chosen;
+  job.fit.held_out.reset();
+  return Done{};
+}
+
 }  // namespace
 
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
@@ -73,7 +90,8 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)
-                          : fit_capture(capture, cameras, job.cloud, settings, progress));
+                          : fit_capture(capture, cameras, job.cloud, settings, progress,
+                                        chooses_step(settings, cameras.size())));
   if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
   encoded.fit = job.fit.chosen;
   encoded.cameras = job.fit.cameras;
@@ -88,6 +106,7 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   encoded.seconds_fit = job.fit.seconds_fit;
   encoded.pictures = job.fit.pictures;
   encoded.seconds_pictures = job.fit.seconds_pictures;
+  SLF_CHECK(resolve_step(job));
   watch.lap();
   if (progress) progress("code", 0);
   const auto code_with = [&](double q) { return code(job, q); };

@@ -135,6 +135,12 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
         });
   } else {
     metadata.emplace_back("q", text(s.q));
+    if (encoded.step.origin == ChosenStep::kChosen)
+      metadata.insert(metadata.end(), {
+                                          {"quality", "auto"},
+                                          {"quality_loss", text(s.quality_loss)},
+                                          {"quality_loss_held_out", hundredths(encoded.step.loss)},
+                                      });
     if (s.transform != TransformMode::kNone)
       metadata.emplace_back("klt",
                             s.transform == TransformMode::kFunctions ? "functions" : "joint");

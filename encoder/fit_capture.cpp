@@ -48,7 +48,10 @@ FitSettings in_spacings(FitSettings fit, std::span<const Voxel> positions, int g
 }
 
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
-  if (!(s.q >= 0.05 && s.q <= 4096)) return invalid("q: 0.05 to 4096");
+  if (s.q != kAutomaticQ && !(s.q >= 0.05 && s.q <= 4096))
+    return invalid("q: 0.05 to 4096, or automatic");
+  if (!(s.quality_loss >= 0.001 && s.quality_loss <= 10))
+    return invalid("quality loss: 0.001 to 10 dB");
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
   if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
     return invalid("grid bits: 1 to 21, or 0 for automatic");
@@ -143,16 +146,17 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
     if (!fit.cameras.empty()) gains.push_back(known ? trust->gain : CameraTrust{}.gain);
   }
   SLF_TRY(fit.pictures,
-          fit_to_pictures({of.capture, trusted, gains, cloud.grid, cloud.positions, normals,
-                           settings.observe.transfer, gamma_range, of.hidden_by},
-                          chosen, settings.search.pictures, fit.coefficients, progress));
-  fit.seconds_pictures = watch.lap();
+          fit_to_pictures(
+              {of.capture, trusted, gains, cloud.grid, cloud.positions, normals,
+               settings.observe.transfer, gamma_range, of.hidden_by, of.hold_out ? &seen : nullptr},
+              chosen, settings.search.pictures, fit.coefficients, progress, &fit.held_out));
+  fit.seconds_pictures = watch.lap() - (fit.held_out ? fit.held_out->seconds() : 0);
   return Done{};
 }
 
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
                                            const VoxelCloud& cloud, const EncoderSettings& settings,
-                                           const Progress& progress) {
+                                           const Progress& progress, bool hold_out) {
   Stopwatch watch;
   CaptureFit fit;
   const ObservedPoints points = world_points(cloud);
@@ -170,7 +174,8 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   fit.seconds_choose = watch.lap();
   std::vector<int> used(cameras.begin(), cameras.end());
   if (!fit.cameras.empty()) used = trusted_cameras(fit.cameras);
-  SLF_CHECK(fit_chosen({capture, used, cloud, {}}, std::move(world), settings, progress, fit));
+  SLF_CHECK(
+      fit_chosen({capture, used, cloud, {}, hold_out}, std::move(world), settings, progress, fit));
   return fit;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "fit/held_out_pictures.h"
 #include "fit/observe_points.h"
 #include "slf/encoder.h"
 
@@ -33,7 +35,8 @@ Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span
 struct CaptureFit {
   std::vector<float> coefficients;  ///< [P][K][3] in R, G, B; K of chosen.settings.basis
   ChosenFit chosen;
-  PictureFit pictures;               ///< where chosen.settings.pictures has rounds
+  PictureFit pictures;                              ///< where chosen.settings.pictures has rounds
+  std::shared_ptr<const HeldOutPictures> held_out;  ///< of a picture fit, where it was wanted
   std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty
   int gamma_min_q7 = -127, gamma_max_q7 = 127;
   std::size_t observations = 0, unobserved_points = 0;
@@ -52,6 +55,7 @@ struct FittedCloud {
   std::span<const int> cameras;  ///< ascending
   const VoxelCloud& cloud;       ///< with normals
   DepthOfCamera hidden_by;       ///< of what is not in the cloud; or empty
+  bool hold_out = false;         ///< CaptureFit::held_out is wanted
 };
 
 /// The last steps of fit_capture: to settings that are chosen, with cameras that are checked.
@@ -63,9 +67,10 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
 
 /// View maps from what the cameras saw of a cloud with normals. Paper II, III-A. Errors as observe,
 /// choose_fit and fit_view_maps.
+/// @param hold_out  CaptureFit::held_out is wanted
 Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
                                            const VoxelCloud& cloud, const EncoderSettings& settings,
-                                           const Progress& progress);
+                                           const Progress& progress, bool hold_out = false);
 
 /// The integer light field, its shifts as fine as the coder takes them. Spec 6.3, 6.5.
 /// @param origin    of the capture that the cloud was made of: the field is in the world

@@ -55,6 +55,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
   set_effort(effort, settings);
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
+    settings.q = kPlainQ;
     settings.refine_geometry = RefineGeometry::kOff;
     settings.densify.mode = Densify::kOff;
     settings.check_cameras = false;

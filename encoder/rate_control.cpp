@@ -10,6 +10,8 @@ namespace {
 constexpr int kMostTrials = 14;
 constexpr double kFirstFactor = 4;   // from the first guess to the other end of a bracket
 constexpr double kSameStep = 1.001;  // steps nearer than that are one
+constexpr int kRefinements = 2;
+constexpr double kNearEnough = 0.85;  // of a loss
 
 struct Trial {
   double log_q, value;
@@ -19,9 +21,9 @@ double distance(double value, const StepGoal& goal) {
   return std::max({goal.least - value, value - goal.most, 0.0});
 }
 
-/// To four significant digits, which is how a step is written down.
-double rounded(double q) {
-  const double unit = std::pow(10.0, std::floor(std::log10(q)) - 3);
+/// To so many significant digits: four are how a step is written down.
+double rounded(double q, int digits = 4) {
+  const double unit = std::pow(10.0, std::floor(std::log10(q)) - digits + 1);
   return std::clamp(std::round(q / unit) * unit, kLeastQ, kMostQ);
 }
 
@@ -64,6 +66,31 @@ Result<StepFound, InputError> find_step(
     }
   }
   return found;
+}
+
+Result<StepFound, InputError> find_largest_step(
+    double unquantised, double loss,
+    const std::function<Result<double, InputError>(double q)>& measure) {
+  double best = unquantised;
+  std::optional<Trial> good, bad;
+  const auto lost = [&](const Trial& trial) { return best - trial.value; };
+  const auto try_step = [&](double q) -> Result<Done, InputError> {
+    const double step = rounded(q, 3);
+    SLF_TRY(const double value, measure(step));
+    best = std::max(best, value);
+    const Trial trial{std::log(step), value};
+    (lost(trial) <= loss ? good : bad) = trial;
+    return Done{};
+  };
+  SLF_CHECK(try_step(kLossFirst));
+  while (!good && bad->log_q > std::log(kLeastQ)) SLF_CHECK(try_step(std::exp(bad->log_q) / 2));
+  while (!bad && good->log_q < std::log(kMostQ)) SLF_CHECK(try_step(std::exp(good->log_q) * 2));
+  for (int i = 0; i < kRefinements && good && bad && lost(*good) < kNearEnough * loss; ++i) {
+    const StepGoal goal{best - loss, best - kNearEnough * loss};
+    SLF_CHECK(try_step(std::exp(between(*good, *bad, goal, false))));
+  }
+  if (!good) return StepFound{kLeastQ, lost(*bad), false};
+  return StepFound{rounded(std::exp(good->log_q), 3), lost(*good), true};
 }
 
 }  // namespace slf

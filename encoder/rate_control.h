@@ -8,6 +8,7 @@
 namespace slf {
 
 inline constexpr double kLeastQ = 0.05, kMostQ = 4096;
+inline constexpr double kLossFirst = 32;  ///< where a search for a loss begins
 
 /// What is good enough, of a quantity that falls while Q grows, best along a line in log Q: PSNR,
 /// or the logarithm of bytes.
@@ -26,6 +27,17 @@ struct StepFound {
 /// @errors those of measure, which ends the search.
 Result<StepFound, InputError> find_step(
     double first_guess, const StepGoal& goal,
+    const std::function<Result<double, InputError>(double q)>& measure);
+
+/// The largest step, to three digits, whose PSNR is no more than `loss` below `unquantised` and
+/// below what any smaller step has that was tried. A step may be better than none: it leaves out
+/// what a fit makes up. Doubled or halved from kLossFirst, then twice between the last that is good
+/// enough and the first that is not: five to eight measurements, as a rule. kLeastQ where none is.
+/// @param measure  PSNR with a step, dB
+/// @return `value` is what it loses against the best, at most `loss` where `reached`
+/// @errors those of measure, which ends the search.
+Result<StepFound, InputError> find_largest_step(
+    double unquantised, double loss,
     const std::function<Result<double, InputError>(double q)>& measure);
 
 }  // namespace slf

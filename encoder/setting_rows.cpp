@@ -73,8 +73,12 @@ void add_geometry(std::vector<SettingRow>& rows) {
 
 void add_coding(std::vector<SettingRow>& rows) {
   add(rows, "Coding",
-      {number("quality", SLF_AT(q), 0.05, 4096,
-              "Quantiser step Q in grey levels: smaller is better and larger"),
+      {number_or("auto", kAutomaticQ, "quality", SLF_AT(q), 0.05, 4096,
+                 "Quantiser step Q in grey levels: smaller is better and larger; auto: the largest "
+                 "that costs held-out input images --quality-loss at most, 16 where there are "
+                 "none, nothing is fitted to pictures, or preset paper is given"),
+       number("quality-loss", SLF_AT(quality_loss), 0.001, 10,
+              "What a Q that is chosen may cost, dB of the PSNR of held-out input images"),
        number("target-bytes", SLF_AT(target_bytes), 1, 1099511627776,
               "Find the Q that gives a file of 99 to 100 % of so many bytes"),
        number("target-psnr", SLF_AT(target_psnr), 1, 100,
@@ -240,6 +244,8 @@ std::vector<SettingRow> all_rows() {
   add_texture(rows);
   exclude(rows, {"grid-bits", "voxel-size"});
   exclude(rows, {"quality", "target-bytes", "target-psnr"});
+  exclude(rows, {"quality-loss", "target-bytes"});
+  exclude(rows, {"quality-loss", "target-psnr"});
   exclude(rows, {"functions", "scales"});
   exclude(rows, {"penalise-dc", "free-dc"});
   for (SettingRow& row : rows)  // nothing, unless it is given

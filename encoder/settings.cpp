@@ -139,6 +139,8 @@ Outcome refuse_idle(const Given& given, const FitSettings& fit) {
     SLF_CHECK(refuse(
         given, {"texture-bits", "texture-qp", "texture-mode", "texture-preset", "texture-lossless"},
         "--coefficients texture"));
+  if (!given.is("quality", "auto") && (given.has("quality") || given.is("preset", "paper")))
+    SLF_CHECK(refuse(given, {"quality-loss"}, "--quality auto"));
   if (given.is("cross-validate", "off")) {
     SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
     SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));

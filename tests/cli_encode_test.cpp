@@ -104,6 +104,35 @@ TEST_F(TinyCaptureTest, OptionsOverrideThePresetWhateverTheirOrder) {
   EXPECT_EQ(changed.at("coder"), "independent");
 }
 
+TEST_F(TinyCaptureTest, QualityIsChosenUnlessItIsGiven) {
+  const std::string how = "encode tiny --grid-bits 6 --effort 2 --json -o ";
+  const auto chosen = parsed(slf(how + "a.slf").out);
+  EXPECT_TRUE(chosen["quality"]["chosen"].get<bool>()) << chosen["quality"];
+  EXPECT_LE(chosen["quality"]["loss"].get<double>(), 0.1);
+  EXPECT_EQ(chosen["settings"]["quality_loss"], "0.1");
+  ASSERT_EQ(slf(how + "b.slf --quality auto --quality-loss 0.1").code, 0);
+  EXPECT_EQ(read("b.slf"), read("a.slf"));
+  const auto given = parsed(slf(how + "b.slf -q 16").out);
+  EXPECT_EQ(given["q"], 16);
+  EXPECT_EQ(given["quality"]["reason"], "given");
+  EXPECT_FALSE(given["settings"].contains("quality"));
+  const Ran quick = slf("encode tiny --grid-bits 5 --effort 1 -o b.slf");
+  EXPECT_NE(quick.err.find("quality       Q 16, not chosen: nothing is fitted to pictures"),
+            std::string::npos)
+      << quick.err;
+}
+
+TEST_F(TinyCaptureTest, ALossIsOfAQualityThatIsChosen) {
+  for (const char* wrong : {"0", "10.1", "nan", "little"})
+    expect_failure(slf(std::string("encode tiny -o a.slf --quality-loss ") + wrong), 2,
+                   "--quality-loss", wrong);
+  for (const char* with : {"-q 8", "--preset paper"})
+    expect_failure(slf(std::string("encode tiny -o a.slf --quality-loss 1 ") + with), 2,
+                   "--quality-loss", "--quality auto");
+  expect_failure(slf("encode tiny -o a.slf --quality-loss 1 --target-bytes 9000"), 2,
+                 "--quality-loss", "--target-bytes");
+}
+
 TEST_F(CliTest, ACloudWithColoursNeedsNoCameras) {
   write("cloud.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

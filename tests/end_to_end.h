@@ -38,6 +38,7 @@ class EndToEnd : public testing::Test {
     if (const auto at = made.find(preset); at != made.end()) return at->second;
     EncoderSettings settings = settings_of(preset);
     settings.grid_bits = 7;
+    settings.q = kPlainQ;
     auto result = encode(capture_, *split_cameras(capture_, ""), settings);
     EXPECT_TRUE(result) << result.error().message;
     return made[preset] = *std::move(result);

@@ -60,5 +60,49 @@ TEST(FindStep, AnErrorEndsTheSearch) {
   ASSERT_FALSE(found);
 }
 
+/// 30 dB that rise by 0.5 up to a step of 40 and fall by 2 for each doubling beyond.
+double with_a_peak(double q) {
+  const double doublings = std::log2(q / 40);
+  return doublings > 0 ? 30.5 - 2 * doublings : 30 + 0.5 * std::exp2(doublings);
+}
+
+TEST(FindLargestStep, LosesNoMoreThanIsAllowedAgainstTheBestAndNotMuchLess) {
+  for (const double loss : {0.1, 0.5, 2.0}) {
+    int trials = 0;
+    const auto found = find_largest_step(30, loss, [&](double q) -> Measured {
+      ++trials;
+      return with_a_peak(q);
+    });
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->reached);
+    EXPECT_LE(found->value, loss);
+    EXPECT_GT(found->q, 32);
+    EXPECT_LE(with_a_peak(found->q), 30.5);
+    EXPECT_GT(with_a_peak(found->q), 30.5 - 1.5 * loss) << loss;
+    EXPECT_LE(trials, 6) << loss;
+  }
+}
+
+TEST(FindLargestStep, GoesDownWhereTheFirstLosesTooMuch) {
+  const auto found = find_largest_step(40, 0.1, [](double q) -> Measured { return 40 - 0.02 * q; });
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->reached);
+  EXPECT_LE(found->q, 5);
+  EXPECT_GT(found->q, 3);
+}
+
+TEST(FindLargestStep, IsWithinTheRangeOfStepsWhateverIsMeasured) {
+  const auto never = find_largest_step(30, 0.1, [](double) -> Measured { return 10.0; });
+  ASSERT_TRUE(never);
+  EXPECT_FALSE(never->reached);
+  EXPECT_EQ(never->q, kLeastQ);
+  const auto always = find_largest_step(30, 0.1, [](double) -> Measured { return 30.0; });
+  ASSERT_TRUE(always);
+  EXPECT_EQ(always->q, 4096);
+  EXPECT_FALSE(find_largest_step(30, 0.1, [](double) -> Measured {
+    return InputError{Errc::kInvalidInput, "no"};
+  }));
+}
+
 }  // namespace
 }  // namespace slf::rate_control_test

@@ -31,7 +31,8 @@ def same(setting, limits):
 def main():
     table = json.loads(subprocess.run([sys.argv[1], "settings", "--json"], check=True, capture_output=True).stdout)
     settings = {setting["name"]: setting for setting in table}
-    wrong = [name for name, (limits, _) in opt.OPTIONS.items()
+    rates = [(name, limits) for codec, (name, limits) in opt.RATES.items() if codec in ("raht", "tmc")]
+    wrong = [name for name, limits in [(name, limits) for name, (limits, _) in opt.OPTIONS.items()] + rates
              if name not in OWN and (name not in settings or not same(settings[name], limits))]
     for name in wrong:
         print(f"{name}: {settings.get(name, 'not a setting')}")

@@ -90,6 +90,11 @@ TEST(Settings, MistakesNameTheSetting) {
   EXPECT_EQ(error_of({{"delta", "91"}}), "--delta 91 is not in the range 0 to 90");
   EXPECT_EQ(error_of({{"quality", "8"}, {"target-bytes", "9"}}),
             "--quality excludes --target-bytes");
+  EXPECT_EQ(error_of({{"quality", "8"}, {"quality-loss", "1"}}),
+            "--quality-loss is for --quality auto");
+  EXPECT_EQ(error_of({{"quality-loss", "0"}}), "--quality-loss 0 is not in the range 0.001 to 10");
+  EXPECT_EQ(error_of({{"preset", "paper"}, {"quality", "auto"}, {"quality-loss", "1"}}),
+            "accepted");
   EXPECT_EQ(error_of({{"preset", "best"}}), "--preset best is none of default|paper");
   EXPECT_EQ(error_of({{"functions", "100"}}), "--functions 100 is not a power of two");
   EXPECT_EQ(error_of({{"fit", "hierarchical"}, {"beta", "1"}}), "--beta is for --fit paper");

@@ -27,6 +27,18 @@ nlohmann::ordered_json camera_check_json(const Encoded& e, const Capture& captur
   return json;
 }
 
+/// Where the step came from.
+nlohmann::ordered_json step_json(const ChosenStep& step) {
+  const bool chosen = step.origin == ChosenStep::kChosen;
+  nlohmann::ordered_json json = {{"chosen", chosen}, {"reason", reason_of(step)}};
+  if (chosen)
+    json.update({{"loss", step.loss},
+                 {"held_out_psnr", step.held_out},
+                 {"cameras", step.cameras},
+                 {"points", step.points}});
+  return json;
+}
+
 nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                                    const CaptureInput& input) {
   const std::size_t cameras = input.cameras.size();
@@ -35,6 +47,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["bytes"] = e.stream.size();
   json["q"] = e.q;
   if (info.coefficient_coder == "texture") json["q"] = nullptr;  // --texture-qp has its place
+  json["quality"] = step_json(e.step);
   json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
   json["merged"] = e.merged;
@@ -52,17 +65,18 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                         {"pull", e.pictures.pull},
                         {"held_out_before", e.pictures.held_out_before},
                         {"held_out_after", e.pictures.held_out_after}};
-  json["seconds"] = {
-      {"load", load},
-      {"refine", e.refined.seconds},
-      {"voxelise", e.seconds_voxelise},
-      {"observe", e.seconds_observe},
-      {"choose", e.seconds_choose},
-      {"fit", e.seconds_fit},
-      {"pictures", e.seconds_pictures},
-      {"code", e.seconds_code},
-      {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
-                    e.seconds_choose + e.seconds_fit + e.seconds_pictures + e.seconds_code}};
+  json["seconds"] = {{"load", load},
+                     {"refine", e.refined.seconds},
+                     {"voxelise", e.seconds_voxelise},
+                     {"observe", e.seconds_observe},
+                     {"choose", e.seconds_choose},
+                     {"fit", e.seconds_fit},
+                     {"pictures", e.seconds_pictures},
+                     {"quality", e.step.seconds},
+                     {"code", e.seconds_code},
+                     {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
+                                   e.seconds_choose + e.seconds_fit + e.seconds_pictures +
+                                   e.step.seconds + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;
@@ -85,11 +99,13 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
       out += text("pictures      %.2f dB of the input, %.2f before the fit to them\n",
                   e.pictures.psnr_after, e.pictures.psnr_before);
   }
+  if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
+    out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
   out += text(
       "seconds       load %.2f, refine %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
-      "pictures %.2f, code %.2f\n",
+      "pictures %.2f, quality %.2f, code %.2f\n",
       load, e.refined.seconds, e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
-      e.seconds_fit, e.seconds_pictures, e.seconds_code);
+      e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));

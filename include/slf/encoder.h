@@ -106,6 +106,11 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& light_field
 
 enum class Preset { kDefault, kPaper };
 
+/// EncoderSettings::q: chosen from held-out input pictures, or kPlainQ where there are none.
+inline constexpr double kAutomaticQ = 0;
+/// The step of preset paper, and where none can be chosen.
+inline constexpr double kPlainQ = 16;
+
 struct EncoderSettings {
   Preset preset = Preset::kDefault;
   int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
@@ -115,8 +120,12 @@ struct EncoderSettings {
   ObserveSettings observe;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
-  FitSearch search;                ///< changes fit; not without cameras
-  double q = 16;                   ///< quantiser step Q, grey levels, 0.05 .. 4096
+  FitSearch search;  ///< changes fit; not without cameras
+  /// Quantiser step Q, grey levels, 0.05 .. 4096, or kAutomaticQ: the largest that costs no more
+  /// than quality_loss
+  double q = kAutomaticQ;
+  double quality_loss =
+      0.1;  ///< 0.001 .. 10 dB of held-out input pictures, of a step that is chosen
   std::uint64_t target_bytes = 0;  ///< > 0: of the file, in place of q, which is the first guess
   /// > 0: PSNR of the input images, dB, in place of q: of pictures with a picture fit, else of
   /// points
@@ -146,9 +155,31 @@ inline constexpr int kDefaultEffort = 7, kMostEffort = 8;
 ///                quality. 7 is what the members above start with. Measured: docs/rate.md
 EncoderSettings settings_of(Preset preset, int effort = kDefaultEffort);
 
+/// Where a quantiser step came from, and what it is expected to cost.
+struct ChosenStep {
+  enum Origin : std::uint8_t {
+    kGiven,          ///< by the settings, or by a target
+    kChosen,         ///< by held-out input pictures
+    kNoCameras,      ///< kPlainQ, as in all that follow: a coloured cloud
+    kTexture,        ///< whose quality is its QP
+    kNoPictures,     ///< nothing is fitted to pictures
+    kTooFewCameras,  ///< to hold some out
+    kTooFewPixels,   ///< that held-out cameras see whole of the sample
+  };
+  Origin origin = kGiven;
+  double loss = 0;                      ///< kChosen: dB of the held-out pictures that q costs
+  double held_out = 0;                  ///< kChosen: their PSNR before quantisation, dB
+  std::size_t cameras = 0, points = 0;  ///< kChosen: that were held out; of the sample
+  double seconds = 0;
+};
+
+/// For a person: "chosen: costs 0.09 dB ..." or "not chosen: there are no ...".
+std::string reason_of(const ChosenStep& step);
+
 struct Encoded {
   std::vector<std::uint8_t> stream;
   double q = 0;     ///< the step it was coded with
+  ChosenStep step;  ///< where q came from
   Grid grid;        ///< with the bits and the step that were given or chosen
   Density density;  ///< what the photographs resolve; all of it where grid_bits was 0
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;

@@ -48,7 +48,8 @@ class Either:
         return None if None in problems else " or ".join(problems)
 
 
-# The rate knob of each codec: option of the program and its range.
+# The rate knob of each codec: option of the program and its range. A step is always given: with the
+# program's own choice, --quality auto and --quality-loss, a job would have no rate of its own.
 RATES = {"raht": ("quality", Number(0.05, 4096)), "tmc": ("texture-qp", Number(0, 51, whole=True)),
          "tmc3": ("qp", Number(4, 51, whole=True)), "igc-hevc": ("qp", Number(0, 51, whole=True)),
          "igc-hevc-intra": ("qp", Number(0, 51, whole=True)), "igc-av1": ("qp", Number(0, 63, whole=True))}
