@@ -1,6 +1,8 @@
 // What the slices of a scene must agree on, chosen once.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "base/stopwatch.h"
@@ -10,6 +12,7 @@
 #include "codec/pack_parameters.h"
 #include "codec/sequence.h"
 #include "codec/use_transforms.h"
+#include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/component_planes.h"
 #include "encoder/encode_metadata.h"
@@ -105,6 +108,7 @@ class Planner {
                                    std::min<std::size_t>(2 * cells_.store.size(), kMostBaseWeight));
     EncoderSettings settings = settings_;
     settings.fit = plan_.fit;
+    SLF_CHECK(plan_step(settings));
     encoded_.q = settings.q;
     encoded_.grid = moved(plan_.grid, plan_.origin);
     encoded_.density = density_;
@@ -161,8 +165,9 @@ class Planner {
     chosen.environment.known = known_light(framed, cloud.positions, chosen);
     if (chosen.environment.known.half == 0) chosen.environment.degree = 0;
     watch.lap();
-    SLF_CHECK(fit_chosen({capture, cameras, cloud, depth_of}, std::move(world), settings_,
-                         progress_, fit_));
+    SLF_CHECK(fit_chosen(
+        {capture, cameras, cloud, depth_of, chooses_step(settings_, plan_.cameras.size())},
+        std::move(world), settings_, progress_, fit_));
     plan_.seconds = seconds_of_slices(observing, watch.lap(), capture);
     plan_.fit = chosen;
     plan_.gamma_min_q7 = fit_.gamma_min_q7;
@@ -186,6 +191,23 @@ class Planner {
       seconds += samples * (fitting + observing * static_cast<double>(cameras));
     }
     return seconds;
+  }
+
+  /// One step for all slices, by the sample: into the settings of the plan, as if it were given.
+  Result<Done, InputError> plan_step(EncoderSettings& settings) {
+    if (settings.q != kAutomaticQ) return Done{};
+    SLF_TRY(const StepAndOrigin step,
+            choose_step(settings, fit_, plan_.grid, cells_.store.size(), plan_.cameras.size()));
+    fit_.held_out.reset();
+    settings.q = step.q;
+    encoded_.step = plan_.step = step.chosen;
+    std::erase_if(plan_.settings, [](const auto& given) {
+      return given.first == "quality" || given.first == "quality-loss";
+    });
+    char number[32];
+    plan_.settings.emplace_back(
+        "quality", std::string(number, std::to_chars(number, std::end(number), step.q).ptr));
+    return Done{};
   }
 
   Result<Done, InputError> plan_transforms(const EncoderSettings& settings) {

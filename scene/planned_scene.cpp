@@ -206,6 +206,8 @@ Result<std::unique_ptr<PlannedScene>, InputError> open_scene(const ScenePlan& pl
                                                              const SceneWork& work) {
   auto scene = std::make_unique<PlannedScene>(plan);
   SLF_TRY(scene->settings, scene_settings(plan.settings, !plan.cameras.empty(), work.threads));
+  if (scene->settings.q == kAutomaticQ)
+    return wrong_plan("settings: quality: not a number, of which all slices need one");
   FitSettings& fit = scene->settings.fit;
   fit = plan.fit;
   fit.threads = work.threads;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "cli_support.h"
@@ -67,6 +68,26 @@ TEST_F(SceneTest, FewPointsAreTwoSlicesAndLookAsTheyDoInOnePiece) {
     return parsed(ran.out)["input"]["points"][0]["psnr"].get<double>();
   };
   EXPECT_NEAR(psnr("parts.slf"), psnr("piece.slf"), 0.5);
+}
+
+TEST_F(SceneTest, ThePlanHasTheStepOfAllSlices) {
+  const auto step_of = [&](const std::string& more) {
+    const Ran ran =
+        slf("plan street -o plan.json --work work --slice-points 2500 --degree 3 " + more);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const std::string q = parsed(read("plan.json"))["settings"].back()[1].get<std::string>();
+    EXPECT_NE(ran.err.find("Q " + q + ", "), std::string::npos) << ran.err;
+    return q;
+  };
+  EXPECT_EQ(step_of("--grid-bits 9 --effort 1"), "16") << "nothing is fitted to pictures";
+  const std::string q = step_of("--grid-bits 9 --effort 2 --quality-loss 0.2");
+  ASSERT_EQ(part("1/1", "part.slf").code, 0);
+  ASSERT_EQ(slf("merge part.slf -o merged.slf --quiet").code, 0);
+  std::map<std::string, std::string> metadata;
+  for (const auto& pair : parsed(slf("info merged.slf --json").out)["metadata"])
+    metadata[pair["key"]] = pair["value"];
+  EXPECT_EQ(metadata["q"], q);
+  EXPECT_EQ(metadata["quality_loss"], "0.2");
 }
 
 TEST_F(SceneTest, APlanIsTheSameForAnyNumberOfThreads) {

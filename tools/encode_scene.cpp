@@ -116,6 +116,7 @@ class SceneRun {
     if (!plan) clean();
     SLF_TRY(plan_, from(given_.capture, std::move(plan)));
     input_.capture.cloud = {};
+    log_->write(quality_text(plan_));
     return Done{};
   }
 

@@ -109,4 +109,11 @@ SceneWork scene_work(const SceneOptions& options, const std::string& directory, 
   return work;
 }
 
+std::string quality_text(const ScenePlan& plan) {
+  std::string q;
+  for (const auto& [name, value] : plan.settings)
+    if (name == "quality") q = value;
+  return "Q " + q + ", " + reason_of(plan.step);
+}
+
 }  // namespace slf::tools

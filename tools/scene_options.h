@@ -61,4 +61,7 @@ nlohmann::ordered_json cost_json(const SceneCost& cost);
 /// slf encode, of a scene.
 Outcome encode_scene(const EncodeOptions& given, const SceneOptions& scene);
 
+/// The step of all slices, and where it came from.
+std::string quality_text(const ScenePlan& plan);
+
 }  // namespace slf::tools

@@ -33,10 +33,12 @@ Outcome run_plan(const PlanOptions& o) {
   SLF_CHECK(save(given.output, write_plan(plan)));
   const SceneCost cost = cost_of(plan);
   log->write(text("plan: %s points, %zu slices", grouped(cost.points).c_str(), cost.slices));
+  log->write(quality_text(plan));
   if (given.common.json) return print(cost_json(cost));
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s points in %zu slices, %.0f MiB for one\n",
-                 grouped(cost.points).c_str(), cost.slices, double(cost.memory) / (1 << 20));
+    std::fprintf(stderr, "%s points in %zu slices, %.0f MiB for one\n%s\n",
+                 grouped(cost.points).c_str(), cost.slices, double(cost.memory) / (1 << 20),
+                 quality_text(plan).c_str());
   return Done{};
 }
 

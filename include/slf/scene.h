@@ -35,7 +35,7 @@ struct PlannedSlice {
 
 /// What all parts share. Small, and the same for the same capture, settings and binary.
 struct ScenePlan {
-  GivenSettings settings;      ///< of the encoder, as they were given
+  GivenSettings settings;      ///< of the encoder, as they were given, with a step for all slices
   Metadata metadata;           ///< of the file: what the encoder records, then what the caller gave
   std::vector<int> cameras;    ///< ascending: those that no check left out; empty: a coloured cloud
   std::vector<int> reduction;  ///< [capture_cameras] log2: photographs are read so much smaller,
@@ -58,6 +58,7 @@ struct ScenePlan {
   /// Of coding all slices in one process, about, as the sample took here; 0: nobody measured it.
   /// Not written.
   double seconds = 0;
+  ChosenStep step;  ///< where the step came from. Not written
 
   std::uint64_t points() const;
 };
