@@ -105,6 +105,8 @@ EncoderSettings settings_of(const py::dict& given) {
       given["preset"].cast<std::string>() == "paper" ? Preset::kPaper : Preset::kDefault;
   EncoderSettings settings = slf::settings_of(preset, given["effort"].cast<int>());
   if (const py::object q = given["q"]; !q.is_none()) settings.q = q.cast<double>();
+  if (const py::object loss = given["quality_loss"]; !loss.is_none())
+    settings.quality_loss = loss.cast<double>();
   settings.target_bytes = given["target_bytes"].cast<std::uint64_t>();
   settings.target_psnr = given["target_psnr"].cast<double>();
   settings.grid_bits = given["grid_bits"].cast<int>();

@@ -14,15 +14,16 @@ from ._types import Capture, Encoded, Vector
 
 
 def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[float] = None,
-           split: str = '', preset: str = 'default', effort: int = 7, target_bytes: int = 0,
-           target_psnr: float = 0, grid_bits: int = 0, voxel_size: float = 0,
+           quality_loss: Optional[float] = None, split: str = '', preset: str = 'default', effort: int = 7,
+           target_bytes: int = 0, target_psnr: float = 0, grid_bits: int = 0, voxel_size: float = 0,
            normal_bits: int = 0, quality_layers: int = 1, threads: int = 0,
            progress: Optional[Callable[[str, float], object]] = None) -> Encoded:
     """From photographs and points to a stream.
 
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
-    levels, 0.05 to 4096, smaller is better (default: the preset's, 16). split: which images, as
-    `slf encode --split`. preset: 'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr:
+    levels, 0.05 to 4096, smaller is better; None is the largest that costs held-out input images
+    quality_loss dB of PSNR at most, 0.001 to 10 (None is 0.1); 16 where there are no images, nothing
+    is fitted to pictures, or of preset 'paper'. split: which images, as `slf encode --split`. preset: 'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr:
     in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
     0 or 4 to 12. quality_layers: 1 to 4, each at half of the step of the one before, so that quality
     is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises is raised at the end.
@@ -32,6 +33,7 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
         raise wrong('preset', "preset is 'default' or 'paper'")
     options: Dict[str, Any] = {
         'q': None if q is None else real(q, 'q', 0.05, 4096),
+        'quality_loss': None if quality_loss is None else real(quality_loss, 'quality_loss', 0.001, 10),
         'preset': preset,
         'effort': whole(effort, 'effort', 1, 8),
         'target_bytes': whole(target_bytes, 'target_bytes', 0, MOST_BYTES),
@@ -41,6 +43,8 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
         'normal_bits': whole(normal_bits, 'normal_bits', 0, 12),
         'quality_layers': whole(quality_layers, 'quality_layers', 1, 4),
         'threads': whole(threads, 'threads')}
+    if quality_loss is not None and (q is not None or preset == 'paper' or target_bytes or target_psnr):
+        raise wrong('quality_loss', 'quality_loss is of a q that is chosen: give neither q nor a target, nor preset paper')
     if 0 < options['normal_bits'] < 4:
         raise wrong('normal_bits', 'normal_bits is 0 or 4 to 12')
     if options['grid_bits'] and options['voxel_size']:

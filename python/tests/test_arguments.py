@@ -41,12 +41,14 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_encoding_names_what_is_out_of_type_or_range(self):
         for name, wrong in [
-                ('q', 'a'), ('q', 0), ('q', float('nan')), ('effort', 1.5), ('effort', 'a'), ('effort', 9),
+                ('q', 'a'), ('q', 0), ('q', float('nan')), ('quality_loss', 0), ('quality_loss', 11), ('effort', 1.5), ('effort', 'a'), ('effort', 9),
                 ('preset', 'best'), ('target_bytes', -5), ('target_psnr', float('inf')),
                 ('target_psnr', 'a'), ('grid_bits', 7.5), ('voxel_size', -1), ('normal_bits', 3),
                 ('normal_bits', 13), ('quality_layers', 2.5), ('threads', -1)]:
             self.refused(name, slf.encode, disc(), **{name: wrong})
         self.refused('voxel_size', slf.encode, disc(), grid_bits=9, voxel_size=0.1)
+        self.refused('quality_loss', slf.encode, disc(), q=4, quality_loss=0.1)
+        self.refused('quality_loss', slf.encode, disc(), preset='paper', quality_loss=0.1)
         self.refused('points', slf.encode, slf.Capture([['a', 'b', 'c']]))
 
     def test_colours_images_and_steps_of_other_types_are_not_cast(self):
