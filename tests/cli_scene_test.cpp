@@ -71,21 +71,21 @@ TEST_F(SceneTest, FewPointsAreTwoSlicesAndLookAsTheyDoInOnePiece) {
 }
 
 TEST_F(SceneTest, ThePlanHasTheStepOfAllSlices) {
+  ASSERT_EQ(slf("synth terrace -o street --houses 2 --points 15000 --cameras 12 --quiet").code, 0);
   const auto step_of = [&](const std::string& more) {
-    const Ran ran =
-        slf("plan street -o plan.json --work work --slice-points 2500 --degree 3 " + more);
+    const Ran ran = slf("plan street -o plan.json --work work --grid-bits 9 " + more);
     EXPECT_EQ(ran.code, 0) << ran.err;
     const std::string q = parsed(read("plan.json"))["settings"].back()[1].get<std::string>();
     EXPECT_NE(ran.err.find("Q " + q + ", "), std::string::npos) << ran.err;
     return q;
   };
-  EXPECT_EQ(step_of("--grid-bits 9 --effort 1"), "16") << "nothing is fitted to pictures";
-  const std::string q = step_of("--grid-bits 9 --effort 2 --quality-loss 0.2");
+  EXPECT_EQ(step_of("--effort 1"), "16") << "nothing is fitted to pictures";
+  const std::string q = step_of("--effort 2 --slice-points 2500 --quality-loss 0.2");
   ASSERT_EQ(part("1/1", "part.slf").code, 0);
   ASSERT_EQ(slf("merge part.slf -o merged.slf --quiet").code, 0);
+  const auto info = parsed(slf("info merged.slf --json").out);
   std::map<std::string, std::string> metadata;
-  for (const auto& pair : parsed(slf("info merged.slf --json").out)["metadata"])
-    metadata[pair["key"]] = pair["value"];
+  for (const auto& pair : info["metadata"]) metadata[pair["key"]] = pair["value"];
   EXPECT_EQ(metadata["q"], q);
   EXPECT_EQ(metadata["quality_loss"], "0.2");
 }
