@@ -23,8 +23,8 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
     levels, 0.05 to 4096, smaller is better; None is the largest that costs held-out input images
     quality_loss dB of PSNR at most, 0.001 to 10 (None is 0.1); 16 where there are no images, nothing
-    is fitted to pictures, or of preset 'paper'. split: which images, as `slf encode --split`. preset: 'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr:
-    in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
+    is fitted to pictures, or of preset 'paper'. split: which images, as `slf encode --split`. preset:
+    'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr: in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
     0 or 4 to 12. quality_layers: 1 to 4, each at half of the step of the one before, so that quality
     is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises is raised at the end.
     Raises InputError, ArgumentError, ValueError.
@@ -44,7 +44,8 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
         'quality_layers': whole(quality_layers, 'quality_layers', 1, 4),
         'threads': whole(threads, 'threads')}
     if quality_loss is not None and (q is not None or preset == 'paper' or target_bytes or target_psnr):
-        raise wrong('quality_loss', 'quality_loss is of a q that is chosen: give neither q nor a target, nor preset paper')
+        raise wrong('quality_loss',
+                    'quality_loss is of a q that is chosen: give neither q nor a target, nor preset paper')
     if 0 < options['normal_bits'] < 4:
         raise wrong('normal_bits', 'normal_bits is 0 or 4 to 12')
     if options['grid_bits'] and options['voxel_size']:
