@@ -81,9 +81,13 @@ Result<StepAndOrigin, InputError> choose_step(const EncoderSettings& settings,
   SampleQuantiser sample(pictures, fit, grid, points, settings);
   SLF_TRY(const StepFound found, find_largest_step(before, settings.quality_loss,
                                                    [&](double q) { return sample.psnr(q); }));
-  step = {found.q,
+  step = {std::max(found.q, kPlainQ),
           {ChosenStep::kChosen, found.value, before, pictures.cameras(),
            pictures.positions().size(), 0}};
+  if (found.q < kPlainQ) {
+    SLF_TRY(const double at_least, sample.psnr(kPlainQ));
+    chosen.loss = before - at_least;
+  }
   chosen.seconds = pictures.seconds() + watch.lap();
   return step;
 }

@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "capture/density.h"
 #include "encoder/choose_step.h"
+#include "encoder/choose_surface.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
@@ -75,19 +76,21 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  SLF_TRY(job.cloud, voxelise_mended(capture, cameras, settings, encoded.refined, progress));
+  SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, encoded.surface, progress));
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
   encoded.grid = moved(job.cloud.grid, capture.origin);
   encoded.density = job.cloud.density;
   const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
-  if (std::string warning = density_warning(encoded.density); automatic && !warning.empty())
+  const bool trained = encoded.surface.kept == Surface::kTrained;  // as dense as it pays
+  if (std::string warning = density_warning(encoded.density);
+      automatic && !trained && !warning.empty())
     encoded.warnings.push_back(std::move(warning));
-  if (encoded.refined.too_dense_for_grid && encoded.refined.outcome == RefineReport::kNoGain)
+  if (encoded.surface.mended.too_dense_for_grid && encoded.surface.kept == Surface::kGiven)
     encoded.warnings.push_back(
         "the cloud is denser than its photographs tell apart, and they disagree about it: on an "
         "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
-  encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
+  encoded.seconds_voxelise = watch.lap() - encoded.surface.seconds();
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)
                           : fit_capture(capture, cameras, job.cloud, settings, progress,

@@ -39,27 +39,23 @@ std::string cross_validation(const ChosenFit& chosen) {
   return hundredths(chosen.psnr_chosen) + " dB, " + hundredths(chosen.psnr_given) + " before";
 }
 
-Metadata refine_metadata(const RefineReport& r) {
-  switch (r.outcome) {
-    case RefineReport::kNotAsked:
-      return {};
-    case RefineReport::kTooFewCameras:
-    case RefineReport::kTooManyPoints:
-    case RefineReport::kTooFewPoints:
-      return {{"refine_geometry", "not tried"}};
-    case RefineReport::kNoGain:
-      return {{"refine_geometry", "no gain"}};
-    case RefineReport::kMended:
-      break;
-  }
-  return {{"refine_geometry", "mended"},
-          {"refine_moved", std::to_string(r.moved)},
-          {"refine_median_move", hundredths(r.median_move)},
-          {"refine_max_move", hundredths(r.max_move)},
-          {"refine_removed", std::to_string(r.removed)},
-          {"refine_added", std::to_string(r.added)},
-          {"refine_psnr_before", hundredths(r.held_out_before)},
-          {"refine_psnr_after", hundredths(r.held_out_after)}};
+/// What was tried, and what it was worth.
+Metadata surface_metadata(const SurfaceReport& r) {
+  Metadata out = {{"surface", word_of(r.kept)}};
+  const RefineReport& mended = r.mended;
+  if (r.kept == Surface::kMended)
+    out.insert(out.end(), {{"refine_moved", std::to_string(mended.moved)},
+                           {"refine_median_move", hundredths(mended.median_move)},
+                           {"refine_max_move", hundredths(mended.max_move)},
+                           {"refine_removed", std::to_string(mended.removed)},
+                           {"refine_added", std::to_string(mended.added)},
+                           {"refine_psnr_before", hundredths(mended.held_out_before)},
+                           {"refine_psnr_after", hundredths(mended.held_out_after)}});
+  if (r.kept == Surface::kTrained) out.emplace_back("surfels", std::to_string(r.surfels));
+  if (r.before_psnr > 0)
+    out.insert(out.end(), {{"surface_psnr_before", hundredths(r.before_psnr)},
+                           {"surface_psnr_trained", hundredths(r.trained_psnr)}});
+  return out;
 }
 
 }  // namespace
@@ -166,8 +162,8 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
       metadata.emplace_back("kernel", std::to_string(kReferenceKernel.version));
     }
   }
-  const Metadata mended = refine_metadata(encoded.refined);
-  metadata.insert(metadata.end(), mended.begin(), mended.end());
+  const Metadata surface = surface_metadata(encoded.surface);
+  if (s.surface != Surface::kGiven) metadata.insert(metadata.end(), surface.begin(), surface.end());
   metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
   return metadata;
 }

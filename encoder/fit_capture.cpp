@@ -90,17 +90,15 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
 }
 
 Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
-                                               const EncoderSettings& settings,
+                                               const EncoderSettings& settings, RefineGeometry mode,
                                                RefineReport& report, const Progress& progress) {
-  RefineSettings refining{settings.refine_geometry, settings.grid_bits, settings.voxel_size, false,
-                          settings.threads};
+  RefineSettings refining{mode, settings.grid_bits, settings.voxel_size, false, settings.threads};
   Density density;
   if (settings.grid_bits == 0 && settings.voxel_size == 0) {
     density = choose_density(capture, cameras);
     refining.voxel_size = density.voxel_size;
     refining.free_grid = true;
   }
-  if (!capture.mesh.triangles.empty()) refining.mode = RefineGeometry::kOff;  // as exact as it is
   Stopwatch watch;
   SLF_TRY(const RefinedCloud refined, refine_geometry(capture, cameras, refining, progress));
   report = refined.report;

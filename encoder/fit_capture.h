@@ -25,10 +25,10 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 std::span<const int> cameras,
                                                 const EncoderSettings& settings);
 
-/// The same with geometry mended first, where the settings ask for it and photographs gain.
+/// The same with geometry mended first, where photographs gain.
 /// @param report  receives what became of the points
 Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
-                                               const EncoderSettings& settings,
+                                               const EncoderSettings& settings, RefineGeometry mode,
                                                RefineReport& report, const Progress& progress);
 
 /// View maps in floating point.

@@ -13,7 +13,7 @@ struct Effort {
   int picture_rounds, picture_steps;
   std::size_t frame_points;   ///< cross-validation of the frame alone, on so many; 0: none
   std::size_t search_points;  ///< of all that FitSearch has but the basis; 0: none
-  bool refine;                ///< geometry, where photographs disagree
+  bool surface;               ///< mended or trained, where photographs disagree
   /// DensifySettings::from. (Q = 48 and 64, effort 5, a can of 20,000 points, 2.3 pixels: 29,160 B
   /// 23.86 dB without, 35,927 B 28.08 with. blender_can, 1.85: 37,304 B 26.53 and 33,506 B 26.99,
   /// for 2.4 times the points and 1.7 times the seconds.)
@@ -36,7 +36,7 @@ void set_effort(int effort, EncoderSettings& settings) {
   settings.fit.basis.degree = e.degree;
   settings.fit.environment.degree = e.environment_degree;
   settings.densify.from = e.densify_from;
-  settings.refine_geometry = e.refine ? RefineGeometry::kAuto : RefineGeometry::kOff;
+  settings.surface = e.surface ? Surface::kAuto : Surface::kGiven;
   settings.fit.pictures.rounds = e.picture_rounds;
   settings.fit.pictures.steps = std::max(e.picture_steps, 1);
   if (e.search_points > 0) {
@@ -56,7 +56,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
   if (preset == Preset::kPaper) {
     settings.preset = Preset::kPaper;
     settings.q = kPlainQ;
-    settings.refine_geometry = RefineGeometry::kOff;
+    settings.surface = Surface::kGiven;
     settings.densify.mode = Densify::kOff;
     settings.check_cameras = false;
     settings.grid_bits = 9;

@@ -59,12 +59,13 @@ void add_geometry(std::vector<SettingRow>& rows) {
            "Make up points between those of a cloud that is coarser than the grid; auto: on "
            "automatic grids, where an even surface has two pixels or more between points "
            "(effort 8: 1.25)"),
-       choice("refine-geometry", SLF_AT(refine_geometry),
-              Words<RefineGeometry>{{"on", RefineGeometry::kOn},
-                                    {"off", RefineGeometry::kOff},
-                                    {"auto", RefineGeometry::kAuto}},
-              "Move points to where the photographs agree: where held-out input photographs gain "
-              "at all, never (scans, exact models), or where they gain 15 %"),
+       choice("surface", SLF_AT(surface),
+              Words<Surface>{{"given", Surface::kGiven},
+                             {"mended", Surface::kMended},
+                             {"trained", Surface::kTrained},
+                             {"auto", Surface::kAuto}},
+              "Points as given (scans, exact models), moved to where photographs agree, trained by "
+              "photographs, or what predicts held-out input photographs best"),
        choice("geometry", SLF_AT(geometry),
               Words<GeometryCoder>{{"octree", GeometryCoder::kOctree},
                                    {"draco", GeometryCoder::kDraco}},
@@ -73,10 +74,11 @@ void add_geometry(std::vector<SettingRow>& rows) {
 
 void add_coding(std::vector<SettingRow>& rows) {
   add(rows, "Coding",
-      {number_or("auto", kAutomaticQ, "quality", SLF_AT(q), 0.05, 4096,
-                 "Quantiser step Q in grey levels: smaller is better and larger; auto: the largest "
-                 "that costs held-out input images --quality-loss at most, 16 where there are "
-                 "none, nothing is fitted to pictures, or preset paper is given"),
+      {number_or(
+           "auto", kAutomaticQ, "quality", SLF_AT(q), 0.05, 4096,
+           "Quantiser step Q in grey levels: smaller is better and larger; auto: the largest "
+           "that costs held-out input images --quality-loss at most, 16 where that is smaller, "
+           "there are none, nothing is fitted to pictures, or preset paper is given"),
        number("quality-loss", SLF_AT(quality_loss), 0.001, 10,
               "What a Q that is chosen may cost, dB of the PSNR of held-out input images"),
        number("target-bytes", SLF_AT(target_bytes), 1, 1099511627776,

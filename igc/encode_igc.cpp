@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.h"
 #include "encoder/encode_metadata.h"
+#include "encoder/choose_surface.h"
 #include "encoder/fit_capture.h"
 #include "igc/camera_walk.h"
 #include "igc/igc_file.h"
@@ -105,12 +106,12 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
   Stopwatch watch;
   IgcEncoded encoded;
   SLF_TRY(const VoxelCloud cloud,
-          voxelise_mended(capture, cameras, settings.slf, encoded.refined, progress));
+          choose_surface(capture, cameras, settings.slf, encoded.surface, progress));
   encoded.points = cloud.positions.size();
   encoded.merged = cloud.merged;
   encoded.grid = moved(cloud.grid, capture.origin);
   encoded.density = cloud.density;
-  encoded.seconds_voxelise = watch.lap() - encoded.refined.seconds;
+  encoded.seconds_voxelise = watch.lap() - encoded.surface.seconds();
   SLF_TRY(const auto geometry, encode_geometry(cloud, capture, settings.slf));
   encoded.seconds_geometry = watch.lap();
   std::vector<int> walk;

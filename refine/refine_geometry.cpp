@@ -109,7 +109,8 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   if (!(job.pixel > 0)) return Done{};
   const bool automatic = job.settings.mode == RefineGeometry::kAuto;
   const double miss = automatic ? typical_miss(job) : 0;
-  if (automatic && miss <= kExact) return Done{};
+  out.report.exact = automatic && miss <= kExact;
+  if (out.report.exact) return Done{};
   const int finest = *std::min_element(kMendingLevels.begin(), kMendingLevels.end());
   if (job.settings.free_grid) {
     thin_start(job, finest);

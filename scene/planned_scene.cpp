@@ -121,7 +121,9 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (settings.target_bytes > 0 || settings.target_psnr > 0) return refused("a target");
   if (settings.geometry == GeometryCoder::kDraco) return refused("--geometry draco");
   if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
-  if (settings.refine_geometry == RefineGeometry::kOn) return refused("--refine-geometry on");
+  for (const Surface surface : {Surface::kMended, Surface::kTrained})
+    if (settings.surface == surface)
+      return refused(surface == Surface::kMended ? "--surface mended" : "--surface trained");
   if (settings.densify.mode == Densify::kOn) return refused("--densify on");
   if (settings.preset == Preset::kPaper) return refused("--preset paper");
   if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");
@@ -132,7 +134,7 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (is_given("slice-start") && settings.slice_start != SliceStart::kApart)
     return refused("a --slice-start but apart");
   if (!is_given("slice-points")) settings.max_slice_points = kScenePoints;
-  settings.refine_geometry = RefineGeometry::kOff;
+  settings.surface = Surface::kGiven;
   settings.densify.mode = Densify::kOff;
   if (!cameras) fit_colours_alone(settings);
   settings.threads = settings.fit.threads = settings.observe.threads = threads;

@@ -14,7 +14,7 @@ class ChooseStep : public EndToEnd {
   static EncoderSettings quick() {
     EncoderSettings settings = settings_of(Preset::kDefault, 4);
     settings.grid_bits = 7;
-    settings.refine_geometry = RefineGeometry::kOff;
+    settings.surface = Surface::kGiven;
     return settings;
   }
   static Encoded encoded_with(const EncoderSettings& settings, const char* split = "") {

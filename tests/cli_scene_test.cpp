@@ -58,7 +58,7 @@ TEST_F(SceneTest, AnyDivisionOfTheWorkGivesTheSameFile) {
 }
 
 TEST_F(SceneTest, FewPointsAreTwoSlicesAndLookAsTheyDoInOnePiece) {
-  const std::string settings = " --effort 1 --degree 3 --grid-bits 9 --refine-geometry off";
+  const std::string settings = " --effort 1 --degree 3 --grid-bits 9 --surface given";
   ASSERT_EQ(slf("encode street -o parts.slf --quiet --memory 1G" + settings).code, 0);
   ASSERT_EQ(slf("encode street -o piece.slf --quiet" + settings).code, 0);
   ASSERT_EQ(slf("decode parts.slf -o parts.ply --strict --quiet").code, 0);

@@ -43,7 +43,7 @@ TEST(Effort, SevenIsWhatSettingsStartWithAndThePaperHasNone) {
 TEST(Effort, WhereGeometryIsMendedTheFrameIsSearchedAndBelowTheDefaultNothingElse) {
   for (int effort = 1; effort <= kMostEffort; ++effort) {
     const EncoderSettings s = settings_of(Preset::kDefault, effort);
-    EXPECT_EQ(s.search.frame, s.refine_geometry == RefineGeometry::kAuto) << effort;
+    EXPECT_EQ(s.search.frame, s.surface == Surface::kAuto) << effort;
     for (const bool searched :
          {s.search.strength, s.search.growth, s.search.point_penalty, s.search.pictures})
       EXPECT_EQ(searched, effort >= kDefaultEffort) << effort;

@@ -42,7 +42,7 @@ class Igc : public testing::Test {
   static IgcSettings settings(int qp, IgcChroma chroma = IgcChroma::k420) {
     IgcSettings s;
     s.slf.grid_bits = 6;
-    s.slf.refine_geometry = RefineGeometry::kOff;
+    s.slf.surface = Surface::kGiven;
     s.slf.fit = {};  // the quickest
     s.slf.search = FitSearch::none();
     s.slf.metadata = {{"split", "dense"}};

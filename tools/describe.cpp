@@ -190,9 +190,7 @@ const char* outcome_word(RefineReport::Outcome outcome) {
   return "";
 }
 
-}  // namespace
-
-nlohmann::ordered_json refined_json(const RefineReport& r) {
+nlohmann::ordered_json mended_json(const RefineReport& r) {
   nlohmann::ordered_json json;
   json["outcome"] = outcome_word(r.outcome);
   if (r.outcome != RefineReport::kMended) return json;
@@ -209,15 +207,50 @@ nlohmann::ordered_json refined_json(const RefineReport& r) {
   return json;
 }
 
-std::string refined_text(const RefineReport& r) {
+std::string mended_text(const RefineReport& r) {
   if (r.outcome == RefineReport::kNotAsked) return {};
   if (r.outcome != RefineReport::kMended)
-    return text("geometry      as captured (%s)\n", outcome_word(r.outcome));
+    return text("surface       as captured (%s)\n", outcome_word(r.outcome));
   return text(
-      "geometry      mended: %s points moved, median %.1f and at most %.1f voxels; %s removed, %s "
+      "surface       mended: %s points moved, median %.1f and at most %.1f voxels; %s removed, %s "
       "added;\n              held-out photographs predicted with %.2f dB, %.2f before\n",
       grouped(r.moved).c_str(), r.median_move, r.max_move, grouped(r.removed).c_str(),
       grouped(r.added).c_str(), r.held_out_after, r.held_out_before);
+}
+
+}  // namespace
+
+nlohmann::ordered_json surface_json(const SurfaceReport& r) {
+  nlohmann::ordered_json json;
+  json["kept"] = word_of(r.kept);
+  json["points_before"] = r.points_before;
+  json["points_after"] = r.points_after;
+  json["mended"] = mended_json(r.mended);
+  json["trained"] = nullptr;
+  if (r.untrained.empty() && r.surfels > 0) json["trained"] = {{"surfels", r.surfels}};
+  json["untrained"] = r.untrained;
+  json["held_out_psnr_before"] = nullptr;
+  json["held_out_psnr_trained"] = nullptr;
+  if (r.before_psnr > 0) {
+    json["held_out_psnr_before"] = r.before_psnr;
+    json["held_out_psnr_trained"] = r.trained_psnr;
+  }
+  return json;
+}
+
+std::string surface_text(const SurfaceReport& r) {
+  std::string judged;
+  if (r.before_psnr > 0)
+    judged = text("held-out photographs drawn with %.2f dB trained, %.2f %s", r.trained_psnr,
+                  r.before_psnr, r.mended.outcome == RefineReport::kMended ? "mended" : "given");
+  if (r.kept == Surface::kTrained)
+    return text("surface       trained: %s surfels, %s points for %s%s%s\n",
+                grouped(r.surfels).c_str(), grouped(r.points_after).c_str(),
+                grouped(r.points_before).c_str(), judged.empty() ? "" : ";\n              ",
+                judged.c_str());
+  std::string out = mended_text(r.mended);
+  if (!judged.empty()) out += "              " + judged + "\n";
+  return out;
 }
 
 }  // namespace slf::tools

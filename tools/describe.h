@@ -7,7 +7,7 @@
 
 #include "slf/capture.h"
 #include "slf/decoder.h"
-#include "slf/refine.h"
+#include "slf/surface.h"
 
 namespace slf::tools {
 
@@ -32,7 +32,7 @@ std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes)
 double bits_per_point(std::uint64_t bytes, std::uint64_t points);
 
 /// What became of the points before they were coded.
-nlohmann::ordered_json refined_json(const RefineReport& report);
-std::string refined_text(const RefineReport& report);  ///< a line; empty where nothing was asked
+nlohmann::ordered_json surface_json(const SurfaceReport& report);
+std::string surface_text(const SurfaceReport& report);  ///< empty where nothing was asked
 
 }  // namespace slf::tools

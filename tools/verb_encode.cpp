@@ -51,7 +51,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
   json["merged"] = e.merged;
-  json["refine_geometry"] = refined_json(e.refined);
+  json["surface"] = surface_json(e.surface);
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
@@ -66,7 +66,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                         {"held_out_before", e.pictures.held_out_before},
                         {"held_out_after", e.pictures.held_out_after}};
   json["seconds"] = {{"load", load},
-                     {"refine", e.refined.seconds},
+                     {"surface", e.surface.seconds()},
                      {"voxelise", e.seconds_voxelise},
                      {"observe", e.seconds_observe},
                      {"choose", e.seconds_choose},
@@ -74,7 +74,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                      {"pictures", e.seconds_pictures},
                      {"quality", e.step.seconds},
                      {"code", e.seconds_code},
-                     {"total", load + e.refined.seconds + e.seconds_voxelise + e.seconds_observe +
+                     {"total", load + e.surface.seconds() + e.seconds_voxelise + e.seconds_observe +
                                    e.seconds_choose + e.seconds_fit + e.seconds_pictures +
                                    e.step.seconds + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
@@ -87,7 +87,7 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  std::string out = refined_text(e.refined) + density_text(e.grid, e.density);
+  std::string out = surface_text(e.surface) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
@@ -102,9 +102,9 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
   if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
     out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
   out += text(
-      "seconds       load %.2f, refine %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
+      "seconds       load %.2f, surface %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
       "pictures %.2f, quality %.2f, code %.2f\n",
-      load, e.refined.seconds, e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
+      load, e.surface.seconds(), e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
       e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),

@@ -41,17 +41,17 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
   json["bytes"] = e.stream.size();
   json["grid"] = density_json(e.grid, e.density);
   json["points"] = e.points;
-  json["refine_geometry"] = refined_json(e.refined);
+  json["surface"] = surface_json(e.surface);
   json["cameras"] = input.cameras.size();
   json["bytes_by_type"] = {{"geometry", e.bytes_geometry},
                            {"images", e.bytes_images},
                            {"parameters", e.bytes_parameters}};
   json["seconds"] = {{"load", input.seconds},
-                     {"refine", e.refined.seconds},
+                     {"surface", e.surface.seconds()},
                      {"voxelise", e.seconds_voxelise},
                      {"geometry", e.seconds_geometry},
                      {"images", e.seconds_images},
-                     {"total", input.seconds + e.refined.seconds + e.seconds_voxelise +
+                     {"total", input.seconds + e.surface.seconds() + e.seconds_voxelise +
                                    e.seconds_geometry + e.seconds_images}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(settings, e.grid.bits);
@@ -59,7 +59,7 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
 }
 
 std::string report_text(const IgcEncoded& e, const CaptureInput& input) {
-  std::string out = refined_text(e.refined) + density_text(e.grid, e.density);
+  std::string out = surface_text(e.surface) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   out += text("cameras       %zu\n", input.cameras.size());

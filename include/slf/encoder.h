@@ -10,7 +10,7 @@
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"
-#include "slf/refine.h"
+#include "slf/surface.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -106,7 +106,7 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& light_field
 
 enum class Preset { kDefault, kPaper };
 
-/// EncoderSettings::q: chosen from held-out input pictures, or kPlainQ where there are none.
+/// EncoderSettings::q: chosen from held-out input pictures, kPlainQ at the least.
 inline constexpr double kAutomaticQ = 0;
 /// The step of preset paper, and where none can be chosen.
 inline constexpr double kPlainQ = 16;
@@ -116,13 +116,13 @@ struct EncoderSettings {
   int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
-  RefineGeometry refine_geometry = RefineGeometry::kAuto;  ///< kOff without cameras
+  Surface surface = Surface::kAuto;         ///< kGiven without cameras, and of meshes
   ObserveSettings observe;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;  ///< changes fit; not without cameras
   /// Quantiser step Q, grey levels, 0.05 .. 4096, or kAutomaticQ: the largest that costs no more
-  /// than quality_loss
+  /// than quality_loss, or kPlainQ where that is larger
   double q = kAutomaticQ;
   double quality_loss =
       0.1;  ///< 0.001 .. 10 dB of held-out input pictures, of a step that is chosen
@@ -183,7 +183,7 @@ struct Encoded {
   Grid grid;        ///< with the bits and the step that were given or chosen
   Density density;  ///< what the photographs resolve; all of it where grid_bits was 0
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
-  RefineReport refined;              ///< what became of the capture's points before anything else
+  SurfaceReport surface;             ///< what became of the capture's points before anything else
   ChosenFit fit;                     ///< of a capture with cameras
   PictureFit pictures;               ///< where fit.settings.pictures has rounds
   std::vector<CameraTrust> cameras;  ///< of settings.check_cameras, ascending; else empty

@@ -39,9 +39,9 @@ struct IgcEncoded {
   std::vector<std::uint8_t> stream;
   std::size_t bytes_parameters = 0, bytes_geometry = 0, bytes_images = 0;  ///< sum: the stream's
   std::size_t points = 0, merged = 0;
-  RefineReport refined;  ///< as Encoded has it
-  Grid grid;             ///< Encoded
-  Density density;       ///< Encoded
+  SurfaceReport surface;  ///< as Encoded has it
+  Grid grid;              ///< Encoded
+  Density density;        ///< Encoded
   double seconds_voxelise = 0, seconds_geometry = 0, seconds_images = 0;
 };
 

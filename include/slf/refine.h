@@ -35,6 +35,7 @@ struct RefineReport {
   /// cloud is thinned first on an automatic grid alone: on a given one it is hardly ever mended.
   /// Of kAuto.
   bool too_dense_for_grid = false;
+  bool exact = false;  ///< photographs agree at the points already: nothing was tried. Of kAuto
   double seconds = 0;
 };
 

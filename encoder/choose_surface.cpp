@@ -1,0 +1,148 @@
+#include "encoder/choose_surface.h"
+
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "encoder/fit_capture.h"
+#include "encoder/judge_surface.h"
+#include "refine/held_out.h"
+#include "refine/refine_geometry.h"
+#include "train/train_geometry.h"
+
+namespace slf {
+namespace {
+
+constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the place of another
+constexpr double kDense = 3;  // pixels: points that lie farther apart leave holes, exact or not
+constexpr double kJudgedCoarser = 1.5;  // voxels of a surface while it is judged: it takes a third
+constexpr int kIterations = 2500;
+
+struct SurfaceChoice {
+  const Capture& capture;
+  std::span<const int> cameras;
+  const EncoderSettings& settings;
+  SurfaceReport& report;
+  const Progress& progress;
+};
+
+/// The capture's points, or mended ones where photographs gain.
+Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineGeometry mode) {
+  EncoderSettings settings = job.settings;
+  SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, settings, mode,
+                                            job.report.mended, job.progress));
+  if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
+  return cloud;
+}
+
+/// @param before  trained by some of the cameras, or empty
+Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
+                                               std::span<const int> cameras, double coarser,
+                                               TrainedSurfels before) {
+  Stopwatch watch;
+  TrainGeometrySettings training;
+  training.grid_bits = job.settings.grid_bits;
+  training.voxel_size = job.settings.voxel_size;
+  training.coarser = coarser;
+  training.iterations = kIterations;
+  training.threads = job.settings.threads;
+  auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
+  job.report.seconds_train += watch.lap();
+  if (trained) job.report.surfels = trained->surfels.size();
+  return trained;
+}
+
+Result<double, InputError> judged(const SurfaceChoice& job, const CameraParts& parts,
+                                  const VoxelCloud& cloud) {
+  Stopwatch watch;
+  auto psnr = surface_psnr(job.capture, parts.matched, parts.held_out, cloud, job.settings.threads);
+  job.report.seconds_judge += watch.lap();
+  return psnr;
+}
+
+Result<VoxelCloud, InputError> on_grid(const TrainedGeometry& trained) {
+  SLF_TRY(VoxelCloud cloud, voxelise(trained.cloud, 0, trained.voxel_size));
+  cloud.density.pixel = trained.pixel;
+  cloud.density.spacing = cloud.density.voxel_size = trained.voxel_size;
+  return cloud;
+}
+
+Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeometry& trained) {
+  job.report.kept = Surface::kTrained;
+  return on_grid(trained);
+}
+
+/// Photographs agree at the points, and those lie so close that nothing is missing between them.
+bool is_exact(const RefineReport& mended, const Density& density) {
+  return mended.exact && density.spacing <= kDense * density.pixel;
+}
+
+/// Trained by three quarters of the photographs; where the others say that it pays, by all.
+Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud before) {
+  const CameraParts parts = split_for_mending(job.cameras);
+  SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, kJudgedCoarser, {}));
+  if (trained.cloud.positions.empty()) {
+    job.report.untrained = "photographs agree on no surface";
+    return before;
+  }
+  const auto cloud = on_grid(trained);
+  if (!cloud) {
+    job.report.untrained = cloud.error().message;
+    return before;
+  }
+  SLF_TRY(job.report.before_psnr, judged(job, parts, before));
+  SLF_TRY(job.report.trained_psnr, judged(job, parts, *cloud));
+  if (job.report.trained_psnr < job.report.before_psnr + kLeastGain) return before;
+  SLF_TRY(const TrainedGeometry by_all,
+          trained_by(job, job.cameras, 1, std::move(trained.surfels)));
+  if (by_all.cloud.positions.empty()) return before;
+  return taken(job, by_all);
+}
+
+Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
+  const bool by_photographs = !job.cameras.empty() && job.capture.mesh.triangles.empty();
+  const Surface asked = by_photographs ? job.settings.surface : Surface::kGiven;
+  if (asked == Surface::kGiven) return given_or_mended(job, RefineGeometry::kOff);
+  if (asked == Surface::kMended) return given_or_mended(job, RefineGeometry::kOn);
+  job.report.untrained = training_obstacle(job.capture, job.cameras);
+  if (asked == Surface::kTrained && job.report.untrained.empty()) {
+    SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, 1, {}));
+    if (!trained.cloud.positions.empty()) return taken(job, trained);
+    job.report.untrained = "photographs agree on no surface";
+  }
+  SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
+  if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
+  if (is_exact(job.report.mended, choose_density(job.capture, job.cameras))) {
+    job.report.untrained = "the points lie where photographs agree";
+    return before;
+  }
+  return best_of(job, std::move(before));
+}
+
+}  // namespace
+
+const char* word_of(Surface surface) {
+  switch (surface) {
+    case Surface::kGiven:
+      return "given";
+    case Surface::kMended:
+      return "mended";
+    case Surface::kTrained:
+      return "trained";
+    case Surface::kAuto:
+      return "auto";
+  }
+  return "";
+}
+
+Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
+                                              const EncoderSettings& settings,
+                                              SurfaceReport& report, const Progress& progress) {
+  report = {};
+  report.points_before = capture.cloud.positions.size();
+  auto cloud = chosen_surface({capture, cameras, settings, report, progress});
+  if (cloud) report.points_after = cloud->positions.size();
+  if (progress) progress("train", 1);
+  return cloud;
+}
+
+}  // namespace slf

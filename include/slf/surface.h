@@ -1,0 +1,37 @@
+// Which surface is coded: the capture's own, or one that photographs mend or train.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "slf/refine.h"
+
+namespace slf {
+
+enum class Surface : std::uint8_t {
+  kGiven,    ///< the capture's points: scans, exact models
+  kMended,   ///< moved to where photographs agree (RefineGeometry::kOn)
+  kTrained,  ///< trained by photographs, from the capture's points on
+  kAuto,     ///< what predicts held-out input photographs best
+};
+
+/// What became of the capture's points before anything else. PSNRs are of input photographs that
+/// were held out, all of their pixels, drawn from a quick fit to the others; 0: not judged.
+struct SurfaceReport {
+  Surface kept = Surface::kGiven;
+  RefineReport mended;
+  std::string untrained;    ///< why nothing was trained; empty: it was
+  std::size_t surfels = 0;  ///< that were trained
+  std::size_t points_before = 0, points_after = 0;
+  double before_psnr = 0;  ///< of the points as given, or mended where those are better
+  double trained_psnr = 0;
+  double seconds_train = 0, seconds_judge = 0;
+
+  double seconds() const { return mended.seconds + seconds_train + seconds_judge; }
+};
+
+/// "given", "mended", "trained", "auto"
+const char* word_of(Surface surface);
+
+}  // namespace slf

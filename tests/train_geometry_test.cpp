@@ -1,0 +1,198 @@
+// Surfaces that photographs train, from points that are far off, few, or wrong.
+#include "train/train_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capture/nearest.h"
+#include "capture/surface_points.h"
+#include "encoder/choose_surface.h"
+#include "tools/synth/rings.h"
+#include "tools/synth/sample_points.h"
+#include "tools/synth/scene.h"
+#include "tools/synth/synth.h"
+#include "tools/synth/trace.h"
+#include "train/distance_blocks.h"
+#include "train/grow_surfels.h"
+
+namespace slf::train_geometry_test {
+namespace {
+
+/// A textured vase in memory, in few and small photographs.
+class TrainGeometryTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const auto scene = synth::make_scene("vase");
+    const auto rings = synth::make_rings(5, 10, 128, 128, scene->bounds().radius);
+    capture_ = new Capture;
+    capture_->cameras = rings.cameras;
+    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
+      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 2));
+      cameras_.push_back(int(i));
+    }
+    exact_ = new PointCloud(synth::sample_points(*scene, 6000, 2, &step_));
+  }
+  static void TearDownTestSuite() {
+    delete capture_;
+    delete exact_;
+  }
+
+  static Capture with(const PointCloud& cloud) {
+    Capture capture = *capture_;
+    capture.cloud = cloud;
+    return capture;
+  }
+  /// Every n-th point, without normals: what structure from motion leaves.
+  static PointCloud sparse(std::size_t every) {
+    PointCloud cloud;
+    for (std::size_t p = 0; p < exact_->positions.size(); p += every)
+      cloud.positions.push_back(exact_->positions[p]);
+    return cloud;
+  }
+  static PointCloud fat() {
+    PointCloud cloud = *exact_;
+    synth::disturb(cloud, step_, {.hull = 4});
+    return cloud;
+  }
+  /// Root mean square distance from the true surface along its normals, in point spacings.
+  static double distance(const PointCloud& cloud) {
+    const NearestPoints tree(exact_->positions);
+    double squares = 0;
+    for (const Float3& p : cloud.positions) {
+      std::uint32_t nearest = 0;
+      tree.nearest(p, 1, &nearest, nullptr);
+      const double along =
+          double(dot(minus(p, exact_->positions[nearest]), exact_->normals[nearest])) / step_;
+      squares += along * along;
+    }
+    return std::sqrt(squares / double(cloud.positions.size()));
+  }
+  static SurfaceReport chosen(const Capture& capture, std::span<const int> cameras,
+                              Surface surface = Surface::kAuto) {
+    EncoderSettings settings;
+    settings.surface = surface;
+    SurfaceReport report;
+    const auto cloud = choose_surface(capture, cameras, settings, report, {});
+    EXPECT_TRUE(cloud) << (cloud ? "" : cloud.error().message);
+    return report;
+  }
+
+  static inline Capture* capture_ = nullptr;
+  static inline PointCloud* exact_ = nullptr;
+  static inline std::vector<int> cameras_;
+  static inline double step_ = 0;
+};
+
+TEST_F(TrainGeometryTest, AFatCloudComesToTheSurface) {
+  const PointCloud cloud = fat();
+  const auto trained = train_geometry(with(cloud), cameras_, {.iterations = 1500});
+  ASSERT_TRUE(trained);
+  ASSERT_GT(trained->cloud.positions.size(), 1000u);
+  EXPECT_LT(distance(trained->cloud), 0.5 * distance(cloud));
+}
+
+TEST_F(TrainGeometryTest, FewPointsWithoutNormalsBecomeALayer) {
+  const PointCloud cloud = sparse(20);
+  const auto trained = train_geometry(with(cloud), cameras_, {.iterations = 1500});
+  ASSERT_TRUE(trained);
+  ASSERT_EQ(trained->cloud.normals.size(), trained->cloud.positions.size());
+  EXPECT_GT(trained->cloud.positions.size(), 10 * cloud.positions.size());
+  EXPECT_LT(distance(trained->cloud), 2);
+  const auto voxels = voxelise(trained->cloud, 0, trained->voxel_size);
+  ASSERT_TRUE(voxels);
+  EXPECT_EQ(voxels->merged, 0u);
+}
+
+TEST_F(TrainGeometryTest, TheSameForAnyNumberOfThreads) {
+  const Capture capture = with(sparse(20));
+  const auto one = train_geometry(capture, cameras_, {.iterations = 60, .threads = 1});
+  const auto three = train_geometry(capture, cameras_, {.iterations = 60, .threads = 3});
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->cloud.positions, three->cloud.positions);
+  EXPECT_EQ(one->cloud.normals, three->cloud.normals);
+}
+
+TEST_F(TrainGeometryTest, AnExactCloudStaysAndNothingIsTrained) {
+  const SurfaceReport report = chosen(with(*exact_), cameras_);
+  EXPECT_EQ(report.kept, Surface::kGiven);
+  EXPECT_EQ(report.surfels, 0u);
+  EXPECT_FALSE(report.untrained.empty());
+}
+
+TEST_F(TrainGeometryTest, WhatPredictsHeldOutPhotographsIsKept) {
+  const SurfaceReport report = chosen(with(sparse(20)), cameras_);
+  EXPECT_EQ(report.kept, Surface::kTrained);
+  EXPECT_GT(report.trained_psnr, report.before_psnr + 1);
+}
+
+TEST_F(TrainGeometryTest, FewCamerasAndFewPointsAreLeftAloneAndSaid) {
+  const std::span<const int> one(cameras_.data(), 1), four(cameras_.data(), 4);
+  EXPECT_EQ(training_obstacle(with(*exact_), one), "too few cameras");
+  EXPECT_EQ(training_obstacle(with(*exact_), four), "too few cameras");
+  EXPECT_EQ(training_obstacle(with(sparse(400)), cameras_), "too few points");
+  const SurfaceReport report = chosen(with(fat()), four, Surface::kTrained);
+  EXPECT_EQ(report.kept, Surface::kGiven);
+  EXPECT_EQ(report.untrained, "too few cameras");
+}
+
+/// Photographs of nothing, or of another world than the cameras have it: no worse than before.
+TEST_F(TrainGeometryTest, WherePhotographsShowNothingPointsStay) {
+  Capture black = with(sparse(6));
+  for (Image& image : black.images) std::fill(image.data.begin(), image.data.end(), 0);
+  EXPECT_NE(chosen(black, cameras_).kept, Surface::kTrained);
+}
+
+TEST(GrowSurfels, ASurfelThatIsPulledBecomesTwoAndOneThatShowsNothingGoes) {
+  TrainedSurfels surfels = {flat_surfel({0, 0, 0}, {0, 0, 1}, 1, 0.9f),
+                            flat_surfel({5, 0, 0}, {0, 0, 1}, 1, 0.001f),
+                            flat_surfel({9, 0, 0}, {0, 0, 1}, 1, 0.9f)};
+  AdamState state;
+  state.resize(3);
+  SurfelUse use;
+  use.resize(3);
+  use.drawn = {1, 1, 1};
+  use.pull = {1, 5, 2};
+  grow_surfels({.most = 3, .share = 1}, use, state, surfels);
+  ASSERT_EQ(surfels.size(), 3u);
+  EXPECT_EQ(surfels[0].position(), (Float3{0, 0, 0}));
+  EXPECT_LT(surfels[1].radius(0) * surfels[1].radius(1), 1);
+  EXPECT_NEAR((surfels[1].position()[0] + surfels[2].position()[0]) / 2, 9, 1e-5);
+  EXPECT_EQ(state.mean.size(), 3u);
+  EXPECT_EQ(use.pull, (std::vector<float>{0, 0, 0}));
+}
+
+/// Distances of a plane z = 3.3 at the nodes of two by two blocks.
+TEST(ZeroCrossings, OfAPlaneAreOneLayerOfNodesAndFaceOutwards) {
+  DistanceBlocks all;
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x) {
+      DistanceBlock block;
+      block.key = {x, y, 0};
+      for (std::size_t i = 0; i < kNodesOfBlock; ++i) {
+        block.weight[i] = 2;
+        block.distance[i] = 2 * (float(i / 64) - 3.3f);
+      }
+      all.blocks.push_back(block);
+    }
+  std::sort(all.blocks.begin(), all.blocks.end(),
+            [](const DistanceBlock& a, const DistanceBlock& b) { return a.key < b.key; });
+  const SurfacePoints points = zero_crossings(all, 1, 1);
+  ASSERT_EQ(points.size(), 256u);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    EXPECT_EQ(points.positions[p][2], 3);
+    EXPECT_NEAR(points.normals[p][2], 1, 1e-3);
+  }
+}
+
+TEST(ZeroCrossings, SmallPiecesAreDebris) {
+  SurfacePoints points;
+  for (int i = 0; i < 30; ++i) points.positions.push_back({float(i), 0, 0});
+  for (int i = 0; i < 3; ++i) points.positions.push_back({float(i), 50, 0});
+  points.normals.assign(points.positions.size(), {0, 0, 1});
+  EXPECT_EQ(without_debris(points, {}, 10).size(), 30u);
+  EXPECT_EQ(without_debris(points, {}, 3).size(), 33u);
+}
+
+}  // namespace
+}  // namespace slf::train_geometry_test

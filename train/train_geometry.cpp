@@ -1,0 +1,127 @@
+#include "train/train_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "capture/density.h"
+#include "capture/spacing.h"
+#include "train/fuse_surfels.h"
+#include "train/train_surfels.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
+constexpr double kMostPixels = 1 << 20;        // of a photograph
+constexpr double kMostSamples = 1 << 28;       // of all: floats of three channels
+constexpr double kPixelsPerVoxel = 1.6;        // between points: docs/pictures/trained.md
+constexpr double kTrainedBefore = 0.8;         // of the iterations, with some of the photographs
+constexpr std::size_t kLeastFused = 500;       // fewer are nothing like a surface
+constexpr std::size_t kMostFused = 1'000'000;  // points, about
+
+SurfacePoints start_of(const Capture& capture, int threads) {
+  SurfacePoints points{capture.cloud.positions, capture.cloud.normals, {}};
+  if (!points.normals.empty()) return points;
+  std::vector<Vec3> viewpoints;
+  for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
+  points.normals = estimate_normals(capture.cloud, viewpoints, 16, threads);
+  return points;
+}
+
+/// Halvings after which all photographs fit.
+int reduction_of(const Capture& capture, std::span<const int> cameras) {
+  double largest = 0, all = 0;
+  for (const int c : cameras) {
+    const Camera& camera = capture.cameras[std::size_t(c)];
+    const double pixels = double(camera.width) * double(camera.height);
+    largest = std::max(largest, pixels);
+    all += 3 * pixels;
+  }
+  int log2 = 0;
+  while (largest > kMostPixels || all > kMostSamples) largest /= 4, all /= 4, ++log2;
+  return log2;
+}
+
+/// Largest side of the box of most surfels: some may be anywhere.
+double extent_of(const TrainedSurfels& surfels) {
+  double extent = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::vector<float> values;
+    for (const TrainedSurfel& surfel : surfels) values.push_back(surfel.position()[a]);
+    const auto share = std::ptrdiff_t(values.size() / 500);
+    std::nth_element(values.begin(), values.begin() + share, values.end());
+    const float low = values[std::size_t(share)];
+    std::nth_element(values.begin(), values.end() - 1 - share, values.end());
+    extent = std::max(extent, double(*(values.end() - 1 - share)) - double(low));
+  }
+  return extent;
+}
+
+double lattice_step(const TrainGeometrySettings& settings, const TrainedSurfels& surfels,
+                    double pixel) {
+  if (settings.voxel_size > 0) return settings.voxel_size;
+  const double extent = extent_of(surfels);
+  if (settings.grid_bits > 0) return 1.02 * extent / (std::pow(2.0, settings.grid_bits) - 1);
+  return std::max(kPixelsPerVoxel * pixel, extent / std::sqrt(double(kMostFused)));
+}
+
+double sharpest_pixel(const Capture& capture, std::span<const int> cameras,
+                      const TrainedSurfels& surfels) {
+  std::vector<Float3> positions;
+  for (const TrainedSurfel& surfel : surfels) positions.push_back(surfel.position());
+  return pixel_on_surface(capture, cameras, positions, {});
+}
+
+}  // namespace
+
+std::string training_obstacle(const Capture& capture, std::span<const int> cameras) {
+  if (cameras.size() < kLeastCameras) return "too few cameras";
+  if (capture.cloud.positions.size() < kLeastPoints) return "too few points";
+  return {};
+}
+
+Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
+                                                   std::span<const int> cameras,
+                                                   const TrainGeometrySettings& settings,
+                                                   TrainedSurfels trained,
+                                                   const Progress& progress) {
+  TrainedGeometry out;
+  const SurfacePoints start = start_of(capture, settings.threads);
+  const double spacing = typical_spacing(start.positions);
+  if (!(spacing > 0)) return out;
+  SLF_TRY(const auto views, load_training_views(capture, cameras, start, spacing,
+                                                reduction_of(capture, cameras), settings.threads));
+  TrainSettings training;
+  training.iterations = settings.iterations;
+  training.threads = settings.threads;
+  training.surfels =
+      settings.surfels > 0 ? settings.surfels : surfels_for(start, spacing, training_pixel(views));
+  if (progress)
+    training.progress = [&](double done) {
+      progress("train", done);
+      return true;
+    };
+  if (!trained.empty()) training.from = kTrainedBefore;
+  TrainedSurfels& surfels = out.surfels;
+  surfels = !trained.empty()
+                ? std::move(trained)
+                : start_surfels(start, spacing, views, training.surfels / 2, settings.threads);
+  train_surfels(views, training, surfels);
+  if (surfels.size() < kLeastPoints) return out;
+  Lattice lattice;
+  out.pixel = sharpest_pixel(capture, cameras, surfels);
+  lattice.step = settings.coarser * lattice_step(settings, surfels, out.pixel);
+  if (!(lattice.step > 0) || !std::isfinite(lattice.step)) return out;
+  FuseSettings fusing;
+  fusing.threads = settings.threads;
+  SurfacePoints fused = fuse_surfels(surfels, views, lattice, fusing);
+  if (fused.size() < kLeastFused) return out;
+  out.cloud.positions = std::move(fused.positions);
+  out.cloud.normals = std::move(fused.normals);
+  out.voxel_size = lattice.step;
+  return out;
+}
+
+}  // namespace slf
