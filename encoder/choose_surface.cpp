@@ -13,8 +13,8 @@ namespace slf {
 namespace {
 
 constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the place of another
+constexpr double kPerfect = 48;     // dB: errors of a grey level; what is gained there is nothing
 constexpr double kDense = 3;  // pixels: points that lie farther apart leave holes, exact or not
-constexpr double kJudgedCoarser = 1.5;  // voxels of a surface while it is judged: it takes a third
 constexpr int kIterations = 2500;
 
 struct SurfaceChoice {
@@ -36,13 +36,12 @@ Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineG
 
 /// @param before  trained by some of the cameras, or empty
 Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
-                                               std::span<const int> cameras, double coarser,
+                                               std::span<const int> cameras,
                                                TrainedSurfels before) {
   Stopwatch watch;
   TrainGeometrySettings training;
   training.grid_bits = job.settings.grid_bits;
   training.voxel_size = job.settings.voxel_size;
-  training.coarser = coarser;
   training.iterations = kIterations;
   training.threads = job.settings.threads;
   auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
@@ -79,7 +78,7 @@ bool is_exact(const RefineReport& mended, const Density& density) {
 /// Trained by three quarters of the photographs; where the others say that it pays, by all.
 Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud before) {
   const CameraParts parts = split_for_mending(job.cameras);
-  SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, kJudgedCoarser, {}));
+  SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}));
   if (trained.cloud.positions.empty()) {
     job.report.untrained = "photographs agree on no surface";
     return before;
@@ -91,9 +90,10 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   }
   SLF_TRY(job.report.before_psnr, judged(job, parts, before));
   SLF_TRY(job.report.trained_psnr, judged(job, parts, *cloud));
-  if (job.report.trained_psnr < job.report.before_psnr + kLeastGain) return before;
-  SLF_TRY(const TrainedGeometry by_all,
-          trained_by(job, job.cameras, 1, std::move(trained.surfels)));
+  if (job.report.before_psnr > kPerfect ||
+      job.report.trained_psnr < job.report.before_psnr + kLeastGain)
+    return before;
+  SLF_TRY(const TrainedGeometry by_all, trained_by(job, job.cameras, std::move(trained.surfels)));
   if (by_all.cloud.positions.empty()) return before;
   return taken(job, by_all);
 }
@@ -105,7 +105,7 @@ Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
   if (asked == Surface::kMended) return given_or_mended(job, RefineGeometry::kOn);
   job.report.untrained = training_obstacle(job.capture, job.cameras);
   if (asked == Surface::kTrained && job.report.untrained.empty()) {
-    SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, 1, {}));
+    SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}));
     if (!trained.cloud.positions.empty()) return taken(job, trained);
     job.report.untrained = "photographs agree on no surface";
   }

@@ -13,7 +13,7 @@ namespace slf {
 namespace {
 
 constexpr double kPixelsPerSurfel = 64;  // of the surface, squares
-constexpr std::size_t kLeastSurfels = 2000, kMostSurfels = 60'000;
+constexpr std::size_t kLeastSurfels = 8000, kMostSurfels = 60'000;
 constexpr float kReach = 2.2f;  // spacings: radius, of which a disc shows a third or so
 constexpr float kWidest = 40;   // pixels
 constexpr double kFiner = 0.7;

@@ -112,7 +112,7 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
   if (surfels.size() < kLeastPoints) return out;
   Lattice lattice;
   out.pixel = sharpest_pixel(capture, cameras, surfels);
-  lattice.step = settings.coarser * lattice_step(settings, surfels, out.pixel);
+  lattice.step = lattice_step(settings, surfels, out.pixel);
   if (!(lattice.step > 0) || !std::isfinite(lattice.step)) return out;
   FuseSettings fusing;
   fusing.threads = settings.threads;

@@ -15,7 +15,6 @@ namespace slf {
 struct TrainGeometrySettings {
   int grid_bits = 0;        ///< of the grid that follows; 0: as fine as photographs resolve
   double voxel_size = 0;    ///< > 0: in place of grid_bits
-  double coarser = 1;       ///< times the voxel: a surface that is judged alone needs fewer points
   int iterations = 3000;    ///< of training, one photograph each
   std::size_t surfels = 0;  ///< most; 0: as the photographs resolve
   int threads = 0;
