@@ -15,7 +15,8 @@ struct TileBox {
 
 /// Tiles with a pixel centre in the ellipse's box.
 TileBox tiles_of(const ProjectedSurfel& s, int columns, int rows) {
-  const auto tile = [](float x) { return int(std::floor(x)) / kTileSide; };
+  // An ellipse near the camera may be wider than an int says.
+  const auto tile = [](float x) { return int(std::floor(std::min(x, 1e6f))) / kTileSide; };
   return {tile(std::max(s.u - s.half_width, 0.0f)),
           std::min(tile(std::max(s.u + s.half_width, 0.0f)), columns - 1),
           tile(std::max(s.v - s.half_height, 0.0f)),
