@@ -27,8 +27,7 @@ struct SurfaceChoice {
 
 /// The capture's points, or mended ones where photographs gain.
 Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineGeometry mode) {
-  EncoderSettings settings = job.settings;
-  SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, settings, mode,
+  SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, job.settings, mode,
                                             job.report.mended, job.progress));
   if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
   return cloud;

@@ -163,7 +163,7 @@ ProjectedGradient gradient_of(const SurfelSums& s) {
   load_block(drawn.near_square.data(), at, 0, b.near_square);
   load_block(drawn.pivot.data(), at, 0, b.pivot);
   b.total = 1 - transparency;
-  // Of all surfels and the background: the picture has both.
+  // The sum over all surfels and the background, since the picture has both.
   b.remaining = red * b.red + green * b.green + blue * b.blue +
                 2 * spread * (b.total * b.near_square - b.near * b.near);
   b.transparency = Lanes{} + 1.0f;

@@ -56,7 +56,7 @@ void pull_together(const SurfelNeighbours& neighbours, float weight, float pixel
         const float agree = dot(normal, other.normal);
         if (agree < kLeastAgree) continue;
         const Float3 to = minus(other.position, position);
-        // Of the other from this plane, and of this from the other's.
+        // The other's distance from this plane, and this one's from the other's.
         const float from_own = weight * agree * slope_at(dot(normal, to) / pixel) / pixel;
         const float from_other = weight * agree * slope_at(-dot(other.normal, to) / pixel) / pixel;
         by_position = along(along(by_position, -from_own, normal), from_other, other.normal);

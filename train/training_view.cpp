@@ -54,12 +54,10 @@ std::vector<std::uint8_t> object_of(const Camera& camera, const SurfacePoints& p
 }
 
 /// Where a pinhole camera's image point is in the photograph.
-std::array<double, 2> distorted(const Camera& camera, double u, double v) {
-  const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
-  const auto& [k1, k2, p1, p2] = camera.distortion;
-  const double r2 = x * x + y * y, radial = 1 + r2 * (k1 + r2 * k2);
-  return {camera.fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) + camera.cx,
-          camera.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y) + camera.cy};
+/// @param lens  the camera, in its own axes
+std::array<double, 2> distorted(const Camera& lens, double u, double v) {
+  const auto at = lens.project({(u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy, 1});
+  return at ? *at : std::array{u, v};
 }
 
 /// Bilinear, held at the edges.
@@ -82,6 +80,9 @@ PlanarPicture picture_of(const Camera& camera, const Image& image) {
   PlanarPicture picture{image.width, image.height, {}};
   picture.value.resize(3 * picture.pixels());
   const bool straight = camera.distortion == std::array<double, 4>{0, 0, 0, 0};
+  Camera lens = camera;
+  lens.rotation = Camera{}.rotation;
+  lens.translation = {0, 0, 0};
   std::size_t i = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x, ++i) {
@@ -90,7 +91,7 @@ PlanarPicture picture_of(const Camera& camera, const Image& image) {
           picture.plane(c)[i] = float(image.data[3 * i + c]) / 255;
         continue;
       }
-      const auto [u, v] = distorted(camera, x + 0.5, y + 0.5);
+      const auto [u, v] = distorted(lens, x + 0.5, y + 0.5);
       for (std::size_t c = 0; c < 3; ++c) picture.plane(c)[i] = sample(image, c, u, v);
     }
   return picture;
