@@ -163,6 +163,14 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
                     (capture.root / "points.ply").string() + ": the capture has no point cloud"};
 }
 
+/// Photographs and cameras alone are enough for whoever asked.
+bool may_lack_points(const CaptureOptions& options, const Import& import) {
+  if (options.points_needed || !options.points.empty() || import.capture.cameras.empty())
+    return false;
+  const bool in_model = !import.cloud_name.empty() && !import.capture.cloud.positions.empty();
+  return !in_model && !is_file(geometry_file(import));
+}
+
 Result<Done, InputError> resolve_files(Import& import) {
   auto& capture = import.capture;
   for (std::size_t i = 0; i < import.images.size(); ++i) {
@@ -195,7 +203,12 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   SLF_CHECK(check_cameras(import));
   SLF_CHECK(resolve_files(import));
   if (options.check_images) SLF_CHECK(check_image_files(import.capture));
-  if (options.cloud) {
+  if (options.cloud && may_lack_points(options, import)) {
+    if (options.crop)
+      return InputError{Errc::kInvalidInput, path.string() + ": crop: the capture has no points"};
+    import.capture.warnings.push_back(path.string() + ": no points: photographs find them");
+    import.capture.cloud = {};
+  } else if (options.cloud) {
     SLF_TRY(const auto cloud_name, load_cloud(options, import));
     SLF_CHECK(check_cloud(import.capture, cloud_name));
   }

@@ -43,6 +43,7 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   training.voxel_size = job.settings.voxel_size;
   training.iterations = kIterations;
   training.threads = job.settings.threads;
+  training.is_volume = job.report.start == StartId::kVolume;
   auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
   job.report.seconds_train += watch.lap();
   if (trained) job.report.surfels = trained->surfels.size();
@@ -69,10 +70,8 @@ Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeom
   return on_grid(trained);
 }
 
-/// Photographs agree at the points, and those lie so close that nothing is missing between them.
-bool is_exact(const RefineReport& mended, const Density& density) {
-  return mended.exact && density.spacing <= kDense * density.pixel;
-}
+/// The points lie so close that nothing is missing between them.
+bool is_dense(const Density& density) { return density.spacing <= kDense * density.pixel; }
 
 /// Trained by three quarters of the photographs; where the others say that it pays, by all.
 Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud before) {
@@ -97,7 +96,26 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   return taken(job, by_all);
 }
 
+/// Points of a volume are no surface: there is nothing to compare with.
+Result<VoxelCloud, InputError> only_trained(const SurfaceChoice& job) {
+  const auto refuse = [](const std::string& why) {
+    return InputError{Errc::kInvalidInput, "the capture has no points, and " + why +
+                                               ": give points, as of COLMAP (--points)"};
+  };
+  const Surface asked = job.settings.surface;
+  if (asked == Surface::kGiven || asked == Surface::kMended)
+    return refuse("a surface is to be trained (--surface trained)");
+  if (!job.report.untrained.empty()) return refuse(job.report.untrained);
+  SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}));
+  if (trained.cloud.positions.empty()) return refuse("photographs agree on no surface");
+  return taken(job, trained);
+}
+
 Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
+  if (job.report.start == StartId::kVolume) {
+    job.report.untrained = training_obstacle(job.capture, job.cameras);
+    return only_trained(job);
+  }
   const bool by_photographs = !job.cameras.empty() && job.capture.mesh.triangles.empty();
   const Surface asked = by_photographs ? job.settings.surface : Surface::kGiven;
   if (asked == Surface::kGiven) return given_or_mended(job, RefineGeometry::kOff);
@@ -110,7 +128,7 @@ Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
   }
   SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
   if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
-  if (is_exact(job.report.mended, choose_density(job.capture, job.cameras))) {
+  if (job.report.mended.exact && is_dense(choose_density(job.capture, job.cameras))) {
     job.report.untrained = "the points lie where photographs agree";
     return before;
   }
@@ -133,10 +151,46 @@ const char* word_of(Surface surface) {
   return "";
 }
 
+const char* word_of(StartId start) {
+  switch (start) {
+    case StartId::kPoints:
+      return "points";
+    case StartId::kHull:
+      return "hull";
+    case StartId::kVolume:
+      return "volume";
+  }
+  return "";
+}
+
+Result<std::optional<StartingPoints>, InputError> other_start(const Capture& capture,
+                                                              std::span<const int> cameras,
+                                                              const EncoderSettings& settings) {
+  using Start = std::optional<StartingPoints>;
+  if (cameras.empty()) return Start{};
+  if (capture.cloud.positions.empty()) {
+    SLF_TRY(StartingPoints points, starting_points(capture, cameras, settings.threads));
+    return Start{std::move(points)};
+  }
+  if (!capture.mesh.triangles.empty()) {
+    const bool keeps = settings.surface == Surface::kGiven || settings.surface == Surface::kAuto;
+    return keeps ? Start{} : Start{{capture.cloud, StartId::kPoints}};
+  }
+  const bool trains = settings.surface == Surface::kAuto || settings.surface == Surface::kTrained;
+  if (!trains || !training_obstacle(capture, cameras).empty() ||
+      is_dense(choose_density(capture, cameras)))
+    return Start{};
+  auto points = starting_points(capture, cameras, settings.threads);
+  const bool taken =
+      points && points->start == StartId::kHull && lies_on(points->cloud, capture.cloud);
+  return taken ? Start{*std::move(points)} : Start{};
+}
+
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
-                                              const EncoderSettings& settings,
+                                              const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress) {
   report = {};
+  report.start = start;
   report.points_before = capture.cloud.positions.size();
   auto cloud = chosen_surface({capture, cameras, settings, report, progress});
   if (cloud) report.points_after = cloud->positions.size();

@@ -1,17 +1,28 @@
 // Which surface photographs are predicted best by: as given, mended, or trained.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "slf/encoder.h"
+#include "train/starting_points.h"
 
 namespace slf {
 
+/// What takes the place of the capture's points and mesh: where it has none, where points are few
+/// and the outlines' hull says the same with more, and points of a mesh that is to be mended or to
+/// start training. Nothing: they stay.
+/// @errors those of starting_points, of captures without points
+Result<std::optional<StartingPoints>, InputError> other_start(const Capture& capture,
+                                                              std::span<const int> cameras,
+                                                              const EncoderSettings& settings);
+
 /// The cloud on the grid, of the surface that settings.surface asks for.
+/// @param start   where the capture's points are from: those of a volume have to be trained
 /// @param report  receives what became of the points
 /// @errors those of voxelise_capture, refine_geometry, train_geometry and surface_psnr
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
-                                              const EncoderSettings& settings,
+                                              const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress);
 
 }  // namespace slf

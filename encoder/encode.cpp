@@ -1,4 +1,5 @@
 // The encoder's main path: photographs and points to bytes. The last step is codec/pack.cpp.
+#include <optional>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -64,8 +65,11 @@ Result<Done, InputError> resolve_step(Job& job) {
 
 }  // namespace
 
-Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
-                                   const EncoderSettings& given, const Progress& progress) {
+namespace {
+
+Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
+                                        std::span<const int> cameras, const EncoderSettings& given,
+                                        const Progress& progress) {
   Job job{capture, cameras, given, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
@@ -76,7 +80,7 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, encoded.surface, progress));
+  SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress));
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
   encoded.grid = moved(job.cloud.grid, capture.origin);
@@ -118,6 +122,18 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   encoded.seconds_code = watch.lap();
   if (progress) progress("code", 1);
   return std::move(job.encoded);
+}
+
+}  // namespace
+
+Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
+                                   const EncoderSettings& settings, const Progress& progress) {
+  SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));
+  if (!points) return encode_from(capture, StartId::kPoints, cameras, settings, progress);
+  Capture started = capture;
+  started.cloud = std::move(points->cloud);
+  started.mesh = {};
+  return encode_from(started, points->start, cameras, settings, progress);
 }
 
 }  // namespace slf

@@ -42,6 +42,7 @@ std::string cross_validation(const ChosenFit& chosen) {
 /// What was tried, and what it was worth.
 Metadata surface_metadata(const SurfaceReport& r) {
   Metadata out = {{"surface", word_of(r.kept)}};
+  if (r.start != StartId::kPoints) out.emplace_back("surface_start", word_of(r.start));
   const RefineReport& mended = r.mended;
   if (r.kept == Surface::kMended)
     out.insert(out.end(), {{"refine_moved", std::to_string(mended.moved)},

@@ -10,7 +10,7 @@ namespace {
 
 // Everything that reads a person's files returns a Result; this chain stops at the first error.
 slf::Result<std::size_t, slf::InputError> encode_capture(const char* input, const char* output) {
-  SLF_TRY(const slf::Capture capture, slf::load_capture(input));
+  SLF_TRY(const slf::Capture capture, slf::load_capture(input, {.points = {}, .points_needed = false}));
   SLF_TRY(const auto cameras, slf::split_cameras(capture, ""));  // what is not held out
 
   slf::EncoderSettings settings = slf::settings_of(slf::Preset::kDefault);

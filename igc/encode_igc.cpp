@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/stopwatch.h"
-#include "encoder/encode_metadata.h"
 #include "encoder/choose_surface.h"
+#include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
 #include "igc/camera_walk.h"
 #include "igc/igc_file.h"
@@ -105,8 +105,8 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
   SLF_CHECK(check_cameras(capture, cameras));
   Stopwatch watch;
   IgcEncoded encoded;
-  SLF_TRY(const VoxelCloud cloud,
-          choose_surface(capture, cameras, settings.slf, encoded.surface, progress));
+  SLF_TRY(const VoxelCloud cloud, choose_surface(capture, cameras, settings.slf, StartId::kPoints,
+                                                 encoded.surface, progress));
   encoded.points = cloud.positions.size();
   encoded.merged = cloud.merged;
   encoded.grid = moved(cloud.grid, capture.origin);

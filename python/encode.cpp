@@ -143,7 +143,7 @@ py::tuple encode_path(const std::string& path, const std::string& split, const p
   Capture capture;
   {
     const py::gil_scoped_release no_gil;
-    capture = value_of(load_capture(path));
+    capture = value_of(load_capture(path, {.points = {}, .points_needed = false}));
   }
   return encode_capture(capture, split, options, progress);
 }

@@ -79,7 +79,7 @@ class TrainGeometryTest : public testing::Test {
     EncoderSettings settings;
     settings.surface = surface;
     SurfaceReport report;
-    const auto cloud = choose_surface(capture, cameras, settings, report, {});
+    const auto cloud = choose_surface(capture, cameras, settings, StartId::kPoints, report, {});
     EXPECT_TRUE(cloud) << (cloud ? "" : cloud.error().message);
     return report;
   }

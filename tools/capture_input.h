@@ -18,6 +18,8 @@ struct CaptureInput {
 };
 
 /// Loads the capture, prints its warnings, and picks the cameras of the split.
-Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line);
+/// @param points_needed  CaptureOptions
+Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
+                                         bool points_needed = true);
 
 }  // namespace slf::tools

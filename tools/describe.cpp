@@ -222,6 +222,7 @@ std::string mended_text(const RefineReport& r) {
 
 nlohmann::ordered_json surface_json(const SurfaceReport& r) {
   nlohmann::ordered_json json;
+  json["start"] = word_of(r.start);
   json["kept"] = word_of(r.kept);
   json["points_before"] = r.points_before;
   json["points_after"] = r.points_after;
@@ -239,15 +240,17 @@ nlohmann::ordered_json surface_json(const SurfaceReport& r) {
 }
 
 std::string surface_text(const SurfaceReport& r) {
-  std::string judged;
+  std::string judged, from;
+  if (r.start == StartId::kHull) from = " of the outlines' hull";
+  if (r.start == StartId::kVolume) from = " anywhere before the cameras";
   if (r.before_psnr > 0)
     judged = text("held-out photographs drawn with %.2f dB trained, %.2f %s", r.trained_psnr,
                   r.before_psnr, r.mended.outcome == RefineReport::kMended ? "mended" : "given");
   if (r.kept == Surface::kTrained)
-    return text("surface       trained: %s surfels, %s points for %s%s%s\n",
+    return text("surface       trained: %s surfels, %s points for %s%s%s%s\n",
                 grouped(r.surfels).c_str(), grouped(r.points_after).c_str(),
-                grouped(r.points_before).c_str(), judged.empty() ? "" : ";\n              ",
-                judged.c_str());
+                grouped(r.points_before).c_str(), from.c_str(),
+                judged.empty() ? "" : ";\n              ", judged.c_str());
   std::string out = mended_text(r.mended);
   if (!judged.empty()) out += "              " + judged + "\n";
   return out;

@@ -119,7 +119,7 @@ Outcome run_encode(const EncodeOptions& given) {
   SLF_CHECK(check_output(given.output));
   ProgressLine line(given.common.quiet);
   const Progress progress = line.callback();
-  SLF_TRY(const CaptureInput input, load_input(given, line));
+  SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
   SLF_TRY(const Encoded encoded,
           from(given.capture, encode(input.capture, input.cameras, settings, progress)));

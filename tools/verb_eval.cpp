@@ -68,6 +68,7 @@ Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& meas
 Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
+  options.points_needed = false;
   SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
   warn(capture.warnings, given.common.quiet);
   if (capture.cameras.empty())
@@ -196,10 +197,23 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   return measured;
 }
 
+PointCloud points_of(const LightField& field) {
+  PointCloud cloud;
+  for (const Voxel& voxel : field.positions) {
+    const Vec3 at = field.header.grid.world(voxel);
+    cloud.positions.push_back({float(at[0]), float(at[1]), float(at[2])});
+  }
+  return cloud;
+}
+
 Outcome run_eval(const EvalOptions& given) {
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
-  SLF_TRY(const Capture capture, read_capture(given));
+  SLF_TRY(Capture capture, read_capture(given));
   SLF_TRY(const Subject subject, decode_subject(given, given.input, capture));
+  if (capture.cloud.positions.empty()) {
+    warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
+    capture.cloud = points_of(subject.field);
+  }
   std::optional<Subject> unquantised;
   if (!given.unquantised.empty()) {
     SLF_TRY(unquantised, decode_subject(given, given.unquantised, capture));

@@ -12,12 +12,12 @@
 namespace slf {
 namespace {
 
-constexpr double kPixelsPerSurfel = 64;  // of the surface, squares
+constexpr double kSurfelPixels = 8;     // side of a square of the surface that has one
+constexpr double kCellsOfSquare = 1.5;  // that a slanted square of a cell's side touches
 constexpr std::size_t kLeastSurfels = 8000, kMostSurfels = 60'000;
 constexpr float kReach = 2.2f;  // spacings: radius, of which a disc shows a third or so
 constexpr float kWidest = 40;   // pixels
 constexpr double kFiner = 0.7;
-constexpr float kStartOpacity = 0.6f;
 
 /// Means of points that fall into one cell of a grid.
 SurfacePoints thinned(const SurfacePoints& points, double cell) {
@@ -98,14 +98,15 @@ double training_pixel(std::span<const TrainingView> views) {
   return pixel > 0 && std::isfinite(pixel) ? pixel : 1;
 }
 
-std::size_t surfels_for(const SurfacePoints& points, double spacing, double pixel) {
-  const double area = double(points.size()) * spacing * spacing / (pixel * pixel);
+std::size_t surfels_for(const SurfacePoints& points, double pixel) {
+  const auto cells = double(thinned(points, kSurfelPixels * pixel).size());
   return std::size_t(
-      std::clamp(area / kPixelsPerSurfel, double(kLeastSurfels), double(kMostSurfels)));
+      std::clamp(cells / kCellsOfSquare, double(kLeastSurfels), double(kMostSurfels)));
 }
 
 TrainedSurfels start_surfels(const SurfacePoints& points, double spacing,
-                             std::span<const TrainingView> views, std::size_t most, int threads) {
+                             std::span<const TrainingView> views, std::size_t most, float opacity,
+                             int threads) {
   SurfacePoints some = points;
   if (points.size() > most) some = thinned_to(points, spacing, most);
   const NearestPoints nearest(some.positions);
@@ -115,7 +116,7 @@ TrainedSurfels start_surfels(const SurfacePoints& points, double spacing,
     for (std::size_t p = begin; p < end; ++p) {
       const float apart = distance_around(nearest, some.positions[p], some.size());
       const float radius = std::clamp(kReach * apart, pixel, kWidest * pixel);
-      surfels[p] = flat_surfel(some.positions[p], some.normals[p], radius, kStartOpacity);
+      surfels[p] = flat_surfel(some.positions[p], some.normals[p], radius, opacity);
       const Float3 colour = seen_colour(some.positions[p], some.normals[p], views);
       for (std::size_t c = 0; c < 3; ++c)
         surfels[p].value[TrainedSurfel::kColour + c] = (colour[c] - 0.5f) / kMeanFunction;

@@ -14,12 +14,14 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
-constexpr double kMostPixels = 1 << 20;        // of a photograph
-constexpr double kMostSamples = 1 << 28;       // of all: floats of three channels
-constexpr double kPixelsPerVoxel = 1.6;        // between points: docs/pictures/trained.md
-constexpr double kTrainedBefore = 0.8;         // of the iterations, with some of the photographs
-constexpr std::size_t kLeastFused = 500;       // fewer are nothing like a surface
-constexpr std::size_t kMostFused = 1'000'000;  // points, about
+constexpr double kMostPixels = 1 << 20;   // of a photograph
+constexpr double kMostSamples = 1 << 28;  // of all: floats of three channels
+constexpr double kPixelsPerVoxel = 1.6;   // between points: docs/pictures/trained.md
+constexpr float kSolidOpacity = 0.6f, kThinOpacity = 0.1f;  // of surfels at first
+constexpr double kTrainedBefore = 0.8;  // of the iterations, with some of the photographs
+constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
+constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface
+constexpr std::size_t kMostFused = 1'000'000;               // points, about
 
 SurfacePoints start_of(const Capture& capture, int threads) {
   SurfacePoints points{capture.cloud.positions, capture.cloud.normals, {}};
@@ -45,12 +47,13 @@ int reduction_of(const Capture& capture, std::span<const int> cameras) {
 }
 
 /// Largest side of the box of most surfels: some may be anywhere.
-double extent_of(const TrainedSurfels& surfels) {
+/// @param outside  share of them at either end of an axis
+double extent_of(const TrainedSurfels& surfels, double outside) {
   double extent = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     std::vector<float> values;
     for (const TrainedSurfel& surfel : surfels) values.push_back(surfel.position()[a]);
-    const auto share = std::ptrdiff_t(values.size() / 500);
+    const auto share = std::ptrdiff_t(outside * double(values.size()));
     std::nth_element(values.begin(), values.begin() + share, values.end());
     const float low = values[std::size_t(share)];
     std::nth_element(values.begin(), values.end() - 1 - share, values.end());
@@ -62,9 +65,10 @@ double extent_of(const TrainedSurfels& surfels) {
 double lattice_step(const TrainGeometrySettings& settings, const TrainedSurfels& surfels,
                     double pixel) {
   if (settings.voxel_size > 0) return settings.voxel_size;
-  const double extent = extent_of(surfels);
-  if (settings.grid_bits > 0) return 1.02 * extent / (std::pow(2.0, settings.grid_bits) - 1);
-  return std::max(kPixelsPerVoxel * pixel, extent / std::sqrt(double(kMostFused)));
+  if (settings.grid_bits > 0)
+    return 1.02 * extent_of(surfels, kFewOutside) / (std::pow(2.0, settings.grid_bits) - 1);
+  return std::max(kPixelsPerVoxel * pixel,
+                  extent_of(surfels, kManyOutside) / std::sqrt(double(kMostFused)));
 }
 
 double sharpest_pixel(const Capture& capture, std::span<const int> cameras,
@@ -97,7 +101,7 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
   training.iterations = settings.iterations;
   training.threads = settings.threads;
   training.surfels =
-      settings.surfels > 0 ? settings.surfels : surfels_for(start, spacing, training_pixel(views));
+      settings.surfels > 0 ? settings.surfels : surfels_for(start, training_pixel(views));
   if (progress)
     training.progress = [&](double done) {
       progress("train", done);
@@ -105,9 +109,10 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
     };
   if (!trained.empty()) training.from = kTrainedBefore;
   TrainedSurfels& surfels = out.surfels;
-  surfels = !trained.empty()
-                ? std::move(trained)
-                : start_surfels(start, spacing, views, training.surfels / 2, settings.threads);
+  surfels = !trained.empty() ? std::move(trained)
+                             : start_surfels(start, spacing, views, training.surfels / 2,
+                                             settings.is_volume ? kThinOpacity : kSolidOpacity,
+                                             settings.threads);
   train_surfels(views, training, surfels);
   if (surfels.size() < kLeastPoints) return out;
   Lattice lattice;

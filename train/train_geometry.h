@@ -16,6 +16,7 @@ struct TrainGeometrySettings {
   int grid_bits = 0;        ///< of the grid that follows; 0: as fine as photographs resolve
   double voxel_size = 0;    ///< > 0: in place of grid_bits
   int iterations = 3000;    ///< of training, one photograph each
+  bool is_volume = false;   ///< the points are anywhere: all of them are let be seen at first
   std::size_t surfels = 0;  ///< most; 0: as the photographs resolve
   int threads = 0;
 };

@@ -7,6 +7,7 @@
 
 #include "slf/parallel.h"
 #include "train/adam.h"
+#include "train/chance.h"
 #include "train/draw_surfels.h"
 #include "train/grow_surfels.h"
 #include "train/picture_loss.h"
@@ -31,17 +32,6 @@ constexpr float kSmallest = 2.5f;  // pixels: radius of what splits
 
 // Shares of the iterations that the coarser photographs have.
 constexpr double kCoarseShare = 0.25;
-
-/// Numbers that look like chance and are the same everywhere. Vigna, splitmix64.
-struct Chance {
-  std::uint64_t state;
-  std::uint64_t next() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-};
 
 /// Every photograph once, then every one again in another order.
 class Order {

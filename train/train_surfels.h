@@ -27,14 +27,16 @@ struct TrainSettings {
 /// Where training begins: as many surfels as the settings allow at first, on the points.
 /// @param points  with normals; neither has to be right
 /// @param spacing  of the points, world units
+/// @param opacity  of each, 0 .. 1
 TrainedSurfels start_surfels(const SurfacePoints& points, double spacing,
-                             std::span<const TrainingView> views, std::size_t most, int threads);
+                             std::span<const TrainingView> views, std::size_t most, float opacity,
+                             int threads);
 
 /// World size of a pixel of the views on what they look at; > 0
 double training_pixel(std::span<const TrainingView> views);
 
 /// As many surfels as tell apart what photographs do.
-std::size_t surfels_for(const SurfacePoints& points, double spacing, double pixel);
+std::size_t surfels_for(const SurfacePoints& points, double pixel);
 
 /// Adam on photographs in an order that is drawn once. Surfels that are pulled the most split,
 /// those that nothing shows go.

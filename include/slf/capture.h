@@ -103,6 +103,7 @@ struct CaptureOptions {
   bool check_images = true;      ///< open every image and compare its size with the calibration
   std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
   bool cloud = true;  ///< false: cameras alone, as the file has them; Capture::origin is 0
+  bool points_needed = true;  ///< false: a capture with cameras may have no points
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP

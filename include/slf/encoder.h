@@ -116,7 +116,7 @@ struct EncoderSettings {
   int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
-  Surface surface = Surface::kAuto;         ///< kGiven without cameras, and of meshes
+  Surface surface = Surface::kAuto;         ///< kGiven without cameras, kAuto of meshes too
   ObserveSettings observe;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();

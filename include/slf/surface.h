@@ -16,9 +16,17 @@ enum class Surface : std::uint8_t {
   kAuto,     ///< what predicts held-out input photographs best
 };
 
+/// Where the points are from that a surface starts with.
+enum class StartId : std::uint8_t {
+  kPoints,  ///< the capture's own
+  kHull,    ///< of the object's outlines: of masks, of alpha, or before an even background
+  kVolume,  ///< points anywhere in what the cameras look at
+};
+
 /// What became of the capture's points before anything else. PSNRs are of input photographs that
 /// were held out, all of their pixels, drawn from a quick fit to the others; 0: not judged.
 struct SurfaceReport {
+  StartId start = StartId::kPoints;
   Surface kept = Surface::kGiven;
   RefineReport mended;
   std::string untrained;    ///< why nothing was trained; empty: it was
@@ -33,5 +41,7 @@ struct SurfaceReport {
 
 /// "given", "mended", "trained", "auto"
 const char* word_of(Surface surface);
+/// "points", "hull", "volume"
+const char* word_of(StartId start);
 
 }  // namespace slf

@@ -1,0 +1,205 @@
+// Where training starts when a capture has no points.
+#include "train/starting_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/mesh_sampling.h"
+#include "capture/nearest.h"
+#include "capture/surface_points.h"
+#include "slf/encoder.h"
+#include "tools/synth/rings.h"
+#include "tools/synth/sample_points.h"
+#include "tools/synth/scene.h"
+#include "tools/synth/trace.h"
+#include "train/object_outline.h"
+
+namespace slf::starting_points_test {
+namespace {
+
+/// A can before grey, in small photographs, without points.
+class StartingPointsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const auto scene = synth::make_scene("can");
+    const auto rings = synth::make_rings(4, 6, 96, 96, scene->bounds().radius);
+    capture_ = new Capture;
+    capture_->cameras = rings.cameras;
+    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
+      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 1));
+      cameras_.push_back(int(i));
+    }
+    radius_ = scene->bounds().radius;
+    double step = 0;
+    exact_ = new PointCloud(synth::sample_points(*scene, 3000, 2, &step));
+  }
+  static void TearDownTestSuite() {
+    delete capture_;
+    delete exact_;
+  }
+
+  /// With stripes of the photograph's own behind the object.
+  static Capture before_stripes() {
+    Capture capture = *capture_;
+    for (std::size_t i = 0; i < capture.images.size(); ++i) {
+      Image& image = capture.images[i];
+      const auto object = object_outline(image);
+      for (std::size_t p = 0; p < object.size(); ++p)
+        for (std::size_t c = 0; c < 3 && !object[p]; ++c)
+          image.data[3 * p + c] = std::uint8_t(40 * ((p / 7 + i + c) % 6));
+    }
+    return capture;
+  }
+  /// The same photographs, their backgrounds taken away by alpha.
+  static Capture with_alpha(Capture capture) {
+    for (std::size_t i = 0; i < capture.images.size(); ++i) {
+      const auto object = object_outline(capture_->images[i]);
+      Image image = capture.images[i];
+      image.channels = 4;
+      image.data.clear();
+      for (std::size_t p = 0; p < object.size(); ++p) {
+        for (std::size_t c = 0; c < 3; ++c) image.data.push_back(capture.images[i].data[3 * p + c]);
+        image.data.push_back(object[p] ? 255 : 0);
+      }
+      capture.images[i] = image;
+    }
+    return capture;
+  }
+
+  static inline Capture* capture_ = nullptr;
+  static inline PointCloud* exact_ = nullptr;
+  static inline std::vector<int> cameras_;
+  static inline double radius_ = 0;
+};
+
+TEST_F(StartingPointsTest, CamerasLookAtTheObject) {
+  const auto ball = looked_at(*capture_, cameras_);
+  ASSERT_TRUE(ball);
+  for (const double x : ball->centre) EXPECT_NEAR(x, 0, 0.1 * radius_);
+  EXPECT_GT(ball->radius, 0.9 * radius_);
+  EXPECT_LT(ball->radius, 4 * radius_);
+}
+
+TEST_F(StartingPointsTest, TheHullOfAnEvenBackgroundLiesAroundTheObject) {
+  const auto points = starting_points(*capture_, cameras_, 0);
+  ASSERT_TRUE(points);
+  EXPECT_EQ(points->start, StartId::kHull);
+  const PointCloud& hull = points->cloud;
+  ASSERT_EQ(hull.normals.size(), hull.positions.size());
+  const NearestPoints tree(exact_->positions);
+  std::size_t outside = 0, alike = 0;
+  double farthest = 0;
+  for (std::size_t p = 0; p < hull.positions.size(); ++p) {
+    std::uint32_t nearest = 0;
+    tree.nearest(hull.positions[p], 1, &nearest, nullptr);
+    const Float3& normal = exact_->normals[nearest];
+    const float apart = dot(minus(hull.positions[p], exact_->positions[nearest]), normal);
+    outside += double(apart) > -0.05 * radius_;
+    alike += dot(normal, hull.normals[p]) > 0;
+    farthest = std::max(farthest, double(std::abs(apart)));
+  }
+  // Some bare metal is as grey as what is behind it.
+  EXPECT_GT(double(outside), 0.9 * double(hull.positions.size()));
+  EXPECT_GT(double(alike), 0.9 * double(hull.positions.size()));
+  EXPECT_LT(farthest, 0.5 * radius_);
+}
+
+TEST_F(StartingPointsTest, AlphaCarvesAsAnEvenBackgroundDoes) {
+  const auto by_colour = starting_points(*capture_, cameras_, 0);
+  const auto by_alpha = starting_points(with_alpha(before_stripes()), cameras_, 0);
+  ASSERT_TRUE(by_colour && by_alpha);
+  EXPECT_EQ(by_alpha->start, StartId::kHull);
+  EXPECT_EQ(by_alpha->cloud.positions, by_colour->cloud.positions);
+}
+
+TEST_F(StartingPointsTest, WhereNothingTellsTheObjectPointsAreAnywhere) {
+  const auto points = starting_points(before_stripes(), cameras_, 0);
+  ASSERT_TRUE(points);
+  EXPECT_EQ(points->start, StartId::kVolume);
+  EXPECT_GT(points->cloud.positions.size(), 1000u);
+}
+
+TEST_F(StartingPointsTest, AllBlackMasksAreNoOutline) {
+  Capture capture = *capture_;
+  for (Image& image : capture.images) {
+    image.channels = 4;
+    image.data.assign(image.data.size() / 3 * 4, 0);
+  }
+  const auto points = starting_points(capture, cameras_, 0);
+  ASSERT_TRUE(points);
+  EXPECT_EQ(points->start, StartId::kVolume);
+}
+
+TEST_F(StartingPointsTest, TheSameForAnyNumberOfThreads) {
+  const auto one = starting_points(*capture_, cameras_, 1);
+  const auto three = starting_points(*capture_, cameras_, 3);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->cloud.positions, three->cloud.positions);
+  EXPECT_EQ(one->cloud.normals, three->cloud.normals);
+}
+
+TEST_F(StartingPointsTest, CamerasThatLookApartOrTheSameWayAreRefused) {
+  Capture row = *capture_, room = *capture_;
+  for (std::size_t i = 0; i < row.cameras.size(); ++i) {
+    row.cameras[i].rotation = row.cameras[0].rotation;
+    row.cameras[i].translation = row.cameras[0].translation;
+    row.cameras[i].translation[0] += double(i);
+    Camera& outwards = room.cameras[i];  // turned about its own upright axis, where it stands
+    for (const std::size_t r : {0u, 2u}) {
+      for (double& x : outwards.rotation[r]) x = -x;
+      outwards.translation[r] = -outwards.translation[r];
+    }
+  }
+  for (const Capture* capture : {&row, &room}) {
+    const auto points = starting_points(*capture, cameras_, 0);
+    ASSERT_FALSE(points);
+    EXPECT_EQ(points.error().code, Errc::kInvalidInput);
+    EXPECT_NE(points.error().message.find("give points"), std::string::npos);
+  }
+}
+
+TEST_F(StartingPointsTest, PhotographsAndCamerasBecomeALightField) {
+  EncoderSettings settings = settings_of(Preset::kDefault, 1);
+  settings.surface = Surface::kGiven;
+  const auto encoded = encode(*capture_, cameras_, settings);
+  ASSERT_TRUE(encoded) << encoded.error().message;
+  EXPECT_EQ(encoded->surface.start, StartId::kHull);
+  EXPECT_GT(encoded->points, 1000u);
+}
+
+TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
+  Capture capture = *capture_;
+  const float side = 0.9f * float(radius_);
+  for (int corner = 0; corner < 8; ++corner)
+    capture.mesh.vertices.positions.push_back(
+        {corner & 1 ? side : -side, corner & 2 ? side : -side, corner & 4 ? side : -side});
+  for (const std::array<std::uint32_t, 4>& f : std::vector<std::array<std::uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    capture.mesh.triangles.push_back({f[0], f[1], f[2]});
+    capture.mesh.triangles.push_back({f[0], f[2], f[3]});
+  }
+  auto sampled = sample_for_cameras(capture, capture.mesh);
+  ASSERT_TRUE(sampled);
+  capture.cloud = *std::move(sampled);
+  EncoderSettings settings = settings_of(Preset::kDefault, 1);
+  for (const Surface surface : {Surface::kAuto, Surface::kTrained}) {
+    settings.surface = surface;
+    const auto encoded = encode(capture, cameras_, settings);
+    ASSERT_TRUE(encoded) << encoded.error().message;
+    EXPECT_EQ(encoded->surface.kept,
+              surface == Surface::kAuto ? Surface::kGiven : Surface::kTrained);
+  }
+}
+
+TEST_F(StartingPointsTest, PointsThatAreAnywhereAreNoSurfaceAsGiven) {
+  EncoderSettings settings = settings_of(Preset::kDefault, 1);
+  settings.surface = Surface::kGiven;
+  const auto encoded = encode(before_stripes(), cameras_, settings);
+  ASSERT_FALSE(encoded);
+  EXPECT_NE(encoded.error().message.find("--surface trained"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace slf::starting_points_test

@@ -1,0 +1,15 @@
+// Which pixels of a photograph show the object, by the photograph alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slf/capture.h"
+
+namespace slf {
+
+/// [height][width] 1: the object. By alpha (a mask or the photograph's own), else by a background
+/// that is even: what is like the border and reaches it. Empty: neither tells.
+std::vector<std::uint8_t> object_outline(const Image& photograph);
+
+}  // namespace slf
