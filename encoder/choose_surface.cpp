@@ -16,6 +16,7 @@ constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the
 constexpr double kPerfect = 48;     // dB: errors of a grey level; what is gained there is nothing
 constexpr double kDense = 3;  // pixels: points that lie farther apart leave holes, exact or not
 constexpr int kIterations = 2500;
+constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
 
 struct SurfaceChoice {
   const Capture& capture;
@@ -42,7 +43,13 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   training.grid_bits = job.settings.grid_bits;
   training.voxel_size = job.settings.voxel_size;
   training.iterations = kIterations;
+  const bool again = !before.empty();
   training.threads = job.settings.threads;
+  training.seconds =
+      job.settings.surface_seconds * (again                                 ? kAgain
+                                      : cameras.size() < job.cameras.size() ? 1 - kAgain
+                                                                            : 1);
+  training.photograph_bytes = double(job.settings.surface_memory) * (1 << 20);
   training.is_volume = job.report.start == StartId::kVolume;
   auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
   job.report.seconds_train += watch.lap();

@@ -55,6 +55,10 @@ Result<Done, InputError> check_settings(const EncoderSettings& s) {
   if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
   if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
     return invalid("grid bits: 1 to 21, or 0 for automatic");
+  if (!(s.surface_seconds >= 0 && s.surface_seconds <= 1e6))
+    return invalid("surface seconds: 0 to 1,000,000");
+  if (s.surface_memory < 16 || s.surface_memory > 1 << 20)
+    return invalid("surface memory: 16 to 1,048,576 MiB");
   if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
     return invalid("delta: 0 to 90 degrees");
   SLF_CHECK(check_fit_settings(s.fit));

@@ -66,6 +66,12 @@ void add_geometry(std::vector<SettingRow>& rows) {
                              {"auto", Surface::kAuto}},
               "Points as given (scans, exact models), moved to where photographs agree, trained by "
               "photographs, or what predicts held-out input photographs best"),
+       number(
+           "surface-seconds", SLF_AT(surface_seconds), 0, 1e6,
+           "Train a surface for about so long, seconds; 0: as long as it pays. Files then differ "
+           "from run to run"),
+       number("surface-memory", SLF_AT(surface_memory), 16, 1 << 20,
+              "MiB that photographs of a training take at most: they are halved to fit"),
        choice("geometry", SLF_AT(geometry),
               Words<GeometryCoder>{{"octree", GeometryCoder::kOctree},
                                    {"draco", GeometryCoder::kDraco}},

@@ -141,6 +141,8 @@ Outcome refuse_idle(const Given& given, const FitSettings& fit) {
         "--coefficients texture"));
   if (!given.is("quality", "auto") && (given.has("quality") || given.is("preset", "paper")))
     SLF_CHECK(refuse(given, {"quality-loss"}, "--quality auto"));
+  if (given.is("surface", "given") || given.is("surface", "mended"))
+    SLF_CHECK(refuse(given, {"surface-seconds", "surface-memory"}, "--surface auto and trained"));
   if (given.is("cross-validate", "off")) {
     SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
     SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));

@@ -120,6 +120,25 @@ TEST_F(TrainGeometryTest, TheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one->cloud.normals, three->cloud.normals);
 }
 
+TEST_F(TrainGeometryTest, AnEndedTrainingIsASurfaceStill) {
+  const auto trained = train_geometry(with(sparse(20)), cameras_, {.seconds = 0.5});
+  ASSERT_TRUE(trained);
+  EXPECT_GT(trained->cloud.positions.size(), 1000u);
+  EXPECT_GT(share_within(3, trained->cloud), 0.5);
+}
+
+TEST_F(TrainGeometryTest, PhotographsThatWouldTakeTooMuchMemoryAreHalved) {
+  const double bytes = 50.0 * 128 * 128 * 16;
+  const auto whole =
+      train_geometry(with(sparse(20)), cameras_, {.iterations = 40, .photograph_bytes = bytes});
+  const auto any = train_geometry(with(sparse(20)), cameras_, {.iterations = 40});
+  const auto halved = train_geometry(with(sparse(20)), cameras_,
+                                     {.iterations = 40, .photograph_bytes = 0.9 * bytes});
+  ASSERT_TRUE(whole && any && halved);
+  EXPECT_EQ(whole->cloud.positions, any->cloud.positions);
+  EXPECT_NE(halved->cloud.positions, any->cloud.positions);
+}
+
 TEST_F(TrainGeometryTest, AnExactCloudStaysAndNothingIsTrained) {
   const SurfaceReport report = chosen(with(*exact_), cameras_);
   EXPECT_EQ(report.kept, Surface::kGiven);

@@ -14,9 +14,9 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
-constexpr double kMostPixels = 1 << 20;   // of a photograph
-constexpr double kMostSamples = 1 << 28;  // of all: floats of three channels
-constexpr double kPixelsPerVoxel = 1.6;   // between points: docs/pictures/trained.md
+constexpr double kMostPixels = 1 << 20;                      // of a photograph
+constexpr double kPixelBytes = 3 * sizeof(float) * 4.0 / 3;  // with those of the coarser sizes
+constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/pictures/trained.md
 constexpr float kSolidOpacity = 0.6f, kThinOpacity = 0.1f;  // of surfels at first
 constexpr double kTrainedBefore = 0.8;  // of the iterations, with some of the photographs
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
@@ -33,16 +33,16 @@ SurfacePoints start_of(const Capture& capture, int threads) {
 }
 
 /// Halvings after which all photographs fit.
-int reduction_of(const Capture& capture, std::span<const int> cameras) {
+int reduction_of(const Capture& capture, std::span<const int> cameras, double most_bytes) {
   double largest = 0, all = 0;
   for (const int c : cameras) {
     const Camera& camera = capture.cameras[std::size_t(c)];
     const double pixels = double(camera.width) * double(camera.height);
     largest = std::max(largest, pixels);
-    all += 3 * pixels;
+    all += kPixelBytes * pixels;
   }
   int log2 = 0;
-  while (largest > kMostPixels || all > kMostSamples) largest /= 4, all /= 4, ++log2;
+  while (largest > kMostPixels || all > most_bytes) largest /= 4, all /= 4, ++log2;
   return log2;
 }
 
@@ -95,11 +95,14 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
   const SurfacePoints start = start_of(capture, settings.threads);
   const double spacing = typical_spacing(start.positions);
   if (!(spacing > 0)) return out;
-  SLF_TRY(const auto views, load_training_views(capture, cameras, start, spacing,
-                                                reduction_of(capture, cameras), settings.threads));
+  SLF_TRY(const auto views,
+          load_training_views(capture, cameras, start, spacing,
+                              reduction_of(capture, cameras, settings.photograph_bytes),
+                              settings.threads));
   TrainSettings training;
   training.iterations = settings.iterations;
   training.threads = settings.threads;
+  training.seconds = settings.seconds;
   training.surfels =
       settings.surfels > 0 ? settings.surfels : surfels_for(start, training_pixel(views));
   if (progress)

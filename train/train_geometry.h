@@ -18,6 +18,8 @@ struct TrainGeometrySettings {
   int iterations = 3000;    ///< of training, one photograph each
   bool is_volume = false;   ///< the points are anywhere: all of them are let be seen at first
   std::size_t surfels = 0;  ///< most; 0: as the photographs resolve
+  double seconds = 0;       ///< > 0: of training, about; results then depend on the machine
+  double photograph_bytes = double(1 << 30);  ///< most, as floats: they are halved to fit
   int threads = 0;
 };
 
@@ -39,7 +41,7 @@ std::string training_obstacle(const Capture& capture, std::span<const int> camer
 ///                 them; or empty
 /// @errors those of load_image
 /// The same for any thread count. Time: iterations (pixels + surfels). Memory: photographs as
-/// floats at up to a megapixel each, all of them in a gibibyte, and the nodes near the surface.
+/// floats at up to a megapixel each, and the nodes near the surface.
 Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
                                                    std::span<const int> cameras,
                                                    const TrainGeometrySettings& settings,

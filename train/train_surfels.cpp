@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/stopwatch.h"
 #include "slf/parallel.h"
 #include "train/adam.h"
 #include "train/chance.h"
@@ -111,8 +112,12 @@ void train_surfels(std::span<const TrainingView> views, const TrainSettings& set
   PictureLoss loss;
   Order order(views.size());
   std::size_t drawn_views = 0;
+  Stopwatch watch;
+  double late = settings.from;  // where the schedule is by the clock
   for (int i = int(settings.from * settings.iterations); i < settings.iterations; ++i) {
-    const double done = double(i) / settings.iterations;
+    if (settings.seconds > 0) late += (1 - settings.from) * watch.lap() / settings.seconds;
+    const double done = std::max(double(i) / settings.iterations, late);
+    if (done >= 1) return;
     const std::size_t level = level_at(done, coarser.size() + 1);
     const std::size_t index = order.next();
     const TrainingView& view = level == 0 ? views[index] : coarser[level - 1][index];

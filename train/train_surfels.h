@@ -19,6 +19,7 @@ struct TrainSettings {
   float spread = 1e-3f;     ///< weight of the squared spread in depth, pixels
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
+  double seconds = 0;       ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
   /// Called now and then with the share that is done; false: no more.
   std::function<bool(double)> progress;

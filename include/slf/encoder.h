@@ -117,6 +117,10 @@ struct EncoderSettings {
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
   Surface surface = Surface::kAuto;         ///< kGiven without cameras, kAuto of meshes too
+  /// > 0: training ends after about so long, with steps as small as at its end; files then differ
+  /// from run to run
+  double surface_seconds = 0;
+  int surface_memory = 1024;  ///< 16 or more, MiB: photographs of a training are halved to fit
   ObserveSettings observe;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
