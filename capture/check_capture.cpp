@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/vec3.h"
-#include "capture/image_formats.h"
 #include "slf/rotation.h"
 
 namespace slf {
@@ -47,20 +46,6 @@ Result<Done, InputError> check_camera(const Camera& camera, const std::string& l
 bool principal_point_is_far_off(const Camera& camera) {
   return std::abs(camera.cx - 0.5 * camera.width) > kMaxPrincipalOffset * camera.width ||
          std::abs(camera.cy - 0.5 * camera.height) > kMaxPrincipalOffset * camera.height;
-}
-
-Result<Done, InputError> check_size(const std::filesystem::path& file, const Camera& camera) {
-  std::error_code error;  // a pipe would be waited for
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    return invalid(file.string(), "is not a regular file");
-  SLF_TRY(const ImageSize size, read_image_size(file));
-  if (size.width == static_cast<std::uint32_t>(camera.width) &&
-      size.height == static_cast<std::uint32_t>(camera.height))
-    return Done{};
-  return invalid(file.string(), "image of " + std::to_string(size.width) + " x " +
-                                    std::to_string(size.height) + " pixels, calibrated as " +
-                                    std::to_string(camera.width) + " x " +
-                                    std::to_string(camera.height));
 }
 
 // What a set of points looks like to the cameras.
@@ -141,15 +126,6 @@ Result<Done, InputError> check_cameras(Import& import) {
     capture.warnings.push_back(std::to_string(far_off) + " of " +
                                std::to_string(capture.cameras.size()) +
                                " cameras have a principal point more than 10 % off the centre");
-  return Done{};
-}
-
-Result<Done, InputError> check_image_files(const Capture& capture) {
-  for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
-    SLF_CHECK(check_size(capture.image_files[i], capture.cameras[i]));
-    if (!capture.mask_files.empty() && !capture.mask_files[i].empty())
-      SLF_CHECK(check_size(capture.mask_files[i], capture.cameras[i]));
-  }
   return Done{};
 }
 

@@ -1,5 +1,6 @@
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
+#include "capture/check_photographs.h"
 #include "capture/crop.h"
 #include "capture/file_names.h"
 #include "capture/importer.h"
@@ -202,7 +203,7 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
     return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};
   SLF_CHECK(check_cameras(import));
   SLF_CHECK(resolve_files(import));
-  if (options.check_images) SLF_CHECK(check_image_files(import.capture));
+  if (options.check_images) SLF_CHECK(check_photographs(import.capture));
   if (options.cloud && may_lack_points(options, import)) {
     if (options.crop)
       return InputError{Errc::kInvalidInput, path.string() + ": crop: the capture has no points"};
@@ -211,6 +212,7 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   } else if (options.cloud) {
     SLF_TRY(const auto cloud_name, load_cloud(options, import));
     SLF_CHECK(check_cloud(import.capture, cloud_name));
+    if (options.check_images) SLF_CHECK(check_masks(import.capture));
   }
   // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their
   // photographs say otherwise.

@@ -80,7 +80,7 @@ struct Capture {
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
   std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
-  std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: 8-bit, 0 = not the object
+  std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: docs/captures.md, Conventions
   /// [cameras] or empty: photographs and masks are made smaller as they are read, as reduced() has
   /// it; `cameras` are reduced already.
   std::vector<int> reduction;
@@ -121,7 +121,7 @@ Result<Capture, InputError> load_capture(const std::filesystem::path& path,
 Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 
 /// The image of camera i with three channels, or four where the file has alpha or a mask exists
-/// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an
+/// (alpha = mask; an alpha that is 255 everywhere is none). 16-bit and grey files are converted. Size equals the camera's, or it is an
 /// error. Thread-safe on a const capture.
 /// Reduced ones: each pixel is the mean of those that it takes the place of, its alpha the least of
 /// theirs; JPEG is decoded to that size.
