@@ -1,6 +1,7 @@
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
 #include "capture/check_photographs.h"
+#include "capture/colmap_workspace.h"
 #include "capture/crop.h"
 #include "capture/file_names.h"
 #include "capture/importer.h"
@@ -18,15 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// COLMAP's three files, by the one that cameras are in.
-std::optional<std::string> colmap_extension(const fs::path& directory) {
-  if (is_file(directory / "cameras.bin")) return ".bin";
-  if (is_file(directory / "cameras.txt")) return ".txt";
-  return std::nullopt;
-}
-
 Result<Import, InputError> import_colmap(const fs::path& directory, const std::string& extension) {
-  return extension == ".bin" ? import_colmap_binary(directory) : import_colmap_text(directory);
+  SLF_TRY(Import import,
+          extension == ".bin" ? import_colmap_binary(directory) : import_colmap_text(directory));
+  find_colmap_masks(import);
+  if (!import.images.empty() && import.images.front().starts_with("images/"))
+    count_other_photographs(import.capture.root / "images", import);
+  return import;
 }
 
 // By content: any name will do for a JSON file.
@@ -56,15 +55,19 @@ Result<Import, InputError> import_file(const fs::path& file) {
   return InputError{Errc::kInvalidInput, file.string() + ": not a capture that is understood"};
 }
 
+Result<Import, InputError> import_found(const ColmapPlace& model) {
+  SLF_TRY(Import import, import_colmap(model.directory, model.extension));
+  if (!model.warning.empty()) import.capture.warnings.push_back(model.warning);
+  return import;
+}
+
 Result<Import, InputError> import_directory(const fs::path& directory) {
   if (is_file(directory / "cameras.json")) return import_cameras_json(directory / "cameras.json");
-  for (const char* model : {"", "sparse/0", "sparse"}) {
-    const fs::path place = *model == '\0' ? directory : directory / model;
-    if (const auto extension = colmap_extension(place)) return import_colmap(place, *extension);
-  }
+  if (const auto model = find_colmap(directory)) return import_found(*model);
   if (is_file(directory / "transforms.json"))
     return import_transforms_json(directory / "transforms.json");
   if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
+  if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
   return InputError{Errc::kInvalidInput, directory.string() +
                                              ": not a capture: no cameras.json, COLMAP model or "
                                              "transforms.json"};
@@ -74,8 +77,10 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
 fs::path geometry_file(const Import& import) {
   if (!import.cloud_file.empty() && is_file(import.cloud_file)) return import.cloud_file;
   for (const char* name :
-       {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb"})
+       {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb",
+        "fused.ply", "meshed-poisson.ply", "meshed-delaunay.ply"})
     if (is_file(import.capture.root / name)) return import.capture.root / name;
+  if (!import.points_file.empty()) return import.points_file;
   return import.cloud_file;
 }
 
@@ -153,7 +158,7 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
       SLF_CHECK(sample_surface(file.string(), std::move(mesh), capture));
     return file.string();
   }
-  if (!import.cloud_name.empty()) {
+  if (!import.cloud_name.empty() && is_file(import.cloud_name)) {
     take_origin(capture.cloud, capture);
     Mesh points{std::move(capture.cloud), {}};
     SLF_CHECK(crop_or_warn(import.cloud_name, options, capture, points));
@@ -161,7 +166,11 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
     return std::string(import.cloud_name);
   }
   return InputError{Errc::kUnreadable,
-                    (capture.root / "points.ply").string() + ": the capture has no point cloud"};
+                    (capture.root / "points.ply").string() + ": the capture has no point cloud" +
+                        (import.cloud_name.empty()
+                             ? ""
+                             : ", nor have its model (points3D.bin, .txt or .ply) and its dense "
+                               "workspace (fused.ply); --points FILE names one")};
 }
 
 /// Photographs and cameras alone are enough for whoever asked.
@@ -172,10 +181,20 @@ bool may_lack_points(const CaptureOptions& options, const Import& import) {
   return !in_model && !is_file(geometry_file(import));
 }
 
-Result<Done, InputError> resolve_files(Import& import) {
+// Where photograph i is: in the capture, or in a folder that was named.
+Result<fs::path, InputError> image_file(const Import& import, std::size_t i,
+                                        const fs::path& folder) {
+  const std::string& label = import.labels[i];
+  if (folder.empty()) return path_inside(import.capture.root, import.images[i], label);
+  SLF_TRY(const fs::path whole, path_inside(folder, import.capture.cameras[i].name, label));
+  if (is_file(whole)) return whole;
+  return path_inside(folder, fs::path(import.images[i]).filename().string(), label);
+}
+
+Result<Done, InputError> resolve_files(const fs::path& folder, Import& import) {
   auto& capture = import.capture;
   for (std::size_t i = 0; i < import.images.size(); ++i) {
-    SLF_TRY(auto image, path_inside(capture.root, import.images[i], import.labels[i]));
+    SLF_TRY(auto image, image_file(import, i, folder));
     capture.image_files.push_back(std::move(image));
     if (import.masks.empty()) continue;
     fs::path mask;
@@ -202,7 +221,7 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   if (import.capture.cameras.empty() && !lone_cloud)
     return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};
   SLF_CHECK(check_cameras(import));
-  SLF_CHECK(resolve_files(import));
+  SLF_CHECK(resolve_files(options.images, import));
   if (options.check_images) SLF_CHECK(check_photographs(import.capture));
   if (options.cloud && may_lack_points(options, import)) {
     if (options.crop)
