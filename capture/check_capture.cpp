@@ -50,18 +50,16 @@ bool principal_point_is_far_off(const Camera& camera) {
 
 // What a set of points looks like to the cameras.
 struct Survey {
-  std::size_t in_front = 0, in_view = 0, facing = 0, points = 0;  // by or to any camera
+  std::size_t in_front = 0, in_view = 0, points = 0;  // by or to any camera
   std::vector<bool> camera_sees;
 };
 
 Survey survey(const Capture& capture, std::size_t stride) {
   Survey result;
   result.camera_sees.resize(capture.cameras.size());
-  std::vector<Vec3> centres;
-  for (const auto& camera : capture.cameras) centres.push_back(camera.centre());
   for (std::size_t p = 0; p < capture.cloud.positions.size(); p += stride) {
     const Vec3 point = to_double(capture.cloud.positions[p]);
-    bool in_front = false, in_view = false, facing = false;
+    bool in_front = false, in_view = false;
     for (std::size_t c = 0; c < capture.cameras.size(); ++c) {
       const auto& camera = capture.cameras[c];
       double z = 0;
@@ -72,15 +70,9 @@ Survey survey(const Capture& capture, std::size_t stride) {
         continue;
       in_view = true;
       result.camera_sees[c] = true;
-      if (facing || capture.cloud.normals.empty()) continue;
-      const Vec3 normal = to_double(capture.cloud.normals[p]);
-      double cosine = 0;
-      for (std::size_t k = 0; k < 3; ++k) cosine += normal[k] * (centres[c][k] - point[k]);
-      facing = cosine > 0;
     }
     result.in_front += in_front;
     result.in_view += in_view;
-    result.facing += facing;
     ++result.points;
   }
   return result;
@@ -150,9 +142,6 @@ Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_
                        " cameras do not see the cloud; are the camera axes those of the format?");
   if (sample.in_view < sample.points / 2)
     warnings.push_back(cloud_name + ": more than half of the points are in no camera's view");
-  if (!capture.cloud.normals.empty() && sample.facing < sample.in_view / 2)
-    warnings.push_back(cloud_name +
-                       ": most normals face away from every camera; do they point inwards?");
   return Done{};
 }
 

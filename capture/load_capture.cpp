@@ -103,6 +103,17 @@ Result<Done, InputError> sample_surface(const std::string& name, Mesh mesh, Capt
   return Done{};
 }
 
+// Of a cloud; faces of a mesh are turned before points are taken from them.
+void turn_normals(const std::string& name, Capture& capture) {
+  if (!capture.mesh.triangles.empty() || capture.cameras.empty()) return;
+  const GivenNormals given = turn_towards(capture.cameras, capture.cloud);
+  if (given == GivenNormals::kInwards)
+    capture.warnings.push_back(name + ": normals point inwards: they are turned");
+  if (given == GivenNormals::kEitherWay)
+    capture.warnings.push_back(
+        name + ": normals point either way: each is turned to the cameras that see it");
+}
+
 // What was read is given from the origin that its reader chose: so is everything else.
 void take_origin(PointCloud& cloud, Capture& capture) {
   capture.origin = cloud.origin;
@@ -231,6 +242,7 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   } else if (options.cloud) {
     SLF_TRY(const auto cloud_name, load_cloud(options, import));
     SLF_CHECK(check_cloud(import.capture, cloud_name));
+    turn_normals(cloud_name, import.capture);
     if (options.check_images) SLF_CHECK(check_masks(import.capture));
   }
   // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their

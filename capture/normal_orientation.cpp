@@ -184,6 +184,16 @@ void orient_towards(std::span<const Floats> positions, std::span<const Vec3> vie
   }
 }
 
+double share_facing_away(std::span<const Floats> positions, std::span<const Vec3> viewpoints,
+                         const std::vector<Floats>& normals, int threads) {
+  std::size_t sure = 0, away = 0;
+  for (const Vote& vote : votes_of(positions, viewpoints, normals, threads)) {
+    sure += vote.sure();
+    away += vote.sure() && vote.towards < 0;
+  }
+  return static_cast<double>(away) / static_cast<double>(std::max<std::size_t>(sure, 1));
+}
+
 void orient_outwards(std::span<const Floats> positions, std::vector<Floats>& normals) {
   if (positions.empty()) return;
   const Vec3 centroid = centroid_of(positions);
