@@ -1,4 +1,5 @@
 // slf encode of a scene that is coded in parts: with a plan, or making one.
+#include <array>
 #include <charconv>
 #include <filesystem>
 
@@ -72,7 +73,7 @@ class SceneRun {
   Outcome check() const {
     if (given_.output == "-")
       return Failure{kUsage, "encode: a scene in parts is written to a file, not to -"};
-    SLF_CHECK(check_output(given_.output));
+    SLF_CHECK(check_output(given_.output, "encode", std::array{".slf"}));
     if (!scene_.part.empty() && scene_.plan.empty())
       return Failure{kUsage, "encode: --part needs --plan (slf plan)"};
     if (!scene_.plan.empty()) SLF_CHECK(check_left_to_plan());

@@ -1,4 +1,5 @@
 // slf encode: photographs and points, or a coloured cloud, to an .slf file.
+#include <array>
 #include <memory>
 
 #include "tools/capture_input.h"
@@ -118,7 +119,7 @@ Outcome run_encode(const EncodeOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_TRY(EncoderSettings settings, resolved(given));
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   ProgressLine line(given.common.quiet);
   const Progress progress = line.callback();
   SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
