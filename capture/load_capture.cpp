@@ -4,6 +4,7 @@
 #include "capture/colmap_workspace.h"
 #include "capture/crop.h"
 #include "capture/file_names.h"
+#include "capture/foreign_captures.h"
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
@@ -36,6 +37,7 @@ Result<Import, InputError> import_json(const fs::path& file) {
   const JsonView json(document, file.string());
   if (json.find("frames")) return import_transforms_json(file);
   if (json.find("cameras")) return import_cameras_json(file);
+  if (const std::string what = foreign_capture(file); !what.empty()) return json.error(what);
   return json.error("neither 'cameras' nor 'frames': not a capture");
 }
 
@@ -52,7 +54,10 @@ Result<Import, InputError> import_file(const fs::path& file) {
     import.cloud_file = file;
     return import;
   }
-  return InputError{Errc::kInvalidInput, file.string() + ": not a capture that is understood"};
+  const std::string what = foreign_capture(file);
+  return InputError{
+      Errc::kInvalidInput,
+      file.string() + ": " + (what.empty() ? "not a capture that is understood" : what)};
 }
 
 Result<Import, InputError> import_found(const ColmapPlace& model) {
@@ -68,9 +73,11 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
     return import_transforms_json(directory / "transforms.json");
   if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
   if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
+  const std::string what = foreign_capture(directory);
   return InputError{Errc::kInvalidInput, directory.string() +
                                              ": not a capture: no cameras.json, COLMAP model or "
-                                             "transforms.json"};
+                                             "transforms.json" +
+                                             (what.empty() ? "" : "; " + what)};
 }
 
 // The file that the format names, else one of a usual name; empty where there is none.
