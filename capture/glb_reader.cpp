@@ -63,6 +63,11 @@ class SceneReader {
     SLF_TRY(const auto roots, list_of(scenes[static_cast<std::size_t>(first)], "nodes"));
     for (const JsonView& root : roots)
       SLF_CHECK(add_node(root, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, 0));
+    if (mesh_.triangles.empty() && !points_.empty()) {  // a cloud, or what is left of a mesh
+      has_normals_ = true;
+      for (const Points& p : points_) add_vertices(p.matrix, p.positions, p.normals);
+      other_primitives_ -= points_.size();
+    }
     set_positions(positions_, mesh_.vertices);
     if (!has_normals_) mesh_.vertices.normals.clear();
     if (other_primitives_ > 0 && warnings != nullptr)
@@ -112,7 +117,7 @@ class SceneReader {
     SLF_TRY(const auto mode, glb_number(primitive, "mode", 4, 6));
     if (mode < 4) {
       ++other_primitives_;
-      return Done{};
+      return mode == 0 ? keep_points(primitive, matrix) : Result<Done, InputError>(Done{});
     }
     SLF_TRY(const JsonView attributes, primitive.at("attributes"));
     SLF_TRY(const auto positions, attribute(attributes, "POSITION", "VEC3", 3));
@@ -129,6 +134,17 @@ class SceneReader {
     };
     for (const auto& t : triangles)
       mesh_.triangles.push_back({vertex(t[0]), vertex(t[swap ? 2 : 1]), vertex(t[swap ? 1 : 2])});
+    return Done{};
+  }
+
+  /// For a scene that has no triangles.
+  Result<Done, InputError> keep_points(const JsonView& primitive, const NodeMatrix& matrix) {
+    SLF_TRY(const JsonView attributes, primitive.at("attributes"));
+    SLF_TRY(auto positions, attribute(attributes, "POSITION", "VEC3", 3));
+    SLF_TRY(auto normals, attribute(attributes, "NORMAL", "VEC3", 3));
+    num_points_ += positions.size() / 3;
+    if (num_points_ > kMostVertices) return primitive.error("the scene has more than 2^25 points");
+    points_.push_back({matrix, std::move(positions), std::move(normals)});
     return Done{};
   }
 
@@ -192,6 +208,12 @@ class SceneReader {
   bool has_normals_ = true;
   std::size_t numbers_read_ = 0;
   std::size_t other_primitives_ = 0;
+  struct Points {
+    NodeMatrix matrix;
+    std::vector<double> positions, normals;
+  };
+  std::vector<Points> points_;
+  std::size_t num_points_ = 0;
   std::vector<Vec3> positions_;  // of the vertices
   Mesh mesh_;
 };

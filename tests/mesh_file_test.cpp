@@ -190,6 +190,16 @@ TEST(MeshFile, BuffersOfGltfAreInTheFileOrBesideIt) {
   expect_refused("a.gltf", kCubeGltf, "bufferViews[0]");
 }
 
+TEST(MeshFile, AGlbOfPointsIsACloud) {
+  const auto points = replaced(kCubeGltf, "\"indices\": 1", "\"mode\": 0");
+  const auto mesh = mesh_in("a.glb", cube_glb(points));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_TRUE(mesh->triangles.empty());
+  ASSERT_EQ(mesh->vertices.positions.size(), 8u);
+  EXPECT_EQ(mesh->vertices.positions[0], mesh_in("a.glb", cube_glb())->vertices.positions[0]);
+  EXPECT_FALSE(mesh_in("a.glb", cube_glb(replaced(points, "\"mode\": 0", "\"mode\": 1"))));
+}
+
 TEST(MeshFile, CompressionAndOtherFormatsAreNamedWithAWayOut) {
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
     const auto glb =
