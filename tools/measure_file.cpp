@@ -15,6 +15,17 @@ namespace {
 
 constexpr std::size_t kMostCameras = 32;
 
+/// The capture, judged on the file's own points where it has none, as `slf eval` does.
+Capture with_points(const Capture& capture, const LightField& field) {
+  Capture judged = capture;
+  for (const Voxel& voxel : field.positions) {
+    const Vec3 at = field.header.grid.world(voxel);
+    judged.cloud.positions.push_back(
+        {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
+  }
+  return judged;
+}
+
 }  // namespace
 
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
@@ -30,8 +41,11 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
   for (std::size_t c = 0; c < chosen; ++c) some.push_back(cameras[c * cameras.size() / chosen]);
   EvaluateSettings settings;
   settings.threads = threads;
+  const bool has_points = !capture.cloud.positions.empty();
+  const Capture own = has_points ? Capture{} : with_points(capture, field);
   SLF_TRY(const Quality quality,
-          from("the file that was written", evaluate(ViewMaps(field), capture, some, settings)));
+          from("the file that was written",
+               evaluate(ViewMaps(field), has_points ? capture : own, some, settings)));
   const auto end = std::chrono::steady_clock::now();
   return FilePictures{quality.image.psnr, chosen,
                       std::chrono::duration<double>(end - start).count()};
