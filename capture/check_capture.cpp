@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/vec3.h"
-#include "capture/image_formats.h"
 #include "slf/rotation.h"
 
 namespace slf {
@@ -49,34 +48,18 @@ bool principal_point_is_far_off(const Camera& camera) {
          std::abs(camera.cy - 0.5 * camera.height) > kMaxPrincipalOffset * camera.height;
 }
 
-Result<Done, InputError> check_size(const std::filesystem::path& file, const Camera& camera) {
-  std::error_code error;  // a pipe would be waited for
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    return invalid(file.string(), "is not a regular file");
-  SLF_TRY(const ImageSize size, read_image_size(file));
-  if (size.width == static_cast<std::uint32_t>(camera.width) &&
-      size.height == static_cast<std::uint32_t>(camera.height))
-    return Done{};
-  return invalid(file.string(), "image of " + std::to_string(size.width) + " x " +
-                                    std::to_string(size.height) + " pixels, calibrated as " +
-                                    std::to_string(camera.width) + " x " +
-                                    std::to_string(camera.height));
-}
-
 // What a set of points looks like to the cameras.
 struct Survey {
-  std::size_t in_front = 0, in_view = 0, facing = 0, points = 0;  // by or to any camera
+  std::size_t in_front = 0, in_view = 0, points = 0;  // by or to any camera
   std::vector<bool> camera_sees;
 };
 
 Survey survey(const Capture& capture, std::size_t stride) {
   Survey result;
   result.camera_sees.resize(capture.cameras.size());
-  std::vector<Vec3> centres;
-  for (const auto& camera : capture.cameras) centres.push_back(camera.centre());
   for (std::size_t p = 0; p < capture.cloud.positions.size(); p += stride) {
     const Vec3 point = to_double(capture.cloud.positions[p]);
-    bool in_front = false, in_view = false, facing = false;
+    bool in_front = false, in_view = false;
     for (std::size_t c = 0; c < capture.cameras.size(); ++c) {
       const auto& camera = capture.cameras[c];
       double z = 0;
@@ -87,15 +70,9 @@ Survey survey(const Capture& capture, std::size_t stride) {
         continue;
       in_view = true;
       result.camera_sees[c] = true;
-      if (facing || capture.cloud.normals.empty()) continue;
-      const Vec3 normal = to_double(capture.cloud.normals[p]);
-      double cosine = 0;
-      for (std::size_t k = 0; k < 3; ++k) cosine += normal[k] * (centres[c][k] - point[k]);
-      facing = cosine > 0;
     }
     result.in_front += in_front;
     result.in_view += in_view;
-    result.facing += facing;
     ++result.points;
   }
   return result;
@@ -144,15 +121,6 @@ Result<Done, InputError> check_cameras(Import& import) {
   return Done{};
 }
 
-Result<Done, InputError> check_image_files(const Capture& capture) {
-  for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
-    SLF_CHECK(check_size(capture.image_files[i], capture.cameras[i]));
-    if (!capture.mask_files.empty() && !capture.mask_files[i].empty())
-      SLF_CHECK(check_size(capture.mask_files[i], capture.cameras[i]));
-  }
-  return Done{};
-}
-
 Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_name) {
   const std::size_t count = capture.cloud.positions.size();
   if (count == 0) return invalid(cloud_name, "no points");
@@ -174,9 +142,6 @@ Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_
                        " cameras do not see the cloud; are the camera axes those of the format?");
   if (sample.in_view < sample.points / 2)
     warnings.push_back(cloud_name + ": more than half of the points are in no camera's view");
-  if (!capture.cloud.normals.empty() && sample.facing < sample.in_view / 2)
-    warnings.push_back(cloud_name +
-                       ": most normals face away from every camera; do they point inwards?");
   return Done{};
 }
 

@@ -12,9 +12,6 @@ namespace slf {
 /// Sizes, focal lengths, rotations, distinct names. Warnings go to import.capture.
 Result<Done, InputError> check_cameras(Import& import);
 
-/// Opens every image and mask, reads its header and compares its size with the calibration.
-Result<Done, InputError> check_image_files(const Capture& capture);
-
 /// Whether the cameras look at the cloud. Warnings go to the capture.
 /// @param cloud_name  for messages
 Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_name);

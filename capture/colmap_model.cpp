@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "capture/file_names.h"
+
 namespace slf {
 
 namespace {
@@ -75,6 +77,7 @@ Place place_of_images(const fs::path& directory, const std::string& first_image)
   if (directory.parent_path().filename() == "sparse")
     roots.push_back(directory.parent_path().parent_path());
   if (directory.filename() == "sparse") roots.push_back(directory.parent_path());
+  if (roots.back().filename() == "colmap") roots.push_back(roots.back().parent_path());
   std::error_code error;
   for (const auto& root : roots)
     for (const char* prefix : {"images/", ""})
@@ -95,6 +98,20 @@ Result<ColmapModelKind, InputError> colmap_model_kind(const std::string& name,
   for (const auto& model : kModels)
     if (name == model.name) return supported(model, label);
   return InputError{Errc::kInvalidInput, label + ": unknown camera model '" + name + "'"};
+}
+
+Result<Done, InputError> read_colmap_points(const fs::path& directory, const std::string& extension,
+                                            ColmapModel& model) {
+  const bool binary_first = extension == ".bin";
+  model.points_file = directory / ("points3D" + extension);
+  for (const bool binary : {binary_first, !binary_first}) {
+    const fs::path file = directory / (binary ? "points3D.bin" : "points3D.txt");
+    if (!is_file(file)) continue;
+    model.points_file = file;
+    SLF_TRY(model.points, binary ? read_colmap_points_binary(file) : read_colmap_points_text(file));
+    return Done{};
+  }
+  return Done{};
 }
 
 Result<Import, InputError> import_of(ColmapModel model, const fs::path& directory,
@@ -120,7 +137,8 @@ Result<Import, InputError> import_of(ColmapModel model, const fs::path& director
       place_of_images(directory, model.images.empty() ? "" : model.images.front().name);
   import.capture.root = place.root;
   import.capture.cloud = std::move(model.points);
-  import.cloud_name = (directory / ("points3D" + extension)).string();
+  import.cloud_name = model.points_file.string();
+  if (is_file(directory / "points3D.ply")) import.points_file = directory / "points3D.ply";
   std::size_t not_unit = 0;
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     auto& image = model.images[i];

@@ -43,8 +43,16 @@ struct ColmapImage {
 struct ColmapModel {
   std::vector<ColmapCamera> cameras;
   std::vector<ColmapImage> images;
-  PointCloud points;  ///< positions and colours; may be empty
+  PointCloud points;                  ///< positions and colours; may be empty
+  std::filesystem::path points_file;  ///< where they came from, or would have
 };
+
+/// points3D, in whichever spelling it is there; nothing where it is not.
+/// @param extension  of the model, which is looked for first
+Result<Done, InputError> read_colmap_points(const std::filesystem::path& directory,
+                                            const std::string& extension, ColmapModel& model);
+Result<PointCloud, InputError> read_colmap_points_binary(const std::filesystem::path& file);
+Result<PointCloud, InputError> read_colmap_points_text(const std::filesystem::path& file);
 
 /// Cameras in the order of the images' names: COLMAP writes them in no order.
 /// @param extension  ".bin" or ".txt", for messages

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,8 @@ constexpr double kVoxelPerSpacing = 0.46;
 // Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
 // each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
 constexpr double kDense = 0.8;
+// Of a cloud of voxels: distance of fourth neighbours, in voxels.
+constexpr double kSparsestVoxels = 8;
 // Voxels between points of the cloud: what is between is a guess. On a given grid more may be asked
 // for, as long as the cells looked at are bounded.
 constexpr double kMostDensified = 4, kMostCellsLookedAt = 1 << 30;
@@ -63,6 +67,24 @@ double largest_extent(std::span<const Floats> points) {
     extent = std::max(extent, high - low);
   }
   return extent;
+}
+
+/// The largest whole number that all differences of coordinates are multiples of; 1 of one point.
+double pitch_of(std::span<const Floats> points) {
+  std::uint64_t pitch = 0;
+  for (const Floats& p : points)
+    for (std::size_t k = 0; k < 3 && pitch != 1; ++k)
+      pitch = std::gcd(pitch,
+                       static_cast<std::uint64_t>(std::abs(double{p[k]} - double{points[0][k]})));
+  return static_cast<double>(std::max<std::uint64_t>(pitch, 1));
+}
+
+/// Of whole numbers that stay apart. Voxels stay what they are, sparse ones too (those of 12 bits
+/// have a third of their neighbours). Whole millimetres of a scan are no voxels: half a spacing.
+double voxel_of_whole_numbers(std::span<const Floats> points, double spacing, double held) {
+  const double pitch = pitch_of(points);
+  return spacing <= kSparsestVoxels * pitch ? pitch
+                                            : std::max(std::floor(held / pitch), 1.0) * pitch;
 }
 
 bool whole_numbers(std::span<const Floats> points) {
@@ -172,6 +194,19 @@ Result<VoxelCloud, InputError> voxelise_geometry(const Capture& capture, const P
   return voxels;
 }
 
+std::string merged_warning(const VoxelCloud& cloud, std::size_t points) {
+  constexpr double kFew = 0.02;
+  if (cloud.density.merged || cloud.density.densified ||
+      double(cloud.merged) <= kFew * double(points))
+    return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu of %zu points are nearer to another than a voxel and merged with it: "
+                "--voxel-size %.4g keeps more of them apart",
+                cloud.merged, points, cloud.density.voxel_size / 2);
+  return text;
+}
+
 std::string density_warning(const Density& density) {
   const double wanted = kPixelsPerVoxel * density.pixel;
   if (wanted == 0 || density.densified || density.voxel_size <= 1.001 * wanted) return {};
@@ -206,9 +241,10 @@ Density choose_density(const Capture& capture, std::span<const int> cameras,
   if (density.densified) density.voxel_size = std::max(resolved, density.spacing / kMostDensified);
   const double extent = largest_extent(cloud.positions);
   if (extent > 0) density.voxel_size = std::clamp(density.voxel_size, extent / kMostCells, extent);
-  // A cloud of voxels stays what it is.
   if (!density.merged && !density.densified && whole_numbers(cloud.positions))
-    density.voxel_size = std::max(std::floor(density.spacing), 1.0);
+    density.voxel_size =
+        std::max(voxel_of_whole_numbers(cloud.positions, density.spacing, density.voxel_size),
+                 std::ceil(extent / kMostCells));
   return density;
 }
 

@@ -20,6 +20,10 @@ double pixel_on_surface(const Capture& capture, std::span<const int> cameras,
                         std::span<const std::array<float, 3>> points,
                         std::span<const std::array<float, 3>> normals);
 
+/// A warning where points of a cloud that was to keep all of them were merged; or empty.
+/// @param points  of the cloud
+std::string merged_warning(const VoxelCloud& cloud, std::size_t points);
+
 /// One line for the person who wonders at an automatic grid that is coarser than the photographs;
 /// empty where there is nothing to say.
 std::string density_warning(const Density& density);

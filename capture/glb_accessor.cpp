@@ -60,19 +60,20 @@ double value_at(const std::uint8_t* bytes, std::uint64_t type, bool normalised) 
   }
 }
 
-/// The bytes of a view, all of them in the chunk.
+/// The bytes of a view, all of them in its buffer.
 Result<std::span<const std::uint8_t>, InputError> bytes_of(const GlbData& data,
                                                            const JsonView& view) {
   SLF_TRY(const JsonView index, view.at("buffer"));
   SLF_TRY(const JsonView buffer, glb_item(index, data.buffers, "buffer"));
   SLF_TRY(const double number, index.number());
-  if (number != 0 || buffer.find("uri"))
-    return buffer.error("a buffer that is not the file's binary chunk");
+  const auto content = data.contents.of(static_cast<std::size_t>(number));
+  if (!content)
+    return buffer.error("a buffer that is outside the file; export one file with all in it");
   SLF_TRY(const auto offset, glb_number(view, "byteOffset", 0, kMost));
   SLF_TRY(const auto length, glb_number(view, "byteLength", 0, kMost));
-  if (offset > data.binary.size() || length > data.binary.size() - offset)
-    return view.error("reaches beyond the binary chunk");
-  return data.binary.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+  if (offset > content->size() || length > content->size() - offset)
+    return view.error("reaches beyond its buffer");
+  return content->subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
 }  // namespace

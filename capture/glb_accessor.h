@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/gltf_buffers.h"
 #include "capture/json.h"
 
 namespace slf {
@@ -12,7 +13,7 @@ namespace slf {
 /// The arrays that accessors lead through.
 struct GlbData {
   std::vector<JsonView> accessors, buffer_views, buffers;
-  std::span<const std::uint8_t> binary;  ///< the chunk; may be empty
+  GltfBuffers contents;
 };
 
 /// A whole number of an object, 0 .. most; `otherwise` where it is absent.

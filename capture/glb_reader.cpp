@@ -1,10 +1,12 @@
 // Binary glTF 2.0: the triangles of a scene. Numbers in brackets are clauses of its specification.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/vec3.h"
 #include "capture/exact_positions.h"
 #include "capture/glb_accessor.h"
+#include "capture/gltf_transform.h"
 #include "capture/json_numbers.h"
 #include "capture/mesh_formats.h"
 
@@ -16,75 +18,6 @@ constexpr std::size_t kMostTriangles = std::size_t{1} << 24, kMostVertices = std
 constexpr std::size_t kMostNumbers = std::size_t{1}
                                      << 28;  // nodes can share what the file has once
 constexpr int kMostDepth = 64;
-
-using Matrix = std::array<std::array<double, 4>, 3>;  // rows of an affine transform
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix m{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      m[i][j] = j == 3 ? a[i][3] : 0;
-      for (std::size_t k = 0; k < 3; ++k) m[i][j] += a[i][k] * b[k][j];
-    }
-  return m;
-}
-
-Vec3 moved(const Matrix& m, const Vec3& p) {
-  Vec3 out{};
-  for (std::size_t i = 0; i < 3; ++i)
-    out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
-  return out;
-}
-
-/// Transposed inverse, but for its length: what normals take.
-Matrix cofactors(const Matrix& m) {
-  Matrix c{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      c[i][j] = m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
-    }
-  return c;
-}
-
-bool mirrors(const Matrix& m) {
-  const Matrix c = cofactors(m);
-  return m[0][0] * c[0][0] + m[0][1] * c[0][1] + m[0][2] * c[0][2] < 0;
-}
-
-/// [3.5.3] "matrix" by columns, or scale, then rotation, then translation.
-Result<Matrix, InputError> transform_of(const JsonView& node) {
-  Matrix m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  if (const auto given = node.find("matrix")) {
-    SLF_TRY(const auto values, json_vector<16>(*given));
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 4; ++j) m[i][j] = values[j * 4 + i];
-    return m;
-  }
-  std::array<double, 4> q{0, 0, 0, 1};
-  Vec3 scale{1, 1, 1}, translation{0, 0, 0};
-  if (const auto given = node.find("rotation")) {
-    SLF_TRY(q, json_vector<4>(*given));
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 0) || !std::isfinite(length)) return given->error("rotation of length 0");
-    for (double& x : q) x /= length;
-  }
-  if (const auto given = node.find("scale")) {
-    SLF_TRY(scale, json_vector<3>(*given));
-  }
-  if (const auto given = node.find("translation")) {
-    SLF_TRY(translation, json_vector<3>(*given));
-  }
-  const auto [x, y, z, w] = q;
-  m = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
-        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
-        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) m[i][j] *= scale[j];
-    m[i][3] = translation[i];
-  }
-  return m;
-}
 
 /// [3.7.2.1] Corners of triangles from a primitive's indices; empty for points and lines.
 std::vector<std::array<std::size_t, 3>> triangles_of(std::uint64_t mode, std::size_t indices) {
@@ -105,17 +38,22 @@ Result<std::vector<JsonView>, InputError> list_of(const JsonView& json, const ch
   return found->items();
 }
 
+/// A name of the file, in a message.
+std::string shown(const std::string& name) { return name.substr(0, 60); }
+
 class SceneReader {
  public:
-  SceneReader(const JsonView& json, std::span<const std::uint8_t> binary) : json_(json) {
-    data_.binary = binary;
-  }
+  /// @param folder  of a .gltf, which has files beside it; else empty
+  SceneReader(const JsonView& json, std::span<const std::uint8_t> binary,
+              std::filesystem::path folder)
+      : json_(json), binary_(binary), folder_(std::move(folder)) {}
 
   Result<Mesh, InputError> read(std::vector<std::string>* warnings) {
     SLF_CHECK(check_extensions());
     SLF_TRY(data_.accessors, list_of(json_, "accessors"));
     SLF_TRY(data_.buffer_views, list_of(json_, "bufferViews"));
     SLF_TRY(data_.buffers, list_of(json_, "buffers"));
+    SLF_TRY(data_.contents, GltfBuffers::load(data_.buffers, binary_, folder_));
     SLF_TRY(meshes_, list_of(json_, "meshes"));
     SLF_TRY(nodes_, list_of(json_, "nodes"));
     SLF_TRY(const auto scenes, list_of(json_, "scenes"));
@@ -125,6 +63,11 @@ class SceneReader {
     SLF_TRY(const auto roots, list_of(scenes[static_cast<std::size_t>(first)], "nodes"));
     for (const JsonView& root : roots)
       SLF_CHECK(add_node(root, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, 0));
+    if (mesh_.triangles.empty() && !points_.empty()) {  // a cloud, or what is left of a mesh
+      has_normals_ = true;
+      for (const Points& p : points_) add_vertices(p.matrix, p.positions, p.normals);
+      other_primitives_ -= points_.size();
+    }
     set_positions(positions_, mesh_.vertices);
     if (!has_normals_) mesh_.vertices.normals.clear();
     if (other_primitives_ > 0 && warnings != nullptr)
@@ -144,19 +87,22 @@ class SceneReader {
       const bool harmless = name.starts_with("KHR_materials_") ||
                             name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
                             name == "KHR_mesh_quantization" || name == "KHR_lights_punctual";
-      if (!harmless) return item.error("an extension that is not supported");
+      const bool compresses = name == "KHR_draco_mesh_compression" ||
+                              name.find("meshopt_compression") != std::string::npos;
+      if (compresses) return item.error(name + " is not read: export the mesh without compression");
+      if (!harmless) return item.error(shown(name) + " is an extension that is not supported");
     }
     return Done{};
   }
 
-  Result<Done, InputError> add_node(const JsonView& index, const Matrix& above, int depth) {
+  Result<Done, InputError> add_node(const JsonView& index, const NodeMatrix& above, int depth) {
     SLF_TRY(const JsonView node, glb_item(index, nodes_, "node"));
     SLF_TRY(const double number, index.number());
     auto&& reached = reached_[static_cast<std::size_t>(number)];
     if (reached || depth >= kMostDepth) return node.error("is reached twice, or too deep");
     reached = true;
-    SLF_TRY(const Matrix own, transform_of(node));
-    const Matrix matrix = product(above, own);
+    SLF_TRY(const NodeMatrix own, transform_of(node));
+    const NodeMatrix matrix = product(above, own);
     if (const auto mesh = node.find("mesh")) {
       SLF_TRY(const JsonView item, glb_item(*mesh, meshes_, "mesh"));
       SLF_TRY(const auto primitives, list_of(item, "primitives"));
@@ -167,11 +113,11 @@ class SceneReader {
     return Done{};
   }
 
-  Result<Done, InputError> add_primitive(const JsonView& primitive, const Matrix& matrix) {
+  Result<Done, InputError> add_primitive(const JsonView& primitive, const NodeMatrix& matrix) {
     SLF_TRY(const auto mode, glb_number(primitive, "mode", 4, 6));
     if (mode < 4) {
       ++other_primitives_;
-      return Done{};
+      return mode == 0 ? keep_points(primitive, matrix) : Result<Done, InputError>(Done{});
     }
     SLF_TRY(const JsonView attributes, primitive.at("attributes"));
     SLF_TRY(const auto positions, attribute(attributes, "POSITION", "VEC3", 3));
@@ -188,6 +134,17 @@ class SceneReader {
     };
     for (const auto& t : triangles)
       mesh_.triangles.push_back({vertex(t[0]), vertex(t[swap ? 2 : 1]), vertex(t[swap ? 1 : 2])});
+    return Done{};
+  }
+
+  /// For a scene that has no triangles.
+  Result<Done, InputError> keep_points(const JsonView& primitive, const NodeMatrix& matrix) {
+    SLF_TRY(const JsonView attributes, primitive.at("attributes"));
+    SLF_TRY(auto positions, attribute(attributes, "POSITION", "VEC3", 3));
+    SLF_TRY(auto normals, attribute(attributes, "NORMAL", "VEC3", 3));
+    num_points_ += positions.size() / 3;
+    if (num_points_ > kMostVertices) return primitive.error("the scene has more than 2^25 points");
+    points_.push_back({matrix, std::move(positions), std::move(normals)});
     return Done{};
   }
 
@@ -224,18 +181,18 @@ class SceneReader {
     return indices;
   }
 
-  void add_vertices(const Matrix& matrix, const std::vector<double>& positions,
+  void add_vertices(const NodeMatrix& matrix, const std::vector<double>& positions,
                     const std::vector<double>& normals) {
     PointCloud& vertices = mesh_.vertices;
     has_normals_ = has_normals_ && normals.size() == positions.size();
-    Matrix turn = cofactors(matrix);
+    NodeMatrix turn = cofactors(matrix);
     const double sign = mirrors(matrix) ? -1 : 1;  // cofactors of a mirror point inwards
     for (auto& row : turn)
       for (double& x : row) x *= sign;
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-      positions_.push_back(moved(matrix, {positions[i], positions[i + 1], positions[i + 2]}));
+      positions_.push_back(moved_by(matrix, {positions[i], positions[i + 1], positions[i + 2]}));
       if (!has_normals_) continue;
-      Vec3 normal = moved(turn, {normals[i], normals[i + 1], normals[i + 2]});
+      Vec3 normal = moved_by(turn, {normals[i], normals[i + 1], normals[i + 2]});
       const double length = std::hypot(normal[0], normal[1], normal[2]);
       for (double& n : normal) n = length > 0 ? n / length : 0;
       vertices.normals.push_back(to_float(normal));
@@ -243,12 +200,20 @@ class SceneReader {
   }
 
   const JsonView& json_;
+  std::span<const std::uint8_t> binary_;
+  std::filesystem::path folder_;
   GlbData data_;
   std::vector<JsonView> meshes_, nodes_;
   std::vector<bool> reached_;
   bool has_normals_ = true;
   std::size_t numbers_read_ = 0;
   std::size_t other_primitives_ = 0;
+  struct Points {
+    NodeMatrix matrix;
+    std::vector<double> positions, normals;
+  };
+  std::vector<Points> points_;
+  std::size_t num_points_ = 0;
   std::vector<Vec3> positions_;  // of the vertices
   Mesh mesh_;
 };
@@ -281,7 +246,16 @@ Result<Mesh, InputError> parse_glb(const std::string& name, std::span<const std:
     binary = rest.subspan(8, word_at(rest, 0));
   }
   SLF_TRY(const JsonValue document, parse_json(name, file.subspan(20, json_bytes)));
-  return SceneReader(JsonView(document, name), binary).read(warnings);
+  return SceneReader(JsonView(document, name), binary, {}).read(warnings);
+}
+
+Result<Mesh, InputError> parse_gltf(const std::filesystem::path& file,
+                                    std::span<const std::uint8_t> text,
+                                    std::vector<std::string>* warnings) {
+  SLF_TRY(const JsonValue document, parse_json(file.string(), text));
+  std::error_code ignored;
+  const auto folder = std::filesystem::absolute(file, ignored).parent_path();
+  return SceneReader(JsonView(document, file.string()), {}, folder).read(warnings);
 }
 
 }  // namespace slf

@@ -31,9 +31,21 @@ bool is_jpeg(Bytes file);
 std::optional<ImageSize> png_size(Bytes start);
 std::optional<ImageSize> jpeg_size(Bytes start);
 
-/// Size of a PNG or JPEG from its header alone. Reads a few kilobytes, more only if the header of a
-/// JPEG is longer.
+/// What a file says of itself before its pixels.
+struct ImageHeader {
+  ImageSize size;
+  int orientation = 1;        ///< EXIF, 1 .. 8; 1: upright as stored
+  bool alpha = false;         ///< a PNG with an alpha channel
+  bool other_colour = false;  ///< an ICC profile or a gamma that is not sRGB's
+};
+
+/// Of a PNG or JPEG. Reads a few kilobytes, more only if the header of a JPEG is longer.
+Result<ImageHeader, InputError> read_image_header(const std::filesystem::path& file);
 Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file);
+
+/// The same from the first bytes of a file, whose size is known to be in them.
+ImageHeader png_header(Bytes start);
+ImageHeader jpeg_header(Bytes start);
 
 /// To 8 bits, grey and palette to RGB; four channels where the file has alpha or tRNS.
 /// @param name  for messages

@@ -79,6 +79,11 @@ std::optional<ImageSize> jpeg_size(Bytes start) {
 }
 
 Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file) {
+  SLF_TRY(const ImageHeader header, read_image_header(file));
+  return header.size;
+}
+
+Result<ImageHeader, InputError> read_image_header(const std::filesystem::path& file) {
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
@@ -97,8 +102,8 @@ Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file)
     const std::size_t count = std::fread(start.data() + have, 1, want - have, in.get());
     start.resize(have + count);
     if (std::ferror(in.get()) != 0) return unreadable();
-    if (const auto size = png_size(start)) return *size;
-    if (const auto size = jpeg_size(start)) return *size;
+    if (png_size(start)) return png_header(start);
+    if (jpeg_size(start)) return jpeg_header(start);
     if (!is_jpeg(start) || start.size() < want) break;
   }
   const char* cause = is_png(start)    ? ": PNG without a header (truncated?)"

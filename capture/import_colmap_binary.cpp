@@ -157,12 +157,13 @@ Result<Import, InputError> import_colmap_binary(const fs::path& directory) {
   SLF_TRY(model.cameras, read_cameras(Cursor(cameras, name("cameras.bin"))));
   SLF_TRY(const auto images, read_file(directory / "images.bin"));
   SLF_TRY(model.images, read_images(Cursor(images, name("images.bin"))));
-  std::error_code error;
-  if (fs::exists(directory / "points3D.bin", error)) {
-    SLF_TRY(const auto points, read_file(directory / "points3D.bin"));
-    SLF_TRY(model.points, read_points(Cursor(points, name("points3D.bin"))));
-  }
+  SLF_CHECK(read_colmap_points(directory, ".bin", model));
   return import_of(std::move(model), directory, ".bin");
+}
+
+Result<PointCloud, InputError> read_colmap_points_binary(const fs::path& file) {
+  SLF_TRY(const auto bytes, read_file(file));
+  return read_points(Cursor(bytes, file.string()));
 }
 
 }  // namespace slf

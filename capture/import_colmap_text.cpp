@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "capture/colmap_model.h"
+#include "capture/colmap_workspace.h"
 #include "capture/exact_positions.h"
 
 namespace slf {
@@ -17,7 +18,9 @@ namespace fs = std::filesystem;
 class Lines {
  public:
   Lines(std::span<const std::uint8_t> bytes, std::string name)
-      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(std::move(name)) {}
+      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(std::move(name)) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark, as editors put it
+  }
 
   /// To the next line, whatever is in it. False at the end.
   bool next() {
@@ -37,6 +40,26 @@ class Lines {
   }
 
   bool line_done() const { return line_.empty(); }
+  bool is_comment() const { return line_.starts_with('#'); }
+
+  /// Nothing, or triples X Y POINT3D_ID: features of an image.
+  bool is_features() const {
+    std::size_t words = 0;
+    for (Lines rest = *this; !rest.line_done(); ++words) {
+      const std::string_view text = rest.word();
+      double value = 0;
+      const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error != std::errc() || stop != text.data() + text.size()) return false;
+    }
+    return words % 3 == 0;
+  }
+  /// IMAGE_ID and seven numbers, CAMERA_ID and a name.
+  bool is_image() const {
+    Lines rest = *this;
+    bool numbers{rest.number<std::uint32_t>("")};
+    for (int i = 0; i < 7; ++i) numbers = bool{rest.number<double>("")} && numbers;
+    return numbers && rest.number<std::uint32_t>("") && !rest.line_done();
+  }
 
   std::string_view word() {
     const std::size_t end = std::min(line_.find_first_of(" \t\r"), line_.size());
@@ -103,10 +126,11 @@ Result<std::vector<ColmapCamera>, InputError> read_cameras(Lines in) {
   return cameras;
 }
 
-// IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of features, which may be empty.
+// IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of features, which may be empty or, in
+// files that other programs write, not there.
 Result<std::vector<ColmapImage>, InputError> read_images(Lines in) {
   std::vector<ColmapImage> images;
-  while (in.next_entry()) {
+  for (bool more = in.next_entry(); more;) {
     ColmapImage image;
     SLF_TRY(image.id, in.number<std::uint32_t>("image id"));
     for (double& q : image.quaternion) {
@@ -119,7 +143,12 @@ Result<std::vector<ColmapImage>, InputError> read_images(Lines in) {
     image.name = in.rest();
     if (image.name.empty()) return in.invalid("image without a name");
     images.push_back(std::move(image));
-    in.next();
+    more = in.next();
+    if (!more || (in.is_image() && !in.is_features())) continue;
+    if (!in.is_comment() && !in.is_features())
+      return in.invalid(
+          "neither features of the image before (triples X Y POINT3D_ID) nor an image");
+    more = in.next_entry();
   }
   return images;
 }
@@ -149,6 +178,13 @@ Result<PointCloud, InputError> read_points(Lines in) {
 
 }  // namespace
 
+std::size_t colmap_num_images_text(const fs::path& directory) {
+  const auto bytes = read_file(directory / "images.txt");
+  if (!bytes) return 0;
+  const auto images = read_images(Lines(*bytes, ""));
+  return images ? images->size() : 0;
+}
+
 Result<Import, InputError> import_colmap_text(const fs::path& directory) {
   ColmapModel model;
   const auto name = [&](const char* file) { return (directory / file).string(); };
@@ -156,12 +192,13 @@ Result<Import, InputError> import_colmap_text(const fs::path& directory) {
   SLF_TRY(model.cameras, read_cameras(Lines(cameras, name("cameras.txt"))));
   SLF_TRY(const auto images, read_file(directory / "images.txt"));
   SLF_TRY(model.images, read_images(Lines(images, name("images.txt"))));
-  std::error_code error;
-  if (fs::exists(directory / "points3D.txt", error)) {
-    SLF_TRY(const auto points, read_file(directory / "points3D.txt"));
-    SLF_TRY(model.points, read_points(Lines(points, name("points3D.txt"))));
-  }
+  SLF_CHECK(read_colmap_points(directory, ".txt", model));
   return import_of(std::move(model), directory, ".txt");
+}
+
+Result<PointCloud, InputError> read_colmap_points_text(const fs::path& file) {
+  SLF_TRY(const auto bytes, read_file(file));
+  return read_points(Lines(bytes, file.string()));
 }
 
 }  // namespace slf

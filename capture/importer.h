@@ -13,13 +13,14 @@ namespace slf {
 
 /// Cameras as a format has them, in our convention but not yet checked.
 struct Import {
-  Capture capture;                   ///< root, cameras, splits; cloud if the format carries points
-  std::vector<std::string> images;   ///< [cameras] relative to root, as the format has them
-  std::vector<std::string> masks;    ///< [cameras] or empty; "" where a camera has none
-  std::vector<std::string> labels;   ///< [cameras] where each stands: "cameras.json: cameras[3]"
-  std::filesystem::path cloud_file;  ///< the PLY the format names; or empty
-  std::string cloud_name;            ///< for messages: where capture.cloud came from
-  std::optional<UpAxis> up;          ///< where the format says
+  Capture capture;                    ///< root, cameras, splits; cloud if the format carries points
+  std::vector<std::string> images;    ///< [cameras] relative to root, as the format has them
+  std::vector<std::string> masks;     ///< [cameras] or empty; "" where a camera has none
+  std::vector<std::string> labels;    ///< [cameras] where each stands: "cameras.json: cameras[3]"
+  std::filesystem::path cloud_file;   ///< the PLY the format names; or empty
+  std::filesystem::path points_file;  ///< a cloud that is taken where there is no other; or empty
+  std::string cloud_name;             ///< for messages: where capture.cloud came from
+  std::optional<UpAxis> up;           ///< where the format says
 };
 
 /// The shared convention. @param file  cameras.json

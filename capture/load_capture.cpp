@@ -1,7 +1,10 @@
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
+#include "capture/check_photographs.h"
+#include "capture/colmap_workspace.h"
 #include "capture/crop.h"
 #include "capture/file_names.h"
+#include "capture/foreign_captures.h"
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
@@ -17,15 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// COLMAP's three files, by the one that cameras are in.
-std::optional<std::string> colmap_extension(const fs::path& directory) {
-  if (is_file(directory / "cameras.bin")) return ".bin";
-  if (is_file(directory / "cameras.txt")) return ".txt";
-  return std::nullopt;
-}
-
 Result<Import, InputError> import_colmap(const fs::path& directory, const std::string& extension) {
-  return extension == ".bin" ? import_colmap_binary(directory) : import_colmap_text(directory);
+  SLF_TRY(Import import,
+          extension == ".bin" ? import_colmap_binary(directory) : import_colmap_text(directory));
+  find_colmap_masks(import);
+  if (!import.images.empty() && import.images.front().starts_with("images/"))
+    count_other_photographs(import.capture.root / "images", import);
+  return import;
 }
 
 // By content: any name will do for a JSON file.
@@ -36,6 +37,7 @@ Result<Import, InputError> import_json(const fs::path& file) {
   const JsonView json(document, file.string());
   if (json.find("frames")) return import_transforms_json(file);
   if (json.find("cameras")) return import_cameras_json(file);
+  if (const std::string what = foreign_capture(file); !what.empty()) return json.error(what);
   return json.error("neither 'cameras' nor 'frames': not a capture");
 }
 
@@ -52,29 +54,40 @@ Result<Import, InputError> import_file(const fs::path& file) {
     import.cloud_file = file;
     return import;
   }
-  return InputError{Errc::kInvalidInput, file.string() + ": not a capture that is understood"};
+  const std::string what = foreign_capture(file);
+  return InputError{
+      Errc::kInvalidInput,
+      file.string() + ": " + (what.empty() ? "not a capture that is understood" : what)};
+}
+
+Result<Import, InputError> import_found(const ColmapPlace& model) {
+  SLF_TRY(Import import, import_colmap(model.directory, model.extension));
+  if (!model.warning.empty()) import.capture.warnings.push_back(model.warning);
+  return import;
 }
 
 Result<Import, InputError> import_directory(const fs::path& directory) {
   if (is_file(directory / "cameras.json")) return import_cameras_json(directory / "cameras.json");
-  for (const char* model : {"", "sparse/0", "sparse"}) {
-    const fs::path place = *model == '\0' ? directory : directory / model;
-    if (const auto extension = colmap_extension(place)) return import_colmap(place, *extension);
-  }
+  if (const auto model = find_colmap(directory)) return import_found(*model);
   if (is_file(directory / "transforms.json"))
     return import_transforms_json(directory / "transforms.json");
   if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
+  if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
+  const std::string what = foreign_capture(directory);
   return InputError{Errc::kInvalidInput, directory.string() +
                                              ": not a capture: no cameras.json, COLMAP model or "
-                                             "transforms.json"};
+                                             "transforms.json" +
+                                             (what.empty() ? "" : "; " + what)};
 }
 
 // The file that the format names, else one of a usual name; empty where there is none.
 fs::path geometry_file(const Import& import) {
   if (!import.cloud_file.empty() && is_file(import.cloud_file)) return import.cloud_file;
   for (const char* name :
-       {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb"})
+       {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb",
+        "fused.ply", "meshed-poisson.ply", "meshed-delaunay.ply"})
     if (is_file(import.capture.root / name)) return import.capture.root / name;
+  if (!import.points_file.empty()) return import.points_file;
   return import.cloud_file;
 }
 
@@ -95,6 +108,17 @@ Result<Done, InputError> sample_surface(const std::string& name, Mesh mesh, Capt
     return InputError{Errc::kInvalidInput, name + ": no face has an area that a camera resolves"};
   capture.mesh = std::move(mesh);
   return Done{};
+}
+
+// Of a cloud; faces of a mesh are turned before points are taken from them.
+void turn_normals(const std::string& name, Capture& capture) {
+  if (!capture.mesh.triangles.empty() || capture.cameras.empty()) return;
+  const GivenNormals given = turn_towards(capture.cameras, capture.cloud);
+  if (given == GivenNormals::kInwards)
+    capture.warnings.push_back(name + ": normals point inwards: they are turned");
+  if (given == GivenNormals::kEitherWay)
+    capture.warnings.push_back(
+        name + ": normals point either way: each is turned to the cameras that see it");
 }
 
 // What was read is given from the origin that its reader chose: so is everything else.
@@ -152,7 +176,7 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
       SLF_CHECK(sample_surface(file.string(), std::move(mesh), capture));
     return file.string();
   }
-  if (!import.cloud_name.empty()) {
+  if (!import.cloud_name.empty() && is_file(import.cloud_name)) {
     take_origin(capture.cloud, capture);
     Mesh points{std::move(capture.cloud), {}};
     SLF_CHECK(crop_or_warn(import.cloud_name, options, capture, points));
@@ -160,7 +184,11 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
     return std::string(import.cloud_name);
   }
   return InputError{Errc::kUnreadable,
-                    (capture.root / "points.ply").string() + ": the capture has no point cloud"};
+                    (capture.root / "points.ply").string() + ": the capture has no point cloud" +
+                        (import.cloud_name.empty()
+                             ? ""
+                             : ", nor have its model (points3D.bin, .txt or .ply) and its dense "
+                               "workspace (fused.ply); --points FILE names one")};
 }
 
 /// Photographs and cameras alone are enough for whoever asked.
@@ -171,10 +199,20 @@ bool may_lack_points(const CaptureOptions& options, const Import& import) {
   return !in_model && !is_file(geometry_file(import));
 }
 
-Result<Done, InputError> resolve_files(Import& import) {
+// Where photograph i is: in the capture, or in a folder that was named.
+Result<fs::path, InputError> image_file(const Import& import, std::size_t i,
+                                        const fs::path& folder) {
+  const std::string& label = import.labels[i];
+  if (folder.empty()) return path_inside(import.capture.root, import.images[i], label);
+  SLF_TRY(const fs::path whole, path_inside(folder, import.capture.cameras[i].name, label));
+  if (is_file(whole)) return whole;
+  return path_inside(folder, fs::path(import.images[i]).filename().string(), label);
+}
+
+Result<Done, InputError> resolve_files(const fs::path& folder, Import& import) {
   auto& capture = import.capture;
   for (std::size_t i = 0; i < import.images.size(); ++i) {
-    SLF_TRY(auto image, path_inside(capture.root, import.images[i], import.labels[i]));
+    SLF_TRY(auto image, image_file(import, i, folder));
     capture.image_files.push_back(std::move(image));
     if (import.masks.empty()) continue;
     fs::path mask;
@@ -201,8 +239,8 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   if (import.capture.cameras.empty() && !lone_cloud)
     return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};
   SLF_CHECK(check_cameras(import));
-  SLF_CHECK(resolve_files(import));
-  if (options.check_images) SLF_CHECK(check_image_files(import.capture));
+  SLF_CHECK(resolve_files(options.images, import));
+  if (options.check_images) SLF_CHECK(check_photographs(import.capture));
   if (options.cloud && may_lack_points(options, import)) {
     if (options.crop)
       return InputError{Errc::kInvalidInput, path.string() + ": crop: the capture has no points"};
@@ -211,6 +249,8 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   } else if (options.cloud) {
     SLF_TRY(const auto cloud_name, load_cloud(options, import));
     SLF_CHECK(check_cloud(import.capture, cloud_name));
+    turn_normals(cloud_name, import.capture);
+    if (options.check_images) SLF_CHECK(check_masks(import.capture));
   }
   // Nothing is known of the world of a COLMAP model; the other formats mean z up unless their
   // photographs say otherwise.

@@ -7,6 +7,7 @@
 #include "capture/image_cache.h"
 #include "capture/image_formats.h"
 #include "capture/image_reduction.h"
+#include "capture/object_mask.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -45,7 +46,7 @@ Result<Image, InputError> load(const Capture& capture, std::size_t i) {
   if (!capture.images.empty()) {
     const Image& given = capture.images[i];
     Image image = reduced(given, reduction);
-    if (fits(image)) return image;
+    if (fits(image)) return without_opaque_alpha(std::move(image));
     return other_size(camera.name, static_cast<std::uint32_t>(given.width),
                       static_cast<std::uint32_t>(given.height), camera);
   }
@@ -53,8 +54,10 @@ Result<Image, InputError> load(const Capture& capture, std::size_t i) {
   SLF_TRY(Image image, read_image_reduced(capture.image_files[i], reduction, size));
   if (!fits(image))
     return other_size(capture.image_files[i].string(), size.width, size.height, camera);
+  image = without_opaque_alpha(std::move(image));
   if (i >= capture.mask_files.size() || capture.mask_files[i].empty()) return image;
   SLF_TRY(Image whole, read_image(capture.mask_files[i]));
+  flatten_mask(whole);
   size = {static_cast<std::uint32_t>(whole.width), static_cast<std::uint32_t>(whole.height)};
   const Image mask = reduced_mask(std::move(whole), reduction);
   if (!fits(mask))

@@ -22,6 +22,11 @@ Result<Mesh, InputError> parse_obj(const std::string& name, std::span<const std:
 Result<Mesh, InputError> parse_glb(const std::string& name, std::span<const std::uint8_t> file,
                                    std::vector<std::string>* warnings);
 
+/// The same of a .gltf: buffers are in it or in files of its folder.
+Result<Mesh, InputError> parse_gltf(const std::filesystem::path& file,
+                                    std::span<const std::uint8_t> text,
+                                    std::vector<std::string>* warnings);
+
 /// Every index is a vertex, every coordinate finite, normals of unit length or none at all.
 /// @errors kInvalidInput: names the triangle or the vertex.
 Result<Done, InputError> check_mesh(const std::string& name, Mesh& mesh);

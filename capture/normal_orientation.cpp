@@ -38,7 +38,7 @@ double distance(const Vec3& a, const Vec3& b) {
 }
 
 // Clouds may reach further than the largest float.
-float to_float(double value) {
+float clamped_float(double value) {
   constexpr double kLargest = double{std::numeric_limits<float>::max()};
   return static_cast<float>(std::min(value, kLargest));
 }
@@ -58,7 +58,7 @@ class DepthAround {
     // The map covers the 4 pi of the sphere: a cell spans sqrt(4 pi) / side.
     const double cells = 3.54 * far / (2 * spacing_);
     side_ = cells < kMaxSide ? static_cast<std::size_t>(std::max(cells, 8.0)) : kMaxSide;
-    tolerance_ = to_float(2 * std::max(spacing_, 3.54 * far / (2 * double(side_))));
+    tolerance_ = clamped_float(2 * std::max(spacing_, 3.54 * far / (2 * double(side_))));
     parallel_ranges(positions_.size(), kBatch, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) place(viewpoint, i);
     });
@@ -77,7 +77,7 @@ class DepthAround {
     const double y = double{positions_[i][1]} - viewpoint[1];
     const double z = double{positions_[i][2]} - viewpoint[2];
     const double norm = std::abs(x) + std::abs(y) + std::abs(z);
-    depth_[i] = to_float(std::hypot(x, y, z));
+    depth_[i] = clamped_float(std::hypot(x, y, z));
     cell_[i] = 0;
     if (!(norm > 0)) return;
     double u = x / norm, v = y / norm;
@@ -182,6 +182,16 @@ void orient_towards(std::span<const Floats> positions, std::span<const Vec3> vie
       decided[point] = 1;
     }
   }
+}
+
+double share_facing_away(std::span<const Floats> positions, std::span<const Vec3> viewpoints,
+                         const std::vector<Floats>& normals, int threads) {
+  std::size_t sure = 0, away = 0;
+  for (const Vote& vote : votes_of(positions, viewpoints, normals, threads)) {
+    sure += vote.sure();
+    away += vote.sure() && vote.towards < 0;
+  }
+  return static_cast<double>(away) / static_cast<double>(std::max<std::size_t>(sure, 1));
 }
 
 void orient_outwards(std::span<const Floats> positions, std::vector<Floats>& normals) {

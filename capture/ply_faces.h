@@ -18,4 +18,10 @@ namespace slf {
 Result<std::vector<std::array<std::uint32_t, 3>>, InputError> read_ply_faces(
     const std::string& name, const PlyElement& face, PlyBody& body);
 
+/// Rows of the element `tristrips`, as the Stanford archive has them: strips whose triangles turn
+/// about one after the other; -1 ends one.
+/// @errors kInvalidInput
+Result<std::vector<std::array<std::uint32_t, 3>>, InputError> read_ply_strips(
+    const std::string& name, const PlyElement& strips, PlyBody& body);
+
 }  // namespace slf

@@ -1,11 +1,14 @@
 // PLY to a point cloud or mesh, properties by name.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <string_view>
 
 #include "capture/exact_positions.h"
 #include "capture/ply_body.h"
+#include "capture/ply_colours.h"
+#include "capture/ply_columns.h"
 #include "capture/ply_faces.h"
 #include "capture/ply_reader.h"
 #include "slf/capture.h"
@@ -14,70 +17,16 @@ namespace slf {
 
 namespace {
 
-constexpr std::array<const char*, 9> kWanted{"x",  "y",   "z",     "nx",  "ny",
-                                             "nz", "red", "green", "blue"};
-constexpr std::array<const char*, 3> kNormalOfPdal{"normalx", "normaly", "normalz"};
-constexpr std::size_t kNormal = 3, kColour = 6;  // where they begin in kWanted
 constexpr std::size_t kMostHeader = std::size_t{1} << 20;
-using Row = std::array<double, kWanted.size()>;
-
-// Where each property of the vertex goes; which of the optional groups are there in full.
-struct Columns {
-  std::vector<std::optional<std::size_t>> wanted;  // [properties] index into kWanted
-  std::array<PlyType, kWanted.size()> type{};
-  std::array<bool, kWanted.size()> present{};
-  bool normals = false, colours = false;
-  bool exact = false;   // of x, y, z one may have more digits than a float
-  std::string skipped;  // names, for the warning
-};
-
-std::optional<std::size_t> index_of(const std::string& name) {
-  for (std::size_t i = 0; i < kWanted.size(); ++i)
-    if (name == kWanted[i]) return i;
-  for (std::size_t i = 0; i < kNormalOfPdal.size(); ++i)
-    if (name == kNormalOfPdal[i]) return kNormal + i;
-  return std::nullopt;
-}
-
-Columns columns_of(const PlyElement& vertex) {
-  Columns columns;
-  for (const auto& property : vertex.properties) {
-    const auto found = property.is_list ? std::nullopt : index_of(property.name);
-    if (found) {
-      columns.present[*found] = true;
-      columns.type[*found] = property.type;
-    } else {
-      columns.skipped += (columns.skipped.empty() ? "" : ", ") + property.name;
-    }
-    columns.wanted.push_back(found);
-  }
-  const auto all = [&](std::size_t first) {
-    return columns.present[first] && columns.present[first + 1] && columns.present[first + 2];
-  };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const PlyType type = columns.type[k];
-    columns.exact = columns.exact || type == PlyType::kDouble || type == PlyType::kInt32 ||
-                    type == PlyType::kUint32;
-  }
-  columns.normals = all(kNormal);
-  columns.colours = all(kColour);
-  return columns;
-}
-
-// 0 .. 255 of a colour sample, whatever it is stored as; nothing if it is out of range.
-std::optional<std::uint8_t> colour_of(PlyType type, double value) {
-  double scale = 1;
-  if (type == PlyType::kUint16) scale = 1.0 / 257;
-  if (type == PlyType::kFloat || type == PlyType::kDouble) scale = 255;
-  const double scaled = std::floor(value * scale + 0.5);
-  if (!(value >= 0 && scaled <= 255)) return std::nullopt;
-  return static_cast<std::uint8_t>(scaled);
-}
+using Row = std::array<double, kPlyWanted.size()>;
 
 class VertexReader {
  public:
   VertexReader(const std::string& name, const PlyElement& vertex)
-      : name_(name), vertex_(vertex), columns_(columns_of(vertex)) {}
+      : name_(name),
+        vertex_(vertex),
+        columns_(ply_columns(vertex)),
+        colours_(std::span<const PlyType, 3>(&columns_.type[kPlyColour], 3)) {}
 
   Result<Done, InputError> read(PlyBody& body) {
     if (!columns_.present[0] || !columns_.present[1] || !columns_.present[2])
@@ -88,37 +37,32 @@ class VertexReader {
     else
       cloud.positions.reserve(count);
     if (columns_.normals) cloud.normals.reserve(count);
-    if (columns_.colours) cloud.colours.reserve(count);
+    if (columns_.colours) colours_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      Row row{};
-      for (std::size_t p = 0; p < vertex_.properties.size(); ++p) {
-        const auto& property = vertex_.properties[p];
-        double value = 0;
-        if (!(property.is_list ? body.skip_list(property) : body.value(property.type, value)))
-          return invalid(at(i, property.name) + " is missing or damaged");
-        if (!columns_.wanted[p]) continue;
-        if (!std::isfinite(value)) return invalid(at(i, property.name) + " is not finite");
-        row[*columns_.wanted[p]] = value;
+      SLF_TRY(const Row row, read_row(i, body));
+      if (is_point(row)) {
+        SLF_CHECK(add(i, row));
+      } else {
+        leave_out(i);
       }
-      SLF_CHECK(add(i, row));
     }
+    if (left_out_ == count) return invalid("no points: none of its vertices is finite");
+    if (const std::string problem = colours_.problem(); !problem.empty()) return invalid(problem);
+    cloud.colours = colours_.take();
     if (columns_.exact) set_positions(exact_, cloud);
     return Done{};
   }
 
   void warn(std::vector<std::string>& warnings) {
-    if (!columns_.skipped.empty())
-      warnings.push_back(name_ + ": properties skipped: " + columns_.skipped);
-    const auto some = [&](std::size_t first) {
-      return columns_.present[first] || columns_.present[first + 1] || columns_.present[first + 2];
-    };
-    if (some(kNormal) && !columns_.normals)
-      warnings.push_back(name_ + ": not all of nx, ny, nz are there: normals ignored");
-    if (some(kColour) && !columns_.colours)
-      warnings.push_back(name_ + ": not all of red, green, blue are there: colours ignored");
+    for (const std::string& warning : columns_.warnings) warnings.push_back(name_ + ": " + warning);
+    if (const std::string warning = colours_.warning(); !warning.empty())
+      warnings.push_back(name_ + ": " + warning);
+    if (left_out_ > 0)
+      warnings.push_back(name_ + ": " + std::to_string(left_out_) + " of " +
+                         std::to_string(vertex_.count) + " points are not finite: left out");
     if (zero_normals_ > 0)
       warnings.push_back(name_ + ": " + std::to_string(zero_normals_) +
-                         " normals have length 0: normals ignored");
+                         " normals have length 0 or are not finite: normals ignored");
     else if (other_normals_ > 0)
       warnings.push_back(name_ + ": " + std::to_string(other_normals_) +
                          " normals are not of unit length: normalised");
@@ -129,34 +73,74 @@ class VertexReader {
     if (zero_normals_ > 0) cloud.normals.clear();
   }
 
+  /// Faces of the file to those of the cloud, which has fewer vertices where some were left out.
+  void renumber(std::vector<std::array<std::uint32_t, 3>>& triangles) const {
+    if (left_out_ == 0) return;
+    std::erase_if(triangles, [&](const auto& t) {
+      return std::any_of(t.begin(), t.end(),
+                         [&](auto v) { return v < place_.size() && place_[v] == kLeftOut; });
+    });
+    for (auto& t : triangles)
+      for (auto& v : t)  // what is no vertex stays none
+        if (v < place_.size()) v = place_[v];
+  }
+
   PointCloud cloud;
 
  private:
+  static constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
+
+  Result<Row, InputError> read_row(std::size_t i, PlyBody& body) {
+    Row row{};
+    for (std::size_t p = 0; p < vertex_.properties.size(); ++p) {
+      const auto& property = vertex_.properties[p];
+      double value = 0;
+      if (!(property.is_list ? body.skip_list(property) : body.value(property.type, value)))
+        return invalid(at(i, property.name) + " is missing or damaged");
+      if (!columns_.wanted[p]) continue;
+      if (!std::isfinite(value) && *columns_.wanted[p] >= kPlyColour)
+        return invalid(at(i, property.name) + " is not finite");
+      row[*columns_.wanted[p]] = value;
+    }
+    return row;
+  }
+
+  // Organised clouds of depth cameras have NaN where nothing was measured.
+  static bool is_point(const Row& row) {
+    return std::isfinite(row[0]) && std::isfinite(row[1]) && std::isfinite(row[2]);
+  }
+
+  void leave_out(std::size_t i) {
+    if (left_out_++ == 0) {
+      place_.resize(static_cast<std::size_t>(vertex_.count));
+      for (std::size_t v = 0; v < i; ++v) place_[v] = static_cast<std::uint32_t>(v);
+    }
+    place_[i] = kLeftOut;
+  }
+
   Result<Done, InputError> add(std::size_t i, const Row& row) {
     std::array<float, 3> position{};
     for (std::size_t k = 0; k < 3; ++k) {
       position[k] = static_cast<float>(row[k]);
       if (!std::isfinite(position[k]))
-        return invalid(at(i, kWanted[k]) + " is not finite as a float");
+        return invalid(at(i, kPlyWanted[k]) + " is not finite as a float");
     }
     if (columns_.exact)
       exact_.push_back({row[0], row[1], row[2]});
     else
       cloud.positions.push_back(position);
     if (columns_.normals) add_normal(row);
+    if (left_out_ > 0) place_[i] = static_cast<std::uint32_t>(i - left_out_);
     if (!columns_.colours) return Done{};
-    std::array<std::uint8_t, 3> colour{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto sample = colour_of(columns_.type[kColour + k], row[kColour + k]);
-      if (!sample) return invalid(at(i, kWanted[kColour + k]) + " is out of range");
-      colour[k] = *sample;
-    }
-    cloud.colours.push_back(colour);
+    const auto wrong = colours_.add(std::span<const double, 3>(&row[kPlyColour], 3));
+    if (wrong)
+      return invalid(at(i, kPlyWanted[kPlyColour + *wrong]) +
+                     " is out of range (0 to 255; 16 bits to 65535; floats 0 to 1 or 0 to 255)");
     return Done{};
   }
 
   void add_normal(const Row& row) {
-    const double x = row[kNormal], y = row[kNormal + 1], z = row[kNormal + 2];
+    const double x = row[kPlyNormal], y = row[kPlyNormal + 1], z = row[kPlyNormal + 2];
     const double length = std::hypot(x, y, z);
     if (!(length > 0) || !std::isfinite(length)) {
       ++zero_normals_;
@@ -177,8 +161,11 @@ class VertexReader {
 
   const std::string& name_;
   const PlyElement& vertex_;
-  Columns columns_;
-  std::vector<Vec3> exact_;  // [P] positions until all are known, where columns_.exact
+  PlyColumns columns_;
+  PlyColours colours_;
+  std::vector<Vec3> exact_;           // [P] positions until all are known, where columns_.exact
+  std::vector<std::uint32_t> place_;  // [vertices] in the cloud; empty: where they are in the file
+  std::size_t left_out_ = 0;
   std::size_t zero_normals_ = 0, other_normals_ = 0;
 };
 
@@ -193,25 +180,27 @@ Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool w
   head.resize(count);
   SLF_TRY(const auto header, parse_ply_header(name, head, input.size()));
   PlyBody body(input, std::move(head), header.body, header.format);
-  std::optional<PointCloud> cloud;
+  std::optional<VertexReader> vertices;
   Mesh mesh;
   for (const auto& element : header.elements) {
     if (element.name == "vertex") {
       if (element.count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
-      VertexReader reader(name, element);
-      SLF_CHECK(reader.read(body));
-      if (warnings != nullptr) reader.warn(*warnings);
-      reader.drop_unusable_normals();
-      cloud = std::move(reader.cloud);
-    } else if (with_faces && element.name == "face") {
-      SLF_TRY(mesh.triangles, read_ply_faces(name, element, body));
+      vertices.emplace(name, element);
+      SLF_CHECK(vertices->read(body));
+      if (warnings != nullptr) vertices->warn(*warnings);
+      vertices->drop_unusable_normals();
+    } else if (with_faces && (element.name == "face" || element.name == "tristrips")) {
+      SLF_TRY(const auto triangles, element.name == "face" ? read_ply_faces(name, element, body)
+                                                           : read_ply_strips(name, element, body));
+      mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
     } else if (!body.skip_element(element)) {
       return InputError{Errc::kInvalidInput,
                         name + ": PLY element '" + element.name + "' is cut off or damaged"};
     }
   }
-  if (!cloud) return InputError{Errc::kInvalidInput, name + ": PLY without vertices"};
-  mesh.vertices = *std::move(cloud);
+  if (!vertices) return InputError{Errc::kInvalidInput, name + ": PLY without vertices"};
+  vertices->renumber(mesh.triangles);
+  mesh.vertices = std::move(vertices->cloud);
   return mesh;
 }
 

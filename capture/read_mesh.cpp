@@ -21,9 +21,16 @@ Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
     SLF_TRY(Scan scan, read_scan(file, warnings));
     return std::move(scan.points);
   }
-  if (extension != ".obj" && extension != ".glb") return read_ply_mesh(file, true, warnings);
+  if (extension == ".stl" || extension == ".fbx" || extension == ".dae" || extension == ".3mf" ||
+      extension == ".usdz")
+    return InputError{Errc::kInvalidInput,
+                      file.string() + ": " + extension.substr(1) +
+                          " is not read: export the mesh as PLY, OBJ or GLB (MeshLab, Blender)"};
+  if (extension != ".obj" && extension != ".glb" && extension != ".gltf")
+    return read_ply_mesh(file, true, warnings);
   SLF_TRY(const auto bytes, read_file(file, kMostBytesOfMesh));
   if (extension == ".obj") return parse_obj(file.string(), bytes);
+  if (extension == ".gltf") return parse_gltf(file, bytes, warnings);
   return parse_glb(file.string(), bytes, warnings);
 }
 

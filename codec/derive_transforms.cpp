@@ -27,6 +27,8 @@ constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
 /// and by measurement dropping components earlier than at this saves less than a larger step does;
 /// keeping more costs decoders time and memory, and no quality that a smaller step would not give.
 constexpr double kSquaredStepsPerMatrixBit = 0.05;
+/// Of the error of rounding: what may be lost to make columns whole functions.
+constexpr double kLittle = 0.125;
 /// Quantised to zero below this many steps, about.
 constexpr double kZeroBelow = 0.6;
 
@@ -176,13 +178,11 @@ class Derivation {
       forward.precision.push_back(
           static_cast<std::uint8_t>(n > 3 ? bits : std::min(bits, PlaneTransform::kColourBits)));
     }
-    while (kept.size() % per_function != 0) {  // whole functions: drop what is over
-      kept.pop_back();
-      forward.precision.pop_back();
-    }
+    make_whole(s, solver.eigenvalues(), per_function, kept);
     if (kept.empty()) return;
-    t.rank = kept.size() / per_function;
-    t.matrix.assign(n * kept.size(), 0);
+    t.rank = (kept.size() + per_function - 1) / per_function;
+    forward.precision.resize(t.columns(), 0);
+    t.matrix.assign(n * t.columns(), 0);
     for (std::size_t c = 0; c < kept.size(); ++c)
       for (std::size_t i = 0; i < n; ++i) {
         const int bits = forward.precision[c];
@@ -192,6 +192,20 @@ class Derivation {
             std::lround(std::clamp(std::ldexp(entry, bits), -limit, limit)));
         t.matrix[c * n + i] = m * (1 << (PlaneTransform::kFractionBits - bits));
       }
+  }
+
+  /// Columns make whole functions. Those that are over are dropped where that costs little against
+  /// rounding, or where there are no others (then the planes are coded as they are). Else they
+  /// stay, and columns of zeros stand beside them.
+  static void make_whole(const Statistics& s, const Eigen::VectorXd& eigenvalues,
+                         std::size_t per_function, std::vector<std::size_t>& kept) {
+    const std::size_t over = kept.size() % per_function,
+                      n = static_cast<std::size_t>(s.samples.cols());
+    double lost = 0;
+    for (std::size_t i = kept.size() - over; i < kept.size(); ++i)
+      lost += eigenvalues(index(n - 1 - kept[i]));
+    const double rounding = static_cast<double>(s.samples.size()) / 12;
+    if (lost <= kLittle * rounding || kept.size() == over) kept.resize(kept.size() - over);
   }
 
   /// Bits that each component is worth: its energy, less what is left of it when it is coded.

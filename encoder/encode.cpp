@@ -90,6 +90,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   if (std::string warning = density_warning(encoded.density);
       automatic && !trained && !warning.empty())
     encoded.warnings.push_back(std::move(warning));
+  if (std::string warning = merged_warning(job.cloud, capture.cloud.positions.size());
+      automatic && encoded.surface.kept == Surface::kGiven && !warning.empty())
+    encoded.warnings.push_back(std::move(warning));
   if (encoded.surface.mended.too_dense_for_grid && encoded.surface.kept == Surface::kGiven)
     encoded.warnings.push_back(
         "the cloud is denser than its photographs tell apart, and they disagree about it: on an "

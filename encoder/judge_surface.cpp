@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error_sum.h"
+#include "capture/object_mask.h"
 #include "encoder/fit_capture.h"
 #include "measure/picture_background.h"
 #include "slf/parallel.h"
@@ -23,7 +24,7 @@ Result<ErrorSum, InputError> photograph_error(const Capture& capture, int index,
   const bool has_mask = camera < capture.mask_files.size() && !capture.mask_files[camera].empty();
   std::vector<std::uint8_t> object(drawn.coverage.size());
   for (std::size_t i = 0; i < object.size(); ++i)
-    object[i] = loaded.channels == 4 ? loaded.data[4 * i + 3] >= 128 : drawn.coverage[i] > 0;
+    object[i] = loaded.channels == 4 ? shows_object(loaded.data[4 * i + 3]) : drawn.coverage[i] > 0;
   const auto background = picture_background(loaded, object, has_mask);
   const Image photograph = over_background(loaded, background);
   const Image picture = over_background(drawn, background);

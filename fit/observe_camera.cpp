@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "capture/object_mask.h"
 #include "lightfield/colour.h"
 #include "slf/view_map.h"
 
@@ -64,7 +65,7 @@ bool sample_bilinear(const Image& image, double u, double v, const std::array<fl
           static_cast<std::size_t>(column);
       const std::uint8_t* sample =
           image.data.data() + pixel * static_cast<std::size_t>(image.channels);
-      if (image.channels == 4 && sample[3] == 0) return false;
+      if (image.channels == 4 && !shows_object(sample[3])) return false;
       for (std::size_t c = 0; c < 3; ++c)
         sum[c] += weight * static_cast<double>(transfer[sample[c]]);
     }

@@ -61,7 +61,7 @@ double view_cosine(const std::array<float, 3>& position, const std::array<float,
                    const Vec3& centre);
 
 /// Bilinear interpolation at image point (u, v), pixel centres at + 0.5, edges repeated; false
-/// where a pixel that contributes is masked (alpha 0).
+/// where a pixel that contributes is masked (shows_object).
 /// @param transfer  applied to the samples before they are mixed
 bool sample_bilinear(const Image& image, double u, double v, const std::array<float, 256>& transfer,
                      std::array<float, 3>& colour);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "capture/object_mask.h"
 #include "fit/observe_camera.h"
 #include "render/splat_weights.h"
 #include "slf/parallel.h"
@@ -85,7 +86,7 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
     const std::uint8_t* sample = &image.data[channels * i];
-    if (splatted.coverage[i] < kCovered || (channels == 4 && sample[3] < 255)) continue;
+    if (splatted.coverage[i] < kCovered || (channels == 4 && !shows_object(sample[3]))) continue;
     if (hidden[i]) continue;
     if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
     for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {

@@ -44,7 +44,7 @@ struct PictureViews {
 /// Reads the photographs.
 /// @param gains  [cameras] of R, G, B; where one is not 1, what is at the upper end does not count.
 /// Or
-///               empty: 1. A pixel counts if discs cover it and no mask or alpha is in it. Where
+///               empty: 1. A pixel counts if discs cover it and its alpha shows the object. Where
 /// pixels or rays are too many for the memory of a fit (3 GiB; of a part of a scene, with
 /// hidden_by, 0.75 GiB), every n-th camera shows something, the others nothing.
 /// @param hidden_by  of what is not in the cloud: a pixel where it is in front does not count; may

@@ -5,6 +5,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slf::Bytes file(data, size);
   const auto png = slf::png_size(file), jpeg = slf::jpeg_size(file);
+  (void)slf::png_header(file);
+  (void)slf::jpeg_header(file);
   const auto small = [](const auto& s) { return s && s->width <= 512 && s->height <= 512; };
   if (slf::is_png(file) && small(png)) (void)slf::decode_png("fuzz.png", file);
   if (slf::is_jpeg(file) && small(jpeg)) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "capture/object_mask.h"
 #include "capture/spacing.h"
 #include "fit/observe_camera.h"
 #include "render/render_splats.h"
@@ -118,8 +119,8 @@ CapturedView captured_view(const Capture& capture, const CapturedSurface& surfac
   std::vector<double> cosine(pixels);
   const auto columns = static_cast<std::size_t>(camera.width);
   for (std::size_t i = 0; i < pixels; ++i) {
-    view.object[i] =
-        photograph.channels == 4 ? photograph.data[4 * i + 3] >= 128 : seen.coverage[i] >= 0.5f;
+    view.object[i] = photograph.channels == 4 ? shows_object(photograph.data[4 * i + 3])
+                                              : seen.coverage[i] >= 0.5f;
     cosine[i] = ray_cosine(camera, double(i % columns), double(i / columns), seen.colour[i]);
     if (cosine[i] < least_cosine(kGrazingDegrees)) view.region[i] = PictureRegionId::kGrazing;
   }

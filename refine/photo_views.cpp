@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "capture/object_mask.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -20,7 +21,7 @@ PhotoView grey_view(const Camera& camera, const Image& image) {
   const auto channels = std::size_t(image.channels);
   for (std::size_t i = 0; i < view.grey.size(); ++i) {
     const std::uint8_t* rgb = &image.data[i * channels];
-    const bool masked = channels == 4 && rgb[3] == 0;
+    const bool masked = channels == 4 && !shows_object(rgb[3]);
     view.grey[i] =
         masked ? kNothing : 0.25f * float(rgb[0]) + 0.5f * float(rgb[1]) + 0.25f * float(rgb[2]);
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "capture/object_mask.h"
 #include "fit/observe_camera.h"
 #include "fit/observe_depth.h"
 #include "measure/picture_background.h"
@@ -78,7 +79,7 @@ Silhouette silhouette_of(const Camera& camera, const Image& image, bool alpha_is
   silhouette.difference.resize(object.size());
   for (std::size_t i = 0; i < object.size(); ++i) {
     const std::uint8_t* sample = &image.data[i * channels];
-    const bool nothing = channels == 4 && sample[3] == 0;
+    const bool nothing = channels == 4 && !shows_object(sample[3]);
     silhouette.difference[i] = nothing ? 0 : difference(sample, background);
   }
   if (!is_plain(silhouette, object)) silhouette.difference.clear();

@@ -1,11 +1,10 @@
 // Cameras on a circle around the cloud.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/vec3.h"
-
+#include "render/framed_ball.h"
 #include "slf/render.h"
 
 namespace slf {
@@ -35,32 +34,6 @@ UpFrame up_frame(UpAxis axis) {
   return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 }
 
-struct Ball {
-  Vec3 centre{0, 0, 0};
-  double radius = 0;
-};
-
-/// Around the middle of the cloud's box.
-Ball bounding_ball(const ViewMaps& maps) {
-  const Grid& grid = maps.header().grid;
-  Ball ball{grid.origin, 0};
-  if (maps.num_points() == 0) return ball;
-  Voxel low = maps.positions()[0], high = low;
-  for (const Voxel& v : maps.positions())
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], v[k]);
-      high[k] = std::max(high[k], v[k]);
-    }
-  for (std::size_t k = 0; k < 3; ++k)
-    ball.centre[k] = grid.origin[k] + grid.step * (low[k] + high[k]) / 2.0;
-  for (const Voxel& v : maps.positions()) {
-    const Vec3 p = grid.world(v);
-    const double dx = p[0] - ball.centre[0], dy = p[1] - ball.centre[1], dz = p[2] - ball.centre[2];
-    ball.radius = std::max(ball.radius, std::sqrt(dx * dx + dy * dy + dz * dz));
-  }
-  return ball;
-}
-
 Vec3 combine(double a, const Vec3& u, double b, const Vec3& v, double c, const Vec3& w) {
   return {a * u[0] + b * v[0] + c * w[0], a * u[1] + b * v[1] + c * w[1],
           a * u[2] + b * v[2] + c * w[2]};
@@ -71,7 +44,7 @@ Vec3 combine(double a, const Vec3& u, double b, const Vec3& v, double c, const V
 Camera Renderer::orbit(double turn, double elevation_degrees, int width, int height,
                        double fov_degrees) const {
   const UpFrame frame = up_frame(maps_.header().up);
-  const Ball ball = bounding_ball(maps_);
+  const FramedBall ball = framed_ball(maps_.header().grid, maps_.positions());
   const double azimuth = 2 * std::numbers::pi * turn;
   const double elevation = elevation_degrees * std::numbers::pi / 180;
   const double half_fov = std::clamp(fov_degrees, 1.0, 170.0) * std::numbers::pi / 360;

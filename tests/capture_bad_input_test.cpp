@@ -250,7 +250,7 @@ TEST(CaptureWarnings, SuspiciousButUsable) {
                 cloud.normals = {{0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}};
                 EXPECT_TRUE(write_ply(p / "points.ply", cloud));
               }),
-              ElementsAre(HasSubstr("do they point inwards?")));
+              ElementsAre(HasSubstr("normals point inwards")));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ constexpr std::array<const char*, 8> kParts = {"--region 0,0,0,7,7,7",
 /// Standard input is read whole.
 TEST_F(PartTest, IsWhatIsDecodedOfTheWhole) {
   for (const std::string part : kParts) {
-    for (const std::string verb : {"decode FILE -o out.ply --json", "render FILE -o out.ply --json",
+    for (const std::string verb : {"decode FILE -o out.ply --json", "render FILE -o out.png --json",
                                    "export FILE --mean -o out.ply --json"}) {
       const auto run = [&](const std::string& file, const std::string& before) {
         std::string command = verb;
@@ -84,7 +84,7 @@ TEST_F(PartTest, IsWhatIsDecodedOfTheWhole) {
         nlohmann::json said = parsed(ran.out);
         for (const char* own : {"seconds", "seconds_prepare", "peak_memory", "images"})
           said.erase(own);
-        return read("out.ply") + said.dump() + ran.err;
+        return read("out.ply") + read("out.png") + said.dump() + ran.err;
       };
       EXPECT_EQ(run("good.slf", ""), run("-", "cat good.slf |")) << verb << part;
     }

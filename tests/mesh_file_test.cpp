@@ -148,5 +148,68 @@ TEST(MeshFile, AMirroringNodeKeepsTheOutsideOut) {
   EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
 }
 
+// "AAEC" and so on, of the buffer of the cube.
+std::string base64(const std::string& bytes) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : bytes) {
+    bits = bits << 8 | static_cast<unsigned char>(c);
+    for (held += 8; held >= 6; held -= 6) out += digits[bits >> (held - 6) & 63];
+  }
+  if (held > 0) out += digits[bits << (6 - held) & 63];
+  while (out.size() % 4 != 0) out += '=';
+  return out;
+}
+
+std::string with_uri(const std::string& uri) {
+  return replaced(kCubeGltf, "\"byteLength\": 164",
+                  "\"byteLength\": 164, \"uri\": \"" + uri + "\"");
+}
+
+TEST(MeshFile, BuffersOfGltfAreInTheFileOrBesideIt) {
+  const std::string data = "data:application/octet-stream;base64," + base64(cube_glb_binary());
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const bool glb = std::string(name) == "a.glb";
+    const auto mesh = mesh_in(name, glb ? glb_of(with_uri(data), "") : with_uri(data));
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
+  }
+  const TemporaryDirectory directory;
+  write_text(directory / "a b.bin", cube_glb_binary());
+  write_text(directory / "a.gltf", with_uri("a%20b.bin"));
+  const auto mesh = read_mesh(directory / "a.gltf");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
+  expect_refused("a.gltf", with_uri("../a.bin"), "leads out");
+  EXPECT_THAT(mesh_in("a.gltf", with_uri("none.bin")).error().message, HasSubstr("none.bin: No"));
+  expect_refused("a.gltf", with_uri("data:;base64,A"), "buffers[0].uri: a data URI");
+  expect_refused("a.gltf", with_uri("data:;base64,AA=A"), "a data URI");
+  expect_refused("a.gltf", with_uri("data:;base64,AAAA"), "beyond its buffer");
+  expect_refused("a.gltf", kCubeGltf, "bufferViews[0]");
+}
+
+TEST(MeshFile, AGlbOfPointsIsACloud) {
+  const auto points = replaced(kCubeGltf, "\"indices\": 1", "\"mode\": 0");
+  const auto mesh = mesh_in("a.glb", cube_glb(points));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_TRUE(mesh->triangles.empty());
+  ASSERT_EQ(mesh->vertices.positions.size(), 8u);
+  EXPECT_EQ(mesh->vertices.positions[0], mesh_in("a.glb", cube_glb())->vertices.positions[0]);
+  EXPECT_FALSE(mesh_in("a.glb", cube_glb(replaced(points, "\"mode\": 0", "\"mode\": 1"))));
+}
+
+TEST(MeshFile, CompressionAndOtherFormatsAreNamedWithAWayOut) {
+  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+    const auto glb =
+        cube_glb(replaced(kCubeGltf, "\"asset\"",
+                          std::string("\"extensionsRequired\": [\"") + name + "\"], \"asset\""));
+    expect_refused("a.glb", glb, name);
+    expect_refused("a.glb", glb, "without compression");
+  }
+  expect_refused("a.stl", "solid", "export the mesh as PLY, OBJ or GLB");
+}
+
 }  // namespace
 }  // namespace slf::mesh_file_test

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -68,8 +69,31 @@ int index_of(const std::string& name, std::size_t count) {
   return whole && index >= 0 && static_cast<std::size_t>(index) < count ? index : -1;
 }
 
-Failure no_camera(const std::string& file, const std::string& name) {
-  return {kInputInvalid, file + ": has no camera " + name};
+/// Without its folders, without its extension, without both.
+bool goes_by(const std::string& image, const std::string& name) {
+  const std::filesystem::path path(image);
+  return image == name || path.filename() == name || path.stem() == name ||
+         std::filesystem::path(path).replace_extension() == name;
+}
+
+/// The camera of a photograph's name, whole, or so much of it that it is one alone's; else of its
+/// number.
+Result<std::size_t, Failure> chosen_camera(const std::vector<std::string>& images,
+                                           const std::string& name, const std::string& file) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images[i] == name) return i;
+    if (goes_by(images[i], name)) found.push_back(i);
+  }
+  if (found.size() == 1) return found[0];
+  if (found.size() > 1)
+    return Failure{kInputInvalid, file + ": camera " + name + " may be " + images[found[0]] +
+                                      " or " + images[found[1]]};
+  const int index = index_of(name, images.size());
+  if (index >= 0) return static_cast<std::size_t>(index);
+  return Failure{kInputInvalid, file + ": has no camera " + name + "; its " +
+                                    std::to_string(images.size()) + " are named as " +
+                                    (images.empty() ? "" : images[0]) + ", or numbered from 0"};
 }
 
 }  // namespace
@@ -88,14 +112,14 @@ Result<Camera, Failure> read_camera(const std::string& reference) {
       root["cameras"].empty())
     return Failure{kInputInvalid, file + ": is not a cameras.json"};
   const Json& list = root["cameras"];
-  std::size_t chosen = list.size();
-  for (std::size_t i = 0; i < list.size() && chosen == list.size() && !name.empty(); ++i)
-    if (list[i].is_object() && list[i].contains("image") && list[i]["image"] == name) chosen = i;
-  if (name.empty()) chosen = 0;
-  if (chosen == list.size()) {
-    const int index = index_of(name, list.size());
-    if (index < 0) return no_camera(file, name);
-    chosen = static_cast<std::size_t>(index);
+  std::vector<std::string> images;
+  for (const Json& entry : list) {
+    const bool named = entry.is_object() && entry.contains("image") && entry["image"].is_string();
+    images.push_back(named ? entry["image"].get<std::string>() : std::string());
+  }
+  std::size_t chosen = 0;
+  if (!name.empty()) {
+    SLF_TRY(chosen, chosen_camera(images, name, file));
   }
   Camera camera;
   const std::string cause = parse(list[chosen], camera);
@@ -106,11 +130,10 @@ Result<Camera, Failure> read_camera(const std::string& reference) {
 
 Result<int, Failure> find_camera(const Capture& capture, const std::string& name,
                                  const std::string& file) {
-  for (std::size_t i = 0; i < capture.cameras.size(); ++i)
-    if (capture.cameras[i].name == name) return static_cast<int>(i);
-  const int index = index_of(name, capture.cameras.size());
-  if (index >= 0) return index;
-  return no_camera(file, name);
+  std::vector<std::string> images;
+  for (const Camera& camera : capture.cameras) images.push_back(camera.name);
+  SLF_TRY(const std::size_t chosen, chosen_camera(images, name, file));
+  return static_cast<int>(chosen);
 }
 
 Camera resized(Camera camera, int width, int height) {

@@ -47,6 +47,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   CaptureOptions options;
   options.points = given.points;
   options.points_needed = points_needed;
+  options.images = given.images;
   if (const auto& c = given.crop; !c.empty())
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   CaptureInput input;

@@ -21,6 +21,10 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
           "Cloud (PLY; LAS, LAZ, E57 with PDAL) or mesh (PLY with faces, OBJ, GLB) in place of the "
           "capture's own")
       ->type_name("FILE");
+  verb.add_option("--images", o.images,
+                  "Folder of the photographs, where they are not where the capture says: by name, "
+                  "with or without folders")
+      ->type_name("DIR");
   verb.add_option(
           "--crop", o.crop,
           "Only points (of a mesh: faces) in a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world "

@@ -12,7 +12,7 @@ namespace slf::tools {
 
 struct EncodeOptions {
   const char* verb = "encode";  ///< for messages
-  std::string capture, output, points, split, crs;
+  std::string capture, output, points, images, split, crs;
   std::vector<double> crop;  ///< two corners in world units, or nothing
   bool up_given = false;
   UpAxis up = UpAxis::kPlusZ;

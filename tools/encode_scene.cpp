@@ -1,4 +1,5 @@
 // slf encode of a scene that is coded in parts: with a plan, or making one.
+#include <array>
 #include <charconv>
 #include <filesystem>
 
@@ -72,7 +73,7 @@ class SceneRun {
   Outcome check() const {
     if (given_.output == "-")
       return Failure{kUsage, "encode: a scene in parts is written to a file, not to -"};
-    SLF_CHECK(check_output(given_.output));
+    SLF_CHECK(check_output(given_.output, "encode", std::array{".slf"}));
     if (!scene_.part.empty() && scene_.plan.empty())
       return Failure{kUsage, "encode: --part needs --plan (slf plan)"};
     if (!scene_.plan.empty()) SLF_CHECK(check_left_to_plan());
@@ -100,6 +101,7 @@ class SceneRun {
     SLF_TRY(plan_, from(scene_.plan, read_plan(std::filesystem::path(scene_.plan))));
     CaptureOptions options;
     options.points = given_.points;
+    options.images = given_.images;
     if (const auto& c = given_.crop; !c.empty())
       options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
     options.cloud = !has_points(plan_, work_);

@@ -62,15 +62,15 @@ nlohmann::ordered_json quality_json(const Measured& m, bool images) {
 
 std::string image_text(const ImageQuality& image) {
   std::string out =
-      text("  images             %6.2f dB   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
-           image.psnr, image.ssim, image.ms_ssim, 100 * image.coverage);
-  out += text("  all their pixels   %6.2f dB   SSIM %.4f, MS-SSIM %.4f\n", image.all.psnr,
-              image.all.ssim, image.all.ms_ssim);
+      text("  images             %s   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
+           psnr_text(image.psnr).c_str(), image.ssim, image.ms_ssim, 100 * image.coverage);
+  out += text("  all their pixels   %s   SSIM %.4f, MS-SSIM %.4f\n",
+              psnr_text(image.all.psnr).c_str(), image.all.ssim, image.all.ms_ssim);
   const std::array<std::pair<const char*, const PictureRegion*>, 3> regions = {
       {{"grazing", &image.grazing}, {"rim", &image.rim}, {"rest", &image.rest}}};
   for (const auto& [name, r] : regions)
-    out += text("    %-16s %6.2f dB   %5.1f %% of the pixels, %5.1f %% of the squared error\n",
-                name, r->psnr, 100 * r->pixel_share, 100 * r->error_share);
+    out += text("    %-16s %s   %5.1f %% of the pixels, %5.1f %% of the squared error\n", name,
+                psnr_text(r->psnr).c_str(), 100 * r->pixel_share, 100 * r->error_share);
   out += text("    not covered                  %5.1f %% of the squared error on the object\n",
               100 * image.uncovered_error_share);
   return out;
@@ -79,11 +79,12 @@ std::string image_text(const ImageQuality& image) {
 std::string gap_text(const Measured& m, bool images) {
   const Quality &before = *m.unquantised, &after = m.quality;
   std::string out = "  gap            unquantised    coded\n";
-  out +=
-      text("    points          %6.2f dB %6.2f dB\n", before.points[0].psnr, after.points[0].psnr);
+  out += text("    points          %s %s\n", psnr_text(before.points[0].psnr).c_str(),
+              psnr_text(after.points[0].psnr).c_str());
   if (!images) return out;
   const QualityGap gap = quality_gap(before, after);
-  out += text("    images          %6.2f dB %6.2f dB\n", before.image.psnr, after.image.psnr);
+  out += text("    images          %s %s\n", psnr_text(before.image.psnr).c_str(),
+              psnr_text(after.image.psnr).c_str());
   out += text(
       "    squared error on the object: points %.1f %%, splatting %.1f %%, quantisation "
       "%.1f %%, coverage %.1f %%\n",
@@ -94,9 +95,11 @@ std::string gap_text(const Measured& m, bool images) {
 std::string quality_text(const Measured& m, bool images) {
   std::string out = text("%s, %zu cameras\n", m.name.c_str(), m.cameras);
   for (const PointQuality& p : m.quality.points)
-    out +=
-        text("  points, delta %-4g %6.2f dB   luma %.2f, R %.2f, G %.2f, B %.2f\n", p.delta_degrees,
-             p.psnr, p.luma_psnr, p.channel_psnr[0], p.channel_psnr[1], p.channel_psnr[2]);
+    out += p.observations == 0
+               ? text("  points, delta %-4g no point is seen\n", p.delta_degrees)
+               : text("  points, delta %-4g %s   luma %.2f, R %.2f, G %.2f, B %.2f\n",
+                      p.delta_degrees, psnr_text(p.psnr).c_str(), p.luma_psnr, p.channel_psnr[0],
+                      p.channel_psnr[1], p.channel_psnr[2]);
   if (images) out += image_text(m.quality.image);
   if (m.unquantised) out += gap_text(m, images);
   return out;

@@ -2,9 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 
+#include "slf/jpeg.h"
 #include "tools/interrupt.h"
 
 namespace slf::tools {
@@ -20,7 +23,16 @@ Outcome written(const std::string& file, const Write& write) {
   return from(output_name(file), write());
 }
 
+constexpr int kJpegQuality = 95;
+
 }  // namespace
+
+std::string small_extension(const std::string& file) {
+  std::string extension = fs::path(file).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
 
 Outcome check_output(const std::string& file) {
   if (file == "-") return Done{};
@@ -39,6 +51,22 @@ Outcome check_output(const std::string& file) {
     return Failure{kWriteFailed,
                    file + ": the directory " + directory.string() + " is not writable"};
   return Done{};
+}
+
+Outcome check_output(const std::string& file, const char* verb,
+                     std::span<const char* const> formats) {
+  constexpr std::array kKnown = {".bmp",  ".e57",  ".exr",    ".glb",  ".gltf",  ".html", ".igc",
+                                 ".jpeg", ".jpg",  ".ksplat", ".las",  ".laz",   ".npy",  ".obj",
+                                 ".pcd",  ".ply",  ".png",    ".slf",  ".splat", ".spz",  ".stl",
+                                 ".tif",  ".tiff", ".txt",    ".webp", ".xyz"};
+  const std::string extension = small_extension(file);
+  const auto is_it = [&](const char* other) { return extension == other; };
+  const bool written = std::any_of(formats.begin(), formats.end(), is_it);
+  if (written || std::none_of(kKnown.begin(), kKnown.end(), is_it)) return check_output(file);
+  std::string names;
+  for (const char* format : formats) names += (names.empty() ? "" : ", ") + std::string(format);
+  return Failure{kUsage,
+                 std::string(verb) + ": " + file + ": it writes " + names + ", no " + extension};
 }
 
 Outcome make_directory(const std::string& directory) {
@@ -61,6 +89,11 @@ Outcome save(const std::string& file, const std::string& text) {
 }
 
 Outcome save(const std::string& file, const Image& image) {
+  const std::string extension = small_extension(file);
+  if (extension == ".jpg" || extension == ".jpeg") {
+    SLF_TRY(const auto bytes, from(file, encode_jpeg(image, kJpegQuality)));
+    return save(file, bytes.data(), bytes.size());
+  }
   return written(file, [&] { return write_png(file, image); });
 }
 

@@ -15,6 +15,16 @@ namespace slf::tools {
 /// is missing or not writable, or the name is that of a directory. "-" is standard output.
 Outcome check_output(const std::string& file);
 
+/// Of a name, in small letters, with its dot.
+std::string small_extension(const std::string& file);
+
+/// The same, and refuses a name that promises a format which is not written: x.obj of slf decode.
+/// Unknown extensions and none are taken.
+/// @param verb     for the message
+/// @param formats  extensions that are written: ".png"
+Outcome check_output(const std::string& file, const char* verb,
+                     std::span<const char* const> formats);
+
 /// Creates the directory (and those above it) if it is missing.
 Outcome make_directory(const std::string& directory);
 
@@ -22,6 +32,7 @@ Outcome make_directory(const std::string& directory);
 Outcome save(const std::string& file, const void* data, std::size_t size);
 Outcome save(const std::string& file, std::span<const std::span<const std::byte>> pieces);
 Outcome save(const std::string& file, const std::string& text);
+/// PNG; JPEG where the name says so.
 Outcome save(const std::string& file, const Image& image);
 Outcome save(const std::string& file, const PointCloud& cloud);
 

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -17,6 +18,10 @@ std::string text(const char* format, ...) {
   std::vsnprintf(out.data(), out.size() + 1, format, again);
   va_end(again);
   return out;
+}
+
+std::string psnr_text(double psnr) {
+  return std::isnan(psnr) ? text("%6s dB", "-") : text("%6.2f dB", psnr);
 }
 
 std::string grouped(std::uint64_t number) {

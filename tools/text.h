@@ -17,6 +17,9 @@ namespace slf::tools {
 /// 1234567 -> "1,234,567".
 std::string grouped(std::uint64_t number);
 
+/// "27.12 dB", in seven places before the unit; "- dB" where there was nothing to compare.
+std::string psnr_text(double psnr);
+
 /// A foreign text that cannot steer a terminal: control characters (C0, DEL, C1), those that turn
 /// the direction of writing, and what is not UTF-8 become '?'. What is longer than 4,096 bytes is
 /// cut, and says so.

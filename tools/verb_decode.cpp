@@ -1,4 +1,5 @@
 // slf decode: points with their mean colour, and on request every integer of the light field.
+#include <array>
 #include <memory>
 
 #include "slf/view_map.h"
@@ -38,7 +39,7 @@ Outcome run_decode(const DecodeVerbOptions& given) {
     return Failure{kUsage, "decode: --planes goes with --dump"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "decode: --json and --output - both want standard output"};
-  if (!given.output.empty()) SLF_CHECK(check_output(given.output));
+  if (!given.output.empty()) SLF_CHECK(check_output(given.output, "decode", std::array{".ply"}));
   PartOptions part = given.part;
   part.means_only = given.dump.empty();
   SLF_TRY(const DecodedFile decoded, decode_file(given.input, part, given.limits, given.common));

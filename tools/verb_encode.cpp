@@ -1,9 +1,11 @@
 // slf encode: photographs and points, or a coloured cloud, to an .slf file.
+#include <array>
 #include <memory>
 
 #include "tools/capture_input.h"
 #include "tools/describe.h"
 #include "tools/encode_options.h"
+#include "tools/measure_file.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
@@ -40,7 +42,7 @@ nlohmann::ordered_json step_json(const ChosenStep& step) {
 }
 
 nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
-                                   const CaptureInput& input) {
+                                   const CaptureInput& input, const FilePictures& pictures) {
   const std::size_t cameras = input.cameras.size();
   const double load = input.seconds;
   nlohmann::ordered_json json;
@@ -59,12 +61,13 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
   json["pictures"] = nullptr;
+  if (cameras > 0) json["pictures"] = {{"psnr", pictures.psnr}, {"cameras", pictures.cameras}};
   if (e.fit.settings.pictures.rounds > 0)
-    json["pictures"] = {{"psnr_before", e.pictures.psnr_before},
-                        {"psnr_after", e.pictures.psnr_after},
-                        {"pull", e.pictures.pull},
-                        {"held_out_before", e.pictures.held_out_before},
-                        {"held_out_after", e.pictures.held_out_after}};
+    json["pictures"].update({{"psnr_before", e.pictures.psnr_before},
+                             {"psnr_after", e.pictures.psnr_after},
+                             {"pull", e.pictures.pull},
+                             {"held_out_before", e.pictures.held_out_before},
+                             {"held_out_after", e.pictures.held_out_after}});
   json["seconds"] = {{"load", load},
                      {"surface", e.surface.seconds()},
                      {"voxelise", e.seconds_voxelise},
@@ -74,6 +77,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                      {"pictures", e.seconds_pictures},
                      {"quality", e.step.seconds},
                      {"code", e.seconds_code},
+                     {"measure", pictures.seconds},
                      {"total", load + e.surface.seconds() + e.seconds_voxelise + e.seconds_observe +
                                    e.seconds_choose + e.seconds_fit + e.seconds_pictures +
                                    e.step.seconds + e.seconds_code}};
@@ -83,7 +87,8 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   return json;
 }
 
-std::string report_text(const Encoded& e, std::size_t cameras, double load) {
+std::string report_text(const Encoded& e, std::size_t cameras, double load,
+                        const FilePictures& pictures) {
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
@@ -95,17 +100,15 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load) {
     out += text("observations  %s (%.1f per point; %.1f %% of points unseen)\n",
                 grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
                 percent(e.unobserved_points, e.points));
-    if (e.fit.settings.pictures.rounds > 0)
-      out += text("pictures      %.2f dB of the input, %.2f before the fit to them\n",
-                  e.pictures.psnr_after, e.pictures.psnr_before);
+    out += pictures_text(pictures, e, cameras);
   }
   if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
     out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
   out += text(
       "seconds       load %.2f, surface %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
-      "pictures %.2f, quality %.2f, code %.2f\n",
+      "pictures %.2f, quality %.2f, code %.2f, measure %.2f\n",
       load, e.surface.seconds(), e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
-      e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code);
+      e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code, pictures.seconds);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));
@@ -116,7 +119,7 @@ Outcome run_encode(const EncodeOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_TRY(EncoderSettings settings, resolved(given));
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   ProgressLine line(given.common.quiet);
   const Progress progress = line.callback();
   SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
@@ -126,12 +129,16 @@ Outcome run_encode(const EncodeOptions& given) {
   line.clear();
   warn(encoded.warnings, given.common.quiet);
   SLF_CHECK(save(given.output, encoded.stream.data(), encoded.stream.size()));
+  FilePictures pictures;
+  if (!input.cameras.empty() && (given.common.json || !given.common.quiet)) {
+    SLF_TRY(pictures, measure_file(encoded, input.capture, input.cameras, given.common.threads));
+  }
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
-    return print(report_json(encoded, info, input));
+    return print(report_json(encoded, info, input, pictures));
   }
   if (!given.common.quiet)
-    std::fputs(report_text(encoded, input.cameras.size(), input.seconds).c_str(), stderr);
+    std::fputs(report_text(encoded, input.cameras.size(), input.seconds, pictures).c_str(), stderr);
   return Done{};
 }
 

@@ -26,7 +26,7 @@ namespace slf::tools {
 namespace {
 
 struct EvalOptions {
-  std::string input, capture, points, split, unquantised, error_maps;
+  std::string input, capture, points, images, split, unquantised, error_maps;
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
   std::optional<double> min_psnr, min_image_psnr;
@@ -69,6 +69,7 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
   options.points_needed = false;
+  options.images = given.images;
   SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
   warn(capture.warnings, given.common.quiet);
   if (capture.cameras.empty())
@@ -239,6 +240,9 @@ void add_eval(CLI::App& program, Run& run) {
       ->required();
   verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")
       ->type_name("FILE");
+  verb->add_option("--images", o->images,
+                   "Folder of the photographs, where they are not where the capture says")
+      ->type_name("DIR");
   verb->add_option("--split", o->split,
                    "Input images; default: what the file says it was made from")
       ->type_name("NAME")

@@ -1,4 +1,5 @@
 // slf html: one page with a file, the decoder and the viewer in it, opened by a double click.
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -47,7 +48,7 @@ Outcome check_options(const HtmlOptions& given) {
     return Failure{kUnsupported,
                    "html: this program was built without the viewer page web/dist/one_file.html; "
                    "run npm ci && npm run build in web/, then build slf again"};
-  return check_output(given.output);
+  return check_output(given.output, "html", std::array{".html"});
 }
 
 std::string title_of(const HtmlOptions& given, const Metadata& metadata) {

@@ -1,4 +1,5 @@
 // slf igc: photographs by a video codec and points by ours, for comparison. Paper IV-F.
+#include <array>
 #include <memory>
 
 #include "slf/igc.h"
@@ -78,7 +79,7 @@ Outcome run_igc(const IgcOptions& given) {
     return Failure{kUsage, "igc: --json and --output - both want standard output"};
   IgcSettings settings = given.igc;
   SLF_TRY(settings.slf, resolved(options));
-  SLF_CHECK(check_output(options.output));
+  SLF_CHECK(check_output(options.output, "igc", std::array{".igc"}));
   ProgressLine line(options.common.quiet);
   SLF_TRY(const CaptureInput input, load_input(options, line));
   settings.slf.metadata.insert(settings.slf.metadata.begin(), input.metadata.begin(),

@@ -1,4 +1,5 @@
 // slf merge: parts of a scene to one file.
+#include <array>
 #include <memory>
 
 #include "tools/output.h"
@@ -19,7 +20,7 @@ struct MergeOptions {
 Outcome run_merge(const MergeOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "merge: --json and --output - both want standard output"};
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "merge", std::array{".slf"}));
   std::vector<PartStream> parts;
   for (const std::string& name : given.parts) {
     SLF_TRY(auto bytes, from(name, read_file(name)));

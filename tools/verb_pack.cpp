@@ -1,5 +1,6 @@
 // slf pack: given integers to bytes, without any fit. For research, golden encodes, comparisons.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -178,7 +179,7 @@ nlohmann::ordered_json report_json(const LightField& field, std::uint64_t bytes,
 Outcome run_pack(const PackOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "pack: --json and --output - both want standard output"};
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "pack", std::array{".slf"}));
   LightField field;
   field.header.has_basis = false;
   field.header.up = UpAxis::kUnknown;

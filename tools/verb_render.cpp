@@ -128,13 +128,16 @@ Outcome check_options(const RenderOptions& given) {
     return Failure{kUsage, "render: --sheet is not transparent"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "render: --json and --output - both want standard output"};
-  if (given.sheet || given.pair) return check_output(given.output);
+  if (given.transparent && small_extension(given.output).starts_with(".jp"))
+    return Failure{kUsage, "render: --transparent needs PNG: JPEG has no alpha"};
+  constexpr std::array kFormats = {".png", ".jpg", ".jpeg"};
+  if (given.sheet || given.pair) return check_output(given.output, "render", kFormats);
   const std::string first = numbered(given.output, 0);
   if (given.orbit > 1 && first == given.output)
     return Failure{kUsage, "render: --output " + given.output +
                                " is neither a directory nor has a %d for the view's number"};
   if (given.output.ends_with('/')) SLF_CHECK(make_directory(given.output));
-  return check_output(first);
+  return check_output(first, "render", kFormats);
 }
 
 struct Rendered {

@@ -1,4 +1,5 @@
 // slf truncate: a file with less in it, its units kept or left out as they are.
+#include <array>
 #include <memory>
 
 #include "slf/truncate.h"
@@ -21,7 +22,7 @@ struct TruncateOptions {
 Outcome run_truncate(const TruncateOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "truncate: --json and --output - both want standard output"};
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "truncate", std::array{".slf"}));
   SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
   const DecodeOptions options = decode_options(stream.info, given.part, given.limits, given.common);
   const auto cut = truncate(stream.bytes, options);

@@ -80,7 +80,8 @@ struct Capture {
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
   std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
-  std::vector<std::filesystem::path> mask_files;  ///< [cameras] or empty: 8-bit, 0 = not the object
+  std::vector<std::filesystem::path>
+      mask_files;  ///< [cameras] or empty: docs/captures.md, Conventions
   /// [cameras] or empty: photographs and masks are made smaller as they are read, as reduced() has
   /// it; `cameras` are reduced already.
   std::vector<int> reduction;
@@ -104,11 +105,14 @@ struct CaptureOptions {
   std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
   bool cloud = true;  ///< false: cameras alone, as the file has them; Capture::origin is 0
   bool points_needed = true;  ///< false: a capture with cameras may have no points
+  /// Where the photographs are, by their names in the capture, else by those without folders.
+  /// Empty: where the format has them.
+  std::filesystem::path images = {};
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
-/// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0 or sparse), or
-/// transforms.json; or one of those files; or a lone .ply, .las, .laz or .e57 (a cloud without
+/// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0, sparse/1, ... or sparse),
+/// or transforms.json; or one of those files; or a lone .ply, .las, .laz or .e57 (a cloud without
 /// cameras). Every value is checked as `docs/captures.md` lists; what is suspicious but usable
 /// becomes a warning.
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
@@ -121,10 +125,10 @@ Result<Capture, InputError> load_capture(const std::filesystem::path& path,
 Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 
 /// The image of camera i with three channels, or four where the file has alpha or a mask exists
-/// (alpha = mask). 16-bit and grey files are converted. Size equals the camera's, or it is an
-/// error. Thread-safe on a const capture.
-/// Reduced ones: each pixel is the mean of those that it takes the place of, its alpha the least of
-/// theirs; JPEG is decoded to that size.
+/// (alpha = mask; an alpha that is 255 everywhere is none). 16-bit and grey files are converted.
+/// Size equals the camera's, or it is an error. Thread-safe on a const capture. Reduced ones: each
+/// pixel is the mean of those that it takes the place of, its alpha the least of theirs; JPEG is
+/// decoded to that size.
 /// @errors those of read_image; kInvalidInput: another size
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 

@@ -17,10 +17,12 @@ export interface PackedField {
   readonly levels: SlfGrid['bits'];
   /** World units from voxel to voxel. */
   readonly step: number;
-  /** Of the box, and of a ball around it, in world units. */
+  /** Of the box that views frame, and of a ball around it, in world units: a few points far away are outside. */
   readonly centre: number[];
   readonly size: number[];
   readonly radius: number;
+  /** From the centre to the farthest point of all. */
+  readonly reach: number;
   readonly up: string;
   readonly linear: boolean;
   readonly partial: boolean;

@@ -51,6 +51,7 @@ export function packField(field, tableSize = 65) {
     levels: field.grid.bits,
     step: field.grid.step,
     radius: ball.radius * field.grid.step,
+    reach: ball.reach * field.grid.step,
     size: ball.size.map((v) => v * field.grid.step),
     centre: ball.centre.map((c, k) => field.grid.origin[k] + field.grid.step * c),
     ...packPlaces(field, ball.centre, texels),
@@ -65,25 +66,66 @@ export function buffersOf(packed) {
   );
 }
 
-/** The middle of the box, as slf render has it, and the farthest point from there; voxels. */
-function boundingBall({ positions }) {
-  const low = [Infinity, Infinity, Infinity],
+const WIDE = 4, // of the box of all points, over that of most
+  FEWEST = 100; // points of which a few can be told
+
+/** Without a share of the points at either end of each axis; of many points a sample tells. */
+function boxOf(positions, tail) {
+  const points = positions.length / 3,
+    stride = tail ? Math.max(1, Math.floor(points / 65536)) : 1,
+    low = [Infinity, Infinity, Infinity],
     high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < positions.length; ++i) {
-    const k = i % 3,
-      v = positions[i];
-    if (v < low[k]) low[k] = v;
-    if (v > high[k]) high[k] = v;
+  for (let k = 0; k < 3; ++k) {
+    if (tail) {
+      const values = new Int32Array(Math.ceil(points / stride)).map((_, i) => positions[3 * i * stride + k]).sort();
+      low[k] = values[Math.floor(tail * (values.length - 1))];
+      high[k] = values[Math.floor((1 - tail) * (values.length - 1))];
+      continue;
+    }
+    for (let i = k; i < positions.length; i += 3) {
+      if (positions[i] < low[k]) low[k] = positions[i];
+      if (positions[i] > high[k]) high[k] = positions[i];
+    }
   }
-  if (!positions.length) return { centre: [0, 0, 0], radius: 1, size: [1, 1, 1] };
-  const centre = low.map((v, k) => (v + high[k]) / 2);
-  let square = 0;
-  for (let i = 0; i < positions.length; i += 3)
-    square = Math.max(
-      square,
-      (positions[i] - centre[0]) ** 2 + (positions[i + 1] - centre[1]) ** 2 + (positions[i + 2] - centre[2]) ** 2,
-    );
-  return { centre, radius: Math.sqrt(square), size: high.map((v, k) => v - low[k]) };
+  return { low, high, side: Math.max(...high.map((v, k) => v - low[k])) };
+}
+
+/** The box of all points; where a few are far away, of those near the others. As slf render has it. */
+function framedBox(positions) {
+  const all = boxOf(positions, 0);
+  if (positions.length < 3 * FEWEST) return all;
+  const most = boxOf(positions, 0.01);
+  if (!(all.side > WIDE * most.side) || most.side === 0) return all;
+  const margin = most.low.map((v, k) => (most.high[k] - v) / 2),
+    kept = [];
+  for (let i = 0; i < positions.length; i += 3) {
+    const at = positions.subarray(i, i + 3);
+    if (at.every((v, k) => v >= most.low[k] - margin[k] && v <= most.high[k] + margin[k])) kept.push(...at);
+  }
+  return kept.length ? boxOf(kept, 0) : all;
+}
+
+/**
+ * The middle of the box that views frame, the farthest of its points from there (`radius`) and of all points
+ * (`reach`); voxels.
+ */
+export function boundingBall({ positions }) {
+  if (!positions.length) return { centre: [0, 0, 0], radius: 1, reach: 1, size: [1, 1, 1] };
+  const { low, high } = framedBox(positions),
+    centre = low.map((v, k) => (v + high[k]) / 2);
+  let square = 0,
+    farthest = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    let distance = 0,
+      inside = true;
+    for (let k = 0; k < 3; ++k) {
+      distance += (positions[i + k] - centre[k]) ** 2;
+      inside &&= positions[i + k] >= low[k] && positions[i + k] <= high[k];
+    }
+    farthest = Math.max(farthest, distance);
+    if (inside) square = Math.max(square, distance);
+  }
+  return { centre, radius: Math.sqrt(square), reach: Math.sqrt(farthest), size: high.map((v, k) => v - low[k]) };
 }
 
 function packPlaces(field, centre, texels) {

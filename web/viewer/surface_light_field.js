@@ -27,7 +27,7 @@ export class SurfaceLightField extends Mesh {
     this.exposure = 0;
     this.share = 1;
     this.pipelines = new Map();
-    geometry.boundingSphere = new Sphere(new Vector3(...packed.centre), packed.radius + 2 * packed.step);
+    geometry.boundingSphere = new Sphere(new Vector3(...packed.centre), packed.reach + 2 * packed.step);
     geometry.computeBoundingSphere = () => {};
     this.onBeforeRender = this.draw;
   }

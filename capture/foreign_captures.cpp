@@ -1,0 +1,117 @@
+#include "capture/foreign_captures.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "capture/file_names.h"
+#include "capture/input_file.h"
+
+namespace slf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kHead = 4096;               // bytes of a file that tell
+constexpr std::size_t kMostPhotographs = 100000;  // of a folder
+
+constexpr const char* kCalibrate =
+    "calibrate them first by structure from motion: COLMAP (colmap automatic_reconstructor "
+    "--workspace_path DIR --image_path DIR/images) leaves DIR/sparse, and slf encode DIR reads "
+    "that; with --dense 1, its default, a cloud too";
+
+/// A file by its extension, or by what it begins with; an empty one is any.
+struct Foreign {
+  const char* extension;
+  const char* text;  // within its head
+  const char* sentence;
+};
+constexpr std::array kForeign = {
+    Foreign{"", "# Bundle file",
+            "cameras of Bundler, which are not read: calibrate the photographs by COLMAP"},
+    Foreign{
+        ".xml", "<document",
+        "cameras of Metashape, which are not read: export them for COLMAP (File, Export, Export "
+        "Cameras), and the cloud or the mesh as PLY or OBJ"},
+    Foreign{".psx", "", "a project of Metashape: export its cameras for COLMAP (File, Export)"},
+    Foreign{".json", "\"sfm_data_version\"",
+            "cameras of openMVG, which are not read: openMVG_main_openMVG2Colmap writes a COLMAP "
+            "model of them"},
+    Foreign{".nvm", "NVM_V3", "cameras of VisualSFM, which are not read: calibrate by COLMAP"},
+    Foreign{".sfm", "",
+            "cameras of Meshroom, which are not read: its node ExportColmap (or "
+            "ConvertSfMFormat) writes a COLMAP model"},
+    Foreign{".rsproj", "", "a project of RealityScan: export its registration for COLMAP"},
+    Foreign{".rcproj", "", "a project of RealityCapture: export its registration for COLMAP"},
+    Foreign{".csv", "#name,x,y",
+            "cameras of RealityScan, which are not read: export its registration for COLMAP"},
+    Foreign{".splat", "",
+            "Gaussian splats, which are not read: slf makes its own from photographs"},
+    Foreign{".ksplat", "",
+            "Gaussian splats, which are not read: slf makes its own from photographs"},
+    Foreign{".spz", "", "Gaussian splats, which are not read: slf makes its own from photographs"},
+    Foreign{".sog", "", "Gaussian splats, which are not read: slf makes its own from photographs"},
+    Foreign{".pcd", "", "a cloud of PCL: save it as PLY (pcl_pcd2ply, CloudCompare)"},
+    Foreign{".xyz", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
+    Foreign{".pts", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
+    Foreign{".mp4", "",
+            "a video: take photographs from it (ffmpeg -i x.mp4 -r 2 images/%04d.jpg) "
+            "and calibrate them by COLMAP"},
+    Foreign{".mov", "",
+            "a video: take photographs from it (ffmpeg -i x.mov -r 2 images/%04d.jpg) "
+            "and calibrate them by COLMAP"},
+};
+
+std::string foreign_file(const fs::path& file) {
+  std::vector<std::uint8_t> head(kHead);
+  auto input = InputFile::open(file);
+  if (!input) return {};
+  const auto count = input->read(head);
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), count ? *count : 0);
+  const std::string extension = extension_of(file);
+  for (const Foreign& foreign : kForeign)
+    if ((*foreign.extension == '\0' || extension == foreign.extension) &&
+        text.find(foreign.text) != text.npos)
+      return foreign.sentence;
+  if (extension == ".jpg" || extension == ".jpeg" || extension == ".png")
+    return "a photograph, not a capture, which is a folder of photographs with their cameras";
+  if (extension == ".obj" || extension == ".glb" || extension == ".gltf")
+    return "a mesh without photographs: --points takes it beside a capture's cameras";
+  return {};
+}
+
+std::size_t photographs_in(const fs::path& folder) {
+  std::size_t found = 0, entries = 0;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; at != end && !error; at.increment(error)) {
+    if (++entries > kMostPhotographs) break;
+    const std::string extension = extension_of(at->path());
+    found += extension == ".jpg" || extension == ".jpeg" || extension == ".png" ||
+             extension == ".heic" || extension == ".tif" || extension == ".tiff";
+  }
+  return found;
+}
+
+std::string foreign_directory(const fs::path& directory) {
+  std::error_code error;
+  if (fs::is_directory(directory / "keyframes", error))
+    return "a capture of Polycam, which is not read: ns-process-data polycam (nerfstudio) makes a "
+           "transforms.json of its raw export";
+  for (const char* name : {"cameras.xml", "bundle.out", "bundle/bundle.out", "sfm_data.json"})
+    if (const std::string known = foreign_file(directory / name); !known.empty())
+      return std::string(name) + " has " + known;
+  for (const char* folder : {"", "images", "input"})
+    if (const std::size_t found = photographs_in(directory / folder); found > 0)
+      return std::to_string(found) + " photographs without cameras: " + kCalibrate;
+  return {};
+}
+
+}  // namespace
+
+std::string foreign_capture(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error) ? foreign_directory(path) : foreign_file(path);
+}
+
+}  // namespace slf

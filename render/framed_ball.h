@@ -1,0 +1,20 @@
+// What a view of a whole light field has to show.
+#pragma once
+
+#include <span>
+
+#include "slf/types.h"
+
+namespace slf {
+
+struct FramedBall {
+  Vec3 centre{0, 0, 0};
+  double radius = 0;
+};
+
+/// About the middle of the points' box, in world units. A few points far away, which make the box
+/// more than four times as wide as 98 % of them do along every axis, are not in it: structure from
+/// motion leaves them. The viewer has the same (web/viewer/packed_field.js).
+FramedBall framed_ball(const Grid& grid, std::span<const Voxel> positions);
+
+}  // namespace slf

@@ -1,0 +1,83 @@
+// Names that people give: cameras by their photographs, outputs by their formats; and what is said
+// of a file that was written.
+#include "cli_support.h"
+
+namespace slf::cli_names_test {
+namespace {
+
+class CliNames : public TinyCaptureTest {
+ protected:
+  void SetUp() override {
+    TinyCaptureTest::SetUp();
+    const Ran ran = slf("encode tiny -o x.slf --effort 1 -q 16 --quiet");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+  }
+  /// The photograph that a camera is of.
+  std::string drawn(const std::string& camera) const {
+    const Ran ran = slf("render x.slf --json -o y.png " + camera);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.code == 0 ? parsed(ran.out)["images"][0]["camera"].get<std::string>() : "";
+  }
+};
+
+TEST_F(CliNames, ACameraGoesByItsPhotographBeforeItsNumber) {
+  const auto cameras = parsed(read("tiny/cameras.json"))["cameras"];
+  const std::string image = cameras[11]["image"], first = cameras[0]["image"];
+  const std::filesystem::path name(image);
+  for (const std::string& given : {image, name.filename().string(), name.stem().string(),
+                                   std::filesystem::path(name).replace_extension().string()}) {
+    EXPECT_EQ(drawn("--camera tiny/cameras.json:" + given), image) << given;
+    EXPECT_EQ(drawn("--capture tiny --image " + given), image) << given;
+  }
+  EXPECT_EQ(drawn("--camera tiny/cameras.json:11"), image) << "no photograph has that name";
+  const Ran none = slf("render x.slf --camera tiny/cameras.json:1234567 -o y.png");
+  expect_failure(none, 4, "has no camera 1234567", "100 are named as " + first);
+}
+
+TEST_F(CliNames, AnOutputIsWhatItsNameSays) {
+  expect_failure(slf("decode x.slf -o x.obj"), 2, "x.obj", "writes .ply, no .obj");
+  expect_failure(slf("render x.slf -o x.webp"), 2, "x.webp", "writes .png, .jpg, .jpeg");
+  expect_failure(slf("encode tiny -o x.html"), 2, "x.html", "writes .slf, no .html");
+  expect_failure(slf("render x.slf --transparent -o x.jpg"), 2, "--transparent", "PNG");
+  EXPECT_FALSE(exists("x.obj") || exists("x.webp") || exists("x.html") || exists("x.jpg"));
+  ASSERT_EQ(slf("render x.slf -o x.JPG --size 20x20").code, 0);
+  EXPECT_EQ(read("x.JPG").substr(0, 2), "\xFF\xD8");
+  ASSERT_EQ(slf("render x.slf -o x.other --size 20x20").code, 0);
+  EXPECT_EQ(read("x.other").substr(1, 3), "PNG");
+}
+
+TEST_F(CliNames, TheReportOfAnEncodeIsWhatEvalMeasures) {
+  for (const char* q : {"2", "64"}) {
+    const Ran encoded = slf(std::string("encode tiny -o y.slf --effort 1 --json -q ") + q);
+    ASSERT_EQ(encoded.code, 0) << encoded.err;
+    const auto pictures = parsed(encoded.out)["pictures"];
+    EXPECT_EQ(pictures["cameras"], 20);
+    const Ran eval = slf("eval y.slf tiny --json");
+    EXPECT_EQ(pictures["psnr"], parsed(eval.out)["input"]["image"]["psnr"]);
+  }
+}
+
+TEST_F(CliNames, MasksThatLeaveNothingGiveNoFigureAndAWarning) {
+  auto cameras = parsed(read("tiny/cameras.json"));
+  for (auto& camera : cameras["cameras"]) camera["mask"] = "mask.png";
+  write("tiny/cameras.json", cameras.dump());
+  ASSERT_EQ(slf("render x.slf --size 48x48 --background 0,0,0 --camera tiny/cameras.json -o "
+                "black.png")
+                .code,
+            0);
+  // A picture of one colour: what a view from far away shows.
+  ASSERT_EQ(shell("cp black.png tiny/mask.png").code, 0);
+  auto far = cameras["cameras"][0];
+  far["t"] = {0, 0, -1000};
+  write("far.json", nlohmann::json{{"cameras", {far}}}.dump());
+  ASSERT_EQ(slf("render x.slf --background 0,0,0 --camera far.json -o tiny/mask.png").code, 0);
+  const Ran encoded = slf("encode tiny -o y.slf --effort 1 -q 16");
+  EXPECT_NE(encoded.err.find("are they inverted?"), std::string::npos) << encoded.err;
+  EXPECT_EQ(encoded.err.find("nan"), std::string::npos) << encoded.err;
+  if (encoded.code != 0) return;
+  const Ran eval = slf("eval y.slf tiny");
+  EXPECT_EQ(eval.out.find("nan"), std::string::npos) << eval.out;
+}
+
+}  // namespace
+}  // namespace slf::cli_names_test

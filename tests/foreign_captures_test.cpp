@@ -1,0 +1,51 @@
+// What people have that is no capture: named, with the way to one.
+#include <gmock/gmock.h>
+
+#include "capture_formats.h"
+
+namespace slf::foreign_captures_test {
+namespace {
+
+using namespace test;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string refusal(const std::string& name, const std::string& content) {
+  return message_of(load_with([&](const fs::path& p) { write_text(p / name, content); }, name));
+}
+
+TEST(ForeignCaptures, FilesAreNamedWithTheWayToACapture) {
+  EXPECT_THAT(refusal("bundle.out", "# Bundle file v0.3\n0 0\n"),
+              AllOf(HasSubstr("bundle.out"), HasSubstr("Bundler"), HasSubstr("COLMAP")));
+  EXPECT_THAT(refusal("cameras.xml", "<?xml version=\"1.0\"?>\n<document version=\"2.0.0\">"),
+              AllOf(HasSubstr("Metashape"), HasSubstr("COLMAP")));
+  EXPECT_THAT(refusal("sfm_data.json", "{\"sfm_data_version\": \"0.3\", \"views\": []}"),
+              AllOf(HasSubstr("openMVG"), HasSubstr("openMVG2Colmap")));
+  EXPECT_THAT(refusal("a.rsproj", "x"), AllOf(HasSubstr("RealityScan"), HasSubstr("COLMAP")));
+  EXPECT_THAT(refusal("a.splat", "x"), HasSubstr("Gaussian splats"));
+  EXPECT_THAT(refusal("a.pcd", "x"), HasSubstr("PLY"));
+  EXPECT_THAT(refusal("a.mp4", "x"), HasSubstr("ffmpeg"));
+  EXPECT_THAT(refusal("a.json", "{}"), HasSubstr("neither 'cameras' nor 'frames'"));
+  EXPECT_THAT(refusal("a.unknown", std::string(5000, '\0')), HasSubstr("that is understood"));
+  EXPECT_THAT(refusal("a.unknown", ""), HasSubstr("that is understood"));
+}
+
+TEST(ForeignCaptures, AFolderOfPhotographsIsToldHowToBeCalibrated) {
+  for (const char* folder : {".", "images"})
+    EXPECT_THAT(message_of(load_with([&](const fs::path& p) { write_images(p / folder); })),
+                AllOf(HasSubstr("not a capture"), HasSubstr("2 photographs without cameras"),
+                      HasSubstr("colmap automatic_reconstructor")));
+  EXPECT_THAT(message_of(load_with([](const fs::path& p) {
+                write_images(p);
+                write_text(p / "cameras.xml", "<document version=\"2.0.0\">");
+              })),
+              HasSubstr("cameras.xml has cameras of Metashape"));
+  EXPECT_THAT(
+      message_of(load_with([](const fs::path& p) { write_images(p / "keyframes/images"); })),
+      HasSubstr("Polycam"));
+  EXPECT_THAT(message_of(load_with([](const fs::path& p) { write_text(p / "a.txt", ""); })),
+              HasSubstr("not a capture: no cameras.json, COLMAP model or transforms.json"));
+}
+
+}  // namespace
+}  // namespace slf::foreign_captures_test

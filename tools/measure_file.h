@@ -1,0 +1,27 @@
+// What the pictures of a file that was just written are worth.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "slf/encoder.h"
+#include "tools/failure.h"
+
+namespace slf::tools {
+
+struct FilePictures {
+  double psnr = 0;          ///< dB, as `slf eval` has it of images; NaN: nothing to compare
+  std::size_t cameras = 0;  ///< that it is of: all of the input, or some where there are many
+  double seconds = 0;
+};
+
+/// Decodes the file and draws what the input cameras saw, 32 of them at most.
+/// @param capture  what was encoded
+Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
+                                           std::span<const int> cameras, int threads);
+
+/// A line of the report.
+std::string pictures_text(const FilePictures& pictures, const Encoded& encoded,
+                          std::size_t input_cameras);
+
+}  // namespace slf::tools
