@@ -1,5 +1,7 @@
 #include "codec/assemble.h"
 
+#include <algorithm>
+
 namespace slf {
 namespace {
 
@@ -32,6 +34,14 @@ std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
   for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
   append_unit(stream, UnitType::kEnd, end);
   return stream;
+}
+
+void append_slices(std::vector<std::vector<CodedUnit>> of_slice, std::vector<CodedUnit>& units) {
+  std::size_t most = 0;
+  for (const auto& slice : of_slice) most = std::max(most, slice.size());
+  for (std::size_t place = 0; place < most; ++place)
+    for (auto& slice : of_slice)
+      if (place < slice.size()) units.push_back(std::move(slice[place]));
 }
 
 }  // namespace slf

@@ -16,4 +16,9 @@ std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
                                    std::span<const CodedUnit> units,
                                    const std::optional<std::vector<CellBox>>& boxes);
 
+/// Spec 7.1: units of slices in the order of the layout, each of all slices, behind `units`: a
+/// beginning is the whole scene, coarse first.
+/// @param of_slice  [slices] their units; none of a slice that is missing
+void append_slices(std::vector<std::vector<CodedUnit>> of_slice, std::vector<CodedUnit>& units);
+
 }  // namespace slf

@@ -12,14 +12,15 @@ EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& l
   EncodedBase base{OccupancyStates(layout.table.num_points()), {}, {}, {}, {}, {}};
   if (layout.base_levels == 0) return base;
   OctreeEncoder octree(layout.cells, layout.base_levels, base.geometry);
-  for (std::uint32_t r = 0; r < coding.set.base_geometry_ranges(); ++r) {
-    SliceUnitHeader header;
-    header.range = r;
-    const int end = static_cast<int>(coding.set.geometry_end(r));
+  const UnitLayout units = layout_of(coding.set);
+  for (const UnitSlot& slot : slots_of(units, Owner::kBase)) {
+    if (slot.type != UnitType::kGeometry) continue;
+    const int end = static_cast<int>(coding.set.geometry_end(slot.range));
     const auto body = end < layout.base_levels || coding.set.sps_num_functions == 0
                           ? octree.encode(end)
                           : octree.encode(end, layout.classes);
-    base.units.push_back(part_unit(UnitType::kGeometry, std::move(header), body, coding.set));
+    base.units.push_back(
+        part_unit(slot.type, ids_of(slot, SliceUnitHeader::kBase), body, coding.set));
   }
   base.geometry = octree.states();
   return base;
@@ -44,8 +45,10 @@ void encode_base_components(const SliceCoding& coding, const SceneLayout& layout
   CoefficientModels& models = base.models.emplace_back(
       coding.groups, tree, codes, first, set.has_vectors(), layout.weights(), set.num_layers());
   ComponentEncoder encoder(coding, tree, 0, base.quantised, base.coefficients, models);
-  for (const SliceUnitHeader& ids : component_units(coding, SliceUnitHeader::kBase))
-    base.units.push_back(encoder.encode(ids));
+  const UnitLayout units = layout_of(set);
+  for (const UnitSlot& slot : slots_of(units, Owner::kBase))
+    if (has_values(slot.type))
+      base.units.push_back(encoder.encode(ids_of(slot, SliceUnitHeader::kBase)));
   base.states = models.all_states();
 }
 

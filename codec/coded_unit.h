@@ -7,6 +7,7 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "bitstream/slice_headers.h"
+#include "codec/unit_layout.h"
 #include "slf/encoder.h"
 
 namespace slf {

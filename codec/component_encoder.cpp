@@ -21,19 +21,6 @@ std::vector<std::int32_t> without_bits(const SliceCoding& coding, std::uint32_t 
 
 }  // namespace
 
-std::vector<SliceUnitHeader> component_units(const SliceCoding& coding, std::uint32_t slice) {
-  const SequenceParameterSet& set = coding.set;
-  const bool base = slice == SliceUnitHeader::kBase;
-  const std::uint32_t begin = base ? 0 : set.base_coefficient_ranges(),
-                      end = base ? set.base_coefficient_ranges() : set.coefficient_ranges();
-  std::vector<SliceUnitHeader> units;
-  for (std::uint32_t layer = 0; layer < set.num_layers(); ++layer)
-    for (std::uint32_t range = begin; range < end; ++range)
-      for (std::uint32_t group = 0; group < coding.groups.size(); ++group)
-        if (layer < set.layers_of(group)) units.push_back({slice, range, group, layer, {}});
-  return units;
-}
-
 CodedUnit ComponentEncoder::encode(SliceUnitHeader ids) {
   const SequenceParameterSet& set = coding_.set;
   const int bits = coding_.grid_bits();

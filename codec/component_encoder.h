@@ -10,10 +10,6 @@
 
 namespace slf {
 
-/// Ids of the coefficient and refinement units of a part, as 7.1 lists them.
-/// @param slice  or SliceUnitHeader::kBase
-std::vector<SliceUnitHeader> component_units(const SliceCoding& coding, std::uint32_t slice);
-
 /// The quantised coefficients of the base, or of a slice, to units. Spec 8.7.
 class ComponentEncoder {
  public:
@@ -30,7 +26,7 @@ class ComponentEncoder {
         values_(values),
         models_(models) {}
 
-  /// One after the other, in the order of component_units.
+  /// The unit with these ids. A model goes on from the unit before: they come in their order.
   CodedUnit encode(SliceUnitHeader ids);
 
  private:

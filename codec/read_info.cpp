@@ -79,7 +79,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.group = function_groups(set);
   info.step = function_steps(set);
   const PlaneGroups groups = plane_groups(set);
-  SLF_TRY(auto transforms, collect_transforms(units, set, groups));
+  SLF_TRY(auto transforms, collect_transforms(units, groups));
   SLF_CHECK(read_matrices(units, set, groups, groups.size(), transforms));
   for (const PlaneTransform& t : transforms)
     info.transforms.push_back({static_cast<int>(t.first_group),

@@ -46,7 +46,7 @@ class SceneDecoder {
         base_(base),
         field_(field),
         rows_(plan.has_base() ? base.cells.size() : 0),
-        lead_(PartList(plan.set, false).size()) {
+        lead_(slots_of(layout_of(plan.set), Owner::kSlice).size()) {
     SliceLead* lead = plan.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < units.slices.size(); ++s)
       if (chosen[s])

@@ -11,10 +11,8 @@ namespace slf {
 /// All units of the base and of the slices, in the order of the stream: coarse first, so that a
 /// beginning is the whole scene.
 /// @param slices   [slices] their components are used up
-/// @errors those of SliceEncoder
-Result<std::vector<CodedUnit>, InputError> encode_scene(const SliceCoding& coding,
-                                                        const SceneLayout& layout,
-                                                        std::span<const SliceInput> slices,
-                                                        int threads);
+/// @errors those of slices (codec/slice_encoder.h)
+Result<CodedUnits, InputError> encode_scene(const SliceCoding& coding, const SceneLayout& layout,
+                                            std::span<const SliceInput> slices, int threads);
 
 }  // namespace slf

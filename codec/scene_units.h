@@ -8,6 +8,7 @@
 #include "bitstream/metadata.h"
 #include "bitstream/slice_headers.h"
 #include "bitstream/units.h"
+#include "codec/unit_layout.h"
 
 namespace slf {
 
@@ -43,33 +44,9 @@ Result<Metadata> collect_metadata(const Units& units);
 /// Reads the header that a unit of the base or of a slice begins with.
 Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& set);
 
-/// Checks that units of every part are a beginning of the list of 7.1, and all of it where the
+/// Checks that the units of every owner are a beginning of its slots, and all of them where the
 /// stream is complete and not cut.
+/// @errors kOutOfRange: a unit out of its place; those of the slices unit and of headers
 Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet& set);
-
-/// Of the list of units that a part has: how many, and which of them a unit is. Spec 7.1.
-class PartList {
- public:
-  PartList(const SequenceParameterSet& set, bool base);
-
-  std::size_t size() const { return size_; }
-  UnitType type_at(std::size_t place) const;
-  /// Its place; size() for a digest, beyond that for a group or a layer that was cut.
-  std::size_t place_of(const PartUnit& unit) const;
-
- private:
-  /// A refinement of all ranges.
-  struct Layer {
-    std::size_t first;                  ///< place
-    std::vector<std::uint32_t> groups;  ///< that have it
-  };
-  std::size_t place_of_refinement(const SliceUnitHeader& header) const;
-
-  static std::uint32_t kept_ranges(const SequenceParameterSet& set, bool base);
-
-  std::uint32_t first_geometry_, first_coefficients_, groups_;
-  std::size_t geometry_, normals_, coefficients_, size_ = 0;
-  std::vector<Layer> layers_;  // from layer 1 on
-};
 
 }  // namespace slf

@@ -59,7 +59,7 @@ Result<SequencePlan> plan_sequence(const Units& units, const SequenceParameterSe
   plan.levels = static_cast<int>(least(set.grid_bits(), options.levels, set.sps_cut_levels));
   plan.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));
   PlaneGroups groups = plane_groups(set);
-  SLF_TRY(plan.transforms, collect_transforms(units, set, groups));  // 7.11
+  SLF_TRY(plan.transforms, collect_transforms(units, groups));  // 7.11
   const std::size_t asked = least(groups.size(), options.groups, set.sps_cut_groups);
   const std::size_t kept =
       options.means_only ? std::min(asked, groups_of_means(groups, plan.transforms)) : asked;

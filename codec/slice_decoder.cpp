@@ -172,7 +172,7 @@ Result<Done> SliceDecoder::decode_part(std::span<std::int32_t> components, int t
 
 Result<Done> SliceDecoder::decode_components(std::span<std::int32_t> components, int threads) {
   if (plan_->planes() == 0 || codes_.empty()) return Done{};
-  if (units_->size() < PartList(plan_->set, false).size()) partial = true;
+  if (!is_whole(slots_of(layout_of(plan_->set), Owner::kSlice), units_->size())) partial = true;
   if (top_.tree.size() == 0) return interpolate_nodes(components, threads);
   return plan_->set.has_texture() ? decode_texture_units(components, threads)
                                   : decode_part(components, threads);

@@ -7,7 +7,6 @@
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_forward.h"
-#include "base/release.h"
 #include "codec/component_encoder.h"
 #include "codec/slice_digest.h"
 #include "codec/slice_texture_encoder.h"
@@ -17,6 +16,8 @@
 
 namespace slf {
 namespace {
+
+using Body = std::vector<std::uint8_t>;
 
 /// Slice 0 is without its states only where memory ran out.
 template <class States>
@@ -38,134 +39,158 @@ bool fits_transform(const SliceInput& input, const SceneLayout& layout) {
   return largest < kCoefficientLimit && largest * root < kCoefficientLimit;
 }
 
-}  // namespace
-
-SliceEncoder::SliceEncoder(const SliceCoding& coding, const SceneLayout& layout, std::size_t slice,
-                           const SliceInput& input, SliceLead* lead)
-    : coding_(&coding), layout_(&layout), slice_(slice), input_(input), lead_(lead) {}
-
-void SliceEncoder::add(UnitType type, std::uint32_t range, std::uint32_t group,
-                       std::span<const std::uint8_t> body) {
-  SliceUnitHeader header{slice_id(), range, group, 0, {}};
-  units_.push_back(type == UnitType::kCoefficients
-                       ? coefficient_unit(std::move(header), {body.begin(), body.end()}, *coding_)
-                       : part_unit(type, std::move(header), body, coding_->set));
+Body encode_octree_unit(const SliceSource& slice, std::size_t place, OctreeEncoder& octree) {
+  if (slice.follows()) octree.start_from(known(slice.lead->geometry.wait(place)));
+  Body body =
+      octree.encode(static_cast<int>(slice.coding.set.geometry_end(slice.slots[place].range)));
+  if (slice.leads()) slice.lead->geometry.publish(place, octree.states());
+  return body;
 }
 
-void SliceEncoder::encode_octree(OccupancyStates states) {
-  const SequenceParameterSet& set = coding_->set;
-  OctreeEncoder octree(input_.morton, coding_->grid_bits(), std::move(states),
-                       layout_->base_levels);
-  for (std::uint32_t r = set.base_geometry_ranges(); r < set.geometry_ranges(); ++r) {
-    const std::size_t place = units_.size();
-    if (follows()) octree.start_from(known(lead_->geometry.wait(place)));
-    add(UnitType::kGeometry, r, 0, octree.encode(static_cast<int>(set.geometry_end(r))));
-    if (leads()) lead_->geometry.publish(place, octree.states());
-  }
+Result<Body, InputError> encode_draco_unit(const SliceInput& input) {
+  auto body = encode_draco({input.positions.begin(), input.positions.end()});
+  if (body) return *std::move(body);
+  return InputError{Errc::kUnsupported,
+                    "geometry coder draco: Draco failed, or is not part of this build"};
 }
 
-Result<Done, InputError> SliceEncoder::encode_geometry(const EncodedBase* base) {
-  if (!coding_->set.has_draco()) {
-    encode_octree(base != nullptr ? base->geometry : OccupancyStates(input_.morton.size()));
-    return Done{};
-  }
-  auto draco = encode_draco({input_.positions.begin(), input_.positions.end()});
-  if (!draco)
-    return InputError{Errc::kUnsupported,
-                      "geometry coder draco: Draco failed, or is not part of this build"};
-  add(UnitType::kGeometry, 0, 0, *draco);
-  return Done{};
-}
-
-void SliceEncoder::encode_normals() {
-  if (coding_->set.sps_normal_bits == 0) return;
+Body encode_normals(const SliceSource& slice) {
   RangeEncoder encoder;
-  NormalModel model(static_cast<int>(coding_->set.sps_normal_bits));
-  for (auto normal : input_.normals) model.code(encoder, normal);
-  add(UnitType::kNormals, 0, 0, encoder.finish());
+  NormalModel model(static_cast<int>(slice.coding.set.sps_normal_bits));
+  for (auto normal : slice.input.normals) model.code(encoder, normal);
+  return encoder.finish();
 }
 
-Result<Done, InputError> SliceEncoder::transform(std::span<std::int32_t> base_input, int threads) {
-  const std::size_t planes = coding_->planes();
-  if (planes == 0 || coding_->set.has_texture()) return Done{};
-  if (!fits_transform(input_, *layout_))
-    return InputError{
-        Errc::kInvalidArgument,
-        "components: the largest, times the root of the number of points, reaches 2^27"};
-  tree_ = build_raht_tree(input_.morton);
-  first_.resize(tree_.size() + 1);
-  std::iota(first_.begin(), first_.end(), 0u);
-  if (layout_->base_levels > 0)
-    cells_ = find_cells(tree_, first_, 3 * (coding_->grid_bits() - layout_->base_levels),
-                        layout_->cuts[slice_ - layout_->first_slice].first_cell);
-  raht_forward(tree_, static_cast<int>(planes), input_.components, threads, cells_.size());
-  if (layout_->base_levels > 0)
-    put_into_base(cells_, input_.components, layout_->weights(), planes, base_input);
-  return Done{};
-}
-
-Result<Done, InputError> SliceEncoder::encode_texture(int threads) {
-  SLF_TRY(const auto payloads, encode_slice_texture(input_, *coding_, threads));
-  for (std::uint32_t g = 0; g < payloads.size(); ++g)
-    add(UnitType::kCoefficients, 0, g, payloads[g]);
-  return Done{};
-}
-
-void SliceEncoder::encode_coefficients(const EncodedBase* base, const Quantised& quantised) {
-  const SequenceParameterSet& set = coding_->set;
-  CoefficientModels models(coding_->groups, tree_, input_.morton, first_, set.has_vectors(), {},
-                           set.num_layers());
-  if (base != nullptr) {
-    if (!base->models.empty()) models.adopt(base->models.front(), cells_);
-    models.start_from_all(base->states);
-  }
-  ComponentEncoder encoder(*coding_, tree_, layout_->base_levels, quantised, input_.components,
-                           models);
-  for (const SliceUnitHeader& ids : component_units(*coding_, slice_id())) {
-    const std::size_t place = units_.size();
-    if (follows()) models.start_from(ids.group, known(lead_->coefficients.wait(place)), ids.layer);
-    units_.push_back(encoder.encode(ids));
-    if (leads()) lead_->coefficients.publish(place, models.states(ids.group, ids.layer));
-  }
-}
-
-Quantised SliceEncoder::quantise(const EncodedBase* base, int threads) {
-  QuantisedBase cells{cells_, layout_->base_levels, layout_->weights(), {}, nullptr};
+Quantised quantise(const SliceSource& slice, const SliceTree& tree, const EncodedBase* base,
+                   int threads) {
+  const SceneLayout& layout = slice.layout;
+  QuantisedBase cells{tree.cells, layout.base_levels, layout.weights(), {}, nullptr};
   if (base != nullptr) {
     cells.coefficients = base->coefficients;
     cells.quantised = &base->quantised;
   }
-  return quantise_coefficients({tree_,
-                                input_.morton,
-                                coding_->grid_bits(),
-                                coding_->groups,
-                                coding_->steps,
-                                coding_->set.sps_prediction_flag != 0,
-                                coding_->rdo,
+  const SliceCoding& coding = slice.coding;
+  return quantise_coefficients({tree.tree,
+                                slice.input.morton,
+                                coding.grid_bits(),
+                                coding.groups,
+                                coding.steps,
+                                coding.set.sps_prediction_flag != 0,
+                                coding.rdo,
                                 0,
                                 {},
-                                layout_->base_levels > 0 ? &cells : nullptr},
-                               input_.components, threads);
+                                layout.base_levels > 0 ? &cells : nullptr},
+                               slice.input.components, threads);
 }
 
-Result<Done, InputError> SliceEncoder::encode_components(const EncodedBase* base, int threads) {
-  if (coding_->planes() == 0) return Done{};
-  if (coding_->set.has_texture()) return encode_texture(threads);
-  Quantised quantised = quantise(base, threads);
-  encode_coefficients(base, quantised);
-  decoded_ = std::move(quantised.values);
-  tree_ = {};
-  return Done{};
+CodedUnits encode_coefficients(const SliceSource& slice, const SliceTree& tree,
+                               const EncodedBase* base, const Quantised& quantised) {
+  const SequenceParameterSet& set = slice.coding.set;
+  CoefficientModels models(slice.coding.groups, tree.tree, slice.input.morton, tree.first,
+                           set.has_vectors(), {}, set.num_layers());
+  if (base != nullptr) {
+    if (!base->models.empty()) models.adopt(base->models.front(), tree.cells);
+    models.start_from_all(base->states);
+  }
+  ComponentEncoder encoder(slice.coding, tree.tree, slice.layout.base_levels, quantised,
+                           slice.input.components, models);
+  CodedUnits units;
+  for (std::size_t place = 0; place < slice.slots.size(); ++place) {
+    const UnitSlot& slot = slice.slots[place];
+    if (!has_values(slot.type)) continue;
+    if (slice.follows())
+      models.start_from(slot.group, known(slice.lead->coefficients.wait(place)), slot.layer);
+    units.push_back(encoder.encode(ids_of(slot, slice.slice_id())));
+    if (slice.leads())
+      slice.lead->coefficients.publish(place, models.states(slot.group, slot.layer));
+  }
+  return units;
 }
 
-void SliceEncoder::encode_digest() {
-  if (!coding_->digest) return;
-  const auto digest =
-      slice_digest(input_.positions,
-                   decoded_.empty() ? std::span<const std::int32_t>(input_.components) : decoded_,
-                   input_.normals);
-  add(UnitType::kDigest, 0, 0, digest);
-  release(decoded_);
+Result<CodedUnits, InputError> encode_textures(const SliceSource& slice, int threads) {
+  SLF_TRY(auto bodies, encode_slice_texture(slice.input, slice.coding, threads));
+  CodedUnits units;
+  for (const UnitSlot& slot : slice.slots)
+    if (has_values(slot.type))
+      units.push_back(coefficient_unit(ids_of(slot, slice.slice_id()),
+                                       std::move(bodies[slot.group]), slice.coding));
+  return units;
+}
+
+/// @param components  as a decoder gets them
+void add_digest(const SliceSource& slice, std::span<const std::int32_t> components,
+                CodedUnits& units) {
+  if (!slice.coding.digest) return;
+  const auto digest = slice_digest(slice.input.positions, components, slice.input.normals);
+  units.push_back(part_unit(UnitType::kDigest, ids_of(slice.slots.back(), slice.slice_id()), digest,
+                            slice.coding.set));
+}
+
+}  // namespace
+
+Result<CodedUnits, InputError> encode_slice_geometry(const SliceSource& slice,
+                                                     const EncodedBase* base) {
+  const SequenceParameterSet& set = slice.coding.set;
+  OctreeEncoder octree(
+      slice.input.morton, slice.coding.grid_bits(),
+      base != nullptr ? base->geometry : OccupancyStates(slice.input.morton.size()),
+      slice.layout.base_levels);
+  CodedUnits units;
+  for (std::size_t place = 0; place < slice.slots.size(); ++place) {
+    const UnitSlot& slot = slice.slots[place];
+    Body body;
+    if (slot.type == UnitType::kNormals) {
+      body = encode_normals(slice);
+    } else if (slot.type != UnitType::kGeometry) {
+      break;
+    } else if (set.has_draco()) {
+      SLF_TRY(body, encode_draco_unit(slice.input));
+    } else {
+      body = encode_octree_unit(slice, place, octree);
+    }
+    units.push_back(part_unit(slot.type, ids_of(slot, slice.slice_id()), body, set));
+  }
+  return units;
+}
+
+Result<SliceTree, InputError> transform_slice(const SliceSource& slice,
+                                              std::span<std::int32_t> base_input, int threads) {
+  const std::size_t planes = slice.coding.planes();
+  const SceneLayout& layout = slice.layout;
+  SliceTree transform;
+  if (planes == 0 || slice.coding.set.has_texture()) return transform;
+  if (!fits_transform(slice.input, layout))
+    return InputError{
+        Errc::kInvalidArgument,
+        "components: the largest, times the root of the number of points, reaches 2^27"};
+  transform.tree = build_raht_tree(slice.input.morton);
+  transform.first.resize(transform.tree.size() + 1);
+  std::iota(transform.first.begin(), transform.first.end(), 0u);
+  if (layout.base_levels > 0)
+    transform.cells = find_cells(transform.tree, transform.first,
+                                 3 * (slice.coding.grid_bits() - layout.base_levels),
+                                 layout.cuts[slice.slice - layout.first_slice].first_cell);
+  raht_forward(transform.tree, static_cast<int>(planes), slice.input.components, threads,
+               transform.cells.size());
+  if (layout.base_levels > 0)
+    put_into_base(transform.cells, slice.input.components, layout.weights(), planes, base_input);
+  return transform;
+}
+
+Result<CodedUnits, InputError> encode_slice_values(const SliceSource& slice, SliceTree tree,
+                                                   const EncodedBase* base, int threads) {
+  CodedUnits units;
+  if (slice.coding.set.has_texture()) {
+    SLF_TRY(units, encode_textures(slice, threads));
+  }
+  if (slice.coding.planes() == 0 || slice.coding.set.has_texture()) {
+    add_digest(slice, slice.input.components, units);
+    return units;
+  }
+  const Quantised quantised = quantise(slice, tree, base, threads);
+  units = encode_coefficients(slice, tree, base, quantised);
+  add_digest(slice, quantised.values, units);
+  return units;
 }
 
 }  // namespace slf

@@ -12,7 +12,7 @@ namespace slf {
 struct SliceInput;
 struct SliceCoding;
 
-/// The payloads behind the unit headers, one a group. input.components become what a decoder gets,
+/// What follows the unit headers, one a group. input.components become what a decoder gets,
 /// where coding.digest asks for it.
 /// @errors kInvalidArgument: values too large; an atlas larger than 8192. kUnsupported: x265, or
 ///         libde265 for the digest, is not part of this build.

@@ -93,17 +93,10 @@ Result<Done> read_matrices(const Units& units, const SequenceParameterSet& set,
 }
 
 Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
-                                                       const SequenceParameterSet& set,
                                                        const PlaneGroups& groups) {
   std::vector<PlaneTransform> transforms;
-  bool in_slices = false;
   for (const Unit& unit : units.units) {
-    in_slices = in_slices || unit.type == UnitType::kSlices;
-    if (in_slices && transforms.size() < set.num_transforms())
-      return of_sequence(Errc::kOutOfRange, "sps_num_transforms_minus1");
     if (unit.type != UnitType::kTransform) continue;
-    if (in_slices || transforms.size() == set.num_transforms())
-      return of_unit(unit.type, unit.offset, Errc::kOutOfRange, "unit_type");
     SLF_TRY(PlaneTransform transform, parse_transform(unit, groups));
     if (!transforms.empty() &&
         transform.first_group < transforms.back().first_group + transforms.back().num_groups)

@@ -17,12 +17,11 @@ std::vector<std::uint16_t> functions_of_groups(const PlaneGroups& groups, std::s
 /// The columns that stand for the functions of a group. groups: all of the sequence
 ColumnRange columns_of_group(const PlaneTransform& t, const PlaneGroups& groups, std::size_t group);
 
-/// The transforms in stream order, their matrices 0. They stand before the slices unit, over
-/// ascending groups.
+/// The transforms in stream order, their matrices 0.
+/// @param units   in order (collect_units)
 /// @param groups  all of the sequence
-/// @errors kOutOfRange: one is missing, too many, out of order or larger than a matrix may be.
+/// @errors kOutOfRange: groups do not ascend, or a matrix is too large.
 Result<std::vector<PlaneTransform>> collect_transforms(const Units& units,
-                                                       const SequenceParameterSet& set,
                                                        const PlaneGroups& groups);
 
 /// The matrices, of the coefficient units of the first `kept` groups that are there; else 0.

@@ -89,14 +89,18 @@ Result<Done, InputError> code(const PlannedScene& scene, const Region& region,
   const auto normals = own_normals(region, scene.settings.normal_bits);
   const SceneLayout layout = alone(scene.cells.layout, coded.slice);
   coded.sums.resize(layout.cells.size() * scene.coding->planes());
-  SliceEncoder encoder(*scene.coding, layout, coded.slice, {codes, positions, components, normals},
-                       nullptr);
-  SLF_CHECK(encoder.encode_geometry(nullptr));
-  encoder.encode_normals();
-  SLF_CHECK(encoder.transform(coded.sums, scene.settings.threads));
-  SLF_CHECK(encoder.encode_components(nullptr, scene.settings.threads));
-  encoder.encode_digest();
-  coded.units = encoder.take_units();
+  const UnitLayout units = layout_of(scene.set);
+  const SliceSource slice{*scene.coding,
+                          layout,
+                          slots_of(units, Owner::kSlice),
+                          coded.slice,
+                          {codes, positions, components, normals},
+                          nullptr};
+  SLF_TRY(coded.units, encode_slice_geometry(slice, nullptr));
+  SLF_TRY(SliceTree tree, transform_slice(slice, coded.sums, scene.settings.threads));
+  SLF_TRY(const CodedUnits values,
+          encode_slice_values(slice, std::move(tree), nullptr, scene.settings.threads));
+  coded.units.insert(coded.units.end(), values.begin(), values.end());
   return Done{};
 }
 

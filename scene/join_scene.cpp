@@ -38,7 +38,7 @@ std::vector<std::uint8_t> beginning(const SceneParts& parts) {
 }
 
 /// The layout as the base's geometry tells it.
-SceneLayout layout_of(const SceneParts& parts, Base base, const SequencePlan& plan) {
+SceneLayout known_layout(const SceneParts& parts, Base base, const SequencePlan& plan) {
   SceneLayout layout;
   layout.base_levels = plan.base_levels();
   layout.cells = std::move(base.cells);
@@ -64,17 +64,14 @@ std::vector<std::int32_t> base_input(const SceneParts& parts, const SceneLayout&
   return input;
 }
 
-/// Spec 7.1. Unit by unit of a slice, all slices.
 void add_slices(const SceneParts& parts, bool digests, std::vector<CodedUnit>& units) {
-  std::size_t most = 0;
-  for (const auto& piece : parts.slices)
-    if (piece) most = std::max(most, piece->units.size());
-  for (std::size_t place = 0; place < most; ++place)
-    for (const auto& piece : parts.slices)
-      if (piece && place < piece->units.size()) units.push_back(piece->units[place]);
-  if (!digests) return;
-  for (const auto& piece : parts.slices)
-    if (piece && piece->digest) units.push_back(*piece->digest);
+  std::vector<std::vector<CodedUnit>> of_slice;
+  for (const auto& piece : parts.slices) {
+    if (!piece) continue;
+    of_slice.push_back(piece->units);
+    if (digests && piece->digest) of_slice.back().push_back(*piece->digest);
+  }
+  append_slices(std::move(of_slice), units);
 }
 
 CodedUnit part_of(const SceneParts& parts) {
@@ -105,7 +102,7 @@ Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
   const TextureSettings no_texture;
   const SliceCoding coding{parts.set,  plan->groups, plan->steps,   true,
                            no_texture, parts.rdo,    parts.matrices};
-  SceneBase base{layout_of(parts, *std::move(known), *plan), coding.planes(), {}};
+  SceneBase base{known_layout(parts, *std::move(known), *plan), coding.planes(), {}};
   EncodedBase coded{OccupancyStates(1), parts.base, {}, {}, {}, {}};
   encode_base_components(coding, base.layout, base_input(parts, base.layout, base.planes), threads,
                          coded);

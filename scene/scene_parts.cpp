@@ -34,6 +34,7 @@ class PartReader {
     parts_.table = scene_.table;
     parts_.set = cut_;
     parts_.set.sps_cut_flag = parts_.set.sps_cut_levels = parts_.set.sps_cut_slices_flag = 0;
+    layout_ = layout_of(parts_.set);
     SLF_TRY(const SequencePlan plan, plan_sequence(units_, cut_, scene_.table, {}));
     SLF_CHECK(read_head(plan));
     return read_slices();
@@ -54,7 +55,7 @@ class PartReader {
     parts_.plan = sums_.plan;
     parts_.rdo = sums_.rdo;
     if (plan.set.sps_transform_flag != 0) parts_.matrices.resize(plan.groups.size());
-    if (scene_.base.size() < PartList(parts_.set, true).size())
+    if (!is_whole(slots_of(layout_, Owner::kBase), scene_.base.size()))
       return Error{Errc::kTruncated, "slice_id"};  // matrices, too, stand there
     for (const PartUnit& unit : scene_.base) {
       if (unit.type == UnitType::kGeometry)
@@ -70,7 +71,7 @@ class PartReader {
     parts_.slices.resize(scene_.slices.size());
     for (SliceSums& sums : sums_.slices) {
       const PartUnits& units = scene_.slices[sums.slice];
-      if (units.size() < PartList(parts_.set, false).size())
+      if (!is_whole(slots_of(layout_, Owner::kSlice), units.size()))
         return Error{Errc::kTruncated, "slice_id"};
       ScenePiece piece;
       for (const PartUnit& unit : units)
@@ -100,6 +101,7 @@ class PartReader {
   Units units_;
   SequenceParameterSet cut_;
   SceneUnits scene_;
+  UnitLayout layout_;  // of the whole
   PartSums sums_;
 };
 

@@ -90,6 +90,7 @@ TEST(Spec_7_3_SlicesApart, AreCodedByThemselvesToTheSameBytes) {
   const auto stream = packed(field, apart());
   const SequenceParameterSet set = *find_sequence(*split_units(stream));
   const SliceCoding coding{set, plane_groups(set), plane_steps(set), true, {}, apart().rdo};
+  const UnitLayout slots = layout_of(set);
   const std::vector<std::uint64_t> codes = codes_of(field);
   const std::size_t planes = static_cast<std::size_t>(field.num_planes());
   std::size_t begin = 0;
@@ -98,19 +99,21 @@ TEST(Spec_7_3_SlicesApart, AreCodedByThemselvesToTheSameBytes) {
     const std::size_t points = table.slices[s].points();
     const auto own = std::span(codes).subspan(begin, points);
     const SceneLayout layout = layout_of_slice(own, s);
-    SliceEncoder encoder(coding, layout, s,
-                         {own, std::span(field.positions).subspan(begin, points),
-                          std::span(field.components).subspan(begin * planes, points * planes),
-                          std::span(field.normals.octahedral).subspan(begin, points)},
-                         nullptr);
+    const SliceSource slice{coding,
+                            layout,
+                            slots_of(slots, Owner::kSlice),
+                            s,
+                            {own, std::span(field.positions).subspan(begin, points),
+                             std::span(field.components).subspan(begin * planes, points * planes),
+                             std::span(field.normals.octahedral).subspan(begin, points)},
+                            nullptr};
     std::vector<std::int32_t> base_input(layout.cells.size() * planes);
-    ASSERT_TRUE(encoder.encode_geometry(nullptr));
-    encoder.encode_normals();
-    ASSERT_TRUE(encoder.transform(base_input, 1));
-    ASSERT_TRUE(encoder.encode_components(nullptr, 1));
-    encoder.encode_digest();
     std::vector<std::vector<std::uint8_t>> units;
-    for (const CodedUnit& unit : encoder.take_units()) units.push_back(unit.payload);
+    const CodedUnits geometry = *encode_slice_geometry(slice, nullptr);
+    SliceTree tree = *transform_slice(slice, base_input, 1);
+    const CodedUnits values = *encode_slice_values(slice, std::move(tree), nullptr, 1);
+    for (const CodedUnits& coded : {geometry, values})
+      for (const CodedUnit& unit : coded) units.push_back(unit.payload);
     EXPECT_EQ(units, units_of(stream, static_cast<std::uint32_t>(s))) << s;
     begin += points;
   }
