@@ -184,42 +184,35 @@ CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options) {
   return {cost, threads};
 }
 
-namespace {
-
-std::uint64_t cells_of(const SequencePlan& plan) {
-  return plan.has_base() ? plan.table.num_cells() : 0;
-}
-
-}  // namespace
-
-DecodeShape shape_of(const SequencePlan& plan) {
-  const SequenceParameterSet& set = plan.set;
+DecodeShape shape_of(const Request& request) {
+  const StreamHeader& stream = request.stream;
+  const SequenceParameterSet& set = stream.set;
   DecodeShape shape;
-  for (const SliceEntry& slice : plan.table.slices) shape.slices.push_back(slice.points());
-  shape.cells = cells_of(plan);
-  shape.planes = plan.planes();
-  shape.groups = plan.groups.size();
+  for (const SliceEntry& slice : stream.table.slices) shape.slices.push_back(slice.points());
+  shape.cells = stream.num_cells();
+  shape.planes = request.planes();
+  shape.groups = request.groups.size();
   shape.levels = set.grid_bits();
   shape.base_levels = set.sps_base_levels;
   shape.geometry_units = set.geometry_ranges() - set.base_geometry_ranges();
-  shape.layers = static_cast<std::uint64_t>(plan.layers);
+  shape.layers = static_cast<std::uint64_t>(request.layers);
   shape.coefficient_units =
       std::uint64_t{set.coefficient_ranges() - set.base_coefficient_ranges()} * shape.groups *
       shape.layers;
-  shape.base_alone = plan.base_alone();
+  shape.base_alone = request.base_alone();
   shape.vector = set.has_vectors();
   shape.prediction = set.sps_prediction_flag != 0;
   shape.draco = set.has_draco();
   shape.texture = set.has_texture();
   shape.normals = set.sps_normal_bits > 0;
-  shape.shared_states = plan.table.shared();
-  shape.ahead = shape.shared_states && plan.kept_levels_only();
+  shape.shared_states = stream.table.shared();
+  shape.ahead = shape.shared_states && request.kept_levels_only();
   return shape;
 }
 
-Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows) {
-  const std::uint64_t most = kLevelValues + kLevelValuesOfByte * plan.stream_bytes;
-  if (rows > most / std::max<std::uint64_t>(plan.planes(), 1))
+Result<Done> check_level(const Request& request, std::uint64_t rows) {
+  const std::uint64_t most = kLevelValues + kLevelValuesOfByte * request.stream.bytes;
+  if (rows > most / std::max<std::uint64_t>(request.planes(), 1))
     return of_sequence(Errc::kOutOfRange, "sps_level");
   return Done{};
 }
@@ -237,32 +230,34 @@ Result<CostOnThreads> within_limits(const DecodeShape& shape, std::uint64_t poin
 }
 
 /// The slices are not known that will be opened.
-bool waits_for_base(const SequencePlan& plan) {
-  return plan.region && plan.has_base() && !plan.base_alone();
+bool waits_for_base(const Request& request) {
+  return request.region && request.stream.has_base() && !request.base_alone();
 }
 
 }  // namespace
 
-Result<CostOnThreads> check_limits(const SequencePlan& plan, const DecodeOptions& options) {
-  DecodeShape shape = shape_of(plan);
-  if (waits_for_base(plan)) shape.base_alone = true;
-  const std::uint64_t points = shape.base_alone ? plan.table.num_cells() : plan.table.num_points();
+Result<CostOnThreads> check_limits(const Request& request, const DecodeOptions& options) {
+  const StreamHeader& stream = request.stream;
+  DecodeShape shape = shape_of(request);
+  if (waits_for_base(request)) shape.base_alone = true;
+  const std::uint64_t points =
+      shape.base_alone ? stream.table.num_cells() : stream.table.num_points();
   SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
   // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
-  const bool told = plan.complete && !plan.missing && !plan.region;
-  if (told || plan.set.has_draco())
-    SLF_CHECK(check_level(plan, points + (plan.base_alone() ? 0 : cells_of(plan))));
+  const bool told = stream.complete && !request.missing && !request.region;
+  if (told || stream.set.has_draco())
+    SLF_CHECK(check_level(request, points + (request.base_alone() ? 0 : stream.num_cells())));
   return cost;
 }
 
-Result<CostOnThreads> check_limits_of_slices(const SequencePlan& plan, const DecodeOptions& options,
+Result<CostOnThreads> check_limits_of_slices(const Request& request, const DecodeOptions& options,
                                              const std::vector<std::uint8_t>& chosen) {
-  DecodeShape shape = shape_of(plan);
+  DecodeShape shape = shape_of(request);
   shape.slices.clear();
   std::uint64_t points = 0;
   for (std::size_t s = 0; s < chosen.size(); ++s) {
     if (!chosen[s]) continue;
-    shape.slices.push_back(plan.table.slices[s].points());
+    shape.slices.push_back(request.stream.table.slices[s].points());
     points += shape.slices.back();
   }
   return within_limits(shape, points, options);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/sequence_plan.h"
+#include "codec/request.h"
 #include "slf/decoder.h"
 
 namespace slf {
@@ -42,19 +42,19 @@ struct CostOnThreads : DecodeCost {
 CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options);
 
 /// That of what was asked for, which may be less than the whole.
-DecodeShape shape_of(const SequencePlan& plan);
+DecodeShape shape_of(const Request& request);
 
 /// Spec 9: are so many rows, of the base and of slices, in proportion to the bytes?
 /// @errors kOutOfRange: sps_level
-Result<Done> check_level(const SequencePlan& plan, std::uint64_t rows);
+Result<Done> check_level(const Request& request, std::uint64_t rows);
 
 /// What the slices say they hold, before any of it is decoded; where a region is asked for, what
 /// the base takes, which tells the slices.
 /// @errors kLimitExceeded, with the limit as element.
-Result<CostOnThreads> check_limits(const SequencePlan& plan, const DecodeOptions& options);
+Result<CostOnThreads> check_limits(const Request& request, const DecodeOptions& options);
 
 /// The same of the slices that will be opened. chosen: [slices]
-Result<CostOnThreads> check_limits_of_slices(const SequencePlan& plan, const DecodeOptions& options,
+Result<CostOnThreads> check_limits_of_slices(const Request& request, const DecodeOptions& options,
                                              const std::vector<std::uint8_t>& chosen);
 
 }  // namespace slf

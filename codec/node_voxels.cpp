@@ -22,10 +22,10 @@ void to_voxels(std::span<const std::uint64_t> codes, int up, int down, Voxel* vo
 }  // namespace
 
 std::vector<Voxel> node_voxels(std::span<const std::uint64_t> codes, int level,
-                               const SequencePlan& plan) {
+                               const Request& request) {
   std::vector<Voxel> voxels(codes.size());
-  to_voxels(codes, plan.grid_bits() - level, plan.dropped_levels(), voxels.data());
-  if (level > plan.levels) voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  to_voxels(codes, request.stream.grid_bits() - level, request.dropped_levels(), voxels.data());
+  if (level > request.levels) voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/sequence_plan.h"
+#include "codec/request.h"
 
 namespace slf {
 
@@ -13,6 +13,6 @@ namespace slf {
 /// voxels of the grid.
 /// @param codes  ascending
 std::vector<Voxel> node_voxels(std::span<const std::uint64_t> codes, int level,
-                               const SequencePlan& plan);
+                               const Request& request);
 
 }  // namespace slf

@@ -74,7 +74,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.profile = static_cast<int>(set.sps_profile);
   info.level = static_cast<int>(set.sps_level);
   info.header = header_of(set);
-  SLF_CHECK(describe_scene(units, set, scene.table, info));
+  SLF_CHECK(describe_scene(units, set, scene.stream.table, info));
   info.num_groups = static_cast<int>(set.num_groups());
   info.group = function_groups(set);
   info.step = function_steps(set);

@@ -1,9 +1,7 @@
 // All slices of a scene, several at a time. Spec 8.2.
 #pragma once
 
-#include "codec/base_decoder.h"
-#include "codec/scene_units.h"
-#include "codec/sequence_plan.h"
+#include "codec/decoder_state.h"
 #include "slf/decoder.h"
 
 namespace slf {
@@ -15,16 +13,15 @@ inline constexpr std::size_t kPointsInFlight = std::size_t{1} << 18;
 /// The base's components (8.6 - 8.8), which slices go on from, and beside them the slices, whose
 /// points are appended to `field` in order.
 /// @param chosen   [slices] the others are passed over
-/// @param base     its geometry is there
+/// @param scene    the geometry of its base is there
 /// @param seconds  receives what geometry and components took, of all threads together
-/// @return is something missing?
-/// @errors that of the base, else that of the unit which stands first in the stream, for any number
-///         of threads.
-Result<bool> decode_slices(const SceneUnits& units, const SequencePlan& plan,
-                           const std::vector<std::uint8_t>& chosen, int threads, Base& base,
+/// @errors that of the base, else the one that stands first in the stream, for any number of
+///         threads.
+Result<Done> decode_slices(const SceneUnits& units, const Request& request,
+                           const std::vector<std::uint8_t>& chosen, int threads, SceneState& scene,
                            DecodeSeconds& seconds, LightField& field);
 
 /// Leaves points that are in the region.
-void keep_region(const SequencePlan& plan, LightField& field);
+void keep_region(const Request& request, LightField& field);
 
 }  // namespace slf

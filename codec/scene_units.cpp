@@ -19,12 +19,13 @@ const char* misplaced(UnitType type, UnitType expected) {
 /// Spec 7.1: every unit is the next of its owner's slots.
 class Collector {
  public:
-  explicit Collector(const SequenceParameterSet& set)
-      : set_(set),
-        layout_(layout_of(set)),
-        head_(slots_of(layout_, Owner::kHead)),
-        base_(slots_of(layout_, Owner::kBase)),
-        slice_(slots_of(layout_, Owner::kSlice)) {}
+  explicit Collector(const SequenceParameterSet& set) : set_(set) {
+    scene_.stream.set = set;
+    scene_.stream.layout = layout_of(set);
+    head_ = scene_.stream.slots(Owner::kHead);
+    base_ = scene_.stream.slots(Owner::kBase);
+    slice_ = scene_.stream.slots(Owner::kSlice);
+  }
 
   Result<Done> add(const Unit& unit) {
     if (is_head(unit.type)) return add_head(unit);
@@ -32,7 +33,12 @@ class Collector {
     return has_ids(unit.type) ? add_part(unit) : Done{};  // others stand anywhere
   }
 
-  SceneUnits take() { return std::move(scene_); }
+  SceneUnits take(const Units& units) {
+    if (!units.units.empty())
+      scene_.stream.bytes = units.units.back().offset + units.units.back().bytes;
+    scene_.stream.complete = units.complete && !set_.sps_cut_flag;
+    return std::move(scene_);
+  }
 
  private:
   static bool is_head(UnitType type) {
@@ -48,9 +54,9 @@ class Collector {
       return of_sequence(Errc::kOutOfRange, "sps_num_transforms_minus1");
     if (unit.type != expected) return at(unit, "unit_type");
     if (unit.type != UnitType::kSlices) return Done{};
-    SLF_TRY(scene_.table, in_unit(unit, parse_slice_table(unit.payload, set_)));
-    scene_.table.offset = unit.offset;
-    scene_.slices.resize(scene_.table.slices.size());
+    SLF_TRY(scene_.stream.table, in_unit(unit, parse_slice_table(unit.payload, set_)));
+    scene_.stream.table.offset = unit.offset;
+    scene_.slices.resize(scene_.stream.table.slices.size());
     return Done{};
   }
 
@@ -72,8 +78,9 @@ class Collector {
     if (next >= slots.size()) return at(unit, "unit_type");
     if (slot_of(unit.type, ids) != slots[next])
       return at(unit, misplaced(unit.type, slots[next].type));
-    const bool follows_slice_0 = scene_.table.shared() && !ids.of_base() && ids.slice_id > 0 &&
-                                 unit.type != UnitType::kNormals && unit.type != UnitType::kDigest;
+    const bool follows_slice_0 = scene_.stream.table.shared() && !ids.of_base() &&
+                                 ids.slice_id > 0 && unit.type != UnitType::kNormals &&
+                                 unit.type != UnitType::kDigest;
     if (follows_slice_0 && scene_.slices[0].size() <= next) return at(unit, "slice_id");
     return Done{};
   }
@@ -86,11 +93,10 @@ class Collector {
     return Done{};
   }
 
+  SceneUnits scene_;
   const SequenceParameterSet& set_;
-  UnitLayout layout_;
   std::span<const UnitSlot> head_, base_, slice_;
   std::size_t heads_ = 0;  // units of the head so far
-  SceneUnits scene_;
   bool in_slices_ = false;
 };
 
@@ -134,7 +140,7 @@ Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& se
 Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet& set) {
   Collector collector(set);
   for (const Unit& unit : units.units) SLF_CHECK(collector.add(unit));
-  return collector.take();
+  return collector.take(units);
 }
 
 }  // namespace slf

@@ -8,7 +8,7 @@
 #include "bitstream/metadata.h"
 #include "bitstream/slice_headers.h"
 #include "bitstream/units.h"
-#include "codec/unit_layout.h"
+#include "codec/stream_header.h"
 
 namespace slf {
 
@@ -27,7 +27,7 @@ struct PartUnit {
 using PartUnits = std::vector<PartUnit>;
 
 struct SceneUnits {
-  SliceTable table;  ///< no slices: the stream ends before it
+  StreamHeader stream;
   PartUnits base;
   std::vector<PartUnits> slices;
 };

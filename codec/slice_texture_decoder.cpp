@@ -26,32 +26,33 @@ void store_plane(std::span<const std::int32_t> values, std::span<const std::uint
 
 }  // namespace
 
-Result<Done> SliceDecoder::decode_texture_units(std::span<std::int32_t> components, int threads) {
+Result<Done> decode_slice_texture(const SliceToDecode& slice, const SliceGeometry& geometry,
+                                  std::span<std::int32_t> components, int threads) {
+  const Request& request = slice.request;
+  const SequenceParameterSet& set = request.stream.set;
   std::vector<const PartUnit*> wanted;  // by group
-  for (const PartUnit& unit : *units_)
-    if (unit.type == UnitType::kCoefficients && unit.header.group < plan_->groups.size())
+  for (const PartUnit& unit : slice.units)
+    if (has_values(unit.type) && request.wants(slot_of(unit.type, unit.header)))
       wanted.push_back(&unit);
   if (wanted.empty()) return Done{};
-  offset = wanted.front()->offset;
-  const SequencePlan& plan = *plan_;
   SLF_TRY(const Atlas atlas,
-          in_unit(*wanted.front(), derive_atlas(codes_, plan.grid_bits(),
-                                                static_cast<int>(plan.set.sps_texture_cell_log2))));
+          in_unit(*wanted.front(), derive_atlas(geometry.codes, request.stream.grid_bits(),
+                                                static_cast<int>(set.sps_texture_cell_log2))));
   std::vector<std::optional<Error>> errors(wanted.size());
   parallel_ranges(wanted.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
-      if (const auto go_on = plan.begin_unit(wanted[g]->payload.size()); !go_on) {
+      if (const auto go_on = request.begin_unit(wanted[g]->payload.size()); !go_on) {
         errors[g] = go_on.error();
         continue;
       }
-      const std::vector<std::size_t> planes = planes_of(plan.groups[g]);
+      const std::vector<std::size_t> planes = planes_of(request.groups[g]);
       std::vector<std::uint32_t> steps;
-      for (const std::size_t j : planes) steps.push_back(plan.steps[j]);
+      for (const std::size_t j : planes) steps.push_back(request.steps[j]);
       const auto store = [&](std::size_t i, std::span<const std::int32_t> values) {
-        store_plane(values, top_.first, planes[i], plan.planes(), components);
+        store_plane(values, geometry.top.first, planes[i], request.planes(), components);
       };
-      const auto done = in_unit(*wanted[g], decode_texture(wanted[g]->payload, atlas,
-                                                           plan.set.texture_bits(), steps, store));
+      const auto done = in_unit(
+          *wanted[g], decode_texture(wanted[g]->payload, atlas, set.texture_bits(), steps, store));
       if (!done) errors[g] = done.error();
     }
   });

@@ -3,7 +3,8 @@
 
 namespace slf {
 
-Result<Done> SliceDecoder::decode_texture_units(std::span<std::int32_t>, int) {
+Result<Done> decode_slice_texture(const SliceToDecode&, const SliceGeometry&,
+                                  std::span<std::int32_t>, int) {
   return of_sequence(Errc::kUnsupported, "sps_coefficient_coder");
 }
 

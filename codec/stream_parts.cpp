@@ -5,8 +5,7 @@
 #include "base/error_place.h"
 #include "codec/decode_cost.h"
 #include "codec/decode_units.h"
-#include "codec/scene_units.h"
-#include "codec/selection.h"
+#include "codec/request.h"
 
 namespace slf {
 namespace {
@@ -45,14 +44,15 @@ Result<Unit> take_unit(const ReadPlan::Wanted& wanted, std::span<const StreamPar
 /// Of the units behind the head those that are wanted. A stream may have been cut between two.
 /// @param begin  of the first unit of the index
 Result<Done> choose_units(const Index& index, std::uint64_t begin, const ByteRange& behind,
-                          const Selection& selection, std::uint64_t max_bytes, ReadPlan& plan) {
+                          const Request& request, const std::vector<std::uint8_t>& chosen,
+                          std::uint64_t max_bytes, ReadPlan& plan) {
   for (const IndexEntry& entry : index.entries) {
     const ByteRange range{begin, entry.bytes};
     begin = range.end();
     if (range.offset >= behind.end() || (max_bytes > 0 && range.end() > max_bytes)) break;
     if (range.end() > behind.end()) return cut_short(entry, range.offset);
     if (range.offset < behind.offset || !has_ids(entry.type) ||
-        !selection.wants(entry.type, entry.ids))
+        !wants_unit(request, chosen, entry.type, entry.ids))
       continue;
     plan.units.push_back({range.offset, entry});
     if (!plan.ranges.empty() && plan.ranges.back().end() == range.offset) {
@@ -65,8 +65,8 @@ Result<Done> choose_units(const Index& index, std::uint64_t begin, const ByteRan
 }
 
 /// Is nothing left out, digests included?
-bool wants_all(const SequencePlan& plan, const DecodeOptions& options) {
-  return plan.whole && !plan.region && options.max_bytes == 0;
+bool wants_all(const Request& request, const DecodeOptions& options) {
+  return request.whole && !request.region && options.max_bytes == 0;
 }
 
 }  // namespace
@@ -105,22 +105,22 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
   ReadPlan plan;
   SLF_TRY(plan.set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, plan.set));
-  SLF_TRY(const SequencePlan sequence, plan_sequence(units, plan.set, scene.table, options));
-  SLF_TRY(plan.cost, check_limits(sequence, options));
-  plan.components = sequence.coded.size();
-  plan.points = sequence.base_alone() ? scene.table.num_cells() : scene.table.num_points();
+  SLF_TRY(const Request request, request_of(units, scene, options));
+  SLF_TRY(plan.cost, check_limits(request, options));
+  plan.components = request.coded.size();
+  plan.points =
+      request.base_alone() ? scene.stream.table.num_cells() : scene.stream.table.num_points();
   const Unit* unit = units.first(UnitType::kIndex);
-  plan.whole = is_all || unit == nullptr || wants_all(sequence, options);
-  plan.partial = sequence.missing || sequence.region ||
+  plan.whole = is_all || unit == nullptr || wants_all(request, options);
+  plan.partial = request.missing || request.region ||
                  (options.max_bytes > 0 && options.max_bytes < stream_bytes);
   if (plan.whole) return plan;
   SLF_TRY(const Index index, read_index(*unit, plan.set));
-  Selection selection(sequence);
-  selection.choose_slices(index.boxes);
+  const std::vector<std::uint8_t> chosen = choose_slices_by_box(request, index.boxes);
   SLF_CHECK(choose_units(index, unit->offset + unit->bytes,
-                         {head.size(), stream_bytes - head.size()}, selection, options.max_bytes,
-                         plan));
-  plan.set = cut_sequence(sequence, selection.all_slices());
+                         {head.size(), stream_bytes - head.size()}, request, chosen,
+                         options.max_bytes, plan));
+  plan.set = cut_sequence(request, chosen);
   return plan;
 }
 

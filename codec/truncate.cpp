@@ -5,8 +5,6 @@
 #include "codec/base_decoder.h"
 #include "codec/decode_cost.h"
 #include "codec/scene_units.h"
-#include "codec/selection.h"
-#include "codec/sequence_plan.h"
 #include "slf/truncate.h"
 
 namespace slf {
@@ -25,30 +23,29 @@ Result<CodedUnit> copy_of(const Unit& unit, const SequenceParameterSet& set) {
 }
 
 /// Units in the order of the stream, those that are wanted.
-Result<std::vector<CodedUnit>> select(const Units& units, const SequenceParameterSet& set,
-                                      const Selection& selection) {
+Result<std::vector<CodedUnit>> select(const Units& units, const Request& request,
+                                      const std::vector<std::uint8_t>& chosen) {
+  const SequenceParameterSet& set = request.stream.set;
   std::vector<CodedUnit> kept;
   for (const Unit& unit : units.units) {
     if (is_frame(unit.type)) continue;
-    if (has_ids(unit.type)) {
-      SLF_TRY(const PartUnit part, read_part_unit(unit, set));
-      if (!selection.wants(part.type, part.header)) continue;
-    }
     SLF_TRY(CodedUnit copy, copy_of(unit, set));
+    if (has_ids(unit.type) && !wants_unit(request, chosen, copy.type, copy.ids)) continue;
     kept.push_back(std::move(copy));
   }
   return kept;
 }
 
 /// Only headers and the geometry of the base are decoded, and that only where a region asks for it.
-Result<Done> choose_by_region(const SceneUnits& scene, const SequencePlan& plan,
-                              const DecodeOptions& options, Selection& selection) {
-  if (!plan.region || !plan.has_base() || scene.slices.empty()) return Done{};
-  SLF_TRY(const Base base, decode_base_geometry(scene.base, plan));
-  if (!base.is_known(plan)) return Done{};
-  selection.choose_slices(base);
-  if (!plan.base_alone()) SLF_CHECK(check_limits_of_slices(plan, options, selection.slices()));
-  return Done{};
+Result<std::vector<std::uint8_t>> choose_by_region(const SceneUnits& scene, const Request& request,
+                                                   const DecodeOptions& options) {
+  std::vector<std::uint8_t> chosen(scene.slices.size(), true);
+  if (!request.region || !scene.stream.has_base() || scene.slices.empty()) return chosen;
+  SLF_TRY(const BaseState base, decode_base_geometry(scene.base, request));
+  if (!base.is_known(scene.stream)) return chosen;
+  chosen = choose_slices_by_cell(request, base);
+  if (!request.base_alone()) SLF_CHECK(check_limits_of_slices(request, options, chosen));
+  return chosen;
 }
 
 /// As many of the units as fit, the first first.
@@ -78,16 +75,14 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
   SLF_TRY(const SceneUnits scene, collect_units(units, set));
   SLF_CHECK(check_index(units, set, scene.slices.size()));
   SLF_CHECK(collect_metadata(units));
-  SLF_TRY(const SequencePlan plan, plan_sequence(units, set, scene.table, options));
-  SLF_CHECK(check_limits(plan, options));
-  Selection selection(plan);
-  SLF_CHECK(choose_by_region(scene, plan, options, selection));
-  SLF_TRY(std::vector<CodedUnit> kept, select(units, set, selection));
+  SLF_TRY(const Request request, request_of(units, scene, options));
+  SLF_CHECK(check_limits(request, options));
+  SLF_TRY(const auto chosen, choose_by_region(scene, request, options));
+  SLF_TRY(const std::vector<CodedUnit> kept, select(units, request, chosen));
   SLF_TRY(const auto index, find_index(units, set));
   std::optional<std::vector<CellBox>> boxes;
   if (index) boxes = index->boxes;
-  const SequenceParameterSet cut = cut_sequence(plan, selection.all_slices());
-  return assemble_within(cut, kept, boxes, options.max_bytes);
+  return assemble_within(cut_sequence(request, chosen), kept, boxes, options.max_bytes);
 }
 
 }  // namespace slf

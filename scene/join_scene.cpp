@@ -10,7 +10,6 @@
 #include "codec/base_encoder.h"
 #include "codec/decode_cost.h"
 #include "codec/scene_frame.h"
-#include "codec/sequence_plan.h"
 #include "geometry/weight_classes.h"
 #include "scene/part_sums.h"
 #include "scene/scene_parts.h"
@@ -38,9 +37,9 @@ std::vector<std::uint8_t> beginning(const SceneParts& parts) {
 }
 
 /// The layout as the base's geometry tells it.
-SceneLayout known_layout(const SceneParts& parts, Base base, const SequencePlan& plan) {
+SceneLayout known_layout(const SceneParts& parts, BaseState base) {
   SceneLayout layout;
-  layout.base_levels = plan.base_levels();
+  layout.base_levels = base.level;
   layout.cells = std::move(base.cells);
   layout.weight_before = std::move(base.weight_before);
   layout.table = parts.table;
@@ -92,17 +91,18 @@ Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
   const auto read = split_units(head);
   if (!read) return damaged(read.error());
   const auto scene = collect_units(*read, cut_slices(parts.set));
-  auto plan = plan_sequence(*read, parts.set, parts.table, {});
-  if (!plan) return damaged(plan.error());
-  auto known = scene ? decode_base_geometry(scene->base, *plan) : Result<Base>(scene.error());
+  if (!scene) return damaged(scene.error());
+  const auto request = request_of(*read, *scene, {});
+  if (!request) return damaged(request.error());
+  auto known = decode_base_geometry(scene->base, *request);
   if (!known) return damaged(known.error());
-  if (!known->is_known(*plan)) return damaged({Errc::kTruncated, "gu_occupancy"});
-  if (auto bounded = check_level(*plan, known->cells.size()); !bounded)
+  if (!known->is_known(scene->stream)) return damaged({Errc::kTruncated, "gu_occupancy"});
+  if (const auto bounded = check_level(*request, known->cells.size()); !bounded)
     return damaged(bounded.error());
   const TextureSettings no_texture;
-  const SliceCoding coding{parts.set,  plan->groups, plan->steps,   true,
-                           no_texture, parts.rdo,    parts.matrices};
-  SceneBase base{known_layout(parts, *std::move(known), *plan), coding.planes(), {}};
+  const SliceCoding coding{parts.set,  request->groups, request->steps, true,
+                           no_texture, parts.rdo,       parts.matrices};
+  SceneBase base{known_layout(parts, *std::move(known)), coding.planes(), {}};
   EncodedBase coded{OccupancyStates(1), parts.base, {}, {}, {}, {}};
   encode_base_components(coding, base.layout, base_input(parts, base.layout, base.planes), threads,
                          coded);

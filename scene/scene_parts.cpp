@@ -5,9 +5,8 @@
 
 #include "base/error_words.h"
 #include "codec/base_encoder.h"
-#include "codec/scene_units.h"
+#include "codec/request.h"
 #include "codec/sequence.h"
-#include "codec/sequence_plan.h"
 #include "scene/part_sums.h"
 
 namespace slf {
@@ -31,17 +30,17 @@ class PartReader {
     SLF_TRY(cut_, find_sequence(units_));
     SLF_TRY(scene_, collect_units(units_, cut_));
     SLF_TRY(parts_.metadata, collect_metadata(units_));
-    parts_.table = scene_.table;
+    parts_.table = scene_.stream.table;
     parts_.set = cut_;
     parts_.set.sps_cut_flag = parts_.set.sps_cut_levels = parts_.set.sps_cut_slices_flag = 0;
     layout_ = layout_of(parts_.set);
-    SLF_TRY(const SequencePlan plan, plan_sequence(units_, cut_, scene_.table, {}));
-    SLF_CHECK(read_head(plan));
+    SLF_TRY(const Request request, request_of(units_, scene_, {}));
+    SLF_CHECK(read_head(request));
     return read_slices();
   }
 
  private:
-  Result<Done> read_head(const SequencePlan& plan) {
+  Result<Done> read_head(const Request& request) {
     bool found = false;
     for (const Unit& unit : units_.units) {
       if (unit.type == UnitType::kTransform || unit.type == UnitType::kSlices)
@@ -49,12 +48,12 @@ class PartReader {
       if (unit.type != kPartUnit) continue;
       if (found) return Error{Errc::kOutOfRange, "unit_type"};
       found = true;
-      SLF_TRY(sums_, parse_part_sums(unit.payload, scene_.table, plan.planes()));
+      SLF_TRY(sums_, parse_part_sums(unit.payload, parts_.table, request.planes()));
     }
     if (!found) return Error{Errc::kTruncated, "part_plan"};
     parts_.plan = sums_.plan;
     parts_.rdo = sums_.rdo;
-    if (plan.set.sps_transform_flag != 0) parts_.matrices.resize(plan.groups.size());
+    if (cut_.sps_transform_flag != 0) parts_.matrices.resize(request.groups.size());
     if (!is_whole(slots_of(layout_, Owner::kBase), scene_.base.size()))
       return Error{Errc::kTruncated, "slice_id"};  // matrices, too, stand there
     for (const PartUnit& unit : scene_.base) {

@@ -38,7 +38,7 @@ std::vector<std::vector<std::uint8_t>> units_of(std::span<const std::uint8_t> st
 
 SliceTable table_of(std::span<const std::uint8_t> stream) {
   const Units units = *split_units(stream);
-  return collect_units(units, *find_sequence(units))->table;
+  return collect_units(units, *find_sequence(units))->stream.table;
 }
 
 /// In Morton order, as slices hold them.
