@@ -1,4 +1,4 @@
-// The sequence header, written once: visited to parse and to write. Spec 7.2.
+// The sequence header, written once: visited to parse, to check and to write. Spec 7.2.
 #pragma once
 
 #include <algorithm>
@@ -193,7 +193,8 @@ void basis(V& v, Set& s) {
   } else {
     v.u(4, "sps_degree", s.sps_degree, Range{0, 10});
   }
-  v.require(s.sps_num_functions == s.functions_of_basis(), Errc::kOutOfRange, "sps_num_functions");
+  v.require(!v.ok() || s.sps_num_functions == s.functions_of_basis(), Errc::kOutOfRange,
+            "sps_num_functions");
   v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 1});
   v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
   v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});

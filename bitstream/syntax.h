@@ -1,5 +1,5 @@
-// One description of a header, visited to parse it and to write it. Rows stand in the order of the
-// spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
+// One description of a header, visited to parse it, to check it and to write it. Rows stand in the
+// order of the spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
 #pragma once
 
 #include <cmath>
@@ -100,7 +100,7 @@ struct ParseSyntax {
   std::uint64_t last_begin_ = 0;
 };
 
-/// Writes. Values are the encoder's own and within range.
+/// Writes. Values are within range: CheckSyntax.
 struct WriteSyntax {
   BitWriter& out;
 
@@ -125,6 +125,47 @@ struct WriteSyntax {
   void resize(const char*, const std::vector<T>&, std::uint64_t) {}
   void require(bool, Errc, const char*) {}
   bool ok() const { return true; }
+};
+
+/// Checks what is about to be written: a reader would refuse what this does. See ParseSyntax.
+struct CheckSyntax {
+  const char* element = nullptr;  ///< the first that is wrong; nullptr: none
+  std::int64_t found = 0;
+  Range range{0, -1};  ///< that `found` is outside of; where another rule is broken, none
+
+  template <class T>
+  void u(int, const char* name, const T& value, Range allowed) {
+    check(name, static_cast<std::int64_t>(value), allowed);
+  }
+  template <class T>
+  void ue(const char* name, const T& value, Range allowed) {
+    check(name, static_cast<std::int64_t>(value), allowed);
+  }
+  template <class T>
+  void se(const char* name, const T& value, Range allowed) {
+    check(name, value, allowed);
+  }
+  template <class T>
+  void s8(const char* name, const T& value, Range allowed) {
+    check(name, value, allowed);
+  }
+  void f64(const char* name, double value, bool positive) {
+    require(std::isfinite(value) && (!positive || value > 0), Errc::kOutOfRange, name);
+  }
+  template <class T>
+  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
+  void require(bool condition, Errc, const char* name) {
+    if (ok() && !condition) element = name;
+  }
+  bool ok() const { return element == nullptr; }
+
+ private:
+  void check(const char* name, std::int64_t value, Range allowed) {
+    if (!ok() || (value >= allowed.min && value <= allowed.max)) return;
+    element = name;
+    found = value;
+    range = allowed;
+  }
 };
 
 }  // namespace slf

@@ -1,7 +1,8 @@
 #include "codec/pack_parameters.h"
 
 #include <algorithm>
-#include <cmath>
+#include <set>
+#include <string>
 
 #include "bitstream/metadata.h"
 #include "codec/sequence.h"
@@ -10,20 +11,6 @@ namespace slf {
 namespace {
 
 InputError invalid(const char* what) { return {Errc::kInvalidArgument, what}; }
-
-bool in_grid(const Voxel& v, int bits) {
-  return std::all_of(v.begin(), v.end(),
-                     [bits](std::int32_t c) { return c >= 0 && c >> bits == 0; });
-}
-
-bool valid_ends(const std::vector<int>& ends, int bits) {
-  int last = 0;
-  for (const int end : ends) {
-    if (end <= last) return false;
-    last = end;
-  }
-  return ends.empty() || last == bits;
-}
 
 bool valid_metadata(const Metadata& metadata) {
   std::size_t bytes = 0;
@@ -35,59 +22,52 @@ bool valid_metadata(const Metadata& metadata) {
   return bytes <= 1u << 20;
 }
 
-Result<Done, InputError> check_field(const LightField& field) {
+/// There is one of everything for every point and function.
+Result<Done, InputError> check_shapes(const LightField& field, const CodingParameters& p) {
   const LightFieldHeader& h = field.header;
   const std::size_t points = field.num_points(),
                     functions = static_cast<std::size_t>(h.num_functions);
   if (points == 0) return invalid("positions: there are none");
-  if (h.grid.bits < 1 || h.grid.bits > 21) return invalid("grid bits: 1 to 21");
-  if (!(h.grid.step > 0) || !std::isfinite(h.grid.step))
-    return invalid("grid step: a finite number above 0");
-  if (!(h.metres_per_unit >= 0) || !std::isfinite(h.metres_per_unit))
-    return invalid("metres per unit: finite, 0 where not known");
-  for (const double c : h.grid.origin)
-    if (!std::isfinite(c)) return invalid("grid origin: finite numbers");
-  for (const Voxel& v : field.positions)
-    if (!in_grid(v, h.grid.bits)) return invalid("positions: one lies outside the grid");
-  if (h.num_functions < 0 || h.num_functions > 4096)
-    return invalid("number of functions: 0 to 4096");
   if (!h.coded.empty() || !h.transforms.empty())
     return invalid("components: of coded functions; given_planes() makes those of all");
   if (field.components.size() != points * functions * 3)
     return invalid("components: not [points][functions][3]");
-  if (h.has_basis && h.basis.id == BasisId::kHarmonics &&
-      (h.basis.degree < 0 || h.basis.degree > 10))
-    return invalid("basis: degree 0 to 10");
-  if (h.has_basis &&
-      (h.basis.order < 1 || h.basis.order > 4 || h.basis.scales_theta < 0 ||
-       h.basis.scales_theta > 6 || h.basis.scales_gamma < 0 || h.basis.scales_gamma > 6))
-    return invalid("basis: order 1 to 4, scales 0 to 6");
-  if (h.has_basis && h.num_functions > 0 && h.basis.num_functions() != h.num_functions)
-    return invalid("basis: its number of functions differs from the components'");
-  if (h.gamma_min_q7 < -127 || h.gamma_max_q7 > 127 || h.gamma_min_q7 > h.gamma_max_q7)
-    return invalid("gamma range: -127 to 127, ascending");
-  if (h.normal_cell_log2 < 0 || h.normal_cell_log2 >= h.grid.bits)
-    return invalid("normal cells: 2^0 to 2^(grid bits - 1) voxels");
   if (!h.shift.empty() && h.shift.size() != functions) return invalid("shift: one per function");
-  for (const int s : h.shift)
-    if (s < 0 || s > 15) return invalid("shift: 0 to 15");
-  if (field.normals.bits != 0 && (field.normals.bits < 4 || field.normals.bits > 12))
-    return invalid("normal bits: 0, or 4 to 12");
   if (field.normals.bits > 0 && field.normals.octahedral.size() != points)
     return invalid("normals: one per point");
-  for (const auto& n : field.normals.octahedral)
-    if ((n[0] | n[1]) >> field.normals.bits != 0) return invalid("normals: more bits than stated");
+  if (!p.step.empty() && p.step.size() != functions) return invalid("steps: three per function");
+  if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
+  if (!p.group.empty() && p.group[0] != 0) return invalid("groups: function 0 is in group 0");
+  const std::set<int> groups(p.group.begin(), p.group.end());
+  const auto last = static_cast<int>(groups.size()) - 1;
+  if (!groups.empty() && (*groups.begin() != 0 || *groups.rbegin() != last))
+    return invalid("groups: one is empty");
+  if (!p.group_layers.empty() && p.group_layers.size() != std::max<std::size_t>(groups.size(), 1))
+    return invalid("quality layers: one number per group");
   return Done{};
 }
 
-Result<Done, InputError> check_texture(const CodingParameters& p) {
-  const int bits = p.texture.bits;
-  if (p.geometry != GeometryCoder::kOctree)
-    return invalid("coefficients texture: the geometry is an octree");
-  if (p.coefficient_level_ends.size() > 1)
-    return invalid("coefficient level ends: a texture has all levels in one unit");
-  if (bits != 8 && bits != 10 && bits != 12) return invalid("texture bits: 8, 10 or 12");
-  if (p.texture.qp < 0 || p.texture.qp > 51) return invalid("texture qp: 0 to 51");
+/// The ranges of clause 7.2, as a reader has them.
+Result<Done, InputError> check_sequence(const SequenceParameterSet& set) {
+  CheckSyntax check;
+  sequence_parameter_set(check, set);
+  if (check.ok()) return Done{};
+  std::string cause = std::string(check.element) + ": does not go with the rest of the header";
+  if (check.range.min <= check.range.max)
+    cause = std::string(check.element) + ": " + std::to_string(check.found) + ", not " +
+            std::to_string(check.range.min) + " to " + std::to_string(check.range.max);
+  return InputError{Errc::kInvalidArgument, cause};
+}
+
+/// Points are on the grid, normals have the bits that the header says.
+Result<Done, InputError> check_points(const LightField& field) {
+  const int bits = field.header.grid.bits, normal_bits = field.normals.bits;
+  for (const Voxel& v : field.positions)
+    for (const std::int32_t c : v)
+      if (c < 0 || c >> bits != 0) return invalid("positions: one lies outside the grid");
+  for (const auto& n : field.normals.octahedral)
+    if (normal_bits > 0 && (n[0] | n[1]) >> normal_bits != 0)
+      return invalid("normals: more bits than stated");
   return Done{};
 }
 
@@ -97,44 +77,25 @@ int most_layers(const CodingParameters& p) {
   return most;
 }
 
-Result<Done, InputError> check_layers(const CodingParameters& p, int groups) {
-  if (!p.group_layers.empty() && p.group_layers.size() != static_cast<std::size_t>(groups))
-    return invalid("quality layers: one number per group");
+/// What no element of the sequence tells.
+Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
+  const LightFieldHeader& h = field.header;
+  if (!(h.metres_per_unit >= 0)) return invalid("metres per unit: 0 where not known");
+  for (const auto* ends : {&p.geometry_level_ends, &p.coefficient_level_ends})
+    if (!ends->empty() && ends->back() != h.grid.bits)
+      return invalid("level ends: ascending, the last the grid's bits");
+  if (p.coefficients == CoefficientCoder::kTexture) {
+    const int bits = p.texture.bits;
+    if (bits != 8 && bits != 10 && bits != 12) return invalid("texture bits: 8, 10 or 12");
+    if (p.texture.qp < 0 || p.texture.qp > 51) return invalid("texture qp: 0 to 51");
+    if (p.transform != TransformMode::kNone) return invalid("transform: a texture has none");
+  }
+  if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid("rdo: 0 to 1");
   int least = p.quality_layers;
   for (const int layers : p.group_layers) least = std::min(least, layers);
-  if (least < 1 || most_layers(p) > static_cast<int>(kMostLayers))
-    return invalid("quality layers: 1 to 4");
+  if (least < 1) return invalid("quality layers: 1 to 4");
   if (most_layers(p) > 1 && p.coefficients != CoefficientCoder::kVector)
     return invalid("quality layers: of the vector coder alone");
-  return Done{};
-}
-
-Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
-  const auto functions = static_cast<std::size_t>(field.header.num_functions);
-  if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
-  if (!p.group.empty() && p.group[0] != 0) return invalid("groups: function 0 is in group 0");
-  int groups = 0;
-  for (const int g : p.group) {
-    if (g < 0 || g > 15) return invalid("groups: 0 to 15");
-    groups = std::max(groups, g + 1);
-  }
-  for (int g = 0; g < groups; ++g)
-    if (std::find(p.group.begin(), p.group.end(), g) == p.group.end())
-      return invalid("groups: one is empty");
-  if (!p.step.empty() && p.step.size() != functions) return invalid("steps: three per function");
-  for (const auto& step : p.step)
-    for (const std::uint32_t s : step)
-      if (s < 1 || s >= 1u << 27) return invalid("steps: 1 to 2^27 - 1");
-  if (!valid_ends(p.geometry_level_ends, field.header.grid.bits) ||
-      !valid_ends(p.coefficient_level_ends, field.header.grid.bits))
-    return invalid("level ends: ascending, the last the grid's bits");
-  if (p.geometry == GeometryCoder::kDraco && p.geometry_level_ends.size() > 1)
-    return invalid("geometry level ends: Draco codes all levels in one unit");
-  if (p.coefficients == CoefficientCoder::kTexture) SLF_CHECK(check_texture(p));
-  if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid("rdo: 0 to 1");
-  if (p.coefficients == CoefficientCoder::kTexture && p.transform != TransformMode::kNone)
-    return invalid("transform: a texture has none");
-  SLF_CHECK(check_layers(p, std::max(groups, 1)));
   if (!valid_metadata(p.metadata))
     return invalid("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
   static_assert(kMostSlicePoints == kMaxSlicePoints);
@@ -195,7 +156,7 @@ void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
 
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& p) {
-  SLF_CHECK(check_field(field));
+  SLF_CHECK(check_shapes(field, p));
   SLF_CHECK(check_parameters(field, p));
   const LightFieldHeader& h = field.header;
   SequenceParameterSet set;
@@ -243,6 +204,8 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_coefficient_range_end = coded_ends(p.coefficient_level_ends);
   set.sps_num_coefficient_ranges_minus1 =
       static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());
+  SLF_CHECK(check_sequence(set));
+  SLF_CHECK(check_points(field));
   return set;
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
+
 #include "bitstream/deflate.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
@@ -122,6 +125,58 @@ INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
                                          SetCase{"layered", layered_set()}),
                          [](const auto& set) { return set.param.name; });
 
+/// The element that a reader of the written set would refuse; "" for none.
+std::string refused_by_reader(const SequenceParameterSet& set) {
+  const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(set));
+  return parsed ? "" : parsed.error().element;
+}
+
+std::string refused_by_writer(const SequenceParameterSet& set) {
+  CheckSyntax check;
+  sequence_parameter_set(check, set);
+  return check.ok() ? "" : check.element;
+}
+
+TEST_P(SequenceParameterSetTest, IsFoundGoodBeforeItIsWritten) {
+  EXPECT_EQ(refused_by_writer(GetParam().set), "");
+}
+
+TEST(Spec_7_2_Sequence, IsRefusedBeforeItIsWrittenWhereAReaderWouldRefuseIt) {
+  using Set = SequenceParameterSet;
+  const std::vector<std::function<void(Set&)>> edits = {
+      [](Set& s) { s.sps_version_minor = 99; },
+      [](Set& s) { s.sps_profile = 3; },
+      [](Set& s) { s.sps_grid_bits_minus1 = 21; },
+      [](Set& s) { s.sps_step = 0; },
+      [](Set& s) { s.sps_origin[1] = std::numeric_limits<double>::infinity(); },
+      [](Set& s) { s.sps_up_axis = 7; },
+      [](Set& s) { s.sps_metres_per_unit = -1; },
+      [](Set& s) { s.sps_geometry_coder = 1; },
+      [](Set& s) { s.sps_normal_bits = 3; },
+      [](Set& s) { s.sps_normal_bits = 13; },
+      [](Set& s) { s.sps_base_levels = 21; },
+      [](Set& s) { s.sps_base_levels = 4; },
+      [](Set& s) {
+        s.sps_geometry_range_end = {20, 5};
+      },
+      [](Set& s) { s.sps_num_functions = 4097; },
+      [](Set& s) { s.sps_basis_idc = 2; },
+      [](Set& s) { s.sps_scales_theta = 7; },
+      [](Set& s) { s.sps_scales_gamma = 2; },
+      [](Set& s) { s.sps_gamma_min = -128; },
+      [](Set& s) { s.sps_gamma_max = -91; },
+      [](Set& s) { s.sps_coefficient_coder = kTextureCoder; },
+      [](Set& s) { s.sps_num_groups_minus1 = 1; },
+      [](Set& s) { s.runs[1].sps_run_length_minus1 = 200; },
+      [](Set& s) { s.runs[1].sps_plane_step[2] = 1u << 27; }};
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    SequenceParameterSet set = full_set();
+    edits[i](set);
+    EXPECT_NE(refused_by_writer(set), "") << i;
+    EXPECT_EQ(refused_by_writer(set), refused_by_reader(set)) << i;
+  }
+}
+
 TEST(Spec_7_2_Layers, AreOfEveryGroupAndTheirCutLeavesOneOut) {
   const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(layered_set()));
   ASSERT_TRUE(parsed) << to_string(parsed.error());
@@ -137,27 +192,23 @@ TEST(Spec_7_2_Layers, AreOfEveryGroupAndTheirCutLeavesOneOut) {
 }
 
 TEST(Spec_7_2_Texture, ProfileAndCoderGoTogether) {
-  const auto error_of = [](const SequenceParameterSet& set) {
-    const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(set));
-    return std::string(parsed ? "" : parsed.error().element);
-  };
-  EXPECT_EQ(error_of(texture_set()), "");
+  EXPECT_EQ(refused_by_reader(texture_set()), "");
   SequenceParameterSet set = texture_set();
   set.sps_profile = 0;
-  EXPECT_EQ(error_of(set), "sps_coefficient_coder");
+  EXPECT_EQ(refused_by_reader(set), "sps_coefficient_coder");
   set = full_set();
   set.sps_profile = kTextureProfile;
-  EXPECT_EQ(error_of(set), "sps_coefficient_coder");
+  EXPECT_EQ(refused_by_reader(set), "sps_coefficient_coder");
   set = texture_set();
   set.sps_texture_bits = 3;
-  EXPECT_EQ(error_of(set), "sps_texture_bits");
+  EXPECT_EQ(refused_by_reader(set), "sps_texture_bits");
   set = texture_set();
   set.sps_geometry_coder = 1;
-  EXPECT_EQ(error_of(set), "sps_geometry_coder");
+  EXPECT_EQ(refused_by_reader(set), "sps_geometry_coder");
   set = texture_set();
   set.sps_num_coefficient_ranges_minus1 = 1;
   set.sps_coefficient_range_end = {9};
-  EXPECT_EQ(error_of(set), "sps_num_coefficient_ranges_minus1");
+  EXPECT_EQ(refused_by_reader(set), "sps_num_coefficient_ranges_minus1");
 }
 
 TEST(Spec_7_3_Slices, ParseToWhatWasWrittenAndEveryTruncationIsReported) {

@@ -161,9 +161,12 @@ Failure refused(const PackOptions& given, const InputError& error) {
   const std::string& cause = error.message;
   if (cause.starts_with("positions")) return invalid(given.positions, cause);
   if (cause.starts_with("components")) return invalid(given.components, cause);
-  if (cause.starts_with("groups")) return invalid(given.groups, cause);
-  if (cause.starts_with("steps") && !given.steps.empty()) return invalid(given.steps, cause);
-  const bool levels = cause.find("level ends: ") != std::string::npos;
+  if (cause.starts_with("groups") || cause.starts_with("sps_plane_group"))
+    return invalid(given.groups, cause);
+  const bool steps = cause.starts_with("steps") || cause.starts_with("sps_plane_step");
+  if (steps && !given.steps.empty()) return invalid(given.steps, cause);
+  const bool levels = cause.find("level ends: ") != std::string::npos ||
+                      cause.find("_range_end: ") != std::string::npos;
   return {kUsage, (levels ? "pack: --levels: " : "pack: ") + cause};
 }
 
