@@ -8,7 +8,8 @@ namespace slf {
 
 /// The shortest text that reads back as the same number: "1e-09", where std::to_string has
 /// "0.000000".
-inline std::string shortest(double number) {
+template <class Number>
+std::string shortest(Number number) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
 }

@@ -88,11 +88,13 @@ Result<BaseState> decode_base_geometry(const PartUnits& units, const Request& re
   return base;
 }
 
-Result<Done> check_boxes(const std::vector<CellBox>& boxes, const StreamHeader& stream,
-                         const BaseState& base) {
-  for (std::size_t s = 0; s < boxes.size(); ++s)
-    if (box_of_cells(base.cells_of(stream.table, s)) != boxes[s])
-      return Error{Errc::kOutOfRange, "index_box"};
+Result<Done> check_boxes(const Units& units, const StreamHeader& stream, const BaseState& base) {
+  const Unit* unit = units.first(UnitType::kIndex);
+  if (unit == nullptr || !stream.has_base() || !base.is_known(stream)) return Done{};
+  SLF_TRY(const Index index, read_index(*unit, stream.set));
+  for (std::size_t s = 0; s < index.boxes.size(); ++s)
+    if (box_of_cells(base.cells_of(stream.table, s)) != index.boxes[s])
+      return in_unit(*unit, Error{Errc::kOutOfRange, "index_box"});
   return Done{};
 }
 

@@ -12,9 +12,8 @@ namespace slf {
 /// @errors kOutOfRange also where they are not as many as the slices say.
 Result<BaseState> decode_base_geometry(const PartUnits& units, const Request& request);
 
-/// Where boxes stand in the index, they are those of the slices. An error is of that unit.
-Result<Done> check_boxes(const std::vector<CellBox>& boxes, const StreamHeader& stream,
-                         const BaseState& base);
+/// 7.7: where an index has boxes, and the base is known, they are those of the slices.
+Result<Done> check_boxes(const Units& units, const StreamHeader& stream, const BaseState& base);
 
 /// [slices] Those that are opened, by the cells of the region. Spec 8.9.4.
 std::vector<std::uint8_t> choose_slices_by_cell(const Request& request, const BaseState& base);

@@ -36,10 +36,10 @@ void encode_base_components(const SliceCoding& coding, const SceneLayout& layout
   const RahtTree tree = build_raht_tree(codes, layout.weights());
   raht_forward(tree, static_cast<int>(coding.planes()), input, threads);
   base.coefficients = std::move(input);
-  base.quantised = quantise_coefficients(
-      {tree, codes, coding.grid_bits(), coding.groups, coding.steps, set.sps_prediction_flag != 0,
-       coding.rdo, dropped, layout.weights(), nullptr},
-      base.coefficients, threads);
+  QuantiserInput rows = coding.quantiser_input(tree, codes);
+  rows.dropped = dropped;
+  rows.weights = layout.weights();
+  base.quantised = quantise_coefficients(rows, base.coefficients, threads);
   std::vector<std::uint32_t> first(tree.size() + 1);
   std::iota(first.begin(), first.end(), 0u);
   CoefficientModels& models = base.models.emplace_back(

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_quantiser.h"
 #include "bitstream/slice_headers.h"
 #include "codec/unit_layout.h"
 #include "slf/encoder.h"
@@ -31,6 +31,10 @@ struct SliceCoding {
   std::vector<std::vector<std::uint8_t>> matrices = {};
 
   std::size_t planes() const { return steps.size(); }
+  /// For the rows of a tree over these codes, from the root.
+  QuantiserInput quantiser_input(const RahtTree& tree, std::span<const std::uint64_t> codes) const {
+    return {tree, codes, grid_bits(), groups, steps, set.sps_prediction_flag != 0, rdo};
+  }
   int grid_bits() const { return static_cast<int>(set.grid_bits()); }
 };
 

@@ -1,6 +1,5 @@
 // The decoder's main path. Spec clause 8; steps and names are mirrored in codec/pack.cpp.
 #include "base/stopwatch.h"
-#include "bitstream/index.h"
 #include "codec/base_decoder.h"
 #include "codec/decode_cost.h"
 #include "codec/decode_units.h"
@@ -10,22 +9,12 @@
 namespace slf {
 namespace {
 
-/// Boxes of slices, where an index has them and the base is there to compare them with.
-Result<Done> check_boxes_of_index(const Units& units, const StreamHeader& stream,
-                                  const BaseState& base) {
-  if (!stream.has_base() || !base.is_known(stream)) return Done{};
-  const Unit* unit = units.first(UnitType::kIndex);
-  if (unit == nullptr) return Done{};
-  SLF_TRY(const Index index, read_index(*unit, stream.set));
-  return in_unit(*unit, check_boxes(index.boxes, stream, base));
-}
-
 /// The points of the scene, with what goes with them.
 Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Request& request,
                           const DecodeOptions& options, DecodeSeconds& seconds, LightField& field) {
   Stopwatch watch;
   SLF_TRY(BaseState base, decode_base_geometry(scene.base, request));  // 8.4
-  SLF_CHECK(check_boxes_of_index(units, scene.stream, base));          // 7.7
+  SLF_CHECK(check_boxes(units, scene.stream, base));                   // 7.7
   seconds.geometry += watch.lap();
   if (request.base_alone() || !base.is_known(scene.stream)) {  // 8.9
     SLF_CHECK(give_out_base(scene.base, request, options.threads, base, field));
@@ -42,16 +31,12 @@ Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Req
 }  // namespace
 
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(const Units units, split_units(stream, options.max_bytes));  // 7.1
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));       // 7.2
-  return decode_units(units, set, options);
+  SLF_TRY(const OpenStream opened, open_stream(stream, options.limits, options.max_bytes));  // 7
+  return decode_units(opened, options);
 }
 
-Result<LightField> decode_units(const Units& units, const SequenceParameterSet& set,
-                                const DecodeOptions& options) {
-  SLF_TRY(const SceneUnits scene, collect_units(units, set));         // 7.1 - 7.6
-  SLF_CHECK(check_index(units, set, scene.slices.size()));            // 7.7
+Result<LightField> decode_units(const OpenStream& opened, const DecodeOptions& options) {
+  const auto& [units, scene] = opened;
   SLF_CHECK(collect_metadata(units));                                 // 7.8
   SLF_TRY(const Request request, request_of(units, scene, options));  // 7.11, 8.9
   SLF_CHECK(check_limits(request, options));                          // 9
@@ -59,7 +44,7 @@ Result<LightField> decode_units(const Units& units, const SequenceParameterSet& 
   DecodeSeconds seconds;
   field.partial = !scene.stream.complete || request.missing || request.region;  // 8.9
   if (!scene.slices.empty())
-    SLF_CHECK(decode_scene(units, scene, request, options, seconds, field));
+    SLF_CHECK(decode_scene(units, scene, request, options, seconds, field));  // 8.2
   if (options.seconds != nullptr) *options.seconds = seconds;
   return field;
 }

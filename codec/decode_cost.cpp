@@ -263,4 +263,14 @@ Result<CostOnThreads> check_limits_of_slices(const Request& request, const Decod
   return within_limits(shape, points, options);
 }
 
+Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
+  SLF_TRY(const OpenStream opened, open_stream(stream, options.limits, options.max_bytes));
+  SLF_TRY(const Request request, request_of(opened.units, opened.scene, options));
+  DecodeShape shape = shape_of(request);
+  if (const std::uint64_t points = request.stream.table.num_points(); points > 0)
+    shape.coefficient_bits = 8.0 * static_cast<double>(bytes_wanted(opened.scene, request, true)) /
+                             static_cast<double>(points);
+  return cost_of(shape, options);
+}
+
 }  // namespace slf

@@ -1,8 +1,7 @@
 // slf info --syntax: the same descriptions that parse the headers, with every element noted.
 #include "slf/syntax_listing.h"
 
-#include <charconv>
-
+#include "base/shortest.h"
 #include "bitstream/index.h"
 #include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
@@ -11,13 +10,6 @@
 
 namespace slf {
 namespace {
-
-/// The shortest form that reads back as the same number.
-template <class Number>
-std::string text(Number number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
-}
 
 /// Visits what a unit holds before its codeword.
 class UnitVisitor {
@@ -97,8 +89,9 @@ Result<ListedUnit> list_unit(const Unit& unit, SequenceParameterSet& set) {
   SLF_CHECK(in_unit(unit, UnitVisitor(in, log).visit(unit, set)));
   ListedUnit listed{unit_name(unit.type), unit.offset, unit.bytes, {}};
   for (const SyntaxEntry& entry : log)
-    listed.elements.push_back({entry.element, entry.kind, payload_bit + entry.bit, entry.bits,
-                               std::visit([](auto value) { return text(value); }, entry.value)});
+    listed.elements.push_back(
+        {entry.element, entry.kind, payload_bit + entry.bit, entry.bits,
+         std::visit([](auto value) { return shortest(value); }, entry.value)});
   add_body(unit, in, listed.elements, payload_bit);
   return listed;
 }

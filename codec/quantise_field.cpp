@@ -50,17 +50,8 @@ Result<LightField, InputError> quantise_field(const LightField& given, CodingPar
                                {codes, given.components, layout.cuts, scale}, set, coding, field));
   const RahtTree tree = build_raht_tree(codes);
   raht_forward(tree, static_cast<int>(coding.planes()), field.components, parameters.threads);
-  Quantised quantised = quantise_coefficients({tree,
-                                               codes,
-                                               given.header.grid.bits,
-                                               coding.groups,
-                                               coding.steps,
-                                               coding.set.sps_prediction_flag != 0,
-                                               coding.rdo,
-                                               0,
-                                               {},
-                                               nullptr},
-                                              field.components, parameters.threads);
+  Quantised quantised = quantise_coefficients(coding.quantiser_input(tree, codes), field.components,
+                                              parameters.threads);
   field.components = std::move(quantised.values);
   return field;
 }

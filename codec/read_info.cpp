@@ -63,11 +63,9 @@ Result<Done> describe_scene(const Units& units, const SequenceParameterSet& set,
 }  // namespace
 
 Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeLimits& limits) {
-  if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(const Units units, split_units(stream));
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));
-  SLF_TRY(const SceneUnits scene, collect_units(units, set));
-  SLF_CHECK(check_index(units, set, scene.slices.size()));
+  SLF_TRY(const OpenStream opened, open_stream(stream, limits));
+  const auto& [units, scene] = opened;
+  const SequenceParameterSet& set = scene.stream.set;
   StreamInfo info;
   info.version_major = static_cast<int>(set.sps_version_major);
   info.version_minor = static_cast<int>(set.sps_version_minor);

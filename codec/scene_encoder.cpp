@@ -32,14 +32,14 @@ class SceneEncoder {
     std::vector<std::int32_t> base_input(
         layout_.base_levels > 0 ? layout_.cells.size() * coding_.planes() : 0);
     std::vector<SliceTree> trees(slices_.size());
-    SLF_CHECK(for_each_slice([&](const SliceSource& slice, std::size_t s) -> Step {
+    SLF_CHECK(for_each_slice([&](const SliceToEncode& slice, std::size_t s) -> Step {
       const CloseAtEnd<OccupancyStates> close{lead_.geometry, s == 0};
       SLF_TRY(coded_[s], encode_slice_geometry(slice, start));                 // 8.4, 8.5, 8.10
       SLF_TRY(trees[s], transform_slice(slice, base_input, slice_threads()));  // 8.6, 8.8
       return Done{};
     }));
     encode_base_components(coding_, layout_, std::move(base_input), threads_, base);  // 8.6 - 8.8
-    SLF_CHECK(for_each_slice([&](const SliceSource& slice, std::size_t s) -> Step {
+    SLF_CHECK(for_each_slice([&](const SliceToEncode& slice, std::size_t s) -> Step {
       const CloseAtEnd<CoefficientStates> close{lead_.coefficients, s == 0};
       SLF_TRY(CodedUnits values, encode_slice_values(slice, std::move(trees[s]), start,
                                                      slice_threads()));  // 8.7, 7.9
@@ -56,7 +56,7 @@ class SceneEncoder {
   int slice_threads() const { return slices_.size() > 1 ? 1 : threads_; }
 
   /// The error, if there is one, is that of the first slice.
-  Step for_each_slice(const std::function<Step(const SliceSource&, std::size_t)>& step) {
+  Step for_each_slice(const std::function<Step(const SliceToEncode&, std::size_t)>& step) {
     std::vector<std::optional<InputError>> errors(slices_.size());
     parallel_ranges(slices_.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s)
@@ -72,7 +72,7 @@ class SceneEncoder {
   int threads_;
   UnitLayout units_;
   SliceLead lead_;
-  std::vector<SliceSource> slices_;
+  std::vector<SliceToEncode> slices_;
   std::vector<CodedUnits> coded_;  // [slices]
 };
 

@@ -1,6 +1,8 @@
 #include "codec/scene_units.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "bitstream/index.h"
 
 namespace slf {
 namespace {
@@ -141,6 +143,16 @@ Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet&
   Collector collector(set);
   for (const Unit& unit : units.units) SLF_CHECK(collector.add(unit));
   return collector.take(units);
+}
+
+Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
+                               std::uint64_t max_bytes) {
+  if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
+  SLF_TRY(Units units, split_units(stream, max_bytes));           // 7.1
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
+  SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
+  SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7
+  return OpenStream{std::move(units), std::move(scene)};
 }
 
 }  // namespace slf

@@ -9,6 +9,7 @@
 #include "bitstream/slice_headers.h"
 #include "bitstream/units.h"
 #include "codec/stream_header.h"
+#include "slf/limits.h"
 
 namespace slf {
 
@@ -48,5 +49,17 @@ Result<PartUnit> read_part_unit(const Unit& unit, const SequenceParameterSet& se
 /// stream is complete and not cut.
 /// @errors kOutOfRange: a unit out of its place; those of the slices unit and of headers
 Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet& set);
+
+/// The units of a stream in its order, and by owner.
+struct OpenStream {
+  Units units;
+  SceneUnits scene;
+};
+
+/// Spec 7.1 - 7.7: the headers of all units, each in its place, and what an index says of them.
+/// @param max_bytes  units that do not end within it are left out; 0: all
+/// @errors kLimitExceeded: limits.max_stream_bytes; those of units, headers and index
+Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
+                               std::uint64_t max_bytes = 0);
 
 }  // namespace slf

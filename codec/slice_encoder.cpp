@@ -9,7 +9,6 @@
 #include "attributes/raht_forward.h"
 #include "codec/component_encoder.h"
 #include "codec/slice_digest.h"
-#include "codec/slice_texture_encoder.h"
 #include "entropy/range_encoder.h"
 #include "geometry/draco_encoder.h"
 #include "geometry/octree_encoder.h"
@@ -39,7 +38,7 @@ bool fits_transform(const SliceInput& input, const SceneLayout& layout) {
   return largest < kCoefficientLimit && largest * root < kCoefficientLimit;
 }
 
-Body encode_octree_unit(const SliceSource& slice, std::size_t place, OctreeEncoder& octree) {
+Body encode_octree_unit(const SliceToEncode& slice, std::size_t place, OctreeEncoder& octree) {
   if (slice.follows()) octree.start_from(known(slice.lead->geometry.wait(place)));
   Body body =
       octree.encode(static_cast<int>(slice.coding.set.geometry_end(slice.slots[place].range)));
@@ -54,14 +53,14 @@ Result<Body, InputError> encode_draco_unit(const SliceInput& input) {
                     "geometry coder draco: Draco failed, or is not part of this build"};
 }
 
-Body encode_normals(const SliceSource& slice) {
+Body encode_normals(const SliceToEncode& slice) {
   RangeEncoder encoder;
   NormalModel model(static_cast<int>(slice.coding.set.sps_normal_bits));
   for (auto normal : slice.input.normals) model.code(encoder, normal);
   return encoder.finish();
 }
 
-Quantised quantise(const SliceSource& slice, const SliceTree& tree, const EncodedBase* base,
+Quantised quantise(const SliceToEncode& slice, const SliceTree& tree, const EncodedBase* base,
                    int threads) {
   const SceneLayout& layout = slice.layout;
   QuantisedBase cells{tree.cells, layout.base_levels, layout.weights(), {}, nullptr};
@@ -69,21 +68,12 @@ Quantised quantise(const SliceSource& slice, const SliceTree& tree, const Encode
     cells.coefficients = base->coefficients;
     cells.quantised = &base->quantised;
   }
-  const SliceCoding& coding = slice.coding;
-  return quantise_coefficients({tree.tree,
-                                slice.input.morton,
-                                coding.grid_bits(),
-                                coding.groups,
-                                coding.steps,
-                                coding.set.sps_prediction_flag != 0,
-                                coding.rdo,
-                                0,
-                                {},
-                                layout.base_levels > 0 ? &cells : nullptr},
-                               slice.input.components, threads);
+  QuantiserInput rows = slice.coding.quantiser_input(tree.tree, slice.input.morton);
+  if (layout.base_levels > 0) rows.base = &cells;
+  return quantise_coefficients(rows, slice.input.components, threads);
 }
 
-CodedUnits encode_coefficients(const SliceSource& slice, const SliceTree& tree,
+CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree,
                                const EncodedBase* base, const Quantised& quantised) {
   const SequenceParameterSet& set = slice.coding.set;
   CoefficientModels models(slice.coding.groups, tree.tree, slice.input.morton, tree.first,
@@ -107,18 +97,8 @@ CodedUnits encode_coefficients(const SliceSource& slice, const SliceTree& tree,
   return units;
 }
 
-Result<CodedUnits, InputError> encode_textures(const SliceSource& slice, int threads) {
-  SLF_TRY(auto bodies, encode_slice_texture(slice.input, slice.coding, threads));
-  CodedUnits units;
-  for (const UnitSlot& slot : slice.slots)
-    if (has_values(slot.type))
-      units.push_back(coefficient_unit(ids_of(slot, slice.slice_id()),
-                                       std::move(bodies[slot.group]), slice.coding));
-  return units;
-}
-
 /// @param components  as a decoder gets them
-void add_digest(const SliceSource& slice, std::span<const std::int32_t> components,
+void add_digest(const SliceToEncode& slice, std::span<const std::int32_t> components,
                 CodedUnits& units) {
   if (!slice.coding.digest) return;
   const auto digest = slice_digest(slice.input.positions, components, slice.input.normals);
@@ -128,7 +108,7 @@ void add_digest(const SliceSource& slice, std::span<const std::int32_t> componen
 
 }  // namespace
 
-Result<CodedUnits, InputError> encode_slice_geometry(const SliceSource& slice,
+Result<CodedUnits, InputError> encode_slice_geometry(const SliceToEncode& slice,
                                                      const EncodedBase* base) {
   const SequenceParameterSet& set = slice.coding.set;
   OctreeEncoder octree(
@@ -153,7 +133,7 @@ Result<CodedUnits, InputError> encode_slice_geometry(const SliceSource& slice,
   return units;
 }
 
-Result<SliceTree, InputError> transform_slice(const SliceSource& slice,
+Result<SliceTree, InputError> transform_slice(const SliceToEncode& slice,
                                               std::span<std::int32_t> base_input, int threads) {
   const std::size_t planes = slice.coding.planes();
   const SceneLayout& layout = slice.layout;
@@ -177,11 +157,11 @@ Result<SliceTree, InputError> transform_slice(const SliceSource& slice,
   return transform;
 }
 
-Result<CodedUnits, InputError> encode_slice_values(const SliceSource& slice, SliceTree tree,
+Result<CodedUnits, InputError> encode_slice_values(const SliceToEncode& slice, SliceTree tree,
                                                    const EncodedBase* base, int threads) {
   CodedUnits units;
   if (slice.coding.set.has_texture()) {
-    SLF_TRY(units, encode_textures(slice, threads));
+    SLF_TRY(units, encode_slice_texture(slice, threads));
   }
   if (slice.coding.planes() == 0 || slice.coding.set.has_texture()) {
     add_digest(slice, slice.input.components, units);

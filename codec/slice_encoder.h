@@ -22,7 +22,7 @@ struct SliceInput {
 };
 
 /// What the steps of a slice read. They change its components alone.
-struct SliceSource {
+struct SliceToEncode {
   const SliceCoding& coding;
   const SceneLayout& layout;
   std::span<const UnitSlot> slots;  ///< of a slice
@@ -47,18 +47,24 @@ using CodedUnits = std::vector<CodedUnit>;
 /// The units of geometry and normals.
 /// @param base   its geometry is coded; nullptr where slices are apart
 /// @errors kUnsupported: no Draco in this build.
-Result<CodedUnits, InputError> encode_slice_geometry(const SliceSource& slice,
+Result<CodedUnits, InputError> encode_slice_geometry(const SliceToEncode& slice,
                                                      const EncodedBase* base);
 
 /// Components to coefficients, down to the cells, whose values go to the input of the base.
 /// @errors kInvalidArgument: a component too large to transform.
-Result<SliceTree, InputError> transform_slice(const SliceSource& slice,
+Result<SliceTree, InputError> transform_slice(const SliceToEncode& slice,
                                               std::span<std::int32_t> base_input, int threads);
 
 /// The units of coefficients and refinements, and the digest.
 /// @param base  all of it is coded; nullptr where slices are apart
 /// @errors those of textures
-Result<CodedUnits, InputError> encode_slice_values(const SliceSource& slice, SliceTree tree,
+Result<CodedUnits, InputError> encode_slice_values(const SliceToEncode& slice, SliceTree tree,
                                                    const EncodedBase* base, int threads);
+
+/// 8.11, of a slice whose planes are pictures: its components become what a decoder gets, where
+/// coding.digest asks for it. In slice_texture_encoder.cpp.
+/// @errors kInvalidArgument: values too large; an atlas larger than 8192. kUnsupported: x265, or
+///         libde265 for the digest, is not part of this build.
+Result<CodedUnits, InputError> encode_slice_texture(const SliceToEncode& slice, int threads);
 
 }  // namespace slf

@@ -1,5 +1,4 @@
-#include "codec/slice_texture_encoder.h"
-
+// Coefficient units of a slice whose planes are pictures. Mirror of slice_texture_decoder.cpp.
 #include <optional>
 
 #include "codec/slice_encoder.h"
@@ -39,24 +38,25 @@ Result<Payload, InputError> encode_group(std::size_t group, const SliceInput& in
 
 }  // namespace
 
-Result<std::vector<Payload>, InputError> encode_slice_texture(const SliceInput& input,
-                                                              const SliceCoding& coding,
-                                                              int threads) {
-  const auto atlas = derive_atlas(input.morton, coding.grid_bits(),
+Result<CodedUnits, InputError> encode_slice_texture(const SliceToEncode& slice, int threads) {
+  const SliceCoding& coding = slice.coding;
+  const auto atlas = derive_atlas(slice.input.morton, coding.grid_bits(),
                                   static_cast<int>(coding.set.sps_texture_cell_log2));
   if (!atlas)
     return InputError{Errc::kInvalidArgument,
                       "points per slice: a texture would be higher than 8192; fewer are needed"};
   std::vector<std::optional<Result<Payload, InputError>>> coded(coding.groups.size());
   parallel_ranges(coded.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) coded[g] = encode_group(g, input, *atlas, coding);
+    for (std::size_t g = begin; g < end; ++g)
+      coded[g] = encode_group(g, slice.input, *atlas, coding);
   });
-  std::vector<Payload> payloads;
-  for (auto& group : coded) {
-    if (!*group) return group->error();
-    payloads.push_back(**std::move(group));
+  CodedUnits units;
+  for (const UnitSlot& slot : slice.slots) {
+    if (!has_values(slot.type)) continue;
+    SLF_TRY(Payload payload, std::move(*coded[slot.group]));
+    units.push_back(coefficient_unit(ids_of(slot, slice.slice_id()), std::move(payload), coding));
   }
-  return payloads;
+  return units;
 }
 
 }  // namespace slf

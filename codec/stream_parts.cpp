@@ -137,7 +137,8 @@ Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPl
     units.units.push_back(unit);
   }
   units.complete = false;
-  return decode_units(units, plan.set, options);
+  SLF_TRY(SceneUnits scene, collect_units(units, plan.set));
+  return decode_units({std::move(units), std::move(scene)}, options);
 }
 
 }  // namespace slf

@@ -10,28 +10,23 @@
 namespace slf {
 namespace {
 
-/// Is this one of the units that are written anew?
+/// Is this one of the units that assemble() writes anew?
 bool is_frame(UnitType type) {
   return type == UnitType::kSequence || type == UnitType::kIndex || type == UnitType::kEnd;
-}
-
-Result<CodedUnit> copy_of(const Unit& unit, const SequenceParameterSet& set) {
-  CodedUnit copy{unit.type, {unit.payload.begin(), unit.payload.end()}, {}};
-  if (!has_ids(unit.type)) return copy;
-  SLF_TRY(copy.ids, read_ids(unit, set));
-  return copy;
 }
 
 /// Units in the order of the stream, those that are wanted.
 Result<std::vector<CodedUnit>> select(const Units& units, const Request& request,
                                       const std::vector<std::uint8_t>& chosen) {
-  const SequenceParameterSet& set = request.stream.set;
   std::vector<CodedUnit> kept;
   for (const Unit& unit : units.units) {
     if (is_frame(unit.type)) continue;
-    SLF_TRY(CodedUnit copy, copy_of(unit, set));
-    if (has_ids(unit.type) && !wants_unit(request, chosen, copy.type, copy.ids)) continue;
-    kept.push_back(std::move(copy));
+    SliceUnitHeader ids;
+    if (has_ids(unit.type)) {
+      SLF_TRY(ids, read_ids(unit, request.stream.set));
+      if (!wants_unit(request, chosen, unit.type, ids)) continue;
+    }
+    kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
   }
   return kept;
 }
@@ -69,17 +64,14 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
 
 Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
                                            const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(const Units units, split_units(stream));
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));
-  SLF_TRY(const SceneUnits scene, collect_units(units, set));
-  SLF_CHECK(check_index(units, set, scene.slices.size()));
+  SLF_TRY(const OpenStream opened, open_stream(stream, options.limits));
+  const auto& [units, scene] = opened;
   SLF_CHECK(collect_metadata(units));
   SLF_TRY(const Request request, request_of(units, scene, options));
   SLF_CHECK(check_limits(request, options));
   SLF_TRY(const auto chosen, choose_by_region(scene, request, options));
   SLF_TRY(const std::vector<CodedUnit> kept, select(units, request, chosen));
-  SLF_TRY(const auto index, find_index(units, set));
+  SLF_TRY(const auto index, find_index(units, scene.stream.set));
   std::optional<std::vector<CellBox>> boxes;
   if (index) boxes = index->boxes;
   return assemble_within(cut_sequence(request, chosen), kept, boxes, options.max_bytes);

@@ -90,12 +90,12 @@ Result<Done, InputError> code(const PlannedScene& scene, const Region& region,
   const SceneLayout layout = alone(scene.cells.layout, coded.slice);
   coded.sums.resize(layout.cells.size() * scene.coding->planes());
   const UnitLayout units = layout_of(scene.set);
-  const SliceSource slice{*scene.coding,
-                          layout,
-                          slots_of(units, Owner::kSlice),
-                          coded.slice,
-                          {codes, positions, components, normals},
-                          nullptr};
+  const SliceToEncode slice{*scene.coding,
+                            layout,
+                            slots_of(units, Owner::kSlice),
+                            coded.slice,
+                            {codes, positions, components, normals},
+                            nullptr};
   SLF_TRY(coded.units, encode_slice_geometry(slice, nullptr));
   SLF_TRY(SliceTree tree, transform_slice(slice, coded.sums, scene.settings.threads));
   SLF_TRY(const CodedUnits values,

@@ -99,14 +99,14 @@ TEST(Spec_7_3_SlicesApart, AreCodedByThemselvesToTheSameBytes) {
     const std::size_t points = table.slices[s].points();
     const auto own = std::span(codes).subspan(begin, points);
     const SceneLayout layout = layout_of_slice(own, s);
-    const SliceSource slice{coding,
-                            layout,
-                            slots_of(slots, Owner::kSlice),
-                            s,
-                            {own, std::span(field.positions).subspan(begin, points),
-                             std::span(field.components).subspan(begin * planes, points * planes),
-                             std::span(field.normals.octahedral).subspan(begin, points)},
-                            nullptr};
+    const SliceToEncode slice{coding,
+                              layout,
+                              slots_of(slots, Owner::kSlice),
+                              s,
+                              {own, std::span(field.positions).subspan(begin, points),
+                               std::span(field.components).subspan(begin * planes, points * planes),
+                               std::span(field.normals.octahedral).subspan(begin, points)},
+                              nullptr};
     std::vector<std::int32_t> base_input(layout.cells.size() * planes);
     std::vector<std::vector<std::uint8_t>> units;
     const CodedUnits geometry = *encode_slice_geometry(slice, nullptr);
