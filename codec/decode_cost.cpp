@@ -27,14 +27,14 @@ struct Bytes {
 // ten neighbours each; 26 and as many nodes are the most.
 constexpr double kVoxel = 12, kCode = 8;
 constexpr double kTop = 16 + 1 + 4 + 4 + 4;  // RahtTop: merges, split, parent, order, first
-constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop},  // SliceDecoder
+constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop},  // SliceGeometry
     kWaitingAlone{kVoxel, kVoxel + kCode};                                         // without values
 constexpr double kNode = 8 + 1 + 4 + 8;  // OctreeLevel without neighbours
 constexpr Bytes kOctree{(kNode + 4 * 10) / 3 + kCode + 1, 2 * (kNode + 4 * 26) + kCode + 1};
 constexpr Bytes kDraco{90, 160};            // inside the library: by measurement
 constexpr double kNeighbours = 24 + 4 + 4;  // CoefficientNeighbours, weights beside
 constexpr double kOfGroup = 2 + 4 + 1;      // VectorCoefficients: sum_, vector_of_, runs_
-constexpr double kFlags = 2;                // ComponentDecoder: nonzero_, of_unit_
+constexpr double kFlags = 2;                // ValueState: nonzero, of_unit
 /// TransformLevels: codes, first, sums; begins, rows of two levels; places; nodes; which means.
 constexpr Bytes kLevels{36 + 9 + 22 + 20 + 6, 2 * 36 + 9 + 32 + 2 * (kNode + 4 * 26) + 24};
 constexpr double kKept = 2;           // bytes of a value in a vector that is kept
