@@ -8,7 +8,6 @@
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/assemble.h"
-#include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
 #include "codec/scene_encoder.h"
 #include "codec/scene_frame.h"
@@ -87,24 +86,6 @@ Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
   return Done{};
 }
 
-/// Transforms across planes where they pay, with their units.
-Result<Done, InputError> choose_transforms(const LightField& field, SortedField& sorted,
-                                           const SceneLayout& layout,
-                                           const CodingParameters& parameters,
-                                           SequenceParameterSet& set, SliceCoding& coding,
-                                           std::vector<CodedUnit>& units) {
-  const std::vector<double> weights = error_weights(field.header);
-  auto transforms =
-      derive_transforms({sorted.morton, sorted.components, layout.cuts}, coding.groups, weights,
-                        coding.steps, parameters.transform, parameters.threads);
-  if (transforms.empty()) return Done{};
-  SLF_TRY(const auto coded,
-          use_transforms(field, layout, parameters, transforms, set, coding, units));
-  sorted.components =
-      find_components(transforms, coded, 3 * weights.size(), sorted.components, parameters.threads);
-  return Done{};
-}
-
 }  // namespace
 
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
@@ -119,10 +100,12 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
       set,           plane_groups(set), plane_steps(set), parameters.digest, parameters.texture,
       parameters.rdo};
   std::vector<CodedUnit> units;
-  if (parameters.transform != TransformMode::kNone && field.header.num_functions > 0)
-    SLF_CHECK(choose_transforms(field, sorted, layout, parameters, set, coding, units));  // 7.11
-  units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});         // 7.3
-  SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
+  SLF_TRY(ChosenTransforms chosen,
+          choose_transforms(field, {sorted.morton, sorted.components, layout.cuts}, layout,
+                            parameters, set, coding, units));  // 7.11
+  if (!chosen.transforms.empty()) sorted.components = std::move(chosen.components);
+  units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});  // 7.3
+  SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));     // 8.4 - 8.10
   add_filler(units, parts, layout.base_levels > 0 ? layout.cells.size() : 0, sorted.morton.size(),
              coding.planes());  // 9
   std::move(parts.begin(), parts.end(), std::back_inserter(units));

@@ -3,36 +3,13 @@
 
 #include <utility>
 
-#include "attributes/coefficient_quantiser.h"
 #include "attributes/raht_forward.h"
-#include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
 #include "codec/sequence.h"
 #include "codec/use_transforms.h"
 #include "geometry/morton.h"
 
 namespace slf {
-namespace {
-
-/// Transforms across planes where they pay: into the header, and the components that they code.
-Result<Done, InputError> transform_planes(const LightField& given, const SceneLayout& layout,
-                                          const CodingParameters& parameters,
-                                          const TransformInput& input, SequenceParameterSet& set,
-                                          SliceCoding& coding, LightField& field) {
-  const std::vector<double> weights = error_weights(given.header);
-  auto transforms = derive_transforms(input, coding.groups, weights, coding.steps,
-                                      parameters.transform, parameters.threads);
-  if (transforms.empty()) return Done{};
-  std::vector<CodedUnit> units;
-  SLF_TRY(field.header.coded,
-          use_transforms(given, layout, parameters, transforms, set, coding, units));
-  field.components = find_components(transforms, field.header.coded, 3 * weights.size(),
-                                     given.components, parameters.threads);
-  for (ForwardTransform& t : transforms) field.header.transforms.push_back(std::move(t.inverse));
-  return Done{};
-}
-
-}  // namespace
 
 Result<LightField, InputError> quantise_field(const LightField& given, CodingParameters parameters,
                                               double scale) {
@@ -45,9 +22,15 @@ Result<LightField, InputError> quantise_field(const LightField& given, CodingPar
   SliceCoding coding{set,   plane_groups(set),  plane_steps(set),
                      false, parameters.texture, parameters.rdo};
   LightField field = given;
-  if (parameters.transform != TransformMode::kNone)  // 8.7.5
-    SLF_CHECK(transform_planes(given, layout, parameters,
-                               {codes, given.components, layout.cuts, scale}, set, coding, field));
+  std::vector<CodedUnit> units;
+  SLF_TRY(ChosenTransforms chosen,
+          choose_transforms(given, {codes, given.components, layout.cuts, scale}, layout,
+                            parameters, set, coding, units));  // 8.7.5
+  if (!chosen.transforms.empty()) {
+    field.header.coded = std::move(chosen.coded);
+    field.components = std::move(chosen.components);
+    for (auto& t : chosen.transforms) field.header.transforms.push_back(std::move(t.inverse));
+  }
   const RahtTree tree = build_raht_tree(codes);
   raht_forward(tree, static_cast<int>(coding.planes()), field.components, parameters.threads);
   Quantised quantised = quantise_coefficients(coding.quantiser_input(tree, codes), field.components,

@@ -57,15 +57,6 @@ Result<bool> choose_groups(const Units& units, const DecodeOptions& options, Req
   return kept == asked;
 }
 
-std::uint64_t bytes_wanted(const PartUnits& units, std::span<const UnitSlot> slots,
-                           const Request& request, bool values) {
-  std::uint64_t bytes = 0;
-  for (std::size_t place = 0; place < units.size(); ++place)
-    if (request.wants(slots[place]) && (!values || has_values(slots[place].type)))
-      bytes += units[place].payload.size();
-  return bytes;
-}
-
 }  // namespace
 
 bool Request::wants(const UnitSlot& slot) const {
@@ -111,9 +102,14 @@ Result<Request> request_of(const Units& units, const SceneUnits& scene,
 }
 
 std::uint64_t bytes_wanted(const SceneUnits& scene, const Request& request, bool values) {
-  std::uint64_t bytes = bytes_wanted(scene.base, scene.stream.slots(Owner::kBase), request, values);
-  for (const PartUnits& slice : scene.slices)
-    bytes += bytes_wanted(slice, scene.stream.slots(Owner::kSlice), request, values);
+  std::uint64_t bytes = 0;
+  const auto add = [&](const PartUnits& units, std::span<const UnitSlot> slots) {
+    for (std::size_t place = 0; place < units.size(); ++place)
+      if (request.wants(slots[place]) && (!values || has_values(slots[place].type)))
+        bytes += units[place].payload.size();
+  };
+  add(scene.base, scene.stream.slots(Owner::kBase));
+  for (const PartUnits& slice : scene.slices) add(slice, scene.stream.slots(Owner::kSlice));
   return bytes;
 }
 

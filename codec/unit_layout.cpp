@@ -5,15 +5,6 @@
 namespace slf {
 namespace {
 
-/// Level ranges, from `begin` to before `end`.
-struct LevelRanges {
-  std::uint32_t begin = 0, end = 0;
-};
-
-LevelRanges ranges_of(Owner owner, std::uint32_t of_base, std::uint32_t all) {
-  return owner == Owner::kBase ? LevelRanges{0, of_base} : LevelRanges{of_base, all};
-}
-
 /// Ranges of coefficients that begin above what a cut left.
 std::uint32_t kept_ranges(const SequenceParameterSet& set) {
   std::uint32_t kept = set.coefficient_ranges();
@@ -22,22 +13,22 @@ std::uint32_t kept_ranges(const SequenceParameterSet& set) {
   return kept;
 }
 
-/// Rows 4 and 5 of the table, or row 6.
+/// Rows 4 and 5 of the table, or row 6. The base has the first ranges of either kind.
 void add_units_of(Owner owner, const SequenceParameterSet& set, UnitLayout& layout) {
-  const LevelRanges geometry = ranges_of(owner, set.base_geometry_ranges(), set.geometry_ranges());
-  for (std::uint32_t range = geometry.begin; range < geometry.end; ++range)
+  const bool base = owner == Owner::kBase;
+  const std::uint32_t geometry = set.base_geometry_ranges(), kept = kept_ranges(set),
+                      values = std::min(set.base_coefficient_ranges(), kept);
+  for (std::uint32_t range = base ? 0 : geometry; range < (base ? geometry : set.geometry_ranges());
+       ++range)
     layout.push_back({UnitType::kGeometry, owner, range});
-  if (owner == Owner::kSlice && set.sps_normal_bits > 0)
-    layout.push_back({UnitType::kNormals, owner});
-  const std::uint32_t kept = kept_ranges(set);
-  const LevelRanges values = ranges_of(owner, std::min(set.base_coefficient_ranges(), kept), kept);
+  if (!base && set.sps_normal_bits > 0) layout.push_back({UnitType::kNormals, owner});
   for (std::uint32_t layer = 0; layer < set.kept_layers(); ++layer)
-    for (std::uint32_t range = values.begin; range < values.end; ++range)
+    for (std::uint32_t range = base ? 0 : values; range < (base ? values : kept); ++range)
       for (std::uint32_t group = 0; group < set.kept_groups(); ++group)
         if (layer < set.layers_of(group))
           layout.push_back({layer == 0 ? UnitType::kCoefficients : UnitType::kRefinement, owner,
                             range, group, layer});
-  if (owner == Owner::kSlice && !set.sps_cut_flag) layout.push_back({UnitType::kDigest, owner});
+  if (!base && !set.sps_cut_flag) layout.push_back({UnitType::kDigest, owner});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/derive_transforms.h"
 #include "codec/pack_parameters.h"
 #include "codec/sequence.h"
 #include "codec/transform_units.h"
@@ -69,6 +68,23 @@ std::vector<std::int32_t> find_components(const std::vector<ForwardTransform>& t
     }
   });
   return components;
+}
+
+Result<ChosenTransforms, InputError> choose_transforms(
+    const LightField& given, const TransformInput& input, const SceneLayout& layout,
+    const CodingParameters& parameters, SequenceParameterSet& set, SliceCoding& coding,
+    std::vector<CodedUnit>& units) {
+  ChosenTransforms chosen;
+  if (parameters.transform == TransformMode::kNone || coding.groups.empty()) return chosen;
+  const std::vector<double> weights = error_weights(given.header);
+  chosen.transforms = derive_transforms(input, coding.groups, weights, coding.steps,
+                                        parameters.transform, parameters.threads);
+  if (chosen.transforms.empty()) return chosen;
+  SLF_TRY(chosen.coded,
+          use_transforms(given, layout, parameters, chosen.transforms, set, coding, units));
+  chosen.components = find_components(chosen.transforms, chosen.coded, 3 * weights.size(),
+                                      input.components, parameters.threads);
+  return chosen;
 }
 
 }  // namespace slf

@@ -7,6 +7,7 @@
 
 #include "attributes/forward_transform.h"
 #include "codec/coded_unit.h"
+#include "codec/derive_transforms.h"
 #include "codec/scene_layout.h"
 
 namespace slf {
@@ -28,5 +29,18 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
 std::vector<std::int32_t> find_components(const std::vector<ForwardTransform>& transforms,
                                           const std::vector<std::uint16_t>& coded, std::size_t row,
                                           std::span<const std::int32_t> planes, int threads);
+
+/// Transforms that pay, the functions that their components stand in, and all components.
+struct ChosenTransforms {
+  std::vector<ForwardTransform> transforms;  ///< none where none pays
+  std::vector<std::uint16_t> coded;          ///< [R]
+  std::vector<std::int32_t> components;      ///< [P][3 R]
+};
+
+/// Derives transforms of the given field and uses them.
+Result<ChosenTransforms, InputError> choose_transforms(
+    const LightField& given, const TransformInput& input, const SceneLayout& layout,
+    const CodingParameters& parameters, SequenceParameterSet& set, SliceCoding& coding,
+    std::vector<CodedUnit>& units);
 
 }  // namespace slf
