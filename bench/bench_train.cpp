@@ -1,4 +1,5 @@
-// Surfels trained on a capture's photographs: bench_train CAPTURE [POINTS [ITERATIONS [SURFELS]]].
+// Surfels trained on a capture's photographs: bench_train CAPTURE [POINTS [ITERATIONS [SURFELS
+// [SPLATS.ply]]]]. SURFELS 0: as many as the photographs resolve.
 // Seconds by stage; photographs that were held out, as the surfels themselves show them.
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <cstdlib>
 
 #include "base/stopwatch.h"
+#include "bench/surfel_splats.h"
 #include "capture/spacing.h"
 #include "measure/captured_view.h"
 #include "slf/capture.h"
@@ -64,8 +66,9 @@ int main(int argc, char** argv) {
   Stopwatch watch;
   const auto views = load_training_views(*capture, *input, points, surface.spacing, 0, 0);
   if (!views) return 1;
-  settings.surfels = argc > 4 ? std::size_t(std::atoi(argv[4]))
-                              : surfels_for(points, training_pixel(*views));
+  settings.surfels = argc > 4 && std::atoi(argv[4]) > 0
+                         ? std::size_t(std::atoi(argv[4]))
+                         : surfels_for(points, training_pixel(*views));
   TrainedSurfels surfels =
       start_surfels(points, surface.spacing, *views, settings.surfels / 2, 0.6f, 0);
   std::printf("%zu points, %zu photographs, %zu of at most %zu surfels at first: %.1f s\n",
@@ -73,6 +76,9 @@ int main(int argc, char** argv) {
   train_surfels(*views, settings, surfels);
   std::printf("%zu surfels, %d iterations: %.1f s\n", surfels.size(), settings.iterations,
               watch.lap());
+  if (argc > 5)
+    if (const auto written = write_surfel_splats(argv[5], surfels); !written)
+      return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 1;
   Lattice lattice;
   lattice.step = 1.6 * training_pixel(*views);
   const SurfacePoints fused = fuse_surfels(surfels, *views, lattice, {});
