@@ -114,6 +114,11 @@ def words(options):
     return out
 
 
+def coded_name(job):
+    """What the file of a job is called, in its directory."""
+    return "coded.igc" if job["codec"].startswith("igc") else "coded.slf"
+
+
 def encode_command(slf, job, output, threads):
     """The words that encode one job to `output` and print a JSON report."""
     common = [job["capture"]["directory"], "-o", output, "--preset", job["preset"], "--split", job["slf_split"],

@@ -21,6 +21,7 @@ import time
 
 import plan as planning
 from located_json import BadInput
+from options import coded_name
 from run_job import write_json
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -72,7 +73,7 @@ def lay_out(out, plan):
         for key, entry in entries.items():
             directory = out / folder / key
             directory.mkdir(parents=True, exist_ok=True)
-            extra = {"coded": str(out / "jobs" / entry["job"] / "coded.slf")} if folder == "tasks" else {}
+            extra = {"coded": str(out / "jobs" / entry["job"] / coded_name(plan["jobs"][entry["job"]]))} if folder == "tasks" else {}
             write_json(directory / given, entry | programs | extra)
             if (directory / result).exists() and json.loads((directory / result).read_text())["status"] != "ok":
                 (directory / result).unlink()

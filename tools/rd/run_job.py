@@ -56,7 +56,7 @@ def measure(directory, job, log):
     if job["codec"] == "tmc3":
         import tmc3  # needs numpy, which the other jobs do without
         return tmc3.measure(directory, job, lambda words: run(words, log))
-    coded = str(directory / "coded.slf")
+    coded = str(directory / opt.coded_name(job))
     encoded = report(run(opt.encode_command(job["slf"], job, coded, job["threads"]), log), "encode")
     measured = report(run(opt.eval_command(job["slf"], job, coded, job["threads"]), log), "eval")
     return {"encode": encoded, "eval": measured}
