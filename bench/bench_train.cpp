@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
                          ? std::size_t(std::atoi(argv[4]))
                          : surfels_for(points, training_pixel(*views));
   TrainedSurfels surfels =
-      start_surfels(points, surface.spacing, *views, settings.surfels / 2, 0.6f, 0);
+      start_surfels(points, surface.spacing, *views, settings.surfels / 2, kSolidOpacity, 0);
   std::printf("%zu points, %zu photographs, %zu of at most %zu surfels at first: %.1f s\n",
               points.size(), views->size(), surfels.size(), settings.surfels, watch.lap());
   train_surfels(*views, settings, surfels);

@@ -31,7 +31,7 @@ constexpr double kVoxelPerSpacing = 0.46;
 // Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
 // each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
 constexpr double kDense = 0.8;
-// Of a cloud of voxels: distance of fourth neighbours, in voxels.
+// The fourth neighbours of a cloud of voxels are no farther, in voxels.
 constexpr double kSparsestVoxels = 8;
 // Voxels between points of the cloud: what is between is a guess. On a given grid more may be asked
 // for, as long as the cells looked at are bounded.
@@ -79,8 +79,9 @@ double pitch_of(std::span<const Floats> points) {
   return static_cast<double>(std::max<std::uint64_t>(pitch, 1));
 }
 
-/// Of whole numbers that stay apart. Voxels stay what they are, sparse ones too (those of 12 bits
-/// have a third of their neighbours). Whole millimetres of a scan are no voxels: half a spacing.
+/// The voxel that keeps whole numbers apart. Voxels stay what they are, sparse ones too (those of
+/// 12 bits have a third of their neighbours). Whole millimetres of a scan are no voxels: half a
+/// spacing.
 double voxel_of_whole_numbers(std::span<const Floats> points, double spacing, double held) {
   const double pitch = pitch_of(points);
   return spacing <= kSparsestVoxels * pitch ? pitch

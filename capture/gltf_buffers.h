@@ -12,7 +12,7 @@
 
 namespace slf {
 
-/// Of RFC 4648, with padding or without; nothing where it is damaged.
+/// Decodes base 64 (RFC 4648), with padding or without; nothing where it is damaged.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 class GltfBuffers {

@@ -39,7 +39,8 @@ struct ImageHeader {
   bool other_colour = false;  ///< an ICC profile or a gamma that is not sRGB's
 };
 
-/// Of a PNG or JPEG. Reads a few kilobytes, more only if the header of a JPEG is longer.
+/// Reads what a PNG or JPEG says of itself: a few kilobytes, more only if the header of a JPEG is
+/// longer.
 Result<ImageHeader, InputError> read_image_header(const std::filesystem::path& file);
 Result<ImageSize, InputError> read_image_size(const std::filesystem::path& file);
 

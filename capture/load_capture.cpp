@@ -110,7 +110,7 @@ Result<Done, InputError> sample_surface(const std::string& name, Mesh mesh, Capt
   return Done{};
 }
 
-// Of a cloud; faces of a mesh are turned before points are taken from them.
+// Turns normals of a cloud; faces of a mesh are turned before points are taken from them.
 void turn_normals(const std::string& name, Capture& capture) {
   if (!capture.mesh.triangles.empty() || capture.cameras.empty()) return;
   const GivenNormals given = turn_towards(capture.cameras, capture.cloud);

@@ -19,8 +19,8 @@ void orient_towards(std::span<const std::array<float, 3>> positions,
                     std::span<const Vec3> viewpoints, std::span<const std::uint32_t> neighbours,
                     int threads, std::vector<std::array<float, 3>>& normals);
 
-/// Of the points that the viewpoints see clearly from one side: how many have normals that face
-/// away from it, 0 .. 1. O(min(viewpoints, 32) P).
+/// The share of points whose normals face away, 0 .. 1, among those that the viewpoints see clearly
+/// from one side. O(min(viewpoints, 32) P).
 double share_facing_away(std::span<const std::array<float, 3>> positions,
                          std::span<const Vec3> viewpoints,
                          const std::vector<std::array<float, 3>>& normals, int threads);

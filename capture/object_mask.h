@@ -7,8 +7,8 @@
 
 namespace slf {
 
-/// Of a pixel's alpha, 0 .. 255. One limit for fit, training and measures, so that a pixel that is
-/// fitted is a pixel that is judged.
+/// Whether a pixel of this alpha shows the object. One limit for fit, training and measures, so
+/// that a pixel that is fitted is a pixel that is judged.
 inline constexpr bool shows_object(std::uint8_t alpha) { return alpha >= 128; }
 
 /// Makes every sample of a mask 0 or 255: 128 and more is the object. Where no sample is 128 or

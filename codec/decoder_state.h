@@ -46,7 +46,7 @@ struct CodedCoefficients {
   const PartUnit* last = nullptr;                  ///< decoded, here or in the base
 };
 
-/// Of the base, or of a slice, from coefficient unit to coefficient unit.
+/// What the base, or a slice, keeps from coefficient unit to coefficient unit.
 struct ValueState {
   CoefficientModels models;
   CodedCoefficients coded;
@@ -79,7 +79,7 @@ struct BaseState {
   bool is_known(const StreamHeader& stream) const { return level == stream.base_levels(); }
 };
 
-/// Of the scene. Slices read the base and, where they are shared, what slice 0 has left.
+/// What the scene keeps. Slices read the base and, where they are shared, what slice 0 has left.
 struct SceneState {
   explicit SceneState(const StreamHeader& stream, BaseState of_base)
       : base(std::move(of_base)), lead(stream.slots(Owner::kSlice).size()) {}
@@ -109,12 +109,12 @@ struct SliceToDecode {
 /// @param alone  no other slice starts from the base: its state is moved
 OccupancyStates start_octree(const SliceToDecode& slice, bool alone);
 
-/// Of the base, or of a slice without one: new. Levels of missing units are predicted, what is
+/// The base, or a slice without one, starts as new. Levels of missing units are predicted, what is
 /// known is interpolated: spec 8.9.1.
 ValueState start_values(const Request& request, const ComponentRows& rows);
 
-/// Of a slice. Apart it knows its cells and is new; else it goes on from the base: states, kept
-/// vectors, and values of the cells (8.6.4) in `components`, [rows][planes].
+/// A slice starts so: apart it knows its cells and is new; else it goes on from the base: states,
+/// kept vectors, and values of the cells (8.6.4) in `components`, [rows][planes].
 ValueState start_values(const SliceToDecode& slice, const ComponentRows& rows,
                         std::span<std::int32_t> components);
 

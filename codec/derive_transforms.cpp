@@ -27,7 +27,7 @@ constexpr double kSquaredStepsPerBit = 0.1, kBitsOfValue = 5;
 /// and by measurement dropping components earlier than at this saves less than a larger step does;
 /// keeping more costs decoders time and memory, and no quality that a smaller step would not give.
 constexpr double kSquaredStepsPerMatrixBit = 0.05;
-/// Of the error of rounding: what may be lost to make columns whole functions.
+/// Share of the error of rounding that may be lost to make columns whole functions.
 constexpr double kLittle = 0.125;
 /// Quantised to zero below this many steps, about.
 constexpr double kZeroBelow = 0.6;

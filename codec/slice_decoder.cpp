@@ -139,7 +139,7 @@ Result<Done> decode_vectors(const SliceToDecode& slice, const SliceGeometry& geo
   return Done{};
 }
 
-/// Of a slice whose geometry is incomplete: the nodes known stand for its points, without
+/// Where geometry of a slice is missing, the nodes known stand for its points, without
 /// coefficients. Between zeros there is nothing to interpolate. Spec 8.9.2.
 Result<Done> interpolate_nodes(const SliceToDecode& slice, std::vector<std::uint64_t> codes,
                                int level, std::span<std::int32_t> components, int threads) {

@@ -20,7 +20,7 @@ struct StreamHeader {
   bool has_base() const { return base_levels() > 0; }
   /// Slices that the base is added to in the end.
   bool apart() const { return has_base() && table.apart(); }
-  /// Of the base, 0 where there is none.
+  /// Cells of the base, 0 where there is none.
   std::uint64_t num_cells() const { return has_base() ? table.num_cells() : 0; }
   /// Bit of a Morton code of the grid that is the lowest of those that join nodes of a level.
   int lowest_split(int level) const { return 3 * (grid_bits() - level); }

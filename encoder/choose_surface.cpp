@@ -35,20 +35,17 @@ Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineG
 }
 
 /// @param before  trained by some of the cameras, or empty
+/// @param share  of the time that may be taken
 Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
-                                               std::span<const int> cameras,
-                                               TrainedSurfels before) {
+                                               std::span<const int> cameras, TrainedSurfels before,
+                                               double share) {
   Stopwatch watch;
   TrainGeometrySettings training;
   training.grid_bits = job.settings.grid_bits;
   training.voxel_size = job.settings.voxel_size;
   training.iterations = kIterations;
-  const bool again = !before.empty();
   training.threads = job.settings.threads;
-  training.seconds =
-      job.settings.surface_seconds * (again                                 ? kAgain
-                                      : cameras.size() < job.cameras.size() ? 1 - kAgain
-                                                                            : 1);
+  training.seconds = share * job.settings.surface_seconds;
   training.photograph_bytes = double(job.settings.surface_memory) * (1 << 20);
   training.is_volume = job.report.start == StartId::kVolume;
   auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
@@ -83,7 +80,7 @@ bool is_dense(const Density& density) { return density.spacing <= kDense * densi
 /// Trained by three quarters of the photographs; where the others say that it pays, by all.
 Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud before) {
   const CameraParts parts = split_for_mending(job.cameras);
-  SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}));
+  SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}, 1 - kAgain));
   if (trained.cloud.positions.empty()) {
     job.report.untrained = "photographs agree on no surface";
     return before;
@@ -98,7 +95,8 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   if (job.report.before_psnr > kPerfect ||
       job.report.trained_psnr < job.report.before_psnr + kLeastGain)
     return before;
-  SLF_TRY(const TrainedGeometry by_all, trained_by(job, job.cameras, std::move(trained.surfels)));
+  SLF_TRY(const TrainedGeometry by_all,
+          trained_by(job, job.cameras, std::move(trained.surfels), kAgain));
   if (by_all.cloud.positions.empty()) return before;
   return taken(job, by_all);
 }
@@ -113,7 +111,7 @@ Result<VoxelCloud, InputError> only_trained(const SurfaceChoice& job) {
   if (asked == Surface::kGiven || asked == Surface::kMended)
     return refuse("a surface is to be trained (--surface trained)");
   if (!job.report.untrained.empty()) return refuse(job.report.untrained);
-  SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}));
+  SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}, 1));
   if (trained.cloud.positions.empty()) return refuse("photographs agree on no surface");
   return taken(job, trained);
 }
@@ -129,7 +127,7 @@ Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
   if (asked == Surface::kMended) return given_or_mended(job, RefineGeometry::kOn);
   job.report.untrained = training_obstacle(job.capture, job.cameras);
   if (asked == Surface::kTrained && job.report.untrained.empty()) {
-    SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}));
+    SLF_TRY(const TrainedGeometry trained, trained_by(job, job.cameras, {}, 1));
     if (!trained.cloud.positions.empty()) return taken(job, trained);
     job.report.untrained = "photographs agree on no surface";
   }

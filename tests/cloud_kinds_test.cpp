@@ -132,7 +132,7 @@ TEST(MeshStrips, TurnAboutAndEndAtMinusOne) {
   EXPECT_THAT(read(5, "", vertices + "3 0 1\n", strips).error, HasSubstr("missing or damaged"));
 }
 
-/// Of the voxels of a surface, a share: whole numbers, no two the same.
+/// A share of the voxels of a surface: whole numbers, no two the same.
 PointCloud sparse_voxels(double share, float pitch) {
   std::mt19937 random(7);
   PointCloud cloud;

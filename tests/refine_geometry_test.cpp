@@ -6,11 +6,8 @@
 
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
-#include "tools/synth/rings.h"
-#include "tools/synth/sample_points.h"
-#include "tools/synth/scene.h"
 #include "tools/synth/synth.h"
-#include "tools/synth/trace.h"
+#include "traced_scene.h"
 
 namespace slf::refine_geometry_test {
 namespace {
@@ -18,55 +15,40 @@ namespace {
 /// A textured vase in memory: what the mending of a cloud is tried on.
 class RefineGeometryTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    const auto scene = synth::make_scene("vase");
-    const auto rings = synth::make_rings(5, 12, 160, 160, scene->bounds().radius);
-    capture_ = new Capture;
-    capture_->cameras = rings.cameras;
-    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
-      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 2));
-      cameras_.push_back(int(i));
-    }
-    exact_ = new PointCloud(synth::sample_points(*scene, 12000, 2, &step_));
-  }
-  static void TearDownTestSuite() {
-    delete capture_;
-    delete exact_;
-  }
+  static void SetUpTestSuite() { traced_ = new test::TracedScene("vase", 5, 12, 160, 12000); }
+  static void TearDownTestSuite() { delete traced_; }
 
   static Capture with(const PointCloud& cloud) {
-    Capture capture = *capture_;
+    Capture capture = traced_->capture;
     capture.cloud = cloud;
     return capture;
   }
   static Capture disturbed() {
-    PointCloud fat = *exact_;
-    synth::disturb(fat, step_, {.hull = 4});
+    PointCloud fat = traced_->exact;
+    synth::disturb(fat, traced_->step, {.hull = 4});
     return with(fat);
   }
   /// Root mean square distance from the true surface, in point spacings.
   static double distance(const PointCloud& cloud) {
-    const NearestPoints tree(exact_->positions);
+    const NearestPoints tree(traced_->exact.positions);
     double squares = 0;
     for (const Float3& p : cloud.positions) {
       std::uint32_t nearest = 0;
       tree.nearest(p, 1, &nearest, nullptr);
-      const double along =
-          double(dot(minus(p, exact_->positions[nearest]), exact_->normals[nearest])) / step_;
+      const double along = double(dot(minus(p, traced_->exact.positions[nearest]),
+                                      traced_->exact.normals[nearest])) /
+                           traced_->step;
       squares += along * along;
     }
     return std::sqrt(squares / double(cloud.positions.size()));
   }
 
-  static inline Capture* capture_ = nullptr;
-  static inline PointCloud* exact_ = nullptr;
-  static inline std::vector<int> cameras_;
-  static inline double step_ = 0;
+  static inline test::TracedScene* traced_ = nullptr;
 };
 
 TEST_F(RefineGeometryTest, AFatCloudComesCloserToTheSurface) {
   const Capture fat = disturbed();
-  const auto refined = refine_geometry(fat, cameras_, {.grid_bits = 7});
+  const auto refined = refine_geometry(fat, traced_->cameras, {.grid_bits = 7});
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_GT(refined->report.held_out_after, refined->report.held_out_before + 0.3);
@@ -77,7 +59,7 @@ TEST_F(RefineGeometryTest, AFatCloudComesCloserToTheSurface) {
 }
 
 TEST_F(RefineGeometryTest, AnExactCloudStays) {
-  const auto refined = refine_geometry(with(*exact_), cameras_, {.grid_bits = 7});
+  const auto refined = refine_geometry(with(traced_->exact), traced_->cameras, {.grid_bits = 7});
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
   EXPECT_TRUE(refined->cloud.positions.empty());
@@ -87,7 +69,7 @@ TEST_F(RefineGeometryTest, ACloudDenserThanThePhotographsIsMendedAtTheirScaleAnd
   double step = 0;
   PointCloud fat = synth::sample_points(*synth::make_scene("vase"), 60000, 2, &step);
   synth::disturb(fat, step, {.hull = 8});
-  const auto refined = refine_geometry(with(fat), cameras_, {.grid_bits = 9});
+  const auto refined = refine_geometry(with(fat), traced_->cameras, {.grid_bits = 9});
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
@@ -101,7 +83,7 @@ TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePoint
   synth::disturb(fat, step, {.hull = 8});
   const double voxel = 0.46 * step;
   const auto refined =
-      refine_geometry(with(fat), cameras_, {.voxel_size = voxel, .free_grid = true});
+      refine_geometry(with(fat), traced_->cameras, {.voxel_size = voxel, .free_grid = true});
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
@@ -115,15 +97,15 @@ TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePoint
 
 TEST_F(RefineGeometryTest, ThreadsDoNotChangeTheResult) {
   const Capture fat = disturbed();
-  const auto one = refine_geometry(fat, cameras_, {.grid_bits = 7, .threads = 1});
-  const auto three = refine_geometry(fat, cameras_, {.grid_bits = 7, .threads = 3});
+  const auto one = refine_geometry(fat, traced_->cameras, {.grid_bits = 7, .threads = 1});
+  const auto three = refine_geometry(fat, traced_->cameras, {.grid_bits = 7, .threads = 3});
   ASSERT_TRUE(one && three);
   EXPECT_EQ(one->cloud.positions, three->cloud.positions);
   EXPECT_EQ(one->cloud.normals, three->cloud.normals);
 }
 
 TEST_F(RefineGeometryTest, OfMendedPointsNoneFallIntoOneVoxel) {
-  const auto refined = refine_geometry(disturbed(), cameras_, {.grid_bits = 6});
+  const auto refined = refine_geometry(disturbed(), traced_->cameras, {.grid_bits = 6});
   ASSERT_TRUE(refined);
   ASSERT_GT(refined->voxel_size, 0);
   const auto voxels = voxelise(refined->cloud, 6, refined->voxel_size);
@@ -138,17 +120,17 @@ TEST_F(RefineGeometryTest, NothingIsTriedWhenOffOrWithFewCamerasOrPoints) {
     const auto refined = refine_geometry(capture, cameras, {.mode = mode});
     return refined ? refined->report.outcome : RefineReport::kMended;
   };
-  EXPECT_EQ(outcome(cameras_, RefineGeometry::kOff), RefineReport::kNotAsked);
-  EXPECT_EQ(outcome(std::span(cameras_).first(7), RefineGeometry::kOn),
+  EXPECT_EQ(outcome(traced_->cameras, RefineGeometry::kOff), RefineReport::kNotAsked);
+  EXPECT_EQ(outcome(std::span(traced_->cameras).first(7), RefineGeometry::kOn),
             RefineReport::kTooFewCameras);
   capture.cloud.positions.resize(900);
-  EXPECT_EQ(outcome(cameras_, RefineGeometry::kOn), RefineReport::kTooFewPoints);
+  EXPECT_EQ(outcome(traced_->cameras, RefineGeometry::kOn), RefineReport::kTooFewPoints);
 }
 
 TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
-  PointCloud away = *exact_;
+  PointCloud away = traced_->exact;
   for (Float3& p : away.positions) p[2] += 1000;
-  const auto refined = refine_geometry(with(away), cameras_, {.mode = RefineGeometry::kOn});
+  const auto refined = refine_geometry(with(away), traced_->cameras, {.mode = RefineGeometry::kOn});
   if (refined) {
     EXPECT_EQ(refined->report.outcome, RefineReport::kNoGain);
   }

@@ -10,10 +10,7 @@
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
 #include "slf/encoder.h"
-#include "tools/synth/rings.h"
-#include "tools/synth/sample_points.h"
-#include "tools/synth/scene.h"
-#include "tools/synth/trace.h"
+#include "traced_scene.h"
 #include "train/object_outline.h"
 
 namespace slf::starting_points_test {
@@ -22,27 +19,12 @@ namespace {
 /// A can before grey, in small photographs, without points.
 class StartingPointsTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    const auto scene = synth::make_scene("can");
-    const auto rings = synth::make_rings(4, 6, 96, 96, scene->bounds().radius);
-    capture_ = new Capture;
-    capture_->cameras = rings.cameras;
-    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
-      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 1));
-      cameras_.push_back(int(i));
-    }
-    radius_ = scene->bounds().radius;
-    double step = 0;
-    exact_ = new PointCloud(synth::sample_points(*scene, 3000, 2, &step));
-  }
-  static void TearDownTestSuite() {
-    delete capture_;
-    delete exact_;
-  }
+  static void SetUpTestSuite() { traced_ = new test::TracedScene("can", 4, 6, 96, 3000, 1); }
+  static void TearDownTestSuite() { delete traced_; }
 
   /// With stripes of the photograph's own behind the object.
   static Capture before_stripes() {
-    Capture capture = *capture_;
+    Capture capture = traced_->capture;
     for (std::size_t i = 0; i < capture.images.size(); ++i) {
       Image& image = capture.images[i];
       const auto object = object_outline(image);
@@ -55,7 +37,7 @@ class StartingPointsTest : public testing::Test {
   /// The same photographs, their backgrounds taken away by alpha.
   static Capture with_alpha(Capture capture) {
     for (std::size_t i = 0; i < capture.images.size(); ++i) {
-      const auto object = object_outline(capture_->images[i]);
+      const auto object = object_outline(traced_->capture.images[i]);
       Image image = capture.images[i];
       image.channels = 4;
       image.data.clear();
@@ -68,80 +50,77 @@ class StartingPointsTest : public testing::Test {
     return capture;
   }
 
-  static inline Capture* capture_ = nullptr;
-  static inline PointCloud* exact_ = nullptr;
-  static inline std::vector<int> cameras_;
-  static inline double radius_ = 0;
+  static inline test::TracedScene* traced_ = nullptr;
 };
 
 TEST_F(StartingPointsTest, CamerasLookAtTheObject) {
-  const auto ball = looked_at(*capture_, cameras_);
+  const auto ball = looked_at(traced_->capture, traced_->cameras);
   ASSERT_TRUE(ball);
-  for (const double x : ball->centre) EXPECT_NEAR(x, 0, 0.1 * radius_);
-  EXPECT_GT(ball->radius, 0.9 * radius_);
-  EXPECT_LT(ball->radius, 4 * radius_);
+  for (const double x : ball->centre) EXPECT_NEAR(x, 0, 0.1 * traced_->radius);
+  EXPECT_GT(ball->radius, 0.9 * traced_->radius);
+  EXPECT_LT(ball->radius, 4 * traced_->radius);
 }
 
 TEST_F(StartingPointsTest, TheHullOfAnEvenBackgroundLiesAroundTheObject) {
-  const auto points = starting_points(*capture_, cameras_, 0);
+  const auto points = starting_points(traced_->capture, traced_->cameras, 0);
   ASSERT_TRUE(points);
   EXPECT_EQ(points->start, StartId::kHull);
   const PointCloud& hull = points->cloud;
   ASSERT_EQ(hull.normals.size(), hull.positions.size());
-  const NearestPoints tree(exact_->positions);
+  const NearestPoints tree(traced_->exact.positions);
   std::size_t outside = 0, alike = 0;
   double farthest = 0;
   for (std::size_t p = 0; p < hull.positions.size(); ++p) {
     std::uint32_t nearest = 0;
     tree.nearest(hull.positions[p], 1, &nearest, nullptr);
-    const Float3& normal = exact_->normals[nearest];
-    const float apart = dot(minus(hull.positions[p], exact_->positions[nearest]), normal);
-    outside += double(apart) > -0.05 * radius_;
+    const Float3& normal = traced_->exact.normals[nearest];
+    const float apart = dot(minus(hull.positions[p], traced_->exact.positions[nearest]), normal);
+    outside += double(apart) > -0.05 * traced_->radius;
     alike += dot(normal, hull.normals[p]) > 0;
     farthest = std::max(farthest, double(std::abs(apart)));
   }
   // Some bare metal is as grey as what is behind it.
   EXPECT_GT(double(outside), 0.9 * double(hull.positions.size()));
   EXPECT_GT(double(alike), 0.9 * double(hull.positions.size()));
-  EXPECT_LT(farthest, 0.5 * radius_);
+  EXPECT_LT(farthest, 0.5 * traced_->radius);
 }
 
 TEST_F(StartingPointsTest, AlphaCarvesAsAnEvenBackgroundDoes) {
-  const auto by_colour = starting_points(*capture_, cameras_, 0);
-  const auto by_alpha = starting_points(with_alpha(before_stripes()), cameras_, 0);
+  const auto by_colour = starting_points(traced_->capture, traced_->cameras, 0);
+  const auto by_alpha = starting_points(with_alpha(before_stripes()), traced_->cameras, 0);
   ASSERT_TRUE(by_colour && by_alpha);
   EXPECT_EQ(by_alpha->start, StartId::kHull);
   EXPECT_EQ(by_alpha->cloud.positions, by_colour->cloud.positions);
 }
 
 TEST_F(StartingPointsTest, WhereNothingTellsTheObjectPointsAreAnywhere) {
-  const auto points = starting_points(before_stripes(), cameras_, 0);
+  const auto points = starting_points(before_stripes(), traced_->cameras, 0);
   ASSERT_TRUE(points);
   EXPECT_EQ(points->start, StartId::kVolume);
   EXPECT_GT(points->cloud.positions.size(), 1000u);
 }
 
 TEST_F(StartingPointsTest, AllBlackMasksAreNoOutline) {
-  Capture capture = *capture_;
+  Capture capture = traced_->capture;
   for (Image& image : capture.images) {
     image.channels = 4;
     image.data.assign(image.data.size() / 3 * 4, 0);
   }
-  const auto points = starting_points(capture, cameras_, 0);
+  const auto points = starting_points(capture, traced_->cameras, 0);
   ASSERT_TRUE(points);
   EXPECT_EQ(points->start, StartId::kVolume);
 }
 
 TEST_F(StartingPointsTest, TheSameForAnyNumberOfThreads) {
-  const auto one = starting_points(*capture_, cameras_, 1);
-  const auto three = starting_points(*capture_, cameras_, 3);
+  const auto one = starting_points(traced_->capture, traced_->cameras, 1);
+  const auto three = starting_points(traced_->capture, traced_->cameras, 3);
   ASSERT_TRUE(one && three);
   EXPECT_EQ(one->cloud.positions, three->cloud.positions);
   EXPECT_EQ(one->cloud.normals, three->cloud.normals);
 }
 
 TEST_F(StartingPointsTest, CamerasThatLookApartOrTheSameWayAreRefused) {
-  Capture row = *capture_, room = *capture_;
+  Capture row = traced_->capture, room = traced_->capture;
   for (std::size_t i = 0; i < row.cameras.size(); ++i) {
     row.cameras[i].rotation = row.cameras[0].rotation;
     row.cameras[i].translation = row.cameras[0].translation;
@@ -153,7 +132,7 @@ TEST_F(StartingPointsTest, CamerasThatLookApartOrTheSameWayAreRefused) {
     }
   }
   for (const Capture* capture : {&row, &room}) {
-    const auto points = starting_points(*capture, cameras_, 0);
+    const auto points = starting_points(*capture, traced_->cameras, 0);
     ASSERT_FALSE(points);
     EXPECT_EQ(points.error().code, Errc::kInvalidInput);
     EXPECT_NE(points.error().message.find("give points"), std::string::npos);
@@ -163,15 +142,15 @@ TEST_F(StartingPointsTest, CamerasThatLookApartOrTheSameWayAreRefused) {
 TEST_F(StartingPointsTest, PhotographsAndCamerasBecomeALightField) {
   EncoderSettings settings = settings_of(Preset::kDefault, 1);
   settings.surface = Surface::kGiven;
-  const auto encoded = encode(*capture_, cameras_, settings);
+  const auto encoded = encode(traced_->capture, traced_->cameras, settings);
   ASSERT_TRUE(encoded) << encoded.error().message;
   EXPECT_EQ(encoded->surface.start, StartId::kHull);
   EXPECT_GT(encoded->points, 1000u);
 }
 
 TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
-  Capture capture = *capture_;
-  const float side = 0.9f * float(radius_);
+  Capture capture = traced_->capture;
+  const float side = 0.9f * float(traced_->radius);
   for (int corner = 0; corner < 8; ++corner)
     capture.mesh.vertices.positions.push_back(
         {corner & 1 ? side : -side, corner & 2 ? side : -side, corner & 4 ? side : -side});
@@ -186,7 +165,7 @@ TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
   EncoderSettings settings = settings_of(Preset::kDefault, 1);
   for (const Surface surface : {Surface::kAuto, Surface::kTrained}) {
     settings.surface = surface;
-    const auto encoded = encode(capture, cameras_, settings);
+    const auto encoded = encode(capture, traced_->cameras, settings);
     ASSERT_TRUE(encoded) << encoded.error().message;
     EXPECT_EQ(encoded->surface.kept,
               surface == Surface::kAuto ? Surface::kGiven : Surface::kTrained);
@@ -196,7 +175,7 @@ TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
 TEST_F(StartingPointsTest, PointsThatAreAnywhereAreNoSurfaceAsGiven) {
   EncoderSettings settings = settings_of(Preset::kDefault, 1);
   settings.surface = Surface::kGiven;
-  const auto encoded = encode(before_stripes(), cameras_, settings);
+  const auto encoded = encode(before_stripes(), traced_->cameras, settings);
   ASSERT_FALSE(encoded);
   EXPECT_NE(encoded.error().message.find("--surface trained"), std::string::npos);
 }

@@ -9,11 +9,8 @@
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
 #include "encoder/choose_surface.h"
-#include "tools/synth/rings.h"
-#include "tools/synth/sample_points.h"
-#include "tools/synth/scene.h"
 #include "tools/synth/synth.h"
-#include "tools/synth/trace.h"
+#include "traced_scene.h"
 #include "train/distance_blocks.h"
 #include "train/grow_surfels.h"
 
@@ -23,48 +20,36 @@ namespace {
 /// A textured vase in memory, in few and small photographs.
 class TrainGeometryTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    const auto scene = synth::make_scene("vase");
-    const auto rings = synth::make_rings(5, 10, 128, 128, scene->bounds().radius);
-    capture_ = new Capture;
-    capture_->cameras = rings.cameras;
-    for (std::size_t i = 0; i < rings.cameras.size(); ++i) {
-      capture_->images.push_back(synth::trace_image(*scene, rings.cameras[i], 2));
-      cameras_.push_back(int(i));
-    }
-    exact_ = new PointCloud(synth::sample_points(*scene, 6000, 2, &step_));
-  }
-  static void TearDownTestSuite() {
-    delete capture_;
-    delete exact_;
-  }
+  static void SetUpTestSuite() { traced_ = new test::TracedScene("vase", 5, 10, 128, 6000); }
+  static void TearDownTestSuite() { delete traced_; }
 
   static Capture with(const PointCloud& cloud) {
-    Capture capture = *capture_;
+    Capture capture = traced_->capture;
     capture.cloud = cloud;
     return capture;
   }
   /// Every n-th point, without normals: what structure from motion leaves.
   static PointCloud sparse(std::size_t every) {
     PointCloud cloud;
-    for (std::size_t p = 0; p < exact_->positions.size(); p += every)
-      cloud.positions.push_back(exact_->positions[p]);
+    for (std::size_t p = 0; p < traced_->exact.positions.size(); p += every)
+      cloud.positions.push_back(traced_->exact.positions[p]);
     return cloud;
   }
   static PointCloud fat() {
-    PointCloud cloud = *exact_;
-    synth::disturb(cloud, step_, {.hull = 4});
+    PointCloud cloud = traced_->exact;
+    synth::disturb(cloud, traced_->step, {.hull = 4});
     return cloud;
   }
   /// From the true surface along its normals, in point spacings.
   static std::vector<double> distances(const PointCloud& cloud) {
-    const NearestPoints tree(exact_->positions);
+    const NearestPoints tree(traced_->exact.positions);
     std::vector<double> apart;
     for (const Float3& p : cloud.positions) {
       std::uint32_t nearest = 0;
       tree.nearest(p, 1, &nearest, nullptr);
-      apart.push_back(std::abs(
-          double(dot(minus(p, exact_->positions[nearest]), exact_->normals[nearest])) / step_));
+      apart.push_back(std::abs(double(dot(minus(p, traced_->exact.positions[nearest]),
+                                          traced_->exact.normals[nearest])) /
+                               traced_->step));
     }
     return apart;
   }
@@ -84,15 +69,12 @@ class TrainGeometryTest : public testing::Test {
     return report;
   }
 
-  static inline Capture* capture_ = nullptr;
-  static inline PointCloud* exact_ = nullptr;
-  static inline std::vector<int> cameras_;
-  static inline double step_ = 0;
+  static inline test::TracedScene* traced_ = nullptr;
 };
 
 TEST_F(TrainGeometryTest, AFatCloudComesToTheSurface) {
   const PointCloud cloud = fat();
-  const auto trained = train_geometry(with(cloud), cameras_, {.iterations = 1500});
+  const auto trained = train_geometry(with(cloud), traced_->cameras, {.iterations = 1500});
   ASSERT_TRUE(trained);
   ASSERT_GT(trained->cloud.positions.size(), 1000u);
   EXPECT_LT(share_within(1, cloud), 0.25);
@@ -101,7 +83,7 @@ TEST_F(TrainGeometryTest, AFatCloudComesToTheSurface) {
 
 TEST_F(TrainGeometryTest, FewPointsWithoutNormalsBecomeALayer) {
   const PointCloud cloud = sparse(20);
-  const auto trained = train_geometry(with(cloud), cameras_, {.iterations = 1500});
+  const auto trained = train_geometry(with(cloud), traced_->cameras, {.iterations = 1500});
   ASSERT_TRUE(trained);
   ASSERT_EQ(trained->cloud.normals.size(), trained->cloud.positions.size());
   EXPECT_GT(trained->cloud.positions.size(), 10 * cloud.positions.size());
@@ -113,15 +95,15 @@ TEST_F(TrainGeometryTest, FewPointsWithoutNormalsBecomeALayer) {
 
 TEST_F(TrainGeometryTest, TheSameForAnyNumberOfThreads) {
   const Capture capture = with(sparse(20));
-  const auto one = train_geometry(capture, cameras_, {.iterations = 60, .threads = 1});
-  const auto three = train_geometry(capture, cameras_, {.iterations = 60, .threads = 3});
+  const auto one = train_geometry(capture, traced_->cameras, {.iterations = 60, .threads = 1});
+  const auto three = train_geometry(capture, traced_->cameras, {.iterations = 60, .threads = 3});
   ASSERT_TRUE(one && three);
   EXPECT_EQ(one->cloud.positions, three->cloud.positions);
   EXPECT_EQ(one->cloud.normals, three->cloud.normals);
 }
 
 TEST_F(TrainGeometryTest, AnEndedTrainingIsASurfaceStill) {
-  const auto trained = train_geometry(with(sparse(20)), cameras_, {.seconds = 0.5});
+  const auto trained = train_geometry(with(sparse(20)), traced_->cameras, {.seconds = 0.5});
   ASSERT_TRUE(trained);
   EXPECT_GT(trained->cloud.positions.size(), 1000u);
   EXPECT_GT(share_within(3, trained->cloud), 0.5);
@@ -129,10 +111,10 @@ TEST_F(TrainGeometryTest, AnEndedTrainingIsASurfaceStill) {
 
 TEST_F(TrainGeometryTest, PhotographsThatWouldTakeTooMuchMemoryAreHalved) {
   const double bytes = 50.0 * 128 * 128 * 16;
-  const auto whole =
-      train_geometry(with(sparse(20)), cameras_, {.iterations = 40, .photograph_bytes = bytes});
-  const auto any = train_geometry(with(sparse(20)), cameras_, {.iterations = 40});
-  const auto halved = train_geometry(with(sparse(20)), cameras_,
+  const auto whole = train_geometry(with(sparse(20)), traced_->cameras,
+                                    {.iterations = 40, .photograph_bytes = bytes});
+  const auto any = train_geometry(with(sparse(20)), traced_->cameras, {.iterations = 40});
+  const auto halved = train_geometry(with(sparse(20)), traced_->cameras,
                                      {.iterations = 40, .photograph_bytes = 0.9 * bytes});
   ASSERT_TRUE(whole && any && halved);
   EXPECT_EQ(whole->cloud.positions, any->cloud.positions);
@@ -140,23 +122,23 @@ TEST_F(TrainGeometryTest, PhotographsThatWouldTakeTooMuchMemoryAreHalved) {
 }
 
 TEST_F(TrainGeometryTest, AnExactCloudStaysAndNothingIsTrained) {
-  const SurfaceReport report = chosen(with(*exact_), cameras_);
+  const SurfaceReport report = chosen(with(traced_->exact), traced_->cameras);
   EXPECT_EQ(report.kept, Surface::kGiven);
   EXPECT_EQ(report.surfels, 0u);
   EXPECT_FALSE(report.untrained.empty());
 }
 
 TEST_F(TrainGeometryTest, WhatPredictsHeldOutPhotographsIsKept) {
-  const SurfaceReport report = chosen(with(sparse(20)), cameras_);
+  const SurfaceReport report = chosen(with(sparse(20)), traced_->cameras);
   EXPECT_EQ(report.kept, Surface::kTrained);
   EXPECT_GT(report.trained_psnr, report.before_psnr + 1);
 }
 
 TEST_F(TrainGeometryTest, FewCamerasAndFewPointsAreLeftAloneAndSaid) {
-  const std::span<const int> one(cameras_.data(), 1), four(cameras_.data(), 4);
-  EXPECT_EQ(training_obstacle(with(*exact_), one), "too few cameras");
-  EXPECT_EQ(training_obstacle(with(*exact_), four), "too few cameras");
-  EXPECT_EQ(training_obstacle(with(sparse(400)), cameras_), "too few points");
+  const std::span<const int> one(traced_->cameras.data(), 1), four(traced_->cameras.data(), 4);
+  EXPECT_EQ(training_obstacle(with(traced_->exact), one), "too few cameras");
+  EXPECT_EQ(training_obstacle(with(traced_->exact), four), "too few cameras");
+  EXPECT_EQ(training_obstacle(with(sparse(400)), traced_->cameras), "too few points");
   const SurfaceReport report = chosen(with(fat()), four, Surface::kTrained);
   EXPECT_EQ(report.kept, Surface::kGiven);
   EXPECT_EQ(report.untrained, "too few cameras");
@@ -166,7 +148,7 @@ TEST_F(TrainGeometryTest, FewCamerasAndFewPointsAreLeftAloneAndSaid) {
 TEST_F(TrainGeometryTest, WherePhotographsShowNothingPointsStay) {
   Capture black = with(sparse(6));
   for (Image& image : black.images) std::fill(image.data.begin(), image.data.end(), 0);
-  EXPECT_NE(chosen(black, cameras_).kept, Surface::kTrained);
+  EXPECT_NE(chosen(black, traced_->cameras).kept, Surface::kTrained);
 }
 
 TEST(GrowSurfels, ASurfelThatIsPulledBecomesTwoAndOneThatShowsNothingGoes) {

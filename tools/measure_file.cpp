@@ -1,13 +1,15 @@
 #include "tools/measure_file.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "slf/decoder.h"
 #include "slf/evaluate.h"
 #include "slf/view_map.h"
+#include "tools/dump.h"
+#include "tools/options.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -15,22 +17,20 @@ namespace {
 
 constexpr std::size_t kMostCameras = 32;
 
-/// The capture, judged on the file's own points where it has none, as `slf eval` does.
-Capture with_points(const Capture& capture, const LightField& field) {
-  Capture judged = capture;
-  for (const Voxel& voxel : field.positions) {
-    const Vec3 at = field.header.grid.world(voxel);
-    judged.cloud.positions.push_back(
-        {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
-  }
-  return judged;
-}
-
 }  // namespace
+
+Capture with_points_of(const LightField& field, Capture capture, int threads) {
+  capture.cloud = mean_cloud(field, threads);
+  const Vec3 to = std::exchange(capture.cloud.origin, Vec3{0, 0, 0}), from = capture.origin;
+  for (Camera& camera : capture.cameras)
+    camera = moved(std::move(camera), {from[0] - to[0], from[1] - to[1], from[2] - to[2]});
+  capture.origin = to;
+  return capture;
+}
 
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
                                            std::span<const int> cameras, int threads) {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   DecodeOptions options;
   options.threads = threads;
   options.limits = DecodeLimits::none();
@@ -42,13 +42,11 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
   EvaluateSettings settings;
   settings.threads = threads;
   const bool has_points = !capture.cloud.positions.empty();
-  const Capture own = has_points ? Capture{} : with_points(capture, field);
+  const Capture own = has_points ? Capture{} : with_points_of(field, capture, threads);
   SLF_TRY(const Quality quality,
           from("the file that was written",
                evaluate(ViewMaps(field), has_points ? capture : own, some, settings)));
-  const auto end = std::chrono::steady_clock::now();
-  return FilePictures{quality.image.psnr, chosen,
-                      std::chrono::duration<double>(end - start).count()};
+  return FilePictures{quality.image.psnr, chosen, watch.lap()};
 }
 
 std::string pictures_text(const FilePictures& pictures, const Encoded& encoded,

@@ -9,6 +9,9 @@
 
 namespace slf::tools {
 
+/// The capture with the file's own points: what a capture without any is judged on.
+Capture with_points_of(const LightField& field, Capture capture, int threads);
+
 struct FilePictures {
   double psnr = 0;          ///< dB, as `slf eval` has it of images; NaN: nothing to compare
   std::size_t cameras = 0;  ///< that it is of: all of the input, or some where there are many

@@ -15,7 +15,7 @@ namespace slf::tools {
 /// is missing or not writable, or the name is that of a directory. "-" is standard output.
 Outcome check_output(const std::string& file);
 
-/// Of a name, in small letters, with its dot.
+/// The extension of a name, in small letters, with its dot.
 std::string small_extension(const std::string& file);
 
 /// The same, and refuses a name that promises a format which is not written: x.obj of slf decode.

@@ -15,6 +15,7 @@
 #include "tools/choices.h"
 #include "tools/describe.h"
 #include "tools/eval_report.h"
+#include "tools/measure_file.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
@@ -198,22 +199,13 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   return measured;
 }
 
-PointCloud points_of(const LightField& field) {
-  PointCloud cloud;
-  for (const Voxel& voxel : field.positions) {
-    const Vec3 at = field.header.grid.world(voxel);
-    cloud.positions.push_back({float(at[0]), float(at[1]), float(at[2])});
-  }
-  return cloud;
-}
-
 Outcome run_eval(const EvalOptions& given) {
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
   SLF_TRY(const Subject subject, decode_subject(given, given.input, capture));
   if (capture.cloud.positions.empty()) {
     warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
-    capture.cloud = points_of(subject.field);
+    capture = with_points_of(subject.field, std::move(capture), given.common.threads);
   }
   std::optional<Subject> unquantised;
   if (!given.unquantised.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "capture/object_mask.h"
 #include "capture/quantile.h"
 
 namespace slf {
@@ -68,7 +69,7 @@ std::vector<std::uint8_t> object_outline(const Image& photograph) {
   std::vector<std::uint8_t> object;
   if (photograph.channels == 4) {
     for (std::size_t i = 3; i < photograph.data.size(); i += 4)
-      object.push_back(photograph.data[i] >= 128);
+      object.push_back(shows_object(photograph.data[i]));
   } else {
     const auto border = border_of(photograph.width, photograph.height);
     const auto like = like_border(photograph, border);

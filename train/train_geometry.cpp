@@ -17,8 +17,8 @@ constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
 constexpr double kMostPixels = 1 << 20;                      // of a photograph
 constexpr double kPixelBytes = 3 * sizeof(float) * 4.0 / 3;  // with those of the coarser sizes
 constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/pictures/trained.md
-constexpr float kSolidOpacity = 0.6f, kThinOpacity = 0.1f;  // of surfels at first
-constexpr double kTrainedBefore = 0.8;  // of the iterations, with some of the photographs
+constexpr float kThinOpacity = 0.1f;     // of surfels that start anywhere
+constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the photographs
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
 constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface
 constexpr std::size_t kMostFused = 1'000'000;               // points, about

@@ -25,6 +25,8 @@ struct TrainSettings {
   std::function<bool(double)> progress;
 };
 
+inline constexpr float kSolidOpacity = 0.6f;  ///< of surfels that start on a surface
+
 /// Where training begins: as many surfels as the settings allow at first, on the points.
 /// @param points  with normals; neither has to be right
 /// @param spacing  of the points, world units

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "capture/object_mask.h"
 #include "capture/quantile.h"
 #include "fit/observe_depth.h"
 #include "measure/picture_background.h"
@@ -106,7 +107,7 @@ Result<TrainingView, InputError> load_training_view(const Capture& capture, int 
   const Camera& whole = capture.cameras[camera];
   std::vector<std::uint8_t> object = object_of(whole, surface, spacing);
   if (image.channels == 4)
-    for (std::size_t i = 0; i < object.size(); ++i) object[i] = image.data[4 * i + 3] >= 128;
+    for (std::size_t i = 0; i < object.size(); ++i) object[i] = shows_object(image.data[4 * i + 3]);
   const auto background = picture_background(image, object, has_mask);
   TrainingView view;
   view.index = index;
