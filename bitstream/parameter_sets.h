@@ -177,6 +177,9 @@ void plane_table(V& v, Set& s) {
   for (std::size_t i = 0; v.ok() && described < s.sps_num_functions; ++i) {
     if constexpr (requires { s.runs.emplace_back(); })
       if (i == s.runs.size()) s.runs.emplace_back();
+    // Runs of a writer may be too short: those of functions that no run describes are not there.
+    v.require(i < s.runs.size(), Errc::kOutOfRange, "sps_num_functions");
+    if (i == s.runs.size()) return;
     plane_run(v, s.runs[i], s.sps_num_functions - described, s.num_groups());
     described += s.runs[i].sps_run_length_minus1 + 1;
   }
