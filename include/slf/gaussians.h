@@ -1,0 +1,31 @@
+// Gaussian splats as they are trained: points with a view map, a shape and an opacity.
+// Kerbl, Kopanas, Leimkuehler, Drettakis, "3D Gaussian splatting for real-time radiance field
+// rendering" (2023).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "slf/types.h"
+
+namespace slf {
+
+/// Values before their activations, as 3DGS's PLY has them. All are finite; vectors but `harmonics`
+/// have one entry a splat.
+struct Gaussians {
+  int degree = 0;                ///< of the harmonics, 0 .. 4
+  UpAxis up = UpAxis::kUnknown;  ///< of the file's axes, which are right-handed
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> log_deviations;  ///< natural logarithms, axis by axis
+  std::vector<std::array<float, 4>> rotations;       ///< unit quaternions w, x, y, z: axes to world
+  std::vector<float> logits;                         ///< opacity = 1 / (1 + exp(-logit))
+  /// [P][(degree + 1)^2][3] coefficients of real harmonics, orthonormal over the sphere, with
+  /// 3DGS's signs: colour = 0.5 + sum, 1 = display white, along the unit vector from eye to splat.
+  std::vector<float> harmonics;
+
+  std::size_t size() const { return positions.size(); }
+  std::size_t num_harmonics() const { return std::size_t(degree + 1) * std::size_t(degree + 1); }
+};
+
+}  // namespace slf
