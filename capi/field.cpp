@@ -7,6 +7,7 @@
 #include "capi/handles.h"
 #include "capi/sized.h"
 #include "lightfield/frame.h"
+#include "lightfield/view_planes.h"
 
 namespace slf::capi {
 namespace {
@@ -72,9 +73,8 @@ bool is_reflected(const slf_field& field) {
 std::size_t num_weights(const slf_field& field) {
   if (!field.has_basis()) return 0;
   const LightFieldHeader& header = field.field.header;
-  const bool joint = std::any_of(header.transforms.begin(), header.transforms.end(),
-                                 [](const PlaneTransform& t) { return t.lanes == 1; });
-  return static_cast<std::size_t>(joint ? header.num_functions : header.num_components());
+  return static_cast<std::size_t>(needs_view_planes(header) ? header.num_view_functions()
+                                                            : header.num_components());
 }
 
 slf_shape shape_of(const slf_field& field) {

@@ -210,13 +210,6 @@ DecodeShape shape_of(const Request& request) {
   return shape;
 }
 
-Result<Done> check_level(const Request& request, std::uint64_t rows) {
-  const std::uint64_t most = kLevelValues + kLevelValuesOfByte * request.stream.bytes;
-  if (rows > most / std::max<std::uint64_t>(request.planes(), 1))
-    return of_sequence(Errc::kOutOfRange, "sps_level");
-  return Done{};
-}
-
 namespace {
 
 Result<CostOnThreads> within_limits(const DecodeShape& shape, std::uint64_t points,
@@ -242,12 +235,7 @@ Result<CostOnThreads> check_limits(const Request& request, const DecodeOptions& 
   if (waits_for_base(request)) shape.base_alone = true;
   const std::uint64_t points =
       shape.base_alone ? stream.table.num_cells() : stream.table.num_points();
-  SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
-  // Of others only what is there counts. Draco's decoder takes memory by the number it is told.
-  const bool told = stream.complete && !request.missing && !request.region;
-  if (told || stream.set.has_draco())
-    SLF_CHECK(check_level(request, points + (request.base_alone() ? 0 : stream.num_cells())));
-  return cost;
+  return within_limits(shape, points, options);
 }
 
 Result<CostOnThreads> check_limits_of_slices(const Request& request, const DecodeOptions& options,

@@ -9,10 +9,6 @@
 
 namespace slf {
 
-/// Spec 9: components of all rows are at most so many, and so many for every byte of the stream.
-inline constexpr std::uint64_t kLevelValues = std::uint64_t{1} << 19;
-inline constexpr std::uint64_t kLevelValuesOfByte = std::uint64_t{1} << 12;
-
 /// All that decides what a decode takes.
 struct DecodeShape {
   static constexpr double kUnknown = -1;
@@ -43,10 +39,6 @@ CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options);
 
 /// That of what was asked for, which may be less than the whole.
 DecodeShape shape_of(const Request& request);
-
-/// Spec 9: are so many rows, of the base and of slices, in proportion to the bytes?
-/// @errors kOutOfRange: sps_level
-Result<Done> check_level(const Request& request, std::uint64_t rows);
 
 /// What the slices say they hold, before any of it is decoded; where a region is asked for, what
 /// the base takes, which tells the slices.

@@ -236,23 +236,22 @@ class Derivation {
 }  // namespace
 
 std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
-                                                const PlaneGroups& groups,
+                                                const PlaneGroups& groups, std::size_t first,
                                                 const std::vector<double>& weights,
                                                 const std::vector<std::uint32_t>& steps,
                                                 TransformMode mode, int threads) {
   std::vector<ForwardTransform> transforms;
   Derivation derivation(input, weights, steps, threads);
-  for (std::size_t first = 0; first < groups.size(); ++first) {
+  for (std::size_t group = first; group < std::min(groups.size(), first + 2); ++group) {
     PlaneTransform shape;
-    shape.first_group = first;
-    shape.num_groups = first == 0 ? 1 : groups.size() - 1;
-    shape.functions = functions_of_groups(groups, first, shape.num_groups);
+    shape.first_group = group;
+    shape.num_groups = group == first ? 1 : groups.size() - group;
+    shape.functions = functions_of_groups(groups, group, shape.num_groups);
     shape.lanes = mode == TransformMode::kJoint ? 1 : 3;
     ForwardTransform forward = derivation.derive(std::move(shape));
     const bool nothing =
         forward.inverse.rows() == 1 && forward.inverse.colour == PlaneTransform::kNoColour;
     if (!nothing && !forward.inverse.matrix.empty()) transforms.push_back(std::move(forward));
-    if (first == 1) break;
   }
   return transforms;
 }

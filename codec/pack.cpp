@@ -106,8 +106,6 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
   if (!chosen.transforms.empty()) sorted.components = std::move(chosen.components);
   units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});  // 7.3
   SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));     // 8.4 - 8.10
-  add_filler(units, parts, layout.base_levels > 0 ? layout.cells.size() : 0, sorted.morton.size(),
-             coding.planes());  // 9
   std::move(parts.begin(), parts.end(), std::back_inserter(units));
   if (!parameters.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8

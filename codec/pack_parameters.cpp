@@ -28,6 +28,8 @@ Result<Done, InputError> check_shapes(const LightField& field, const CodingParam
   const std::size_t points = field.num_points(),
                     functions = static_cast<std::size_t>(h.num_functions);
   if (points == 0) return invalid("positions: there are none");
+  if (!h.attributes.empty() && !h.has_basis)
+    return invalid("attributes: of planes without a basis");
   if (!h.coded.empty() || !h.transforms.empty())
     return invalid("components: of coded functions; given_planes() makes those of all");
   if (field.components.size() != points * functions * 3)
@@ -37,7 +39,8 @@ Result<Done, InputError> check_shapes(const LightField& field, const CodingParam
     return invalid("normals: one per point");
   if (!p.step.empty() && p.step.size() != functions) return invalid("steps: three per function");
   if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
-  if (!p.group.empty() && p.group[0] != 0) return invalid("groups: function 0 is in group 0");
+  if (!p.group.empty() && p.group[0] != 0 && h.attributes.empty())
+    return invalid("groups: function 0 is in group 0");
   const std::set<int> groups(p.group.begin(), p.group.end());
   const auto last = static_cast<int>(groups.size()) - 1;
   if (!groups.empty() && (*groups.begin() != 0 || *groups.rbegin() != last))
@@ -189,6 +192,10 @@ Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
   set.sps_gamma_max = h.gamma_max_q7;
   if (h.frame == FrameId::kReflected)
     set.sps_normal_cell_log2 = static_cast<std::uint32_t>(h.normal_cell_log2);
+  for (const Attribute& a : h.attributes)
+    set.attributes.push_back(
+        {static_cast<std::uint32_t>(a.id), static_cast<std::uint32_t>(a.num_functions - 1)});
+  set.sps_num_attributes = static_cast<std::uint32_t>(set.attributes.size());
   if (h.num_functions > 0) set.sps_coefficient_coder = static_cast<std::uint32_t>(p.coefficients);
   set.sps_prediction_flag = p.predict && !texture && h.num_functions > 0;
   if (texture) set.sps_texture_bits = static_cast<std::uint32_t>(p.texture.bits - 8) / 2;

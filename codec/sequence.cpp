@@ -33,6 +33,9 @@ LightFieldHeader header_of(const SequenceParameterSet& set) {
   header.gamma_min_q7 = set.sps_gamma_min;
   header.gamma_max_q7 = set.sps_gamma_max;
   header.normal_cell_log2 = static_cast<int>(set.sps_normal_cell_log2);
+  for (const PointAttribute& a : set.attributes)
+    header.attributes.push_back({static_cast<AttributeId>(a.sps_attribute_id),
+                                 static_cast<int>(a.sps_attribute_functions_minus1) + 1});
   header.shift.resize(set.sps_num_functions);
   for_each_function(set, [&](std::size_t k, const PlaneRun& run) {
     header.shift[k] = static_cast<int>(run.sps_plane_shift);

@@ -13,7 +13,10 @@ namespace slf {
 
 std::vector<double> error_weights(const LightFieldHeader& header) {
   std::vector<double> weights(static_cast<std::size_t>(header.num_functions), 1);
-  if (header.has_basis) weights = basis_norms(header.basis);
+  if (header.has_basis) {
+    const std::vector<double> norms = basis_norms(header.basis);
+    std::copy(norms.begin(), norms.end(), weights.begin());
+  }
   for (std::size_t k = 0; k < weights.size(); ++k)
     weights[k] = std::pow(std::ldexp(weights[k], header.shift.empty() ? 0 : -header.shift[k]), 2);
   return weights;
@@ -70,6 +73,19 @@ std::vector<std::int32_t> find_components(const std::vector<ForwardTransform>& t
   return components;
 }
 
+namespace {
+
+/// The first group with a function of direction: attributes are before it, and have no transform.
+std::size_t first_of_views(const LightFieldHeader& header, const PlaneGroups& groups) {
+  std::size_t first = 0;
+  while (!header.attributes.empty() && first < groups.size() &&
+         groups[first].front() >= header.num_view_functions())
+    ++first;
+  return first;
+}
+
+}  // namespace
+
 Result<ChosenTransforms, InputError> choose_transforms(
     const LightField& given, const TransformInput& input, const SceneLayout& layout,
     const CodingParameters& parameters, SequenceParameterSet& set, SliceCoding& coding,
@@ -77,8 +93,9 @@ Result<ChosenTransforms, InputError> choose_transforms(
   ChosenTransforms chosen;
   if (parameters.transform == TransformMode::kNone || coding.groups.empty()) return chosen;
   const std::vector<double> weights = error_weights(given.header);
-  chosen.transforms = derive_transforms(input, coding.groups, weights, coding.steps,
-                                        parameters.transform, parameters.threads);
+  chosen.transforms =
+      derive_transforms(input, coding.groups, first_of_views(given.header, coding.groups), weights,
+                        coding.steps, parameters.transform, parameters.threads);
   if (chosen.transforms.empty()) return chosen;
   SLF_TRY(chosen.coded,
           use_transforms(given, layout, parameters, chosen.transforms, set, coding, units));

@@ -57,6 +57,7 @@ std::vector<Case> small_cases();      ///< among them
 std::vector<Case> edited_cases();     ///< among them: units that no encoder writes
 std::vector<Case> transform_cases();  ///< among them: matrices that no encoder writes
 std::vector<Case> layer_cases();      ///< among them
+std::vector<Case> attribute_cases();  ///< among them
 std::vector<Case> texture_cases();    ///< among them: planes as pictures
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes

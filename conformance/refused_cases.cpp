@@ -123,27 +123,22 @@ void add_header_lengths(std::vector<RefusedCase>& cases) {
                    edited([](auto& units) { units[0].payload.push_back(0); })});
 }
 
-/// A cube full of points, and many functions of which no unit says anything.
-void add_level(std::vector<RefusedCase>& cases) {
-  constexpr int kSide = 16, kFunctions = 256;
-  LightField cube;
-  cube.header.grid.bits = 4;
-  cube.header.has_basis = false;
-  cube.header.num_functions = kFunctions;
-  for (int i = 0; i < kSide * kSide * kSide; ++i)
-    cube.positions.push_back({i % kSide, i / kSide % kSide, i / kSide / kSide});
-  cube.components.resize(cube.num_points() * 3 * kFunctions);
-  CodingParameters parameters;
-  parameters.base_levels = 0;
-  parameters.index = parameters.digest = false;
-  cases.push_back({"values-beyond-level",
-                   "points times functions out of proportion to the bytes",
-                   {"9"},
-                   edited(*pack(cube, parameters), [](auto& units) {
-                     std::erase_if(units, [](const EditableUnit& unit) {
-                       return unit.type == UnitType::kFiller;
-                     });
-                   })});
+void add_attributes(std::vector<RefusedCase>& cases) {
+  const auto add = [&](const char* id, const char* purpose, std::vector<PointAttribute> attributes,
+                       std::uint32_t less) {
+    cases.push_back({id, purpose, {"6.8", "7.2"}, with_sequence([&](auto& s) {
+                       s.sps_num_attributes = static_cast<std::uint32_t>(attributes.size());
+                       s.attributes = attributes;
+                       s.sps_basis_idc = 0;
+                       s.sps_scales_theta = less;
+                       s.sps_scales_gamma = 0;
+                     })});
+  };
+  add("attribute-id", "an attribute of a later version", {{3, 2}}, 0);
+  add("attribute-twice", "two opacities", {{1, 0}, {1, 0}}, 1);
+  add("attribute-functions", "a shape of three functions", {{2, 2}}, 0);
+  add("attributes-do-not-match", "more functions than those of basis and attributes", {{1, 0}}, 1);
+  add("attributes-too-many", "17 attributes", std::vector<PointAttribute>(17, {0, 0}), 0);
 }
 
 }  // namespace
@@ -153,7 +148,7 @@ std::vector<RefusedCase> refused_cases() {
   add_framing(cases);
   add_headers(cases);
   add_header_lengths(cases);
-  add_level(cases);
+  add_attributes(cases);
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
   for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));

@@ -59,7 +59,7 @@ def check_sequence():
     table = section("**7.2 Sequence**", "**7.3 Slices**")
     text = dict(elements(table, "sps_"))
     coded = {}
-    for function in ("sequence_parameter_set", "base_and_cut", "basis", "group_layers", "plane_run"):
+    for function in ("sequence_parameter_set", "base_and_cut", "basis", "point_attributes", "group_layers", "plane_run"):
         coded.update(visited(sets, function, "sps_"))
     for kind in ("geometry", "coefficient"):                # level_ranges, which is given their names
         coded[f"sps_num_{kind}_ranges_minus1"], coded[f"sps_{kind}_range_end"] = "ue", "u"
@@ -131,7 +131,7 @@ def check_contexts():
 
 def check_limits():
     """7.2, 7.3, 9 and first weights."""
-    sets = code("bitstream/parameter_sets.h")
+    sets = code("bitstream/sequence_parameter_set.h")
     shifts = {name: int(power) for name, power in re.findall(r"kMax(\w+) = 1u << (\d+)", sets)}
     shifts["BasePoints"] = int(re.search(r"kMostBaseWeight = std::uint64_t\{1\} << (\d+)", code("geometry/weight_classes.h"))[1])
     points, slices, cells, weight = map(int, re.search(

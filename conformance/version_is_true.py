@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def current_version():
-    header = (HERE.parent / 'bitstream/parameter_sets.h').read_text(encoding='utf-8')
+    header = (HERE.parent / 'bitstream/sequence_parameter_set.h').read_text(encoding='utf-8')
     return tuple(map(int, re.search(r'kVersionMajor = (\d+), kVersionMinor = (\d+)', header).groups()))
 
 
@@ -60,7 +60,7 @@ def complaints(recorded, found, others, number):
         yield f'{name}: not recorded for {number} (--record)'
     for name in sorted(recorded.keys() & found.keys()):
         if recorded[name] != found[name]:
-            yield f'{name}: not the stream of {number} any more; what changes streams raises the number (parameter_sets.h, spec 7.2)'
+            yield f'{name}: not the stream of {number} any more; what changes streams raises the number (sequence_parameter_set.h, spec 7.2)'
 
 
 def main():

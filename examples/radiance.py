@@ -106,8 +106,9 @@ def surface_normal(positions, voxel, side):
 def weights_and_functions(directory, field, components, values):
     """Weights [R, 3] of the coded functions at a point, and these functions along a direction [R].
 
-    values are those of the basis functions there, [K]. Clauses 6.7 and 8.7.5."""
-    scaled = values / 2.0 ** np.array(field["shift"])
+    values are those of the basis functions there, the first of all K. Clauses 6.7 and 8.7.5."""
+    scaled = np.zeros(field["num_functions"])  # of attributes (6.8) nothing is seen
+    scaled[:len(values)] = values / 2.0 ** np.array(field["shift"][:len(values)])
     weights, functions = components.astype(float), scaled[field["component_function"]]
     for transform in field["transforms"]:
         matrix = np.load(os.path.join(directory, transform["matrix"])) / 2.0 ** 14    # [R of it, S]

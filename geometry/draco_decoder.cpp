@@ -18,7 +18,7 @@ namespace slf {
 namespace {
 
 /// Spec 8.5. Draco allocates by its header, by the number, types and lengths of attributes too,
-/// before it looks for the points.
+/// before it looks for the points, so that these are held against the bytes.
 bool is_cloud_of_positions(std::span<const std::uint8_t> payload, std::uint64_t max_points) {
   constexpr std::size_t kHeaderBytes = 22;
   constexpr std::array<std::uint8_t, 6> kBegin = {'D', 'R', 'A', 'C', 'O', 2};  // version 2.x
@@ -30,7 +30,8 @@ bool is_cloud_of_positions(std::span<const std::uint8_t> payload, std::uint64_t 
   const bool metadata = payload[9] != 0 || payload[10] != 0;
   const std::uint32_t count = payload[11] | std::uint32_t{payload[12]} << 8 |
                               std::uint32_t{payload[13]} << 16 | std::uint32_t{payload[14]} << 24;
-  return point_cloud && !metadata && count <= max_points &&
+  const std::uint64_t most = (std::uint64_t{1} << 19) + 4096 * std::uint64_t{payload.size()};
+  return point_cloud && !metadata && count <= std::min(max_points, most) &&
          std::equal(kAttribute.begin(), kAttribute.end(), payload.begin() + 15);
 }
 

@@ -2,31 +2,17 @@
 
 #include <algorithm>
 
-#include "slf/given_planes.h"
+#include "lightfield/view_planes.h"
 
 namespace slf {
-namespace {
-
-bool has_joint(const LightFieldHeader& header) {
-  return std::any_of(header.transforms.begin(), header.transforms.end(),
-                     [](const PlaneTransform& t) { return t.lanes == 1; });
-}
-
-/// What is left to do when the given planes are made.
-LightFieldHeader without_joint(LightFieldHeader header) {
-  if (!has_joint(header)) return header;
-  header.transforms.clear();
-  header.coded.clear();
-  return header;
-}
-
-}  // namespace
 
 FunctionWeights::FunctionWeights(const LightField& field, int threads)
-    : header_(without_joint(field.header)),
-      planes_(has_joint(field.header) ? given_planes(field, threads) : std::vector<std::int32_t>()),
-      components_(has_joint(field.header) ? std::span<const std::int32_t>(planes_)
-                                          : std::span<const std::int32_t>(field.components)),
+    : header_(needs_view_planes(field.header) ? view_header(field.header) : field.header),
+      planes_(needs_view_planes(field.header) ? view_planes(field, threads)
+                                              : std::vector<std::int32_t>()),
+      components_(needs_view_planes(field.header)
+                      ? std::span<const std::int32_t>(planes_)
+                      : std::span<const std::int32_t>(field.components)),
       dequantiser_(header_, false),
       table_(header_, threads) {}
 

@@ -9,15 +9,13 @@
 #include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "lightfield/nodes.h"
-#include "slf/given_planes.h"
+#include "lightfield/view_planes.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
 constexpr std::size_t kMapsPerRange = 512;
-
-bool is_joint(const PlaneTransform& transform) { return transform.lanes == 1; }
 
 /// The components are the coefficients of all harmonics up to a degree, or -1.
 int degree_of_components(const LightFieldHeader& header) {
@@ -42,13 +40,12 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
       normals_(light_field.normals),
       frame_normals_(frame_normals(header_.frame, positions_, header_.normal_cell_log2, threads)),
       mean_(mean_colours(light_field, threads)) {
-  assert(header_.has_basis && header_.num_functions == header_.basis.num_functions());
+  assert(header_.has_basis && header_.num_view_functions() == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;
   std::vector<std::int32_t> planes;
-  if (std::any_of(header_.transforms.begin(), header_.transforms.end(), is_joint)) {  // 6.7
-    components = planes = given_planes(light_field, threads);
-    header_.transforms.clear();
-    header_.coded.clear();
+  if (needs_view_planes(header_)) {
+    components = planes = view_planes(light_field, threads);
+    header_ = view_header(std::move(header_));
   }
   const auto coded = static_cast<std::size_t>(header_.num_components());
   const bool spline = header_.basis.id == BasisId::kBspline && header_.transforms.empty();

@@ -97,8 +97,6 @@ Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
   auto known = decode_base_geometry(scene->base, *request);
   if (!known) return damaged(known.error());
   if (!known->is_known(scene->stream)) return damaged({Errc::kTruncated, "gu_occupancy"});
-  if (const auto bounded = check_level(*request, known->cells.size()); !bounded)
-    return damaged(bounded.error());
   const TextureSettings no_texture;
   const SliceCoding coding{parts.set,  request->groups, request->steps, true,
                            no_texture, parts.rdo,       parts.matrices};
@@ -115,7 +113,6 @@ std::vector<std::uint8_t> join(const SceneParts& parts, const SceneBase& base, b
   std::vector<CodedUnit> body = base.units;
   add_slices(parts, !partial, body);
   std::vector<CodedUnit> units = parts.head;
-  add_filler(units, body, base.layout.cells.size(), parts.table.num_points(), base.planes);
   std::move(body.begin(), body.end(), std::back_inserter(units));
   if (!parts.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parts.metadata), {}});

@@ -222,7 +222,7 @@ class Planner {
     const double scale = static_cast<double>(cells_.store.size()) /
                          static_cast<double>(std::max<std::size_t>(codes.size(), 1));
     for (const ForwardTransform& t : derive_transforms(
-             {codes, components, cuts, scale}, plane_groups(set), error_weights(field.header),
+             {codes, components, cuts, scale}, plane_groups(set), 0, error_weights(field.header),
              plane_steps(set), settings.transform, settings.threads)) {
       plan_.transforms.push_back({t.inverse, t.precision});
       plan_.transforms.back().coded.components.clear();

@@ -166,7 +166,7 @@ class Sequence:
             return value
 
         checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 4, "sps_version_minor")
+        checked(8, lambda v: v == 5, "sps_version_minor")
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
@@ -189,6 +189,7 @@ class Sequence:
         self.coefficient_bounds = [0]
         self.texture = profile == 2
         self.prediction = False
+        self.attributes = []                # (id, functions) of each
         self.groups = []                    # functions of each group
         self.layers = []                    # quality layers of each group
         self.steps = []                     # three steps of each function
@@ -200,10 +201,10 @@ class Sequence:
                     reader.u(2, "sps_order_minus1")
                     scales = checked(3, lambda v: v <= 6, "sps_scales_theta")
                     scales += checked(3, lambda v: v <= 6, "sps_scales_gamma")
-                    require(self.functions == 1 << scales, "sps_num_functions")
+                    of_basis = 1 << scales
                 else:
                     degree = checked(4, lambda v: v <= 10, "sps_degree")
-                    require(self.functions == (degree + 1) ** 2, "sps_num_functions")
+                    of_basis = (degree + 1) ** 2
                 frame = checked(3, lambda v: v <= 1, "sps_frame_idc")
                 checked(3, lambda v: v <= 1, "sps_colour_idc")
                 checked(2, lambda v: v <= 1, "sps_transfer_idc")
@@ -212,6 +213,8 @@ class Sequence:
                 require(gamma_max >= gamma_min, "sps_gamma_max")
                 if frame == 1:
                     checked(5, lambda v: v < self.grid_bits, "sps_normal_cell_log2")
+                of_attributes = self.read_attributes(reader)
+                require(self.functions == of_basis + of_attributes, "sps_num_functions")
             coder = checked(2, lambda v: (v == 2) == (profile == 2), "sps_coefficient_coder")
             self.coder = (VectorCoder, IndependentCoder, None, VectorCoder)[coder]
             if coder == 2:
@@ -239,6 +242,19 @@ class Sequence:
         require(self.cut_groups <= len(self.groups), "sps_cut_groups")
         require(profile != 1, "sps_profile (Draco geometry is not supported)")
         self.coded = list(self.groups)      # those in whose place components stand
+
+    def read_attributes(self, reader):
+        """7.2, 6.8: what is no view map; the number of functions of all."""
+        count = reader.ue("sps_num_attributes")
+        require(count <= 16, "sps_num_attributes")
+        for _ in range(count):
+            meaning = reader.ue("sps_attribute_id")
+            require(meaning <= 2, "sps_attribute_id")
+            require(meaning == 0 or all(meaning != other for other, _ in self.attributes), "sps_attribute_id")
+            functions = reader.ue("sps_attribute_functions_minus1") + 1
+            require(functions == meaning or meaning == 0 and functions <= 4096, "sps_attribute_functions_minus1")
+            self.attributes.append((meaning, functions))
+        return sum(functions for _, functions in self.attributes)
 
     def coded_functions(self, groups):
         """8.7.1: the functions that the components of the first groups stand for, ascending; 0: of all groups."""
@@ -326,6 +342,8 @@ def header_of(sequence, shift):
               "metres_per_unit": e.get("sps_metres_per_unit", 0.0),
               "num_functions": sequence.functions, "shift": sequence.shifts,
               "has_basis": bool(e.get("sps_basis_flag"))}
+    if sequence.attributes:
+        header["attributes"] = [{"id": i, "functions": n} for i, n in sequence.attributes]
     if not header["has_basis"]:
         return header
     if e["sps_basis_idc"] == 0:
@@ -1991,8 +2009,6 @@ class LightField:
             require(unit_type != SEQUENCE, "unit_type")
             if unit_type == SLICES:
                 self.read_slices(payload)
-                if units[-1][0] == END and not self.sequence.cut:
-                    self.check_level(8 + sum(size for _, _, size in units))
             elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT):
                 require(self.slices, "unit_type (before the slices unit)")
                 self.read_unit(unit_type, BitReader(payload))
@@ -2021,12 +2037,6 @@ class LightField:
         self.base = Part(sequence, self.slices, None, None) if sequence.base_levels else None
         self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
         self.fresh_octree = OctreeState(sum(self.slices.points))
-
-    def check_level(self, stream_bytes):
-        """9: values in proportion to bytes, of a stream that is all there."""
-        cells = sum(self.slices.cells) if self.base else 0
-        values = (sum(self.slices.points) + cells) * max(3 * sum(map(len, self.sequence.coded)), 1)
-        require(values <= (1 << 19) + (stream_bytes << 12), "sps_level")
 
     def check_whole(self):
         """7.1: before the end unit nothing is missing that was not left out."""

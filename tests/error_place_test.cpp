@@ -51,7 +51,6 @@ constexpr Place kPlaces[] = {
     {"profile", Errc::kUnsupported, "sps_profile", "sequence", 96},
     {"normal-bits", Errc::kReserved, "sps_normal_bits", "sequence", 117},
     {"step-zero", Errc::kOutOfRange, "sps_step", "sequence", 302},
-    {"values-beyond-level", Errc::kOutOfRange, "sps_level", "sequence", 64},
     {"slices-longer", Errc::kOutOfRange, "slices_trailing_bits", "slices", 204},
     {"points-one-more", Errc::kOutOfRange, "slice_num_points_minus1", "slices", 272},
     {"geometry-shorter", Errc::kTruncated, "gu_occupancy", "geometry", 6160},

@@ -197,7 +197,7 @@ TEST_P(ScenePart, TheErrorIsThatOfTheFirstWrongUnitWhateverTheThreads) {
     for (std::size_t i = 0; i < units.units.size(); ++i) {
       std::vector<std::uint8_t> payload(units.units[i].payload.begin(),
                                         units.units[i].payload.end());
-      // Geometry of 0.4 has no codeword of so few bytes; a digest is another.
+      // Geometry has no codeword of so few bytes; a digest is another.
       if (i == bad) payload.resize(std::min<std::size_t>(payload.size(), 5));
       append_unit(wrong, units.units[i].type, payload);
     }

@@ -30,6 +30,12 @@ const char* name_of(UpAxis up) {
   return "unknown";
 }
 
+const char* name_of(AttributeId id) {
+  return id == AttributeId::kOpacity ? "opacity"
+         : id == AttributeId::kShape ? "shape"
+                                     : "without a meaning";
+}
+
 const char* name_of(Transfer transfer) {
   return transfer == Transfer::kLinear ? "linear" : "display";
 }
@@ -58,6 +64,13 @@ std::vector<TypeTotal> totals(const StreamInfo& info) {
 
 }  // namespace
 
+nlohmann::ordered_json attributes_json(const LightFieldHeader& h) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Attribute& a : h.attributes)
+    list.push_back({{"id", static_cast<int>(a.id)}, {"functions", a.num_functions}});
+  return list;
+}
+
 nlohmann::ordered_json header_json(const LightFieldHeader& h) {
   nlohmann::ordered_json json;
   json["grid"] = {{"origin", h.grid.origin}, {"step", h.grid.step}, {"bits", h.grid.bits}};
@@ -68,6 +81,7 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
   json["shift"] = h.shift;
   json["num_components"] = h.num_components();
   json["has_basis"] = h.has_basis && h.num_functions > 0;
+  if (!h.attributes.empty()) json["attributes"] = attributes_json(h);
   if (!h.has_basis || h.num_functions == 0) return json;
   if (h.basis.id == BasisId::kHarmonics) {
     json["basis"] = {{"id", "harmonics"}, {"degree", h.basis.degree}};
@@ -98,12 +112,15 @@ std::string header_text(const LightFieldHeader& h) {
   const auto [low, high] = std::minmax_element(h.shift.begin(), h.shift.end());
   if (h.basis.id == BasisId::kHarmonics) {
     out += text("  basis         spherical harmonics of degree %d, %d functions, %s frame\n",
-                h.basis.degree, h.num_functions, name_of(h.frame));
+                h.basis.degree, h.num_view_functions(), name_of(h.frame));
   } else {
     out += text("  basis         B-spline wavelets of order %d, %d x %d = %d functions, %s frame\n",
                 h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma,
-                h.num_functions, name_of(h.frame));
+                h.num_view_functions(), name_of(h.frame));
   }
+  for (const Attribute& a : h.attributes)
+    out += text("  attribute     %s, %d function%s\n", name_of(a.id), a.num_functions,
+                a.num_functions == 1 ? "" : "s");
   if (!h.shift.empty()) out += text("  shifts        %d to %d\n", *low, *high);
   out += text("  colour        transform %s, %s values; gamma %.3f to %.3f\n", name_of(h.colour),
               name_of(h.transfer), h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0);

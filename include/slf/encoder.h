@@ -54,7 +54,9 @@ inline constexpr std::uint32_t kMostSlicePoints = 1u << 22;
 struct CodingParameters {
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
-  std::vector<int> group;  ///< [K] 0 .. 15, group 0 holds function 0; empty: all 0
+  /// [K] 0 .. 15, group 0 holds function 0, or attributes, which have no transform if they are in
+  /// groups before those of functions; empty: all 0
+  std::vector<int> group;
   std::vector<std::array<std::uint32_t, 3>>
       step;  ///< [K][3] >= 1, integer component units; empty: all 1. With kTexture that of a sample
   /// Not with kTexture. What a transform codes has the steps of its first function: function 0, or

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slf/error.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -27,5 +28,15 @@ struct Gaussians {
   std::size_t size() const { return positions.size(); }
   std::size_t num_harmonics() const { return std::size_t(degree + 1) * std::size_t(degree + 1); }
 };
+
+/// Beyond these a logit, and a value of a shape (6.8), mean the bound.
+inline constexpr double kLogitBound = 32, kShapeBound = 64;
+
+/// Has every point a shape, an opacity and harmonics of degree 4 at most, in world axes?
+bool has_gaussians(const LightFieldHeader& header);
+
+/// A splat for every point, in point order.
+/// @errors kInvalidInput: has_gaussians() is not true. O(P K). The same for any thread count.
+Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads = 0);
 
 }  // namespace slf

@@ -75,6 +75,20 @@ enum class SliceStart : std::uint8_t {
   kApart = 2,   ///< nothing: a slice is coded knowing its own points alone, and added to the base
 };
 
+/// What values of a point mean that are no view map. Spec 6.8.
+enum class AttributeId : std::uint8_t {
+  kNone = 0,     ///< nothing that this library knows
+  kOpacity = 1,  ///< one function: a logit
+  kShape = 2,    ///< two functions: the logarithm of a Gaussian's deviations and axes
+};
+
+/// Some of the last functions of a light field.
+struct Attribute {
+  AttributeId id = AttributeId::kNone;
+  int num_functions = 1;
+  bool operator==(const Attribute&) const = default;
+};
+
 /// Everything about a light field but its points. Coded in the sequence unit.
 struct LightFieldHeader {
   Grid grid;
@@ -90,7 +104,9 @@ struct LightFieldHeader {
   /// direction no camera saw repeats the nearest one that a camera saw. In 1/127, -127 .. 127.
   int gamma_min_q7 = -127;
   int gamma_max_q7 = 127;
-  int num_functions = 0;   ///< K; basis.num_functions(), or any K for planes without a meaning
+  /// K: basis.num_functions() and those of attributes, or any K for planes without a meaning
+  int num_functions = 0;
+  std::vector<Attribute> attributes;  ///< of the last functions, in their order
   bool has_basis = true;   ///< false: integer planes without a meaning (slf pack); K may be 0
   std::vector<int> shift;  ///< [K] plane = round(coefficient * 2^shift), 0 .. 15
   /// [R] the function in whose place component r stands, ascending; empty: all K, r = k. Without a
@@ -98,6 +114,12 @@ struct LightFieldHeader {
   std::vector<std::uint16_t> coded;
   std::vector<PlaneTransform> transforms;  ///< what the other components are; spec 8.7.5
 
+  /// Functions of direction, before those of attributes.
+  int num_view_functions() const {
+    int count = num_functions;
+    for (const Attribute& attribute : attributes) count -= attribute.num_functions;
+    return count;
+  }
   /// R
   int num_components() const {
     return coded.empty() ? num_functions : static_cast<int>(coded.size());

@@ -1,0 +1,19 @@
+// Splats as integers: points of a grid with harmonics, a shape and an opacity. Spec 6.8.
+#pragma once
+
+#include "slf/error.h"
+#include "slf/gaussians.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// Component units of a grey level, and of 1 in a logit or a logarithm: 2^n.
+inline constexpr int kHarmonicsShift = 5, kOpacityShift = 10, kShapeShift = 10;
+
+/// The light field that gaussians_of() makes splats of again. Splats are sorted; those that share
+/// a voxel move on to the next that is free, along the curve (6.2).
+/// @param step  of the grid, world units; coarser where 21 bits would not hold the extent
+/// @errors kInvalidInput: there are none, or their extent is not finite. O(P (K + log P)).
+Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads);
+
+}  // namespace slf

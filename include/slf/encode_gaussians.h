@@ -1,0 +1,32 @@
+// Splats to bytes: points with a view map, a shape and an opacity. Spec 6.8.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slf/encoder.h"
+#include "slf/gaussians.h"
+
+namespace slf {
+
+/// Where EncoderSettings::q is kAutomaticQ. It costs about 0.25 dB of pictures (docs/splats.md).
+inline constexpr double kGaussianQ = 7;
+
+struct EncodedGaussians {
+  std::vector<std::uint8_t> stream;
+  double q = 0;
+  Grid grid;
+  std::size_t splats = 0, left_out = 0;  ///< that were coded; that no pixel shows
+};
+
+/// Splats that no pixel can show (opacity below 1 / 255) are left out. One Q says how fine all is:
+/// harmonics have steps of Q grey levels, logits and logarithms of deviations steps in proportion,
+/// and so has the grid, against the median deviation along the middle axis.
+/// @param settings  q, or target_bytes; grid_bits or voxel_size in place of the grid; what
+///                  CodingParameters are made of; metadata, threads. Nothing else of it counts.
+/// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of range, a
+///         target_psnr; those of pack(). The same bytes for any thread count.
+Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
+                                                      const EncoderSettings& settings);
+
+}  // namespace slf

@@ -1,0 +1,112 @@
+// Points with a shape and an opacity, as splats. Spec 6.8.
+#include "slf/gaussians.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lightfield/symmetric3.h"
+#include "lightfield/view_planes.h"
+#include "slf/given_planes.h"
+#include "slf/parallel.h"
+#include "slf/view_map.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kSplatsPerRange = 1024;
+constexpr int kMostDegree = 4;
+
+/// The first function of an attribute; num_functions where it is not there.
+int first_function(const LightFieldHeader& header, AttributeId id) {
+  int function = header.num_view_functions();
+  for (const Attribute& attribute : header.attributes) {
+    if (attribute.id == id) return function;
+    function += attribute.num_functions;
+  }
+  return header.num_functions;
+}
+
+/// Given planes of one point as real numbers.
+class PointValues {
+ public:
+  PointValues(const LightFieldHeader& header, const std::int32_t* planes)
+      : header_(header), planes_(planes) {}
+
+  double operator()(int function, int channel) const {
+    const auto k = static_cast<std::size_t>(function);
+    const int shift = header_.shift.empty() ? 0 : header_.shift[k];
+    return std::ldexp(planes_[3 * k + static_cast<std::size_t>(channel)], -shift);
+  }
+
+ private:
+  const LightFieldHeader& header_;
+  const std::int32_t* planes_;
+};
+
+/// The logarithm of deviations and axes, from six values.
+Symmetric3 shape_of(const PointValues& value, int function) {
+  std::array<double, 6> v;
+  for (int i = 0; i < 6; ++i)
+    v[static_cast<std::size_t>(i)] =
+        std::clamp(value(function + i / 3, i % 3), -kShapeBound, kShapeBound);
+  return from_shape_values(v);
+}
+
+/// Coefficients of harmonics on the unit sphere, towards the splat.
+void put_harmonics(const PointValues& value, const Matrix3x3& to_rgb, int degree, float* out) {
+  const double unit = std::sqrt(4 * std::numbers::pi) / 255;
+  for (int l = 0, k = 0; l <= degree; ++l)
+    for (; k < (l + 1) * (l + 1); ++k)
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = k == 0 ? -127.5 : 0;
+        for (std::size_t d = 0; d < 3; ++d) sum += to_rgb[c][d] * value(k, static_cast<int>(d));
+        *out++ = static_cast<float>((l % 2 == 0 ? unit : -unit) * sum);
+      }
+}
+
+}  // namespace
+
+bool has_gaussians(const LightFieldHeader& header) {
+  return header.has_basis && header.basis.id == BasisId::kHarmonics &&
+         header.basis.degree <= kMostDegree && header.frame == FrameId::kGlobal &&
+         header.transfer == Transfer::kDisplay &&
+         first_function(header, AttributeId::kOpacity) < header.num_functions &&
+         first_function(header, AttributeId::kShape) < header.num_functions;
+}
+
+Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads) {
+  const LightFieldHeader& header = field.header;
+  if (!has_gaussians(header))
+    return InputError{Errc::kInvalidInput, "has no shape and opacity for every point"};
+  const int opacity = first_function(header, AttributeId::kOpacity),
+            shape = first_function(header, AttributeId::kShape);
+  const std::vector<std::int32_t> planes = given_planes(field, threads);
+  const auto to_rgb = colour_matrix(header.colour);
+  Gaussians out;
+  out.degree = header.basis.degree;
+  out.up = header.up;
+  const std::size_t points = field.num_points(), row = 3 * out.num_harmonics();
+  out.positions.resize(points);
+  out.log_deviations.resize(points);
+  out.rotations.resize(points);
+  out.logits.resize(points);
+  out.harmonics.resize(points * row);
+  parallel_ranges(points, kSplatsPerRange, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const PointValues value(header,
+                              &planes[p * 3 * static_cast<std::size_t>(header.num_functions)]);
+      const Vec3 at = header.grid.world(field.positions[p]);
+      for (std::size_t i = 0; i < 3; ++i) out.positions[p][i] = static_cast<float>(at[i]);
+      out.logits[p] = static_cast<float>(std::clamp(value(opacity, 0), -kLogitBound, kLogitBound));
+      const Axes3 axes = eigen_axes(shape_of(value, shape));
+      for (std::size_t i = 0; i < 3; ++i)
+        out.log_deviations[p][i] = static_cast<float>(axes.value[i]);
+      out.rotations[p] = quaternion_of(axes);
+      put_harmonics(value, to_rgb, out.degree, &out.harmonics[p * row]);
+    }
+  });
+  return out;
+}
+
+}  // namespace slf

@@ -1,0 +1,106 @@
+#include "lightfield/symmetric3.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace slf {
+namespace {
+
+constexpr int kSweeps = 12;  // each squares what is left; five do
+
+/// Turns rows and columns p and q so that m[p][q] is 0.
+void rotate(Matrix3x3& m, Matrix3x3& axis, std::size_t p, std::size_t q) {
+  if (m[p][q] == 0) return;
+  const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::hypot(theta, 1.0));
+  const double c = 1 / std::hypot(t, 1.0), s = t * c;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = m[k][p], b = m[k][q];
+    m[k][p] = c * a - s * b;
+    m[k][q] = s * a + c * b;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = m[p][k], b = m[q][k];
+    m[p][k] = c * a - s * b;
+    m[q][k] = s * a + c * b;
+    const double x = axis[k][p], y = axis[k][q];
+    axis[k][p] = c * x - s * y;
+    axis[k][q] = s * x + c * y;
+  }
+}
+
+}  // namespace
+
+Symmetric3 from_shape_values(const std::array<double, 6>& v) {
+  const double a = v[0] / std::sqrt(3.0), b = v[1] / std::sqrt(2.0), c = v[2] / std::sqrt(6.0);
+  const double off = 1 / std::sqrt(2.0);
+  return {a + b + c, a - b + c, a - 2 * c, v[3] * off, v[4] * off, v[5] * off};
+}
+
+std::array<double, 6> shape_values(const Symmetric3& m) {
+  const double twice = std::sqrt(2.0);
+  return {(m[0] + m[1] + m[2]) / std::sqrt(3.0),
+          (m[0] - m[1]) / std::sqrt(2.0),
+          (m[0] + m[1] - 2 * m[2]) / std::sqrt(6.0),
+          m[3] * twice,
+          m[4] * twice,
+          m[5] * twice};
+}
+
+Axes3 eigen_axes(const Symmetric3& s) {
+  Matrix3x3 m{{{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}}};
+  Axes3 axes{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};  // turned: right-handed it stays
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    rotate(m, axes.axis, 0, 1);
+    rotate(m, axes.axis, 0, 2);
+    rotate(m, axes.axis, 1, 2);
+  }
+  for (std::size_t i = 0; i < 3; ++i) axes.value[i] = m[i][i];
+  return axes;
+}
+
+Symmetric3 matrix_of(const Axes3& axes) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> kPlaces{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+  Symmetric3 out{};
+  for (std::size_t e = 0; e < 6; ++e)
+    for (std::size_t i = 0; i < 3; ++i)
+      out[e] += axes.value[i] * axes.axis[kPlaces[e][0]][i] * axes.axis[kPlaces[e][1]][i];
+  return out;
+}
+
+std::array<float, 4> quaternion_of(const Axes3& axes) {
+  const Matrix3x3& m = axes.axis;
+  const std::array<double, 4> square{1 + m[0][0] + m[1][1] + m[2][2],  // 4 times those of w .. z
+                                     1 + m[0][0] - m[1][1] - m[2][2],
+                                     1 - m[0][0] + m[1][1] - m[2][2],
+                                     1 - m[0][0] - m[1][1] + m[2][2]};
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < 4; ++i)
+    if (square[i] > square[most]) most = i;
+  const double x = m[2][1] - m[1][2], y = m[0][2] - m[2][0], z = m[1][0] - m[0][1];
+  const double xy = m[1][0] + m[0][1], xz = m[0][2] + m[2][0], yz = m[2][1] + m[1][2];
+  const std::array<std::array<double, 4>, 4> times{{{square[0], x, y, z},
+                                                    {x, square[1], xy, xz},
+                                                    {y, xy, square[2], yz},
+                                                    {z, xz, yz, square[3]}}};
+  std::array<double, 4> q = times[most];
+  double length = 0;
+  for (const double v : q) length += v * v;
+  length = std::copysign(std::sqrt(length), q[0]);
+  std::array<float, 4> out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = static_cast<float>(q[i] / length);
+  return out;
+}
+
+Matrix3x3 rotation_of(const std::array<float, 4>& quaternion) {
+  double square = 0;
+  for (const float v : quaternion) square += double{v} * double{v};
+  const double scale = 2 / square, w = quaternion[0], x = quaternion[1], y = quaternion[2],
+               z = quaternion[3];
+  return {{{1 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)},
+           {scale * (x * y + w * z), 1 - scale * (x * x + z * z), scale * (y * z - w * x)},
+           {scale * (x * z - w * y), scale * (y * z + w * x), 1 - scale * (x * x + y * y)}}};
+}
+
+}  // namespace slf

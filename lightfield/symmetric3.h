@@ -1,0 +1,34 @@
+// Symmetric 3 x 3 matrices: as six values that are coded, and as axes with a value each.
+#pragma once
+
+#include <array>
+
+namespace slf {
+
+using Matrix3x3 = std::array<std::array<double, 3>, 3>;
+
+/// xx, yy, zz, xy, xz, yz
+using Symmetric3 = std::array<double, 6>;
+
+/// Spec 6.8: an orthonormal change of coordinates, so that equal errors of the six values are equal
+/// errors of the matrix; the first is its size, and the others of a ball are 0.
+Symmetric3 from_shape_values(const std::array<double, 6>& values);
+std::array<double, 6> shape_values(const Symmetric3& matrix);
+
+/// Columns of `axis` are unit vectors, right-handed; value[i] belongs to column i.
+struct Axes3 {
+  Matrix3x3 axis;
+  std::array<double, 3> value;
+};
+
+/// By Jacobi's rotations; exact to rounding. Finite for finite matrices.
+Axes3 eigen_axes(const Symmetric3& matrix);
+/// The sum of value times axis times its transpose.
+Symmetric3 matrix_of(const Axes3& axes);
+
+/// Unit quaternion w, x, y, z, w >= 0, of the rotation whose columns are the axes.
+std::array<float, 4> quaternion_of(const Axes3& axes);
+/// @param quaternion  of any length but 0
+Matrix3x3 rotation_of(const std::array<float, 4>& quaternion);
+
+}  // namespace slf
