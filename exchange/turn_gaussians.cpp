@@ -60,6 +60,13 @@ std::array<float, 4> product(const std::array<double, 4>& a, const std::array<fl
           static_cast<float>(a[0] * z + a[1] * y - a[2] * x + a[3] * w)};
 }
 
+/// Rows: the axes that a file wants.
+AxisRows rows_to(const Gaussians& gaussians, SplatAxes axes) {
+  LightFieldHeader header;
+  header.up = gaussians.up == UpAxis::kUnknown ? UpAxis::kMinusY : gaussians.up;
+  return axis_rows(header, axes);
+}
+
 }  // namespace
 
 // Functions of a degree turn among themselves: c'(Rv) = c(v) for all v gives A c' = B c, with rows
@@ -120,12 +127,13 @@ void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& row
   }
 }
 
+bool has_other_axes(const Gaussians& gaussians, SplatAxes axes) {
+  return rows_to(gaussians, axes) != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+
 Gaussians in_axes(Gaussians gaussians, SplatAxes axes) {
-  LightFieldHeader header;
-  header.up = gaussians.up == UpAxis::kUnknown ? UpAxis::kMinusY : gaussians.up;
-  const AxisRows rows = axis_rows(header, axes);
-  if (rows != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})
-    move_gaussians(gaussians, 0, rows, 1, {0, 0, 0});
+  if (has_other_axes(gaussians, axes))
+    move_gaussians(gaussians, 0, rows_to(gaussians, axes), 1, {0, 0, 0});
   if (axes != SplatAxes::kWorld)
     gaussians.up = axes == SplatAxes::kYUp ? UpAxis::kPlusY : UpAxis::kMinusY;
   return gaussians;

@@ -50,4 +50,15 @@ Result<GaussianFile, InputError> parse_gaussians(const std::string& name,
 /// @errors also kUnreadable, and kLimitExceeded: more than 4 GiB
 Result<GaussianFile, InputError> read_gaussians(const std::filesystem::path& file);
 
+/// The file, in the axes that the format has by convention: y down of PLY, y up of glTF and SPZ.
+/// Splats whose up axis is another are turned, harmonics with them; an unknown axis counts as -y.
+/// glTF and SPZ keep harmonics to degree 3. The same bytes for the same splats.
+/// @errors as splat_file; kInvalidInput: no splats
+Result<std::vector<std::uint8_t>, InputError> gaussian_file(const Gaussians& gaussians,
+                                                            SplatFormat format);
+
+/// Discs of a light field as Gaussians, in their axes and from their origin.
+/// @param up  of these axes
+Gaussians gaussians_of(const SplatCloud& splats, UpAxis up);
+
 }  // namespace slf
