@@ -131,10 +131,10 @@ bool is_spz(FileBytes head) {
 }
 
 Result<GaussianFile, InputError> read_spz(const std::string& name, FileBytes bytes) {
-  if (bytes.size() >= 4 && word_at(bytes, 0, 4) == kSpzMagic)
+  if (bytes.size() >= 8 && word_at(bytes, 0, 4) == kSpzMagic)
     return InputError{Errc::kUnsupported,
-                      name +
-                          ": SPZ 4 is in zstd, which is not read here: splat-transform (npm "
+                      name + ": SPZ " + std::to_string(word_at(bytes, 4, 4)) +
+                          " is in zstd, which is not read here: splat-transform (npm "
                           "@playcanvas/splat-transform) makes a PLY of it"};
   SLF_TRY(const SpzHeader header, parse_spz_header(name, gunzip(bytes, kSpzHeader).bytes));
   const std::uint64_t whole = kSpzHeader + std::uint64_t{header.splats} * header.splat_bytes();
