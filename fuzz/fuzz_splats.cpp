@@ -1,5 +1,6 @@
-// Files of Gaussian splats of every format; an SPZ is taken out of its gzip first, so that the
-// fuzzer reaches what is in it. What is kept must be finite.
+// Files of Gaussian splats of every format. An SPZ comes without its gzip, a ksplat (behind "KS")
+// without the zeros of its headers, so that the fuzzer reaches what is in them. What is kept must
+// be finite.
 #include <cmath>
 #include <cstdlib>
 
@@ -26,6 +27,14 @@ void read(const std::vector<std::uint8_t>& file) {
   if (read && !is_finite(read->gaussians)) std::abort();
 }
 
+/// 48 bytes of either header, then the rest.
+std::vector<std::uint8_t> with_long_headers(std::vector<std::uint8_t> file) {
+  constexpr std::size_t kMain = 4096, kSection = 1024, kShort = 48;
+  file.insert(file.begin() + kShort, kMain - kShort, 0);
+  file.insert(file.begin() + kMain + kShort, kSection - kShort, 0);
+  return file;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -35,6 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool glb = size >= 12 && data[0] == 'g' && data[1] == 'l';
   for (std::size_t i = 0; glb && i < 4; ++i)  // the length is made right
     file[8 + i] = static_cast<std::uint8_t>(size >> (8 * i));
+  if (size >= 98 && data[0] == 'K' && data[1] == 'S')
+    file = with_long_headers({data + 2, data + size});
   read(file);
   return 0;
 }

@@ -89,7 +89,7 @@ def glb():
 
 def splats():
     """Two Gaussian splats in every format: PLY as text, binary and SuperSplat's, SPZ 1 to 3 as they are within gzip, splat,
-    ksplat of floats and of bytes, glTF, and the beginnings of what is refused by name."""
+    ksplat of floats and of bytes with short headers, glTF, and the beginnings of what is refused by name."""
     names = [*"xyz", "f_dc_0", "f_dc_1", "f_dc_2", *(f"f_rest_{i}" for i in range(9)), "opacity", "scale_0", "scale_1", "scale_2",
              "rot_0", "rot_1", "rot_2", "rot_3"]
     row = [0.5, 1, 2, 0.1, 0.2, 0.3, *([0.05] * 9), 1.5, -3, -3, -4, 1, 0, 0, 0]
@@ -108,9 +108,9 @@ def splats():
         made[f"{version}.spz"] = struct.pack("<4sIIBBBB", b"NGSP", version, 2, 1, 12, 0, 0) + bytes(range(2 * (each + 9)))
     made["4.spz"] = struct.pack("<4sII20x", b"NGSP", 4, 2)
     for level, each in ((0, 44), (2, 24)):
-        main = struct.pack("<BBHIIIIH", 0, 1, 0, 1, 1, 2, 2, level).ljust(4096, b"\0")
-        section = struct.pack("<IIIIfHHIIIIH", 2, 2, 2, 1, 5, 12, 0, 0, 0, 1, 0, 0).ljust(1024, b"\0")
-        made[f"{level}.ksplat"] = main + section + bytes(12) + bytes(range(2 * each))
+        main = struct.pack("<BBHIIIIH", 0, 1, 0, 1, 1, 2, 2, level).ljust(48, b"\0")
+        section = struct.pack("<IIIIfHHIIIIH", 2, 2, 2, 1, 5, 12, 0, 0, 0, 1, 0, 0).ljust(48, b"\0")
+        made[f"{level}.ksplat"] = b"KS" + main + section + bytes(12) + bytes(range(2 * each))
     keys = [("POSITION", 12), ("ROTATION", 16), ("SCALE", 12), ("OPACITY", 4), ("SH_DEGREE_0_COEF_0", 12)]
     views = [{"buffer": 0, "byteOffset": sum(n for _, n in keys[:i]), "byteLength": n} for i, (_, n) in enumerate(keys)]
     body = struct.pack("<14f", 1, 2, 3, 0, 0, 0, 1, 0.1, 0.1, 0.1, 0.5, 0.1, 0.2, 0.3)

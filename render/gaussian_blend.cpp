@@ -45,7 +45,8 @@ using PixelBlocks = std::array<PixelBlock, kBlocksAcross * kBlocksDown>;
                                                const LaneMask& inside, PixelBlock& block) {
   constexpr float kToBits = -0.72134752f;  // exp(-x / 2) = 2^(x kToBits)
   Lanes alpha;
-  const Lanes bits = kToBits * (square < s.reach ? square : Lanes{} + s.reach);
+  const Lanes positive = square > 0.0f ? square : Lanes{};  // of long ellipses it may be less
+  const Lanes bits = kToBits * (positive < s.reach ? positive : Lanes{} + s.reach);
   set_power_of_two(bits, alpha);
   alpha *= s.opacity;
   alpha = alpha < GaussianKernel::most_alpha ? alpha : Lanes{} + GaussianKernel::most_alpha;

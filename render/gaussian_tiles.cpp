@@ -39,7 +39,7 @@ void append_spans(const ProjectedGaussian& s, std::uint32_t index, const Gaussia
     const float above = float(row * kGaussianTile) - s.v, below = above + kGaussianTile;
     const float right = s.u + rightmost(s, s.b, above, below);
     const float left = s.u - rightmost(s, -s.b, above, below);
-    if (right < 0 || left > float(tiles.columns * kGaussianTile)) continue;
+    if (!(right >= 0 && left <= float(tiles.columns * kGaussianTile))) continue;  // or NaN
     out.push_back({index, static_cast<std::uint16_t>(row),
                    static_cast<std::uint16_t>(tile_of(left, tiles.columns)),
                    static_cast<std::uint16_t>(tile_of(right, tiles.columns))});
