@@ -3,8 +3,6 @@
 namespace slf {
 namespace {
 
-/// exp(-40) is nothing beside any scene, and squares of exp(40) fit into a float.
-constexpr float kMostLogDeviation = 40;
 constexpr float kMostLogit = 16;  // 1 - opacity of 1e-7
 constexpr float kMostHarmonic = 1e4f;
 

@@ -13,6 +13,9 @@ namespace slf {
 
 inline constexpr float kHarmonicZero = 0.28209479177387814f;  // 1 / sqrt(4 pi)
 
+/// exp(-40) is nothing beside any scene, and squares of exp(40) fit into a float.
+inline constexpr float kMostLogDeviation = 40;
+
 /// A splat as a file has it, anything at all.
 struct RawGaussian {
   std::array<float, 3> position{};

@@ -58,8 +58,8 @@ Result<std::vector<JsonView>, InputError> list_in(const JsonView& json, const ch
 
 /// Columns of a primitive, [splats][components] each.
 struct SplatColumns {
-  std::vector<double> positions, rotations, sizes, opacities;
-  std::vector<std::vector<double>> harmonics;  // [functions]
+  std::vector<float> positions, rotations, sizes, opacities;
+  std::vector<std::vector<float>> harmonics;  // [functions]
 };
 
 class SplatScene {
@@ -134,14 +134,17 @@ class SplatScene {
     return Done{};
   }
 
-  Result<std::vector<double>, InputError> column(const JsonView& attributes, const std::string& key,
-                                                 const char* type, std::size_t components) {
+  Result<std::vector<float>, InputError> column(const JsonView& attributes, const std::string& key,
+                                                const char* type, std::size_t components) {
     SLF_TRY(const JsonView index, attributes.at(key));
     SLF_TRY(const JsonView accessor, glb_item(index, data_.accessors, "accessor"));
-    SLF_TRY(auto numbers, read_accessor(data_, accessor, type, components));
+    SLF_TRY(const auto numbers, read_accessor(data_, accessor, type, components));
     numbers_read_ += numbers.size();
     if (numbers_read_ > kMostSplatNumbers) return accessor.error("is used too often");
-    return numbers;
+    std::vector<float> floats(numbers.size());
+    std::transform(numbers.begin(), numbers.end(), floats.begin(),
+                   [](double x) { return static_cast<float>(x); });
+    return floats;
   }
 
   Result<SplatColumns, InputError> columns(const JsonView& attributes) {
@@ -175,31 +178,40 @@ class SplatScene {
     for (std::size_t p = 0; p < count; ++p) {
       RawGaussian raw;
       for (std::size_t k = 0; k < 3; ++k) {
-        raw.position[k] = static_cast<float>(own.positions[3 * p + k]);
-        raw.log_deviations[k] = log_deviation_of(static_cast<float>(own.sizes[3 * p + k]));
+        raw.position[k] = own.positions[3 * p + k];
+        raw.log_deviations[k] = log_deviation_of(own.sizes[3 * p + k]);
       }
       for (std::size_t k = 0; k < 4; ++k)  // w is last in the file
-        raw.rotation[k] = static_cast<float>(own.rotations[4 * p + (k + 3) % 4]);
-      raw.logit = logit_of(static_cast<float>(own.opacities[p]));
+        raw.rotation[k] = own.rotations[4 * p + (k + 3) % 4];
+      raw.logit = logit_of(own.opacities[p]);
       for (std::size_t i = 0; i < harmonics.size(); ++i)
-        harmonics[i] = static_cast<float>(own.harmonics[i / 3][3 * p + i % 3]);
+        harmonics[i] = own.harmonics[i / 3][3 * p + i % 3];
       collector.add(raw, harmonics);
     }
-    return keep(std::move(collector), place);
+    return keep(std::move(collector), place, attributes);
   }
 
-  /// Splats in the axes of the scene; their places may have become infinite there.
-  Result<Done, InputError> keep(GaussianCollector collector, const Similarity& place) {
+  /// Splats in the axes of the scene.
+  Result<Done, InputError> keep(GaussianCollector collector, const Similarity& place,
+                                const JsonView& attributes) {
     auto part = std::move(collector).take("", "glTF");
     if (!part) return Done{};  // of a primitive without splats; the scene may have others
     move_gaussians(part->gaussians, 0, place.rows, place.scale, place.offset);
+    Gaussians& own = part->gaussians;
+    for (std::size_t p = 0; p < own.size(); ++p)
+      for (std::size_t k = 0; k < 3; ++k) {
+        float& size = own.log_deviations[p][k];
+        if (!std::isfinite(own.positions[p][k]) || size > kMostLogDeviation)
+          return attributes.error("the node puts splats beyond all numbers");
+        size = std::max(size, -kMostLogDeviation);
+      }
     parts_.push_back(*std::move(part));
     return Done{};
   }
 
-  /// All parts with the harmonics of the greatest degree; through the collector once more, since
-  /// nodes may have put splats anywhere.
+  /// All parts with the harmonics of the greatest degree.
   Result<GaussianFile, InputError> joined(const std::string& name) {
+    if (parts_.size() == 1) return std::move(parts_[0]);
     int degree = 0;
     std::size_t count = 0, left_out = 0, mended = 0;
     for (const GaussianFile& part : parts_) {

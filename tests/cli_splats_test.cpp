@@ -65,5 +65,18 @@ TEST_F(SplatFileTest, WarnsOfSplatsThatAreLeftOut) {
   EXPECT_NE(ran.err.find("1 splats are left out"), std::string::npos) << ran.err;
 }
 
+TEST_F(SplatFileTest, IsJudgedAgainstPhotographs) {
+  ASSERT_EQ(slf("synth can -o can --size 64x64 --points 500 --quiet").code, 0);
+  const Ran ran = slf("eval x.ply can --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = parsed(ran.out);
+  EXPECT_EQ(report["points"], 300);
+  EXPECT_EQ(report["bytes"], read("x.ply").size());
+  EXPECT_GT(report["input"]["image"]["all"]["psnr"], 3);
+  EXPECT_FALSE(report["input"].contains("points"));
+  EXPECT_EQ(slf("eval x.ply can --min-image-psnr 99").code, 8);
+  expect_failure(slf("eval x.ply can --min-psnr 3"), 2, "x.ply", "--min-psnr");
+}
+
 }  // namespace
 }  // namespace slf::cli_splats_test
