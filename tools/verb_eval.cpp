@@ -183,9 +183,7 @@ void add_eval(CLI::App& program, Run& run) {
   auto* verb =
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
-  verb->add_option(
-          "FILE", o->input,
-          "The .slf or .igc file, or Gaussian splats; - is a .slf or .igc on standard input")
+  verb->add_option("FILE", o->input, "A .slf or .igc, - of standard input; or Gaussian splats")
       ->type_name("")
       ->required();
   verb->add_option("CAPTURE", o->capture, "The capture (see slf encode --help)")
