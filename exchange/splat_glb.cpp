@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "exchange/splat_axes.h"
 #include "exchange/splat_writers.h"
 #include "lightfield/colour.h"
 
@@ -17,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kGlb = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kArrayBuffer = 34962, kPoints = 0;
+constexpr int kGlbDegree = 3;  // the most that the extension has
 /// More than what stands beside the buffer: headers, and the JSON of 21 attributes at most.
 constexpr std::uint32_t kBesideBuffer = 1 << 16;
 constexpr double kDegreeZero = 0.28209479177387814;  // the harmonic of degree 0: 1 / sqrt(4 pi)
@@ -46,29 +46,31 @@ struct Attributes {
   }
 };
 
-void add_positions(const SplatCloud& splats, Attributes& to) {
+void add_positions(const SplatRows& splats, Attributes& to) {
   to.add("POSITION", "VEC3", kFloat, splats.size(), [&](Bytes& out) {
-    for (const auto& at : splats.positions)
-      for (const float x : at) put(out, x);
+    for (std::size_t p = 0; p < splats.size(); ++p)
+      for (const float x : splats.position(p)) put(out, x);
   });
-  auto low = splats.positions[0], high = low;  // glTF asks for them
-  for (const auto& at : splats.positions)
+  auto low = splats.position(0), high = low;  // glTF asks for them
+  for (std::size_t p = 0; p < splats.size(); ++p) {
+    const auto at = splats.position(p);
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], at[k]);
       high[k] = std::max(high[k], at[k]);
     }
+  }
   to.accessors.back()["min"] = low;
   to.accessors.back()["max"] = high;
 }
 
 /// Linear light of 16 bits, which degree 0 says in display values.
-void add_point_colours(const SplatCloud& splats, Attributes& to) {
-  const std::size_t row = 3 * splats.num_harmonics();
+void add_point_colours(const SplatRows& splats, Attributes& to) {
   to.add("COLOR_0", "VEC4", kUnsignedShort, splats.size(), [&](Bytes& out) {
     for (std::size_t p = 0; p < splats.size(); ++p) {
-      std::array<std::uint32_t, 4> rgba{0, 0, 0, 65535};
+      std::array<std::uint32_t, 4> rgba{
+          0, 0, 0, static_cast<std::uint32_t>(std::lround(65535 * splats.point_opacity(p)))};
       for (std::size_t c = 0; c < 3; ++c) {
-        const double display = 0.5 + kDegreeZero * double{splats.harmonics[p * row + c]};
+        const double display = 0.5 + kDegreeZero * double{splats.harmonics(p)[c]};
         rgba[c] = static_cast<std::uint32_t>(
             std::lround(65535 * srgb_to_linear(std::clamp(display, 0.0, 1.0))));
       }
@@ -78,37 +80,36 @@ void add_point_colours(const SplatCloud& splats, Attributes& to) {
   });
 }
 
-void add_discs(const SplatCloud& splats, Attributes& to) {
-  to.add(kExtension + ":ROTATION", "VEC4", kFloat, splats.size(), [&](Bytes& out) {
-    for (const auto& normal : splats.normals) {
-      const auto q = disc_rotation(normal);
-      for (const std::size_t k : {1u, 2u, 3u, 0u}) put(out, q[k]);
-    }
+void add_shapes(const SplatRows& splats, Attributes& to) {
+  const auto add = [&](const char* name, const char* type, auto&& put_one) {
+    to.add(kExtension + name, type, kFloat, splats.size(), [&](Bytes& out) {
+      for (std::size_t p = 0; p < splats.size(); ++p) put_one(p, out);
+    });
+  };
+  add(":ROTATION", "VEC4", [&](std::size_t p, Bytes& out) {
+    const auto q = splats.rotation(p);
+    for (const std::size_t k : {1u, 2u, 3u, 0u}) put(out, q[k]);
   });
-  to.add(kExtension + ":SCALE", "VEC3", kFloat, splats.size(), [&](Bytes& out) {
-    for (const float deviation : splats.deviations)
-      for (const float scale : {deviation, deviation, deviation * kSplatFlatness}) put(out, scale);
+  add(":SCALE", "VEC3", [&](std::size_t p, Bytes& out) {
+    for (const float scale : splats.deviations(p)) put(out, scale);
   });
-  to.add(kExtension + ":OPACITY", "SCALAR", kFloat, splats.size(), [&](Bytes& out) {
-    for (std::size_t p = 0; p < splats.size(); ++p) put(out, kSplatOpacity);
-  });
+  add(":OPACITY", "SCALAR", [&](std::size_t p, Bytes& out) { put(out, splats.opacity(p)); });
 }
 
-void add_harmonics(const SplatCloud& splats, Attributes& to) {
-  const std::size_t count = splats.num_harmonics();
+void add_harmonics(const SplatRows& splats, int degree, Attributes& to) {
+  const std::size_t count = functions_of(degree);
   for (std::size_t l = 0, k = 0; k < count; ++l)
     for (std::size_t m = 0; m < 2 * l + 1; ++m, ++k)
       to.add(kExtension + ":SH_DEGREE_" + std::to_string(l) + "_COEF_" + std::to_string(m), "VEC3",
              kFloat, splats.size(), [&](Bytes& out) {
                for (std::size_t p = 0; p < splats.size(); ++p)
-                 for (std::size_t c = 0; c < 3; ++c)
-                   put(out, splats.harmonics[3 * (p * count + k) + c]);
+                 for (std::size_t c = 0; c < 3; ++c) put(out, splats.harmonics(p)[3 * k + c]);
              });
 }
 
-Json document(const SplatCloud& splats, const Attributes& from) {
+Json document(const SplatRows& splats, const Attributes& from) {
   Json node{{"mesh", 0}};
-  if (splats.origin != Vec3{0, 0, 0}) node["translation"] = turned(splats.axes, splats.origin);
+  if (splats.origin() != Vec3{0, 0, 0}) node["translation"] = splats.origin();
   const Json splatting{{"kernel", "ellipse"},
                        {"colorSpace", "srgb_rec709_display"},
                        {"projection", "perspective"},
@@ -142,15 +143,15 @@ Result<std::uint32_t, InputError> glb_buffer_bytes(std::uint64_t splats,
   return static_cast<std::uint32_t>(splats * splat);
 }
 
-Result<Bytes, InputError> write_splat_glb(const SplatCloud& splats) {
-  SLF_TRY(const std::uint32_t buffer_bytes,
-          glb_buffer_bytes(splats.size(), splats.num_harmonics()));
+Result<Bytes, InputError> write_splat_glb(const SplatRows& splats) {
+  const int degree = std::min(splats.degree(), kGlbDegree);
+  SLF_TRY(const std::uint32_t buffer_bytes, glb_buffer_bytes(splats.size(), functions_of(degree)));
   Attributes attributes;
   attributes.buffer.reserve(buffer_bytes);
   add_positions(splats, attributes);
   add_point_colours(splats, attributes);
-  add_discs(splats, attributes);
-  add_harmonics(splats, attributes);
+  add_shapes(splats, attributes);
+  add_harmonics(splats, degree, attributes);
   std::string json = document(splats, attributes).dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const auto json_bytes = static_cast<std::uint32_t>(json.size());

@@ -1,18 +1,18 @@
-// SPZ version 2 (Niantic): fixed-point positions, bytes for the rest, in gzip. Every reader of SPZ
-// knows this version. Its quaternions have x, y and z in 8 bits each, which is coarse only where w
-// is small; those of discs (disc_rotation) never are.
+// SPZ versions 2 and 3 (Niantic): fixed-point positions, bytes for the rest, in gzip. Every reader
+// of SPZ knows version 2. Its quaternions have x, y and z in 8 bits each, which is coarse only
+// where w is small; those of discs (disc_rotation) never are. Version 3 leaves the largest out.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bitstream/deflate.h"
-#include "exchange/splat_axes.h"
 #include "exchange/splat_writers.h"
 
 namespace slf {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x5053474e;  // "NGSP"
-constexpr std::uint32_t kVersion = 2;
+constexpr int kSpzDegree = 3;                 // the most that readers of these versions know
 constexpr int kMostFractionBits = 24;
 constexpr float kLargestCoordinate = 8388607;         // of 24 bits with sign
 constexpr float kScaleOffset = 10, kScaleSteps = 16;  // byte = (log + 10) * 16
@@ -37,82 +37,109 @@ std::uint8_t scale_byte(float deviation) {
 }
 
 /// As many as the farthest coordinate leaves; -1 where it is beyond all.
-int fraction_bits(const SplatCloud& splats) {
+int fraction_bits(const SplatRows& splats) {
   float farthest = 0;
-  for (const auto& at : splats.positions)
-    for (const float x : at) farthest = std::max(farthest, std::abs(x));
+  for (std::size_t p = 0; p < splats.size(); ++p)
+    for (const float x : splats.position(p)) farthest = std::max(farthest, std::abs(x));
   int bits = kMostFractionBits;
   while (bits >= 0 && std::ldexp(farthest, bits) > kLargestCoordinate) --bits;
   return bits;
 }
 
-void put_positions(const SplatCloud& splats, int bits, Bytes& out) {
-  for (const auto& at : splats.positions)
-    for (const float x : at) {
+void put_positions(const SplatRows& splats, int bits, Bytes& out) {
+  for (std::size_t p = 0; p < splats.size(); ++p)
+    for (const float x : splats.position(p)) {
       const auto fixed = static_cast<std::uint32_t>(std::lround(std::ldexp(x, bits)));
       for (int shift = 0; shift < 24; shift += 8)
         out.push_back(static_cast<std::uint8_t>(fixed >> shift));
     }
 }
 
-void put_discs(const SplatCloud& splats, Bytes& out) {
-  for (const float deviation : splats.deviations)
-    for (const float scale : {deviation, deviation, deviation * kSplatFlatness})
-      out.push_back(scale_byte(scale));
-  for (const auto& normal : splats.normals) {
-    const auto q = disc_rotation(normal);
-    for (std::size_t k = 1; k < 4; ++k) out.push_back(byte_of(127.5f * (q[k] + 1)));
-  }
+/// x, y, z of the quaternion that has w of 0 or more.
+void put_first_three(const std::array<float, 4>& q, Bytes& out) {
+  const float sign = q[0] < 0 ? -1.0f : 1.0f;
+  for (std::size_t k = 1; k < 4; ++k) out.push_back(byte_of(127.5f * (sign * q[k] + 1)));
 }
 
-void put_colours(const SplatCloud& splats, Bytes& out) {
-  const std::size_t row = 3 * splats.num_harmonics();
+/// Of x, y, z, w the largest by number, the others as a sign and nine bits of sqrt(1/2).
+void put_smallest_three(const std::array<float, 4>& q, Bytes& out) {
+  const std::array<float, 4> xyzw{q[1], q[2], q[3], q[0]};
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 4; ++k)
+    if (std::abs(xyzw[k]) > std::abs(xyzw[largest])) largest = k;
+  auto word = static_cast<std::uint32_t>(largest);
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (k == largest) continue;
+    const bool negative = (xyzw[k] < 0) != (xyzw[largest] < 0);
+    const long size = std::lround(511 * std::min(1.0f, std::abs(xyzw[k]) * std::sqrt(2.0f)));
+    word = word << 10 | (negative ? 512u : 0u) | static_cast<std::uint32_t>(size);
+  }
+  put(out, word);
+}
+
+void put_shapes(const SplatRows& splats, int version, Bytes& out) {
+  for (std::size_t p = 0; p < splats.size(); ++p)
+    for (const float scale : splats.deviations(p)) out.push_back(scale_byte(scale));
+  for (std::size_t p = 0; p < splats.size(); ++p)
+    if (version == 2)
+      put_first_three(splats.rotation(p), out);
+    else
+      put_smallest_three(splats.rotation(p), out);
+}
+
+void put_colours(const SplatRows& splats, Bytes& out) {
   for (std::size_t p = 0; p < splats.size(); ++p)
     for (std::size_t c = 0; c < 3; ++c)
-      out.push_back(byte_of(255 * (kColourScale * splats.harmonics[p * row + c] + 0.5f)));
+      out.push_back(byte_of(255 * (kColourScale * splats.harmonics(p)[c] + 0.5f)));
 }
 
-void put_harmonics(const SplatCloud& splats, Bytes& out) {
-  const std::size_t row = 3 * splats.num_harmonics();
+void put_harmonics(const SplatRows& splats, int degree, Bytes& out) {
   for (std::size_t p = 0; p < splats.size(); ++p)
-    for (std::size_t i = 3; i < row; ++i)
-      out.push_back(harmonic_byte(splats.harmonics[p * row + i]));
+    for (std::size_t i = 3; i < 3 * functions_of(degree); ++i)
+      out.push_back(harmonic_byte(splats.harmonics(p)[i]));
 }
 
-/// SPZ's bytes for discs: from exp(-10) to exp(5.9).
-bool holds(const SplatCloud& splats) {
-  const auto [least, most] =
-      std::minmax_element(splats.deviations.begin(), splats.deviations.end());
-  return std::log(*least) > -kScaleOffset && std::log(*most) < 255 / kScaleSteps - kScaleOffset;
+/// SPZ has bytes for sizes from exp(-10) to exp(5.9). What is smaller may be drawn larger, but not
+/// discs of which a cloud is made.
+bool holds(const SplatRows& splats) {
+  float least = INFINITY, most = 0;
+  for (std::size_t p = 0; p < splats.size(); ++p) {
+    const auto sizes = splats.deviations(p);
+    least = std::min(least, std::max({sizes[0], sizes[1], sizes[2]}));
+    most = std::max({most, sizes[0], sizes[1], sizes[2]});
+  }
+  return (splats.step() == 0 || std::log(least) > -kScaleOffset) &&
+         std::log(most) < 255 / kScaleSteps - kScaleOffset;
 }
 
 }  // namespace
 
-Result<Bytes, InputError> write_spz(const SplatCloud& splats) {
-  const int bits = fraction_bits(splats);
-  if (bits < 0 || std::ldexp(splats.step, bits) < 1)
+Result<Bytes, InputError> write_spz(const SplatRows& splats, int version) {
+  const int bits = fraction_bits(splats), degree = std::min(splats.degree(), kSpzDegree);
+  if (bits < 0 || (splats.step() > 0 && std::ldexp(splats.step(), bits) < 1))
     return InputError{Errc::kInvalidInput, "SPZ cannot hold its coordinates"};
   if (!holds(splats))
-    return InputError{
-        Errc::kInvalidInput,
-        "SPZ holds discs of 0.00005 to 380 units, and points here are as far apart as " +
-            std::to_string(splats.step)};
+    return InputError{Errc::kInvalidInput,
+                      "SPZ holds splats of 0.00005 to 380 units" +
+                          (splats.step() > 0 ? ", and points here are as far apart as " +
+                                                   std::to_string(splats.step())
+                                             : ", and one here is larger")};
   Bytes raw;
   put(raw, kMagic);
-  put(raw, kVersion);
+  put(raw, static_cast<std::uint32_t>(version));
   put(raw, static_cast<std::uint32_t>(splats.size()));
-  for (const int byte : {splats.degree, bits, 0, 0}) raw.push_back(static_cast<std::uint8_t>(byte));
+  for (const int byte : {degree, bits, 0, 0}) raw.push_back(static_cast<std::uint8_t>(byte));
   put_positions(splats, bits, raw);
-  raw.insert(raw.end(), splats.size(), byte_of(255 * kSplatOpacity));
+  for (std::size_t p = 0; p < splats.size(); ++p) raw.push_back(byte_of(255 * splats.opacity(p)));
   put_colours(splats, raw);
-  put_discs(splats, raw);
-  put_harmonics(splats, raw);
+  put_shapes(splats, version, raw);
+  put_harmonics(splats, degree, raw);
   return gzip(raw);
 }
 
 SplatCloud rounded_to_spz(SplatCloud splats) {
   const std::size_t row = 3 * splats.num_harmonics();
-  const int bits = std::max(0, fraction_bits(splats));
+  const int bits = std::max(0, fraction_bits(DiscRows(splats)));
   for (auto& at : splats.positions)
     for (float& x : at) x = std::ldexp(std::round(std::ldexp(x, bits)), -bits);
   for (float& deviation : splats.deviations)

@@ -6,18 +6,20 @@
 #include <string_view>
 #include <vector>
 
+#include "exchange/splat_rows.h"
 #include "slf/splats.h"
 
 namespace slf {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes write_splat_ply(const SplatCloud& splats);
-Result<Bytes, InputError> write_splat_glb(const SplatCloud& splats);
+Bytes write_splat_ply(const SplatRows& splats);
+Result<Bytes, InputError> write_splat_glb(const SplatRows& splats);
 /// Bytes of a GLB's buffer. @errors kInvalidInput: GLB has 32 bits for them.
 Result<std::uint32_t, InputError> glb_buffer_bytes(std::uint64_t splats,
                                                    std::uint64_t num_harmonics);
-Result<Bytes, InputError> write_spz(const SplatCloud& splats);
+/// @param version  2 or 3
+Result<Bytes, InputError> write_spz(const SplatRows& splats, int version);
 /// What write_spz() leaves of it.
 SplatCloud rounded_to_spz(SplatCloud splats);
 

@@ -87,6 +87,46 @@ def glb():
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
+def splats():
+    """Two Gaussian splats in every format: PLY as text, binary and SuperSplat's, SPZ 1 to 3 as they are within gzip, splat,
+    ksplat of floats and of bytes with short headers, glTF, and the beginnings of what is refused by name."""
+    names = [*"xyz", "f_dc_0", "f_dc_1", "f_dc_2", *(f"f_rest_{i}" for i in range(9)), "opacity", "scale_0", "scale_1", "scale_2",
+             "rot_0", "rot_1", "rot_2", "rot_3"]
+    row = [0.5, 1, 2, 0.1, 0.2, 0.3, *([0.05] * 9), 1.5, -3, -3, -4, 1, 0, 0, 0]
+
+    def head(form):
+        return (f"ply\nformat {form} 1.0\nelement vertex 2\n" + "".join(f"property float {n}\n" for n in names) + "end_header\n").encode()
+    bounds = [f"{end}_{kind}{axis}" for kind in ("", "scale_") for end in ("min", "max") for axis in "xyz"]
+    packed = "ply\nformat binary_little_endian 1.0\nelement chunk 1\n" + "".join(f"property float {n}\n" for n in bounds)
+    packed += "element vertex 2\n" + "".join(f"property uint packed_{n}\n" for n in ("position", "rotation", "scale", "color"))
+    packed += "end_header\n"
+    made = {"ascii.ply": head("ascii") + (" ".join(map(str, row)) + "\n").encode() * 2,
+            "binary.ply": head("binary_little_endian") + struct.pack("<23f", *row) * 2,
+            "compressed.ply": packed.encode() + struct.pack("<12f", *([-1] * 3), 1, 1, 1, *([-6] * 3), -2, -2, -2) + bytes(range(32)),
+            "x.splat": (struct.pack("<6f", 1, 2, 3, 0.1, 0.1, 0.2) + bytes([9, 99, 199, 200, 255, 128, 128, 128])) * 2}
+    for version, each in ((1, 6 + 10), (2, 9 + 10), (3, 9 + 11)):
+        made[f"{version}.spz"] = struct.pack("<4sIIBBBB", b"NGSP", version, 2, 1, 12, 0, 0) + bytes(range(2 * (each + 9)))
+    made["4.spz"] = struct.pack("<4sII20x", b"NGSP", 4, 2)
+    for level, each in ((0, 44), (2, 24)):
+        main = struct.pack("<BBHIIIIH", 0, 1, 0, 1, 1, 2, 2, level).ljust(48, b"\0")
+        section = struct.pack("<IIIIfHHIIIIH", 2, 2, 2, 1, 5, 12, 0, 0, 0, 1, 0, 0).ljust(48, b"\0")
+        made[f"{level}.ksplat"] = b"KS" + main + section + bytes(12) + bytes(range(2 * each))
+    keys = [("POSITION", 12), ("ROTATION", 16), ("SCALE", 12), ("OPACITY", 4), ("SH_DEGREE_0_COEF_0", 12)]
+    views = [{"buffer": 0, "byteOffset": sum(n for _, n in keys[:i]), "byteLength": n} for i, (_, n) in enumerate(keys)]
+    body = struct.pack("<14f", 1, 2, 3, 0, 0, 0, 1, 0.1, 0.1, 0.1, 0.5, 0.1, 0.2, 0.3)
+    scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(body)}], "scenes": [{"nodes": [0]}], "bufferViews": views,
+             "nodes": [{"mesh": 0, "scale": [2, 2, 2], "rotation": [0, 0.6, 0, 0.8]}], "accessors": [
+                 {"bufferView": i, "componentType": 5126, "count": 1, "type": {4: "SCALAR", 12: "VEC3", 16: "VEC4"}[n]}
+                 for i, (_, n) in enumerate(keys)],
+             "meshes": [{"primitives": [{"mode": 0, "extensions": {"KHR_gaussian_splatting": {"kernel": "ellipse"}}, "attributes": {
+                 ("" if name == "POSITION" else "KHR_gaussian_splatting:") + name: i for i, (name, _) in enumerate(keys)}}]}]}
+    text = json.dumps(scene, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body
+    return {**made, "x.glb": struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks,
+            "x.sog": b"PK\3\4" + bytes(26) + b"meta.json"}
+
+
 def cameras():
     """cameras.json, transforms.json of one focal length and with distortion."""
     unit = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 3], [0, 0, 0, 1]]
@@ -147,7 +187,7 @@ def scene(program):
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode render truncate hevc npy ply obj glb image cameras colmap igc part plan".split()}
+            "decode render truncate hevc npy ply obj glb image cameras colmap splats igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
         made["truncate"][name] = b"\x03\x01" + stream
@@ -167,6 +207,7 @@ def seeds(program):
                      "palette.png": png(8, 3, 1, bytes(range(12))), "grey.jpg": jpeg()}
     made["cameras"] = {name: json.dumps(value).encode() for name, value in cameras().items()}
     made["colmap"] = colmap()
+    made["splats"] = splats()
     if program:
         made["igc"]["can"] = igc(program)
         made["plan"]["saddle"], made["part"] = scene(program)

@@ -12,6 +12,7 @@
 #include "measure/evaluate_images.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
+#include "slf/render.h"
 
 namespace slf {
 namespace {
@@ -77,22 +78,28 @@ std::vector<ErrorSum> point_errors(const ViewMaps& maps, const Capture& capture,
   return sums;
 }
 
+InputError invalid(const char* why) { return {Errc::kInvalidArgument, why}; }
+
+/// Cameras of the capture, and points that say where its surface is.
+Result<Done, InputError> check_cameras(const Capture& capture, std::span<const int> cameras) {
+  if (cameras.empty()) return invalid("evaluation needs at least one camera");
+  if (capture.cloud.positions.empty()) return invalid("evaluation needs the capture's points");
+  for (const int camera : cameras)
+    if (camera < 0 || std::size_t(camera) >= capture.cameras.size())
+      return invalid("camera index beyond the capture's cameras");
+  return Done{};
+}
+
 }  // namespace
 
 Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& capture,
                                      std::span<const int> cameras, const EvaluateSettings& settings,
                                      const Progress& progress) {
-  const auto invalid = [](const char* why) { return InputError{Errc::kInvalidArgument, why}; };
-  if (cameras.empty()) return invalid("evaluation needs at least one camera");
-  if (capture.cloud.positions.empty()) return invalid("evaluation needs the capture's points");
+  SLF_CHECK(check_cameras(capture, cameras));
   if (maps.num_points() == 0) return invalid("the light field has no points");
   if (settings.deltas_degrees.empty()) return invalid("evaluation needs at least one delta");
   for (const double delta : settings.deltas_degrees)
     if (!(delta >= 0 && delta <= 90)) return invalid("delta must be 0 .. 90 degrees");
-  for (const int camera : cameras)
-    if (camera < 0 || std::size_t(camera) >= capture.cameras.size())
-      return invalid("camera index beyond the capture's cameras");
-
   const NearestPoints tree(capture.cloud.positions);
   CapturedSurface surface = captured_surface(capture, settings.threads);
   if (!(surface.spacing > 0)) surface.spacing = maps.header().grid.step;  // a single point
@@ -118,8 +125,25 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
                               e.count});
   }
   if (settings.images) {
-    SLF_CHECK(evaluate_images(maps, capture, cameras, surface, settings, progress, quality));
+    RenderSettings over_black;
+    over_black.background = {0, 0, 0};
+    over_black.threads = 1;
+    const Renderer renderer(maps, over_black);
+    const DrawPicture draw = [&](const Camera& camera) { return renderer.render(camera); };
+    SLF_CHECK(evaluate_images(draw, capture, cameras, surface, settings, progress, quality));
   }
+  return quality;
+}
+
+Result<Quality, InputError> evaluate_pictures(const DrawPicture& draw, const Capture& capture,
+                                              std::span<const int> cameras,
+                                              const EvaluateSettings& settings,
+                                              const Progress& progress) {
+  SLF_CHECK(check_cameras(capture, cameras));
+  CapturedSurface surface = captured_surface(capture, settings.threads);
+  if (!(surface.spacing > 0)) surface.spacing = 1;  // a single point
+  Quality quality;
+  SLF_CHECK(evaluate_images(draw, capture, cameras, surface, settings, progress, quality));
   return quality;
 }
 

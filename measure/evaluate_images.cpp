@@ -11,7 +11,6 @@
 #include "measure/picture_background.h"
 #include "measure/ssim.h"
 #include "slf/parallel.h"
-#include "slf/render.h"
 
 namespace slf {
 namespace {
@@ -115,15 +114,15 @@ Image error_map(const Image& photograph, const Image& rendering) {
   return map;
 }
 
-/// `camera`'s photograph against what the renderer, whose background is black, draws.
-Result<PictureErrors, InputError> compare_camera(const Renderer& renderer, const Capture& capture,
+/// `camera`'s photograph against what is drawn over black.
+Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const Capture& capture,
                                                  int camera_index, const CapturedSurface& surface,
                                                  const EvaluateSettings& settings) {
   SLF_TRY(const Image loaded, load_image(capture, camera_index));
   const auto index = static_cast<std::size_t>(camera_index);
   const Camera& camera = capture.cameras[index];
   const auto start = std::chrono::steady_clock::now();
-  const Rendering over_black = renderer.render(moved(camera, capture.origin));
+  const Rendering over_black = draw(moved(camera, capture.origin));
   const auto end = std::chrono::steady_clock::now();
   const CapturedView view =
       captured_view(capture, surface, camera, loaded, settings.depth_tolerance);
@@ -161,22 +160,18 @@ void set_image_quality(const PictureErrors& sum, ImageQuality& image) {
 
 }  // namespace
 
-Result<Done, InputError> evaluate_images(const ViewMaps& maps, const Capture& capture,
+Result<Done, InputError> evaluate_images(const DrawPicture& draw, const Capture& capture,
                                          std::span<const int> cameras,
                                          const CapturedSurface& surface,
                                          const EvaluateSettings& settings, const Progress& progress,
                                          Quality& quality) {
-  RenderSettings render_settings;
-  render_settings.background = {0, 0, 0};
-  render_settings.threads = 1;
-  const Renderer renderer(maps, render_settings);
   std::vector<PictureErrors> each(cameras.size());
   std::vector<std::optional<InputError>> failures(cameras.size());
   parallel_ranges(
       cameras.size(), 1, settings.threads,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          auto errors = compare_camera(renderer, capture, cameras[i], surface, settings);
+          auto errors = compare_camera(draw, capture, cameras[i], surface, settings);
           if (errors) {
             each[i] = *std::move(errors);
           } else {

@@ -8,9 +8,9 @@
 
 namespace slf {
 
-/// What of a Quality is of pictures: renders every camera and compares, one camera per thread.
+/// What of a Quality is of pictures: draws every camera and compares, one camera per thread.
 /// @errors those of load_image and settings.error_map
-Result<Done, InputError> evaluate_images(const ViewMaps& maps, const Capture& capture,
+Result<Done, InputError> evaluate_images(const DrawPicture& draw, const Capture& capture,
                                          std::span<const int> cameras,
                                          const CapturedSurface& surface,
                                          const EvaluateSettings& settings, const Progress& progress,

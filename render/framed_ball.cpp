@@ -12,24 +12,26 @@ namespace {
 constexpr double kWide = 4;           // of the box of all, over that of most
 constexpr std::size_t kFewest = 100;  // points of which a few can be told
 
-struct VoxelBox {
+struct Box {
   std::array<double, 3> low{}, high{};
 
   double largest_side() const {
     return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   }
-  bool holds(const Voxel& v) const {
+  template <class Number>
+  bool holds(const std::array<Number, 3>& v) const {
     for (std::size_t k = 0; k < 3; ++k)
-      if (v[k] < low[k] || v[k] > high[k]) return false;
+      if (static_cast<double>(v[k]) < low[k] || static_cast<double>(v[k]) > high[k]) return false;
     return true;
   }
 };
 
 /// Without a share of the points at either end of each axis.
-VoxelBox box_of(std::span<const Voxel> positions, double tail) {
-  VoxelBox box;
+template <class Number>
+Box box_of(std::span<const std::array<Number, 3>> positions, double tail) {
+  Box box;
   const auto last = static_cast<double>(positions.size() - 1);
-  std::vector<std::int32_t> values(positions.size());
+  std::vector<Number> values(positions.size());
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t p = 0; p < values.size(); ++p) values[p] = positions[p][k];
     const auto at = [&](double share) {
@@ -44,37 +46,52 @@ VoxelBox box_of(std::span<const Voxel> positions, double tail) {
 }
 
 /// The box of all points, or where a few are far away about the others, half of these to each side.
-VoxelBox framed_box(std::span<const Voxel> positions) {
-  const VoxelBox all = box_of(positions, 0);
+template <class Number>
+Box framed_box(std::span<const std::array<Number, 3>> positions) {
+  const Box all = box_of(positions, 0);
   if (positions.size() < kFewest) return all;
-  VoxelBox most = box_of(positions, 0.01);
+  Box most = box_of(positions, 0.01);
   if (!(all.largest_side() > kWide * most.largest_side()) || most.largest_side() == 0) return all;
   for (std::size_t k = 0; k < 3; ++k) {
     const double margin = (most.high[k] - most.low[k]) / 2;
     most.low[k] -= margin;
     most.high[k] += margin;
   }
-  std::vector<Voxel> kept;
+  std::vector<std::array<Number, 3>> kept;
   std::copy_if(positions.begin(), positions.end(), std::back_inserter(kept),
-               [&](const Voxel& v) { return most.holds(v); });
-  return kept.empty() ? all : box_of(kept, 0);
+               [&](const auto& v) { return most.holds(v); });
+  return kept.empty() ? all : box_of(std::span<const std::array<Number, 3>>(kept), 0);
+}
+
+/// @param world  coordinates to world units
+template <class Number, class World>
+FramedBall ball_of(std::span<const std::array<Number, 3>> positions, const World& world) {
+  FramedBall ball{world(Vec3{0, 0, 0}), 0};
+  if (positions.empty()) return ball;
+  const Box box = framed_box(positions);
+  ball.centre = world(Vec3{(box.low[0] + box.high[0]) / 2.0, (box.low[1] + box.high[1]) / 2.0,
+                           (box.low[2] + box.high[2]) / 2.0});
+  for (const auto& v : positions) {
+    if (!box.holds(v)) continue;
+    const Vec3 p = world(
+        Vec3{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
+    const double dx = p[0] - ball.centre[0], dy = p[1] - ball.centre[1], dz = p[2] - ball.centre[2];
+    ball.radius = std::max(ball.radius, std::sqrt(dx * dx + dy * dy + dz * dz));
+  }
+  return ball;
 }
 
 }  // namespace
 
 FramedBall framed_ball(const Grid& grid, std::span<const Voxel> positions) {
-  FramedBall ball{grid.origin, 0};
-  if (positions.empty()) return ball;
-  const VoxelBox box = framed_box(positions);
-  for (std::size_t k = 0; k < 3; ++k)
-    ball.centre[k] = grid.origin[k] + grid.step * (box.low[k] + box.high[k]) / 2.0;
-  for (const Voxel& v : positions) {
-    if (!box.holds(v)) continue;
-    const Vec3 p = grid.world(v);
-    const double dx = p[0] - ball.centre[0], dy = p[1] - ball.centre[1], dz = p[2] - ball.centre[2];
-    ball.radius = std::max(ball.radius, std::sqrt(dx * dx + dy * dy + dz * dz));
-  }
-  return ball;
+  return ball_of(positions, [&](const Vec3& v) {
+    return Vec3{grid.origin[0] + grid.step * v[0], grid.origin[1] + grid.step * v[1],
+                grid.origin[2] + grid.step * v[2]};
+  });
+}
+
+FramedBall framed_ball(std::span<const std::array<float, 3>> positions) {
+  return ball_of(positions, [](const Vec3& v) { return v; });
 }
 
 }  // namespace slf

@@ -1,6 +1,7 @@
 // What a view of a whole light field has to show.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "slf/types.h"
@@ -16,5 +17,7 @@ struct FramedBall {
 /// more than four times as wide as 98 % of them do along every axis, are not in it: structure from
 /// motion leaves them. The viewer has the same (web/viewer/packed_field.js).
 FramedBall framed_ball(const Grid& grid, std::span<const Voxel> positions);
+/// The same of points that are finite and not on a grid.
+FramedBall framed_ball(std::span<const std::array<float, 3>> positions);
 
 }  // namespace slf

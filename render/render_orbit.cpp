@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/vec3.h"
-#include "render/framed_ball.h"
+#include "render/orbit_camera.h"
 #include "slf/render.h"
 
 namespace slf {
@@ -41,13 +41,11 @@ Vec3 combine(double a, const Vec3& u, double b, const Vec3& v, double c, const V
 
 }  // namespace
 
-Camera Renderer::orbit(double turn, double elevation_degrees, int width, int height,
-                       double fov_degrees) const {
-  const UpFrame frame = up_frame(maps_.header().up);
-  const FramedBall ball = framed_ball(maps_.header().grid, maps_.positions());
-  const double azimuth = 2 * std::numbers::pi * turn;
-  const double elevation = elevation_degrees * std::numbers::pi / 180;
-  const double half_fov = std::clamp(fov_degrees, 1.0, 170.0) * std::numbers::pi / 360;
+Camera orbit_camera(const FramedBall& ball, UpAxis up, const OrbitView& view) {
+  const UpFrame frame = up_frame(up);
+  const double azimuth = 2 * std::numbers::pi * view.turn;
+  const double elevation = view.elevation_degrees * std::numbers::pi / 180;
+  const double half_fov = std::clamp(view.fov_degrees, 1.0, 170.0) * std::numbers::pi / 360;
   const double ca = std::cos(azimuth), sa = std::sin(azimuth);
   const double ce = std::cos(elevation), se = std::sin(elevation);
   // Down is the elevation's derivative, so that it is defined straight above and below as well.
@@ -55,20 +53,26 @@ Camera Renderer::orbit(double turn, double elevation_degrees, int width, int hei
   const Vec3 down = combine(se * ca, frame.first, se * sa, frame.second, -ce, frame.up);
   const Vec3 forward = combine(-ce * ca, frame.first, -ce * sa, frame.second, -se, frame.up);
 
-  // A voxel's half width and a margin of 3 % around the ball.
-  const double radius = 1.03 * (ball.radius + maps_.header().grid.step);
-  const double distance = radius / std::sin(half_fov);
+  const double distance = 1.03 * ball.radius / std::sin(half_fov);
   Camera camera;
   camera.name = "orbit";
-  camera.width = width;
-  camera.height = height;
-  camera.fx = camera.fy = std::min(width, height) / (2 * std::tan(half_fov));
-  camera.cx = width / 2.0;
-  camera.cy = height / 2.0;
+  camera.width = view.width;
+  camera.height = view.height;
+  camera.fx = camera.fy = std::min(view.width, view.height) / (2 * std::tan(half_fov));
+  camera.cx = view.width / 2.0;
+  camera.cy = view.height / 2.0;
   camera.rotation = {right, down, forward};
   camera.translation = {-dot(right, ball.centre), -dot(down, ball.centre),
                         distance - dot(forward, ball.centre)};
   return camera;
+}
+
+Camera Renderer::orbit(double turn, double elevation_degrees, int width, int height,
+                       double fov_degrees) const {
+  FramedBall ball = framed_ball(maps_.header().grid, maps_.positions());
+  ball.radius += maps_.header().grid.step;  // more than a voxel's half width
+  return orbit_camera(ball, maps_.header().up,
+                      {turn, elevation_degrees, width, height, fov_degrees});
 }
 
 }  // namespace slf

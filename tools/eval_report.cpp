@@ -111,8 +111,8 @@ nlohmann::ordered_json eval_json(const Subject& subject, const std::vector<Measu
                                  bool images, double seconds) {
   nlohmann::ordered_json json;
   json["bytes"] = subject.bytes;
-  json["points"] = subject.field.num_points();
-  json["bits_per_point"] = bits_per_point(subject.bytes, subject.field.num_points());
+  json["points"] = subject.num_points();
+  json["bits_per_point"] = bits_per_point(subject.bytes, subject.num_points());
   json["bytes_by_type"] = subject.bytes_by_type;
   json["settings"] = subject.settings;
   json["partial"] = subject.field.partial;
@@ -127,7 +127,7 @@ nlohmann::ordered_json eval_json(const Subject& subject, const std::vector<Measu
 
 std::string eval_text(const std::string& name, const Subject& subject,
                       const std::vector<Measured>& measured, bool images) {
-  const std::size_t points = subject.field.num_points();
+  const std::size_t points = subject.num_points();
   std::string out = text("%s: %s bytes, %s points, %.2f bits per point\n\n", name.c_str(),
                          grouped(subject.bytes).c_str(), grouped(points).c_str(),
                          bits_per_point(subject.bytes, points));

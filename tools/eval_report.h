@@ -26,6 +26,9 @@ struct Subject {
   Metadata metadata;
   nlohmann::ordered_json bytes_by_type, settings, decode_seconds;
   std::string bytes_text;
+  std::size_t splats = 0;  ///< of a file of splats, which has no field
+
+  std::size_t num_points() const { return splats > 0 ? splats : field.num_points(); }
 };
 
 /// @param images  whether pictures were judged too

@@ -10,16 +10,14 @@
 #include <utility>
 
 #include "slf/evaluate.h"
-#include "slf/igc.h"
-#include "slf/parallel.h"
 #include "tools/choices.h"
-#include "tools/describe.h"
 #include "tools/eval_report.h"
+#include "tools/eval_subject.h"
 #include "tools/measure_file.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
-#include "tools/stream_input.h"
+#include "tools/splat_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -33,12 +31,9 @@ struct EvalOptions {
   std::optional<double> min_psnr, min_image_psnr;
   LimitOptions limits;
   CommonOptions common;
-};
 
-/// Those that a decode may have.
-int threads_of(const CommonOptions& common) {
-  return thread_count(common.threads, std::numeric_limits<std::size_t>::max());
-}
+  SubjectOptions decode() const { return {limits, common, estimate_normals}; }
+};
 
 std::string metadata_value(const Metadata& metadata, const std::string& key) {
   for (const auto& [name, value] : metadata)
@@ -62,7 +57,7 @@ Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& meas
                    text("%s: %s PSNR %.2f dB (%s) is below %g dB", input_name(given.input).c_str(),
                         what, psnr, judged.name.c_str(), *floor)};
   };
-  SLF_CHECK(check("point", judged.quality.points[0].psnr, given.min_psnr));
+  if (given.min_psnr) SLF_CHECK(check("point", judged.quality.points[0].psnr, given.min_psnr));
   return check("image", judged.quality.image.psnr, given.min_image_psnr);
 }
 
@@ -78,73 +73,6 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   return capture;
 }
 
-Result<Subject, Failure> decode_slf(const EvalOptions& given, const std::string& input,
-                                    std::vector<std::uint8_t> bytes) {
-  SLF_TRY(const StreamFile stream,
-          open_stream(input, std::move(bytes), given.limits, given.common));
-  const StreamInfo& info = stream.info;
-  DecodeSeconds seconds;
-  DecodeOptions options = decode_options(info, {}, given.limits, given.common);
-  options.seconds = &seconds;
-  Stopwatch watch;
-  auto field = decode(stream.bytes, options);
-  if (!field) return decode_failure(input, field.error(), stream, options);
-  const nlohmann::ordered_json decode_seconds = {{"threads", threads_of(given.common)},
-                                                 {"geometry", seconds.geometry},
-                                                 {"coefficients", seconds.coefficients},
-                                                 {"total", watch.lap()}};
-  return Subject{*std::move(field),
-                 stream.bytes.size(),
-                 info.metadata,
-                 bytes_by_type_json(info),
-                 settings_json(info),
-                 decode_seconds,
-                 bytes_by_type_text(info, stream.bytes.size())};
-}
-
-Result<Subject, Failure> decode_igc_file(const EvalOptions& given, const std::string& input,
-                                         const Capture& capture,
-                                         std::span<const std::uint8_t> stream) {
-  IgcDecodeOptions options;
-  options.limits = given.limits.limits;
-  options.estimate_normals = given.estimate_normals;
-  options.threads = given.common.threads;
-  ProgressLine line(given.common.quiet);
-  Stopwatch watch;
-  SLF_TRY(IgcDecoded decoded,
-          from(input_name(input), decode_igc(stream, capture, options, line.callback())));
-  const nlohmann::ordered_json decode_seconds = {
-      {"threads", threads_of(given.common)}, {"geometry", decoded.seconds_geometry},
-      {"images", decoded.seconds_images},    {"observe", decoded.seconds_observe},
-      {"fit", decoded.seconds_fit},          {"total", watch.lap()}};
-  const nlohmann::ordered_json bytes = {{"geometry", decoded.bytes_geometry},
-                                        {"images", decoded.bytes_images},
-                                        {"parameters", decoded.bytes_parameters}};
-  nlohmann::ordered_json settings;
-  for (const auto& [key, value] : decoded.metadata)
-    settings[key] = igc_setting_in_words(key, value);
-  std::string lines = "bytes by section\n";
-  for (const auto& [section, size] : bytes.items())
-    lines += text("  %-14s %12s\n", section.c_str(), grouped(size.get<std::uint64_t>()).c_str());
-  return Subject{std::move(decoded.light_field),
-                 stream.size(),
-                 decoded.metadata,
-                 bytes,
-                 std::move(settings),
-                 decode_seconds,
-                 std::move(lines)};
-}
-
-/// Either kind of file, with view maps.
-Result<Subject, Failure> decode_subject(const EvalOptions& given, const std::string& input,
-                                        const Capture& capture) {
-  SLF_TRY(auto stream, read_input(input, given.limits));
-  SLF_TRY(Subject subject, is_igc(stream) ? decode_igc_file(given, input, capture, stream)
-                                          : decode_slf(given, input, std::move(stream)));
-  SLF_CHECK(require_view_maps(subject.field, input));
-  return subject;
-}
-
 /// DIR/NUMBER_NAME.png of every camera's error map; the folders of its name become part of the
 /// file's, and its extension is left out.
 std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
@@ -158,11 +86,22 @@ std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
   };
 }
 
-/// @param unquantised  or null
+/// What a set of cameras says of a file.
+using Judge = std::function<Result<Quality, InputError>(
+    std::span<const int> cameras, const EvaluateSettings& settings, const Progress& progress)>;
+
+Judge judge_of(const ViewMaps& maps, const Capture& capture) {
+  return [&](std::span<const int> cameras, const EvaluateSettings& settings,
+             const Progress& progress) {
+    return evaluate(maps, capture, cameras, settings, progress);
+  };
+}
+
+/// @param split        input images
+/// @param unquantised  or none
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
-                                               const Subject& subject, const Subject* unquantised) {
-  const std::string split =
-      given.split_given ? given.split : metadata_value(subject.metadata, "split");
+                                               const std::string& split, const Judge& judge,
+                                               const Judge& unquantised) {
   SLF_TRY(const std::vector<int> input, from(given.capture, split_cameras(capture, split)));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
   const std::size_t all = held_out.size();
@@ -176,9 +115,6 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   EvaluateSettings settings = given.settings;
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
-  const ViewMaps maps(subject.field, settings.threads);
-  std::optional<ViewMaps> unquantised_maps;
-  if (unquantised) unquantised_maps.emplace(unquantised->field, settings.threads);
   std::vector<Measured> measured;
   for (const std::vector<int>* cameras :
        std::array<const std::vector<int>*, 2>{&input, &held_out}) {
@@ -187,33 +123,56 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
     m.name = cameras == &input ? "input" : "held out";
     m.cameras = cameras->size();
     settings.error_map = error_map_writer(given.error_maps, capture);
-    SLF_TRY(m.quality,
-            from(given.capture, evaluate(maps, capture, *cameras, settings, line.callback())));
-    if (!unquantised_maps) continue;
+    SLF_TRY(m.quality, from(given.capture, judge(*cameras, settings, line.callback())));
+    if (!unquantised) continue;
     settings.error_map = {};
-    SLF_TRY(m.unquantised, from(given.capture, evaluate(*unquantised_maps, capture, *cameras,
-                                                        settings, line.callback())));
+    SLF_TRY(m.unquantised, from(given.capture, unquantised(*cameras, settings, line.callback())));
   }
   if (measured.empty())
     return Failure{kInputInvalid, given.capture + ": its splits have no images to compare with"};
   return measured;
 }
 
+/// Splats of another program: pictures alone.
+Outcome eval_splats(const EvalOptions& given, const Capture& capture) {
+  if (given.no_images || given.min_psnr || !given.unquantised.empty())
+    return Failure{kUsage,
+                   "eval: --no-images, --min-psnr and --unquantised are for light fields, "
+                   "and " +
+                       given.input + " holds splats"};
+  SLF_TRY(const SplatSubject splats, read_splat_subject(given.input, given.limits, given.common));
+  const Judge judge = [&](std::span<const int> cameras, const EvaluateSettings& settings,
+                          const Progress& progress) {
+    return evaluate_pictures(splats.draw, capture, cameras, settings, progress);
+  };
+  Stopwatch watch;
+  SLF_TRY(const auto measured, measure(given, capture, given.split, judge, {}));
+  SLF_CHECK(report(given, splats.subject, measured, watch.lap()));
+  return check_floors(given, measured);
+}
+
 Outcome run_eval(const EvalOptions& given) {
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
-  SLF_TRY(const Subject subject, decode_subject(given, given.input, capture));
+  if (is_splat_file(given.input)) return eval_splats(given, capture);
+  SLF_TRY(const Subject subject, decode_subject(given.input, capture, given.decode()));
   if (capture.cloud.positions.empty()) {
     warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
     capture = with_points_of(subject.field, std::move(capture), given.common.threads);
   }
+  const ViewMaps maps(subject.field, given.common.threads);
   std::optional<Subject> unquantised;
+  std::optional<ViewMaps> unquantised_maps;
   if (!given.unquantised.empty()) {
-    SLF_TRY(unquantised, decode_subject(given, given.unquantised, capture));
+    SLF_TRY(unquantised, decode_subject(given.unquantised, capture, given.decode()));
+    unquantised_maps.emplace(unquantised->field, given.common.threads);
   }
   Stopwatch watch;
+  const std::string split =
+      given.split_given ? given.split : metadata_value(subject.metadata, "split");
   SLF_TRY(const auto measured,
-          measure(given, capture, subject, unquantised ? &*unquantised : nullptr));
+          measure(given, capture, split, judge_of(maps, capture),
+                  unquantised_maps ? judge_of(*unquantised_maps, capture) : Judge{}));
   SLF_CHECK(report(given, subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
@@ -224,7 +183,7 @@ void add_eval(CLI::App& program, Run& run) {
   auto* verb =
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
-  verb->add_option("FILE", o->input, "The .slf or .igc file; - is standard input")
+  verb->add_option("FILE", o->input, "A .slf or .igc, - of standard input; or Gaussian splats")
       ->type_name("")
       ->required();
   verb->add_option("CAPTURE", o->capture, "The capture (see slf encode --help)")

@@ -10,7 +10,7 @@
 #include "tools/dump.h"
 #include "tools/options.h"
 #include "tools/output.h"
-#include "tools/stream_input.h"
+#include "tools/splat_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -24,6 +24,7 @@ struct ExportOptions {
   std::string input, output, format, axes = "auto";
   bool mean = false;
   SplatSettings splats;
+  bool degree_given = false;
   PartOptions part;
   LimitOptions limits;
   CommonOptions common;
@@ -118,6 +119,44 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
                 decoded.field.partial);
 }
 
+/// Harmonics up to a degree alone.
+void cut(Gaussians& splats, int degree) {
+  const std::size_t from = 3 * splats.num_harmonics();
+  splats.degree = std::min(splats.degree, degree);
+  const std::size_t to = 3 * splats.num_harmonics();
+  for (std::size_t p = 0; to < from && p < splats.size(); ++p)
+    std::copy_n(splats.harmonics.begin() + static_cast<std::ptrdiff_t>(p * from), to,
+                splats.harmonics.begin() + static_cast<std::ptrdiff_t>(p * to));
+  splats.harmonics.resize(splats.size() * to);
+}
+
+/// Splats of another program in another format. Their turns are any, which SPZ 3 holds better.
+Outcome convert_splats(const ExportOptions& given, SplatFormat format) {
+  if (given.mean || given.axes != "auto")
+    return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
+                               " holds splats"};
+  SLF_TRY(GaussianFile file,
+          read_splat_file("export", given.input, given.part, given.limits, given.common));
+  if (given.degree_given) cut(file.gaussians, given.splats.degree);
+  if (format == SplatFormat::kSpz) format = SplatFormat::kSpz3;
+  SLF_TRY(const auto bytes, from(given.input, gaussian_file(file.gaussians, format)));
+  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
+  const std::size_t count = file.gaussians.size();
+  const double each = static_cast<double>(bytes.size()) / static_cast<double>(count);
+  if (given.common.json)
+    return print(nlohmann::ordered_json{{"input_format", file.format},
+                                        {"splats", count},
+                                        {"left_out", file.left_out},
+                                        {"mended", file.mended},
+                                        {"degree", file.gaussians.degree},
+                                        {"bytes", bytes.size()},
+                                        {"bytes_per_splat", each}});
+  if (!given.common.quiet)
+    std::fprintf(stderr, "%s splats of %s, %s bytes (%.1f each)\n", grouped(count).c_str(),
+                 file.format.c_str(), grouped(bytes.size()).c_str(), each);
+  return Done{};
+}
+
 Outcome run_export(const ExportOptions& given) {
   const auto format = format_of(given);
   if (!format)
@@ -128,6 +167,7 @@ Outcome run_export(const ExportOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "export: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output));
+  if (is_splat_file(given.input)) return convert_splats(given, *format);
   return given.mean ? export_points(given) : export_splats(given, *format);
 }
 
@@ -137,7 +177,9 @@ void add_export(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand(
       "export", "Write Gaussian splats (PLY, glTF, SPZ) or coloured points for other programs");
   auto o = std::make_shared<ExportOptions>();
-  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+  verb->add_option("FILE", o->input,
+                   "The .slf file, or Gaussian splats (PLY, SPZ, splat, ksplat, glTF); - is a .slf "
+                   "on standard input")
       ->type_name("")
       ->required();
   verb->add_option("-o,--output", o->output,
@@ -172,7 +214,10 @@ void add_export(CLI::App& program, Run& run) {
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_export(*o); }; });
+  verb->callback([&run, o, verb] {
+    o->degree_given = verb->count("--degree") > 0;
+    run = [o] { return run_export(*o); };
+  });
 }
 
 }  // namespace slf::tools

@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "slf/render.h"
 #include "tools/camera_file.h"
 #include "tools/mosaic.h"
 #include "tools/options.h"
 #include "tools/output.h"
-#include "tools/stream_input.h"
+#include "tools/render_scene.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -63,14 +62,14 @@ std::string numbered(const std::string& pattern, int i) {
 }
 
 Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
-                                               const Renderer& renderer) {
+                                               const RenderScene& scene) {
   int width = 800, height = 800;
   if (!given.size.empty()) parse_size(given.size, width, height);
   const int count = std::max(given.orbit, 1);
   std::vector<View> views;
   for (int i = 0; i < count; ++i) {
     const double turn = given.azimuth / 360 + static_cast<double>(i) / count;
-    View view{renderer.orbit(turn, given.elevation, width, height, given.fov),
+    View view{scene.orbit(turn, given.elevation, width, height, given.fov),
               given.sheet ? given.output : numbered(given.output, i)};
     view.camera.name = text("orbit %d of %d", i + 1, count);
     views.push_back(std::move(view));
@@ -145,12 +144,12 @@ struct Rendered {
   std::vector<double> seconds;
 };
 
-Rendered render_views(const RenderOptions& given, const Renderer& renderer,
+Rendered render_views(const RenderOptions& given, const RenderScene& scene,
                       const std::vector<View>& views) {
   Rendered out;
   for (const View& view : views) {
     Stopwatch watch;
-    const Rendering rendering = renderer.render(view.camera);
+    const Rendering rendering = scene.render(view.camera);
     out.seconds.push_back(watch.lap());
     out.images.push_back(given.transparent ? transparent(rendering) : rendering.image);
   }
@@ -203,21 +202,13 @@ Outcome run_render(const RenderOptions& given) {
     SLF_TRY(Camera camera, read_camera(given.camera));
     views.push_back(camera_view(given, std::move(camera)));
   }
-  SLF_TRY(const DecodedFile decoded,
-          decode_file(given.input, given.part, given.limits, given.common));
-  SLF_CHECK(require_view_maps(decoded.field, given.input));
-  if (decoded.field.num_points() == 0)
-    return Failure{kInputInvalid,
-                   input_name(given.input) + ": has no points, or none in what was asked for"};
-  Stopwatch watch;
-  const ViewMaps maps(decoded.field, given.common.threads);
   const RenderSettings settings = settings_of(given);
-  const Renderer renderer(maps, settings);
-  const double prepare = watch.lap();
+  SLF_TRY(const auto scene,
+          RenderScene::load(given.input, settings, given.part, given.limits, given.common));
   if (views.empty()) {
-    SLF_TRY(views, orbit_views(given, renderer));
+    SLF_TRY(views, orbit_views(given, *scene));
   }
-  Rendered rendered = render_views(given, renderer, views);
+  Rendered rendered = render_views(given, *scene, views);
   if (given.pair) {
     SLF_TRY(const Image left, photograph(given, capture, photo, views[0]));
     SLF_CHECK(save(given.output, mosaic({left, rendered.images[0]}, 2, settings.background)));
@@ -228,7 +219,7 @@ Outcome run_render(const RenderOptions& given) {
     for (std::size_t i = 0; i < views.size(); ++i)
       SLF_CHECK(save(views[i].file, rendered.images[i]));
   }
-  return report(given, views, rendered, prepare, decoded.field.partial);
+  return report(given, views, rendered, scene->prepare(), scene->partial());
 }
 
 void add_view_options(CLI::App& verb, RenderOptions& o) {
@@ -268,7 +259,9 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
 void add_render(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand("render", "Render images (PNG) from any viewpoint");
   auto o = std::make_shared<RenderOptions>();
-  verb->add_option("FILE", o->input, "The .slf file; - is standard input")
+  verb->add_option("FILE", o->input,
+                   "The .slf file, or Gaussian splats (PLY, SPZ, splat, ksplat, glTF); - is a .slf "
+                   "on standard input")
       ->type_name("")
       ->required();
   verb->add_option(

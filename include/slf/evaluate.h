@@ -10,6 +10,7 @@
 
 #include "slf/capture.h"
 #include "slf/error.h"
+#include "slf/render.h"
 #include "slf/view_map.h"
 
 namespace slf {
@@ -74,6 +75,19 @@ struct Quality {
 Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& capture,
                                      std::span<const int> cameras, const EvaluateSettings& settings,
                                      const Progress& progress = {});
+
+/// A picture over black. Called from several threads at a time.
+using DrawPicture = std::function<Rendering(const Camera& camera)>;
+
+/// Pictures of anything that can be drawn against photographs, as evaluate() has them of a light
+/// field; Quality::points is empty, deltas have no meaning. The capture's points say where its
+/// surface is.
+/// @errors kInvalidArgument: no cameras, or one out of range, no points of the capture; those of
+///         load_image and settings.error_map
+Result<Quality, InputError> evaluate_pictures(const DrawPicture& draw, const Capture& capture,
+                                              std::span<const int> cameras,
+                                              const EvaluateSettings& settings,
+                                              const Progress& progress = {});
 
 /// What a file's pictures lose, and where: shares of the squared error at the photographs' object
 /// pixels, which sum to 1. A share is negative where that step gains: pictures of a light field

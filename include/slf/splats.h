@@ -63,9 +63,10 @@ Result<SplatCloud, InputError> make_splats(const ViewMaps& maps, const SplatSett
 std::array<float, 3> radiance_of(const SplatCloud& splats, std::size_t p, const Vec3& viewing);
 
 enum class SplatFormat : std::uint8_t {
-  kPly,  ///< binary PLY as 3-D Gaussian splatting writes it
-  kGlb,  ///< glTF 2.0 binary with KHR_gaussian_splatting
-  kSpz,  ///< SPZ version 2
+  kPly,   ///< binary PLY as 3-D Gaussian splatting writes it
+  kGlb,   ///< glTF 2.0 binary with KHR_gaussian_splatting
+  kSpz,   ///< SPZ version 2
+  kSpz3,  ///< SPZ version 3, which has ten bits for each component of a turn and not eight
 };
 
 /// What a reader of the format gets: rounded and clamped where it has fewer bits.

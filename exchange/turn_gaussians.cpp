@@ -1,0 +1,142 @@
+#include "exchange/turn_gaussians.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec3.h"
+#include "exchange/splat_directions.h"
+#include "lightfield/harmonics.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kTurnDirections = 64;  // of 9 functions at most: well determined
+
+/// Solves m x = b for symmetric positive definite m [n][n], in place, with n columns of b.
+void solve_symmetric(std::vector<double>& m, std::vector<double>& b, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = m[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) sum -= m[i * n + k] * m[j * n + k];
+      m[i * n + j] = i == j ? std::sqrt(sum) : sum / m[j * n + j];
+    }
+  for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < i; ++k) b[i * n + c] -= m[i * n + k] * b[k * n + c];
+      b[i * n + c] /= m[i * n + i];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      for (std::size_t k = i + 1; k < n; ++k) b[i * n + c] -= m[k * n + i] * b[k * n + c];
+      b[i * n + c] /= m[i * n + i];
+    }
+  }
+}
+
+/// w, x, y, z of a rotation, from the largest of them.
+std::array<double, 4> quaternion_of(const AxisRows& r) {
+  const double trace = r[0][0] + r[1][1] + r[2][2];
+  std::array<double, 4> q{};
+  if (trace > 0) {
+    const double s = 2 * std::sqrt(1 + trace);
+    return {s / 4, (r[2][1] - r[1][2]) / s, (r[0][2] - r[2][0]) / s, (r[1][0] - r[0][1]) / s};
+  }
+  std::size_t i = 0;
+  if (r[1][1] > r[i][i]) i = 1;
+  if (r[2][2] > r[i][i]) i = 2;
+  const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+  const double s = 2 * std::sqrt(std::max(1 + r[i][i] - r[j][j] - r[k][k], 1e-12));
+  q[0] = (r[k][j] - r[j][k]) / s;
+  q[i + 1] = s / 4;
+  q[j + 1] = (r[j][i] + r[i][j]) / s;
+  q[k + 1] = (r[k][i] + r[i][k]) / s;
+  return q;
+}
+
+std::array<float, 4> product(const std::array<double, 4>& a, const std::array<float, 4>& q) {
+  const double w = double{q[0]}, x = double{q[1]}, y = double{q[2]}, z = double{q[3]};
+  return {static_cast<float>(a[0] * w - a[1] * x - a[2] * y - a[3] * z),
+          static_cast<float>(a[0] * x + a[1] * w + a[2] * z - a[3] * y),
+          static_cast<float>(a[0] * y - a[1] * z + a[2] * w + a[3] * x),
+          static_cast<float>(a[0] * z + a[1] * y - a[2] * x + a[3] * w)};
+}
+
+/// Rows: the axes that a file wants.
+AxisRows rows_to(const Gaussians& gaussians, SplatAxes axes) {
+  LightFieldHeader header;
+  header.up = gaussians.up == UpAxis::kUnknown ? UpAxis::kMinusY : gaussians.up;
+  return axis_rows(header, axes);
+}
+
+}  // namespace
+
+// Functions of a degree turn among themselves: c'(Rv) = c(v) for all v gives A c' = B c, with rows
+// of the functions along Rv and v.
+HarmonicTurn::HarmonicTurn(const AxisRows& rows, int degree) {
+  const Harmonics harmonics(degree);
+  const auto directions = even_directions(kTurnDirections, 0);
+  const auto count = std::size_t(harmonics.size());
+  std::vector<double> before(directions.size() * count), after(before.size());
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    harmonics.evaluate(directions[i], &before[i * count]);
+    harmonics.evaluate(turned(rows, directions[i]), &after[i * count]);
+  }
+  for (std::size_t l = 1; l <= std::size_t(degree); ++l) {
+    const std::size_t n = 2 * l + 1, first = l * l;
+    std::vector<double> square(n * n), mixed(n * n);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) {
+          const double own = after[i * count + first + a];
+          square[a * n + b] += own * after[i * count + first + b];
+          mixed[a * n + b] += own * before[i * count + first + b];
+        }
+    solve_symmetric(square, mixed, n);
+    for (double& x : mixed)  // a turn by right angles changes signs and places, and no digits
+      if (std::abs(x - std::round(x)) < 1e-9) x = std::round(x);
+    matrices_.push_back(std::move(mixed));
+  }
+}
+
+void HarmonicTurn::apply(float* coefficients) const {
+  for (std::size_t l = 1; l <= matrices_.size(); ++l) {
+    const std::size_t n = 2 * l + 1;
+    float* own = coefficients + 3 * l * l;
+    std::array<double, 27> sums{};
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b)
+        for (std::size_t c = 0; c < 3; ++c)
+          sums[3 * a + c] += matrices_[l - 1][a * n + b] * double{own[3 * b + c]};
+    for (std::size_t i = 0; i < 3 * n; ++i) own[i] = static_cast<float>(sums[i]);
+  }
+}
+
+void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
+                    const Vec3& offset) {
+  const HarmonicTurn turn(rows, gaussians.degree);
+  const auto q = quaternion_of(rows);
+  const auto log_scale = static_cast<float>(std::log(scale));
+  const std::size_t row = 3 * gaussians.num_harmonics();
+  for (std::size_t p = first; p < gaussians.size(); ++p) {
+    const Vec3 at = turned(rows, to_double(gaussians.positions[p]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      gaussians.positions[p][k] = static_cast<float>(scale * at[k] + offset[k]);
+      gaussians.log_deviations[p][k] += log_scale;
+    }
+    gaussians.rotations[p] = product(q, gaussians.rotations[p]);
+    turn.apply(&gaussians.harmonics[p * row]);
+  }
+}
+
+bool has_other_axes(const Gaussians& gaussians, SplatAxes axes) {
+  return rows_to(gaussians, axes) != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+
+Gaussians in_axes(Gaussians gaussians, SplatAxes axes) {
+  if (has_other_axes(gaussians, axes))
+    move_gaussians(gaussians, 0, rows_to(gaussians, axes), 1, {0, 0, 0});
+  if (axes != SplatAxes::kWorld)
+    gaussians.up = axes == SplatAxes::kYUp ? UpAxis::kPlusY : UpAxis::kMinusY;
+  return gaussians;
+}
+
+}  // namespace slf

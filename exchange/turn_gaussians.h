@@ -1,0 +1,37 @@
+// Splats in other axes: what is turned of them, harmonics too.
+#pragma once
+
+#include <vector>
+
+#include "exchange/splat_axes.h"
+#include "slf/gaussians.h"
+
+namespace slf {
+
+/// How coefficients of harmonics change when what they describe is turned.
+class HarmonicTurn {
+ public:
+  /// @param rows    a rotation: the new coordinates of a vector are turned(rows, v)
+  /// @param degree  0 .. 4
+  HarmonicTurn(const AxisRows& rows, int degree);
+
+  /// @param coefficients  [(degree + 1)^2][3]
+  void apply(float* coefficients) const;
+
+ private:
+  std::vector<std::vector<double>> matrices_;  // of degrees 1 .. , row by row
+};
+
+/// Turns, scales and moves splats from the one of number `first` on: v becomes
+/// scale * turned(rows, v) + offset.
+void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
+                    const Vec3& offset);
+
+/// Whether in_axes() would turn them.
+bool has_other_axes(const Gaussians& gaussians, SplatAxes axes);
+
+/// In the axes that a file wants: y up or y down. Splats without a known axis count as y down,
+/// which is the convention of files that do not say.
+Gaussians in_axes(Gaussians gaussians, SplatAxes axes);
+
+}  // namespace slf

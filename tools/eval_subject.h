@@ -1,0 +1,30 @@
+// What `slf eval` judges: a file, decoded.
+#pragma once
+
+#include <string>
+
+#include "tools/eval_report.h"
+#include "tools/stream_input.h"
+
+namespace slf::tools {
+
+struct SubjectOptions {
+  LimitOptions limits;
+  CommonOptions common;
+  bool estimate_normals = false;  ///< of an .igc
+};
+
+/// A .slf or an .igc, with view maps.
+Result<Subject, Failure> decode_subject(const std::string& input, const Capture& capture,
+                                        const SubjectOptions& given);
+
+/// A file of Gaussian splats, and their pictures.
+struct SplatSubject {
+  Subject subject;
+  DrawPicture draw;
+};
+Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
+                                                 const LimitOptions& limits,
+                                                 const CommonOptions& common);
+
+}  // namespace slf::tools
