@@ -20,7 +20,7 @@ async function bundle(entry, name) {
     globalName: name,
     target: 'es2022',
     legalComments: 'none',
-    external: ['node:*'],
+    external: ['../made/*'], // this page brings a worker of its own
     define: { 'import.meta.url': '"about:blank"' },
     plugins: [shaders],
   });

@@ -6,7 +6,7 @@ const COLUMNS = 1024;
 /** What stands in the way of a file that is sound: too large for the device, without view maps. */
 export class ViewerError extends Error {
   /**
-   * @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'} kind
+   * @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'|'policy'} kind
    * @param {string} words  for everybody
    * @param {string} detail  for those who look for the cause
    */

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { test } from 'node:test';
-import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfDecoder, SlfError } from '../../slf_node.js';
 import { DecodeSession, plainError } from '../../viewer/decode_session.js';
 import { FieldLoader } from '../../viewer/field_loader.js';
 import { caseOf } from './support.js';
@@ -12,7 +12,9 @@ const { bytes, expect: [expected] } = caseOf('harmonics');
 const skip = !existsSync(new URL('../../node_modules/three', import.meta.url)) && 'there is no three: npm ci in web/';
 
 /** A loader whose worker answers nothing. */
-function silentLoader() { return new FieldLoader({ worker: () => ({ postMessage() {}, terminate() {} }) }); }
+function silentLoader() {
+  return new FieldLoader({ wasm: decoder.module, worker: () => ({ postMessage() {}, terminate() {} }) });
+}
 
 /** Calls use(requests, cancelled()) while fetch() answers with a body without an end. */
 async function withEndlessFetch(use) {
