@@ -33,10 +33,17 @@ wasm.catch(() => {}); // said to whoever awaits it
 `;
 }
 
-/** The elements of viewer.html for a root of their own. */
+/** The elements of viewer.html for a root of their own: the landmarks of a page are the page's. */
 async function markup() {
   const html = await text('viewer/viewer.html');
-  const body = html.slice(html.indexOf('<main'), html.indexOf('</body>')).replace(/\n\s*/g, '');
+  const body = html
+    .slice(html.indexOf('<main'), html.indexOf('</body>'))
+    .replace(/\n\s*/g, '')
+    .replace('<main>', '<div class="main">')
+    .replace(/<nav /, '<div role="toolbar" ')
+    .replace(/<(aside|section) (?=id=)/g, '<$1 role="group" ')
+    .replace(/<header /, '<div ')
+    .replace(/<\/(main|nav|header)>/g, '</div>');
   const css = (await transform(await text('viewer/viewer.css'), { loader: 'css', minify: true })).code;
   return `// Made by build_package.mjs of viewer.html and viewer.css.
 export const markup = ${JSON.stringify(body)};

@@ -67,7 +67,7 @@ html = replace(
 html = replace(html, '<link rel="stylesheet" href="viewer.css">', `<style>${style.trim()}</style>`);
 html = replace(html, '<script type="module" src="page.js"></script>', `<script>${start.trim()}</script>`);
 html = replace(html, '<body class="empty">', '<body>');
-html = replace(html, '<img id="poster" alt="" hidden>', '<img id="poster" alt="" src="{{slf:poster}}">');
+html = replace(html, '<img id="poster" alt="" hidden>', '<picture>{{slf:night}}<img id="poster" alt="" src="{{slf:poster}}"></picture>');
 html = replace(
   html,
   '</body>',

@@ -142,14 +142,14 @@ export class FieldLoader {
     worker.postMessage({ wasm: module });
   }
 
-  /** One that did not arrive is asked for again by the next file. */
-  async decoder() {
+  /** One that did not arrive is asked for once more, and again by the next file. */
+  async decoder(again = true) {
     this.module ??= decoderModule(this);
     try {
       return await this.module;
     } catch (error) {
       this.module = null;
-      return refused(error);
+      return again && error.code === 'NETWORK' ? this.decoder(false) : refused(error);
     }
   }
 

@@ -14,7 +14,7 @@ export const OF_FIRST_FILE = { title: null, poster: null, capture: null, camera:
 
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
-  const text = (name) => query.get(name) ?? page[name] ?? null;
+  const text = (name) => query.get(name) ?? (Object.hasOwn(page, name) ? page[name] : null) ?? null;
   const number = (name, low, high, fallback) => {
     const given = text(name),
       value = given === null || given === '' ? NaN : Number(given);
@@ -44,15 +44,24 @@ export function readOptions(query, page = {}) {
     levels: number('levels', 0, 21, 0),
     groups: number('groups', 0, 4096, 0),
     layers: number('layers', 0, 4, 0),
+    target: triple(text('target')),
+    scroll: ['polite', 'own'].includes(text('scroll')) ? text('scroll') : flag('embed') ? 'polite' : 'own',
+    lang: text('lang'),
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
     memory: number('memory', 16, 3500, 2048) * 2 ** 20,
   };
 }
 
+/** "x,y,z" or three numbers; null where it is neither. */
+function triple(given) {
+  const numbers = (Array.isArray(given) ? given : String(given ?? '').split(',')).map((v) => (v === '' ? NaN : Number(v)));
+  return numbers.length === 3 && numbers.every(Number.isFinite) ? numbers : null;
+}
+
 /** Name of BACKGROUNDS, "transparent", or RRGGBB with or without #; null where it is none of them. */
 export function backgroundOf(given) {
   if (given === null) return null;
-  if (given in BACKGROUNDS || given === 'transparent') return given;
+  if (Object.hasOwn(BACKGROUNDS, given) || given === 'transparent') return given;
   const hex = /^#?([0-9a-f]{6})$/i.exec(given);
   return hex ? `#${hex[1].toLowerCase()}` : null;
 }
@@ -60,6 +69,6 @@ export function backgroundOf(given) {
 /** @returns {number[]|null} RGB 0 .. 1 of backgroundOf(); null: transparent */
 export function backgroundColour(name) {
   if (name === 'transparent') return null;
-  const hex = BACKGROUNDS[name] ?? name;
+  const hex = Object.hasOwn(BACKGROUNDS, name) ? BACKGROUNDS[name] : name;
   return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 }

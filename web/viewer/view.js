@@ -35,7 +35,7 @@ const AXES = {
   ],
 };
 
-export const upAxes = (up) => AXES[up] ?? AXES['+z'];
+export const upAxes = (up) => (Object.hasOwn(AXES, up) ? AXES[up] : AXES['+z']);
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const add = (a, b, s = 1) => a.map((x, k) => x + s * b[k]);
