@@ -23,6 +23,8 @@ export interface PackedField {
   readonly radius: number;
   /** From the centre to the farthest point of all. */
   readonly reach: number;
+  /** Least and greatest corner of all discs, in world units. */
+  readonly box: [number[], number[]];
   readonly up: string;
   readonly linear: boolean;
   readonly partial: boolean;

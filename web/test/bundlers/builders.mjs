@@ -35,7 +35,7 @@ async function viteDev({ root, dir }) {
 async function esbuild({ root, dir }, loader = {}) {
   const { build } = await toolsOf(root).load('esbuild');
   await build({ entryPoints: [join(dir, 'main.js')], outdir: join(dir, 'dist'), bundle: true, minify: true, format: 'esm',
-    splitting: true, target: 'es2022', logLevel: 'error', absWorkingDir: dir, loader });
+    splitting: true, target: 'es2022', logLevel: 'error', absWorkingDir: dir, loader, jsx: 'automatic' });
   writeFileSync(join(dir, 'dist/index.html'), PAGE('main.js'));
   return { folder: join(dir, 'dist') };
 }
@@ -78,15 +78,15 @@ function finished(command, words, cwd) {
 
 const INLINE = { head: "import { wasm } from 'slf-decoder/inline';\n", parts: 'wasm' };
 
-/** name: build, and what a page needs beside its ten lines; package: of the project's package.json. */
+/** name: build, what a page needs beside its ten lines, and whether it takes JSX as it comes; package: of the project. */
 export const BUILDERS = {
-  'vite build': { build: viteBuild },
-  'vite dev': { build: viteDev },
+  'vite build': { build: viteBuild, jsx: true },
+  'vite dev': { build: viteDev, jsx: true },
   'webpack': { build: webpack },
-  'parcel': { build: parcel, package: { '@parcel/resolver-default': { packageExports: true } } },
+  'parcel': { build: parcel, jsx: true, package: { '@parcel/resolver-default': { packageExports: true } } },
   'rollup, assets plugin': { build: (project) => rollup(project, true) },
   'rollup, inline': { build: (project) => rollup(project, false), ...INLINE },
-  'esbuild, inline': { build: esbuild, ...INLINE },
+  'esbuild, inline': { build: esbuild, jsx: true, ...INLINE },
   'esbuild, file loader': { build: (project) => esbuild(project, { '.wasm': 'file' }),
     head: "import wasm from 'slf-decoder/slf.wasm';\n", parts: 'wasm: new URL(wasm, import.meta.url)' },
 };

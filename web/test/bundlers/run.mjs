@@ -26,7 +26,8 @@ if (!existsSync(join(web, 'made/inline.js'))) skipped('there is no made/inline.j
 if (spawnSync('npm', ['view', 'esbuild', 'version'], { timeout: 20_000 }).status !== 0)
   skipped('the registry of npm does not answer');
 
-const root = folder(), three = JSON.parse(readFileSync(join(web, 'package.json'), 'utf8')).devDependencies.three;
+const root = folder(), { three } = JSON.parse(readFileSync(join(web, 'package.json'), 'utf8')).devDependencies;
+const REACT = ['react@19.3.1', 'react-dom@19.3.1'], JSX = 'react.js'; // the page of examples/react
 writeFileSync(join(root, 'package.json'), JSON.stringify({ private: true, devDependencies: tools }));
 try {
   npm(root, 'install');
@@ -43,7 +44,8 @@ function project(name, more = {}) {
   const dir = join(root, name.replace(/\W+/g, '_'));
   mkdirSync(dir);
   writeFileSync(join(dir, 'package.json'), JSON.stringify({ name: 'a-page', private: true, type: 'module', ...more }));
-  npm(dir, 'install', archive, `three@${three}`);
+  npm(dir, 'install', archive, `three@${three}`, ...REACT);
+  cpSync(join(web, 'examples/react'), dir, { recursive: true });
   return dir;
 }
 
@@ -52,7 +54,8 @@ async function look(chrome, url) {
   const page = await newPage(chrome, { viewport: { width: 400, height: 300 } }), errors = [];
   page.on('pageerror', (error) => errors.push(error.message));
   await page.goto(url);
-  await page.waitForFunction(() => window.ready, undefined, { timeout: 60_000 }).catch((error) => errors.push(error.message));
+  const shown = () => window.ready || document.querySelector('slf-viewer')?.state === 'ready';
+  await page.waitForFunction(shown, undefined, { timeout: 60_000 }).catch((error) => errors.push(error.message));
   const { data } = readPng(await page.screenshot());
   let lit = 0;
   for (let i = 0; i < data.length; i += 3) lit += data[i] + data[i + 1] + data[i + 2] > 24;
@@ -70,10 +73,11 @@ async function draws(chrome, name, page, served) {
   return good;
 }
 
-async function bundled(chrome, name, { build, head = '', parts = '', package: more }) {
+async function bundled(chrome, name, { build, head = '', parts = '', jsx, package: more }) {
   const dir = project(name, more);
   let good = 0;
-  for (const page of pages) {
+  for (const page of pages.filter((each) => jsx || each !== JSX)) {
+    ++all;
     const source = head + readFileSync(join(here, 'pages', page), 'utf8').replace('/* parts */', parts);
     writeFileSync(join(dir, 'main.js'), source);
     let made;
@@ -103,7 +107,8 @@ async function mapped(chrome) {
     'slf-decoder/viewer/': at('slf-decoder/viewer/') };
   const served = await serveFolder(own);
   let good = 0;
-  for (const page of pages) {
+  for (const page of pages.filter((each) => each !== JSX)) {
+    ++all;
     cpSync(join(here, 'pages', page), join(own, 'main.js'));
     writeFileSync(join(own, 'index.html'), `<!doctype html><style>body { margin: 0; background: #000 }</style><body>
 <script type="importmap">${JSON.stringify({ imports })}</script><script type="module" src="main.js"></script>`);
@@ -115,16 +120,24 @@ async function mapped(chrome) {
   return good;
 }
 
+/** examples/plain as it is, beside the package. */
+async function plain(chrome) {
+  const dir = project('plain example');
+  cpSync(join(web, 'examples/plain/index.html'), join(dir, 'index.html'));
+  cpSync(join(root, 'can.slf'), join(dir, 'can.slf'));
+  const served = await serveFolder(dir);
+  ++all;
+  const good = await draws(chrome, 'plain example', 'index.html', served);
+  served.close();
+  return good;
+}
+
 const chrome = await launch();
 let good = 0, all = 0;
-for (const [name, builder] of Object.entries(BUILDERS).filter(([each]) => each.includes(wanted))) {
+for (const [name, builder] of Object.entries(BUILDERS).filter(([each]) => each.includes(wanted)))
   good += await bundled(chrome, name, builder);
-  all += pages.length;
-}
-if ('import map'.includes(wanted)) {
-  good += await mapped(chrome);
-  all += pages.length;
-}
+if ('import map'.includes(wanted)) good += await mapped(chrome);
+if ('plain example'.includes(wanted)) good += await plain(chrome);
 await chrome.close();
 console.log(`${good} passed, ${all - good} failed`);
 process.exit(good === all ? 0 : 1);
