@@ -76,9 +76,12 @@ function finished(command, words, cwd) {
   });
 }
 
+/** Versions of three.js that a loader has to draw with; the others are of package.json. */
+const OLD_THREE = ['0.150.0', '0.160.0', '0.170.0'];
 const INLINE = { head: "import { wasm } from 'slf-decoder/inline';\n", parts: 'wasm' };
 
-/** name: build, what a page needs beside its ten lines, and whether it takes JSX as it comes; package: of the project. */
+/** name: build, what a page needs beside its ten lines, and whether it takes JSX as it comes; package: of the project;
+ *  three, only: its version, and the one page of it */
 export const BUILDERS = {
   'vite build': { build: viteBuild, jsx: true },
   'vite dev': { build: viteDev, jsx: true },
@@ -89,4 +92,5 @@ export const BUILDERS = {
   'esbuild, inline': { build: esbuild, jsx: true, ...INLINE },
   'esbuild, file loader': { build: (project) => esbuild(project, { '.wasm': 'file' }),
     head: "import wasm from 'slf-decoder/slf.wasm';\n", parts: 'wasm: new URL(wasm, import.meta.url)' },
+  ...Object.fromEntries(OLD_THREE.map((three) => [`three ${three}`, { build: esbuild, three, only: 'three.js', ...INLINE }])),
 };

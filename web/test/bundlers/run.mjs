@@ -40,11 +40,11 @@ npm(web, 'pack', '--pack-destination', root);
 const archive = join(root, readdirSync(root).find((name) => name.endsWith('.tgz')));
 
 /** An empty project with the package and three in it. */
-function project(name, more = {}) {
+function project(name, more = {}, version = three) {
   const dir = join(root, name.replace(/\W+/g, '_'));
   mkdirSync(dir);
   writeFileSync(join(dir, 'package.json'), JSON.stringify({ name: 'a-page', private: true, type: 'module', ...more }));
-  npm(dir, 'install', archive, `three@${three}`, ...REACT);
+  npm(dir, 'install', archive, `three@${version}`, ...REACT);
   cpSync(join(web, 'examples/react'), dir, { recursive: true });
   return dir;
 }
@@ -73,10 +73,10 @@ async function draws(chrome, name, page, served) {
   return good;
 }
 
-async function bundled(chrome, name, { build, head = '', parts = '', jsx, package: more }) {
-  const dir = project(name, more);
+async function bundled(chrome, name, { build, head = '', parts = '', jsx, package: more, three: version, only }) {
+  const dir = project(name, more, version);
   let good = 0;
-  for (const page of pages.filter((each) => jsx || each !== JSX)) {
+  for (const page of pages.filter((each) => (only ? each === only : jsx || each !== JSX))) {
     ++all;
     const source = head + readFileSync(join(here, 'pages', page), 'utf8').replace('/* parts */', parts);
     writeFileSync(join(dir, 'main.js'), source);

@@ -1,0 +1,52 @@
+// Types of slf_viewer.js: <slf-viewer>.
+import type { SLFParts } from './SLFLoader.js';
+import type { ViewerError } from './packed_field.js';
+
+/** A view as attributes and addresses have it; degrees, and world units of the target: "x,y,z". */
+export interface SlfView {
+  azimuth: string;
+  elevation: string;
+  fov: string;
+  zoom: string;
+  target: string;
+  [parameter: string]: string;
+}
+
+export interface SlfViewerEvents {
+  progress: CustomEvent<{ received: number; total: number }>;
+  coarse: CustomEvent<{ points: number }>;
+  ready: CustomEvent<{ points: number }>;
+  error: CustomEvent<ViewerError>;
+  viewchange: CustomEvent<undefined>;
+}
+
+/** Attributes: viewer/README.md. */
+export class SlfViewerElement extends HTMLElement {
+  /** Of every viewer of the page: where the package's files are, if not beside its code. */
+  static parts: SLFParts;
+
+  /** 'idle', 'loading', 'coarse', 'ready', or 'failed' and the kind of the error. */
+  readonly state: string;
+  /** null before something shows. Set to parts of a view, the rest is as the attributes have it. */
+  get view(): SlfView | null;
+  set view(view: Partial<Record<keyof SlfView, string | number>> | null);
+
+  /** In place of `src`. Resolves when it shows, or what is wrong does. */
+  open(source: string | Blob | Uint8Array, name?: string): Promise<void>;
+  reset(): void;
+  fit(): void;
+  /** Degrees a second; 0 stops. */
+  spin(speed?: number): void;
+  /** PNG of what is shown; null before. */
+  picture(): Promise<Blob | null>;
+
+  addEventListener<K extends keyof SlfViewerEvents>(
+    type: K, listener: (event: SlfViewerEvents[K]) => void, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'slf-viewer': SlfViewerElement;
+  }
+}
