@@ -10,7 +10,7 @@ export const BACKGROUNDS = {
 };
 
 /** What is said of the first file and of no other that is opened after it. */
-export const OF_FIRST_FILE = { title: null, poster: null, capture: null, camera: null, view: null };
+export const OF_FIRST_FILE = { title: null, poster: null, notes: null, capture: null, camera: null, view: null };
 
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
@@ -29,6 +29,7 @@ export function readOptions(query, page = {}) {
     capture: text('capture'),
     title: text('title'),
     poster: text('poster'),
+    notes: text('notes'),
     embed: flag('embed'),
     background: backgroundOf(text('background')),
     exposure: number('exposure', -3, 3, 0),

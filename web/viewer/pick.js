@@ -32,6 +32,17 @@ export function pick(packed, from, along, share = 1) {
   return found && { index: found.index, distance: found.distance, normal: found.normal };
 }
 
+/** The place in the world under a point of a stage, in pixels of the page; null beside the object. */
+export function placeAt(stage, x, y) {
+  const { packed, canvas } = stage,
+    view = stage.view(canvas.clientWidth, canvas.clientHeight);
+  const across = (x - view.cx) / view.fx,
+    down = (y - view.cy) / view.fy;
+  const along = normalised([0, 1, 2].map((k) => across * view.rotation[k] + down * view.rotation[3 + k] + view.rotation[6 + k]));
+  const met = pick(packed, view.eye.map((v, k) => (v - packed.centre[k]) / packed.step), along, stage.look.share);
+  return met && view.eye.map((v, k) => v + met.distance * packed.step * along[k]);
+}
+
 /** Where a ray from the origin meets the plane of a disc: how far, and how far from its centre, squared. */
 function meetDisc(discs, p, centre, along, near) {
   let normal = [discs[p], discs[p + 1], discs[p + 2]];

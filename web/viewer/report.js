@@ -43,6 +43,7 @@ export class Report {
       this.viewer.factsDue = now + 500; // ms
       this.page.writeFacts(this.viewer.facts, this.viewer.stage);
     }
+    this.viewer.guide?.lay();
     if (!this.page.at('compare').hidden && this.viewer.comparison.shown?.photograph) this.viewer.comparison.lay();
     this.page.frame.dataset.frame = String(Number(this.page.frame.dataset.frame ?? 0) + 1);
   }

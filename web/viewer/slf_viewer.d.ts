@@ -18,6 +18,8 @@ export interface SlfViewerEvents {
   ready: CustomEvent<{ points: number }>;
   error: CustomEvent<ViewerError>;
   viewchange: CustomEvent<undefined>;
+  annotation: CustomEvent<{ index: number; title: string }>;
+  noteserror: CustomEvent<ViewerError>;
 }
 
 /** Attributes: viewer/README.md. */
@@ -33,6 +35,12 @@ export class SlfViewerElement extends HTMLElement {
 
   /** In place of `src`. Resolves when it shows, or what is wrong does. */
   open(source: string | Blob | Uint8Array, name?: string): Promise<void>;
+  /** The place of the object under a point of the window, in world units; null beside it. */
+  pointAt(x: number, y: number): [number, number, number] | null;
+  /** A track of the notes, by name or number; stops the one that plays. */
+  play(track?: string | number): void;
+  /** An annotation of the notes, by its number from 0. */
+  show(annotation: number): void;
   reset(): void;
   fit(): void;
   /** Degrees a second; 0 stops. */

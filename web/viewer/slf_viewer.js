@@ -7,6 +7,7 @@ import { markup, style } from '../made/viewer_markup.js';
 import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { backgroundOf, readOptions } from './options.js';
+import { placeAt } from './pick.js';
 import { Viewer } from './viewer.js';
 import { viewParameters } from './view_link.js';
 import { Turns } from './viewer_turns.js';
@@ -102,6 +103,24 @@ export class SlfViewerElement extends HTMLElement {
     if (!this.viewer?.controls?.pose) return;
     Object.assign(this.viewer.options, this.#options().view);
     this.viewer.reset();
+  }
+
+  /** The place of the object under a point of the window (`clientX`, `clientY`); null beside it. */
+  pointAt(x, y) {
+    const { stage } = this.viewer ?? {};
+    if (!stage?.field || !this.viewer.controls.pose) return null;
+    const box = stage.canvas.getBoundingClientRect();
+    return placeAt(stage, x - box.left, y - box.top);
+  }
+
+  /** Plays a track of the notes, by name or number, or stops the one that plays. */
+  play(track = 0) {
+    this.viewer?.guide.play(track);
+  }
+
+  /** Opens an annotation of the notes, by its number from 0. */
+  show(annotation) {
+    if (this.viewer?.guide.marks[annotation]) this.viewer.guide.show(annotation);
   }
 
   reset() {

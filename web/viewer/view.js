@@ -89,6 +89,19 @@ export function viewOf(pose, up, width, height) {
   };
 }
 
+/** Between two poses, the short way round; distances by their ratio. @param share  0: a, 1: b */
+export function blendedPose(a, b, share) {
+  const mix = (x, y) => x + share * (y - x),
+    around = ((b.azimuth - a.azimuth + 540) % 360) - 180;
+  return {
+    azimuth: a.azimuth + share * (around < -180 ? around + 360 : around),
+    elevation: mix(a.elevation, b.elevation),
+    fov: mix(a.fov, b.fov),
+    distance: a.distance * (b.distance / a.distance) ** share,
+    target: a.target.map((x, k) => mix(x, b.target[k])),
+  };
+}
+
 /** A camera of a capture in a picture of that size: all of it shows, in the middle. */
 export function fittedCamera(camera, width, height) {
   const scale = Math.min(width / camera.width, height / camera.height);

@@ -4,6 +4,7 @@ import { Comparison } from './comparison.js';
 import { Controls } from './controls.js';
 import { Elements, download } from './elements.js';
 import { FieldLoader } from './field_loader.js';
+import { Guide } from './guide.js';
 import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
 import { Report } from './report.js';
 import { Stage } from './stage.js';
@@ -25,6 +26,7 @@ export class Viewer {
     this.loader = page.loader ?? new FieldLoader({ maxMemory: this.options.memory });
     this.report = new Report(this);
     this.comparison = new Comparison(this);
+    this.guide = new Guide(this);
     this.facts = {};
     this.chosen = this.options.background; // null: as the page and the hour have it
     this.background = this.chosen ?? (this.darkPage() ? 'slate' : 'paper');
@@ -46,6 +48,7 @@ export class Viewer {
       change: () => this.moved(),
       start: () => {
         this.touched = true;
+        this.guide.stop();
         this.spin(0);
       },
       refused: (text) => this.report.hint(text),
@@ -70,6 +73,7 @@ export class Viewer {
     if (this.source && this.source.source !== source) Object.assign(this.options, OF_FIRST_FILE);
     const own = (this.source = this.loading = { source, name });
     this.comparison.close();
+    this.guide.close();
     this.controls.pose = null;
     this.touched = false;
     this.stage.clear();
@@ -90,6 +94,7 @@ export class Viewer {
       this.report.describe();
       this.report.say('It is shown.');
       if (Object.entries(part).some(([name, value]) => this.options[name] !== value)) await this.decodeAgain();
+      if (this.options.notes) await this.guide.open(this.options.notes);
       if (this.options.capture) await this.comparison.open(this.options.capture);
     } catch (error) {
       if (error.name !== 'AbortError') this.report.fail(error);
@@ -183,7 +188,8 @@ export class Viewer {
   }
 
   tick(seconds) {
-    let moving = this.controls.tick(seconds);
+    const moved = this.controls.tick(seconds);
+    let moving = (this.controls.pose !== null && this.guide.tick(seconds)) || moved;
     if (this.spinning && this.controls.pose && !document.hidden) {
       this.controls.pose.azimuth += this.spinning * Math.min(seconds, 0.1);
       moving = true;

@@ -18,6 +18,8 @@ const KEYS = {
   b: 'background',
   '[': 'before',
   ']': 'after',
+  n: 'note',
+  t: 'tour',
 };
 
 export class Wiring {
@@ -71,6 +73,9 @@ export class Wiring {
         this.page.root.fullscreenElement ? document.exitFullscreen() : this.viewer.screen.requestFullscreen?.(),
       help: () => (this.page.at('help').open ? this.page.at('help').close() : this.page.at('help').showModal()),
       shot: () => field && this.viewer.save(),
+      note: () => field && this.viewer.guide.next(),
+      'note-close': () => this.viewer.guide.hide(),
+      tour: () => field && this.viewer.guide.play(),
       link: () => field && copyLink(this.viewer),
       snippet: () => field && copyEmbedding(this.viewer),
       mean: () => {
@@ -95,6 +100,7 @@ export class Wiring {
     if (event.ctrlKey || event.metaKey || event.altKey || this.viewer.options.embed) return;
     if (event.target.matches?.('input, select, dialog *') && event.key !== 'h') return;
     if (event.key === ' ' && event.target.matches?.('button')) return;
+    if (event.key === 'Escape' && !this.page.at('note').hidden) return this.viewer.guide.hide();
     if (event.key === 'Escape' && !this.page.at('panel').hidden) return this.viewer.togglePanel();
     const flying = this.viewer.controls?.mode === 'fly' && /^[wasdqe]$/i.test(event.key);
     const key = event.key.toLowerCase(),

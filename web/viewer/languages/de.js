@@ -149,4 +149,10 @@ export default {
   'This device cannot blend in half floats.': 'Dieses Gerät kann nicht in halber Genauigkeit mischen.',
   'The graphics memory does not hold this light field.': 'Der Grafikspeicher fasst dieses Lichtfeld nicht.',
   "{} points with {} components are more than this device's textures hold.": '{} Punkte mit {} Komponenten sind mehr, als die Texturen dieses Geräts fassen.',
+  'Notes': 'Anmerkungen',
+  'Guided tour': 'Rundgang',
+  'Guided tour (T)': 'Rundgang (T)',
+  'next note, guided tour': 'nächste Anmerkung, Rundgang',
+  'The notes cannot be read.': 'Die Anmerkungen lassen sich nicht lesen.',
+  'The notes cannot be fetched.': 'Die Anmerkungen sind nicht zu bekommen.',
 };

@@ -149,4 +149,10 @@ export default {
   'This device cannot blend in half floats.': 'Este dispositivo no puede mezclar en media precisión.',
   'The graphics memory does not hold this light field.': 'La memoria gráfica no contiene este campo de luz.',
   "{} points with {} components are more than this device's textures hold.": '{} puntos con {} componentes superan las texturas de este dispositivo.',
+  'Notes': 'Notas',
+  'Guided tour': 'Visita guiada',
+  'Guided tour (T)': 'Visita guiada (T)',
+  'next note, guided tour': 'nota siguiente, visita guiada',
+  'The notes cannot be read.': 'No se pueden leer las notas.',
+  'The notes cannot be fetched.': 'No se pueden obtener las notas.',
 };

@@ -149,4 +149,10 @@ export default {
   'This device cannot blend in half floats.': 'Cet appareil ne peut pas mélanger en demi-précision.',
   'The graphics memory does not hold this light field.': 'La mémoire graphique ne contient pas ce champ de lumière.',
   "{} points with {} components are more than this device's textures hold.": '{} points avec {} composantes dépassent les textures de cet appareil.',
+  'Notes': 'Notes',
+  'Guided tour': 'Visite guidée',
+  'Guided tour (T)': 'Visite guidée (T)',
+  'next note, guided tour': 'note suivante, visite guidée',
+  'The notes cannot be read.': 'Les notes ne peuvent pas être lues.',
+  'The notes cannot be fetched.': 'Les notes ne peuvent pas être obtenues.',
 };

@@ -149,4 +149,10 @@ export default {
   'This device cannot blend in half floats.': 'この端末は半精度で合成できません。',
   'The graphics memory does not hold this light field.': 'グラフィックメモリに収まりません。',
   "{} points with {} components are more than this device's textures hold.": '{} 点と {} 成分はこの端末のテクスチャに収まりません。',
+  'Notes': '注釈',
+  'Guided tour': 'ガイドツアー',
+  'Guided tour (T)': 'ガイドツアー (T)',
+  'next note, guided tour': '次の注釈、ガイドツアー',
+  'The notes cannot be read.': '注釈を読み取れません。',
+  'The notes cannot be fetched.': '注釈を取得できません。',
 };

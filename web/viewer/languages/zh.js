@@ -149,4 +149,10 @@ export default {
   'This device cannot blend in half floats.': '此设备无法以半精度混合。',
   'The graphics memory does not hold this light field.': '显存无法容纳此光场。',
   "{} points with {} components are more than this device's textures hold.": '{} 个点和 {} 个分量超出该设备纹理的容量。',
+  'Notes': '注释',
+  'Guided tour': '导览',
+  'Guided tour (T)': '导览 (T)',
+  'next note, guided tour': '下一条注释、导览',
+  'The notes cannot be read.': '无法读取注释。',
+  'The notes cannot be fetched.': '无法获取注释。',
 };
