@@ -40,7 +40,7 @@ export function readOptions(query, page = {}) {
     fov: number('fov', 1, 170, 30),
     zoom: number('zoom', 0.05, 50, 1),
     camera: text('camera'),
-    view: page.view ?? null,
+    view: query.get('azimuth') === null ? (page.view ?? null) : null, // the address comes first
     points: number('points', 1, 100, 100),
     levels: number('levels', 0, 21, 0),
     groups: number('groups', 0, 4096, 0),

@@ -27,6 +27,7 @@ export class SlfViewerElement extends HTMLElement {
   #starting = null; // a promise of the viewer
   #view = null; // parameters that come before the attributes
   #opened = null; // of open(), in place of src
+  #still = null; // address of its last picture
   #query = { get: (name) => this.#view?.get(name) ?? this.getAttribute(name) };
 
   constructor() {
@@ -52,7 +53,7 @@ export class SlfViewerElement extends HTMLElement {
   attributeChangedCallback(name, before, value) {
     if (before === value || !this.isConnected) return;
     if (name === 'src') this.#reopen();
-    else if (this.viewer?.stage) this.#look();
+    else if (this.viewer?.stage) this.#look(name);
   }
 
   // What turns.js calls: a page has few graphics contexts and many viewers.
@@ -76,16 +77,20 @@ export class SlfViewerElement extends HTMLElement {
     const picture = viewer.stage?.field && viewer.stage.canvas.isConnected ? viewer.stage.screenshot() : null;
     const still = await picture;
     viewer.dispose();
-    this.#markUp(still && URL.createObjectURL(still));
+    if (this.#starting) return; // it is wanted again
+    URL.revokeObjectURL(this.#still);
+    this.#still = still && URL.createObjectURL(still);
+    this.#markUp(this.#still ?? undefined);
   }
 
   // For pages
 
   /** An address, a File or bytes in place of `src`. Resolves when it shows, or what is wrong does. */
   async open(source, name) {
+    const awake = this.viewer;
     this.#opened = { source, name };
     const viewer = await this.wake();
-    return viewer?.open(source, name);
+    return awake ? viewer.open(source, name) : viewer?.opening;
   }
 
   /** idle, loading, coarse, ready, or failed and the kind of the error. */
@@ -141,6 +146,7 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   async #start() {
+    this.#markUp(this.#still ?? undefined);
     const words = await wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));
     if (!this.isConnected || this.viewer) return this.viewer;
     const frame = this.#elements.frame;
@@ -175,6 +181,9 @@ export class SlfViewerElement extends HTMLElement {
   async #reopen() {
     this.#opened = this.#view = null;
     await this.sleep();
+    this.#still = null; // of the file before
+    this.#markUp();
+    turns.forget(this);
     turns.watch(this);
   }
 
@@ -184,14 +193,14 @@ export class SlfViewerElement extends HTMLElement {
     return { ...read, view: { azimuth, elevation, fov, zoom, target } };
   }
 
-  #look() {
+  #look(changed) {
     const { viewer } = this, { background, exposure, mean, points, autorotate } = this.#options();
     Object.assign(viewer.options, { background, exposure, mean, points, autorotate });
     viewer.chosen = backgroundOf(this.getAttribute('background'));
     if (viewer.chosen) viewer.background = viewer.chosen;
     viewer.followPage();
     viewer.applyLook();
-    viewer.spin(autorotate);
+    if (changed === 'autorotate') viewer.spin(autorotate);
     viewer.stage.redraw();
   }
 

@@ -59,8 +59,8 @@ export class Viewer {
     this.applyLook();
     const { poster, src } = this.options;
     if (poster) this.page.writePoster(poster);
-    if (page.file) this.open(page.file, page.name);
-    else if (src) this.open(src, src.split(/[?#]/)[0].split('/').pop());
+    if (page.file) this.opening = this.open(page.file, page.name);
+    else if (src) this.opening = this.open(src, src.split(/[?#]/)[0].split('/').pop());
     else if (poster) this.page.writePoster(null);
   }
 
@@ -155,7 +155,7 @@ export class Viewer {
 
   startPose() {
     const { azimuth, elevation, fov, zoom, target, view } = this.options;
-    if (view && azimuth === null) return poseOfCamera({ ...view, rotation: view.rotation }, this.stage.field);
+    if (view) return poseOfCamera({ ...view, rotation: view.rotation }, this.stage.field);
     const pose = fittingPose(this.stage.field, { azimuth: azimuth ?? 30, elevation: elevation ?? 20, fov });
     return { ...pose, distance: pose.distance / zoom, target: target ?? pose.target };
   }

@@ -27,15 +27,26 @@ export class Wiring {
   constructor(viewer) {
     this.viewer = viewer;
     this.page = viewer.page;
+    this.end = new AbortController();
     this.listen();
   }
 
+  /** Of what outlives a viewer: the root of its elements, and the page around it. */
+  onRoot(type, handler) {
+    this.page.root.addEventListener(type, handler, { signal: this.end.signal });
+  }
+
+  dispose() {
+    this.end.abort();
+    this.around?.disconnect();
+  }
+
   listen() {
-    this.page.root.addEventListener('click', (event) => {
+    this.onRoot('click', (event) => {
       const button = event.target.closest?.('[data-do]');
       if (button) this.act(button.dataset.do);
     });
-    this.page.root.addEventListener('keydown', (event) => this.shortcut(event));
+    this.onRoot('keydown', (event) => this.shortcut(event));
     this.page.at('stage').addEventListener('dblclick', () => this.viewer.stage?.field && this.viewer.fit());
     this.page.at('file').addEventListener('change', (event) => {
       this.take([...event.target.files]);
@@ -43,15 +54,20 @@ export class Wiring {
     });
     this.listenToDrops();
     this.listenToPanel();
-    this.page.root.addEventListener('fullscreenchange', () =>
-      this.full(Boolean(this.page.root.fullscreenElement)),
-    );
-    const scheme = matchMedia('(prefers-color-scheme: dark)'),
-      follow = () => this.viewer.followPage();
-    scheme.addEventListener('change', follow);
-    this.dispose = () => scheme.removeEventListener('change', follow);
+    this.onRoot('fullscreenchange', () => this.full(Boolean(this.page.root.fullscreenElement)));
+    this.followPage();
     if (!this.viewer.link) this.page.one('[data-do=link]').hidden = true;
     if (!this.page.whole || !/^http/.test(location.protocol)) this.page.one('[data-do=snippet]').hidden = true;
+  }
+
+  /** Dark or light, by the reader's device and by what a page says of itself. */
+  followPage() {
+    const follow = () => this.viewer.followPage();
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', follow, { signal: this.end.signal });
+    if (this.page.whole) return;
+    this.around = new MutationObserver(follow);
+    for (const each of [document.documentElement, document.body, this.page.root.host])
+      this.around.observe(each, { attributes: true, attributeFilter: ['class', 'style', 'data-theme'] });
   }
 
   /** Nothing scrolls beside a viewer that has the screen. */
@@ -110,17 +126,16 @@ export class Wiring {
     this.act(action);
   }
 
-  listenToDrops() {
-    const { root } = this.page; // what is dropped on a viewer is for that one
+  listenToDrops() { // what is dropped on a viewer is for that one
     const dragging = (on) => this.page.frame.classList.toggle('dragging', on);
-    root.addEventListener('dragover', (event) => {
+    this.onRoot('dragover', (event) => {
       event.preventDefault();
       dragging(true);
     });
-    root.addEventListener('dragleave', (event) => {
+    this.onRoot('dragleave', (event) => {
       if (!event.relatedTarget) dragging(false);
     });
-    root.addEventListener('drop', (event) => {
+    this.onRoot('drop', (event) => {
       event.preventDefault();
       dragging(false);
       droppedFiles(event.dataTransfer).then((files) => this.take(files));

@@ -85,7 +85,33 @@ test('of twelve viewers eight are awake, and those that sleep keep their picture
   assert.match(still, /^blob:/);
   await page.evaluate(() => document.getElementById('v0').scrollIntoView());
   assert.equal(await state(page, 'v0'), 'ready');
+  await page.click('#v0 [data-do=spin]');
+  assert.equal(await page.getAttribute('#v0 [data-do=spin]', 'aria-pressed'), 'true'); // once: nothing listens from before
   assert.deepEqual(page.wrong, []);
+  await page.close();
+});
+
+test('twelve that are seen at once all show their picture, and a click wakes one that sleeps', { skip }, async () => {
+  const style = 'levels="4" embed style="height: 90px; width: 90px; display: inline-block; margin: 2px"';
+  const page = await pageOf('grid', Array.from({ length: 12 }, (_, i) => viewer(`v${i}`, style)).join(''));
+  const shows = () => [...document.querySelectorAll('slf-viewer')].every((each) =>
+    each.state === 'ready' || each.shadowRoot.getElementById('poster').src.startsWith('blob:'));
+  await page.waitForFunction(shows);
+  const asleep = await page.evaluate(() => [...document.querySelectorAll('slf-viewer')].filter((each) => !each.viewer).map((each) => each.id));
+  assert.equal(asleep.length, 4);
+  await page.click(`#${asleep[0]}`);
+  assert.equal(await state(page, asleep[0]), 'ready');
+  assert.deepEqual(page.wrong, []);
+  await page.close();
+});
+
+test('an embedded page lets the page around it scroll', { skip }, async () => {
+  const page = await pageOf('around', `<iframe src="${here.server.page}?src=/files/can.slf&embed" title="A can" width="300" height="300"></iframe>${FAR}`);
+  const frame = await (await page.waitForSelector('iframe')).contentFrame();
+  await frame.waitForFunction(() => document.body.dataset.state === 'ready');
+  await page.mouse.move(150, 250);
+  await page.mouse.wheel(0, 120);
+  await page.waitForFunction(() => scrollY > 0);
   await page.close();
 });
 
@@ -176,6 +202,8 @@ test('without a choice it is dark where the page is, and follows it', { skip }, 
   await page.emulateMedia({ colorScheme: 'dark' });
   await page.waitForFunction(() => document.getElementById('a').viewer.background === 'slate');
   assert.deepEqual(await shown(), ['slate', 'slate', 'white']);
+  await page.evaluate(() => document.documentElement.setAttribute('style', 'color-scheme: light'));
+  await page.waitForFunction(() => document.getElementById('a').viewer.background === 'paper');
   await page.close();
 });
 

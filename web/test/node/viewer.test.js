@@ -143,3 +143,13 @@ test('parse() of every loader has one decoder', { skip }, async () => {
     WebAssembly.compile = compile;
   }
 });
+
+test('the view of a page is that of its camera, unless the address names another', async () => {
+  const { readOptions } = await import('../../viewer/options.js');
+  const page = { azimuth: 30, view: { eye: [0, 0, 0] } }, view = (query) => readOptions(new URLSearchParams(query), page).view;
+  assert.equal(view(''), page.view);
+  assert.equal(view('azimuth=12'), null);
+  assert.equal(readOptions(new URLSearchParams('background=constructor&target=1,2&mode=__proto__')).background, null);
+  assert.deepEqual(readOptions(new URLSearchParams('target=1,-2,3.5')).target, [1, -2, 3.5]);
+  assert.deepEqual(['1,2', '1,2,', 'a,b,c', ''].map((each) => readOptions(new URLSearchParams({ target: each })).target), [null, null, null, null]);
+});
