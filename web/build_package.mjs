@@ -39,7 +39,7 @@ async function markup() {
   const body = html
     .slice(html.indexOf('<main'), html.indexOf('</body>'))
     .replace(/\n\s*/g, '')
-    .replace('<main>', '<div class="main">')
+    .replace('<main>', '<div class="whole">')
     .replace(/<nav /, '<div role="toolbar" ')
     .replace(/<(aside|section) (?=id=)/g, '<$1 role="group" ')
     .replace(/<header /, '<div ')

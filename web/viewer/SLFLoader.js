@@ -112,7 +112,7 @@ export class SLFLoader extends Loader {
       return await loader.loadAsync(url, onProgress);
     } catch (error) {
       if (error?.name === 'AbortError') throw error;
-      throw new ViewerError('network', `${url} cannot be fetched.`, error?.message);
+      throw new ViewerError('network', 'The file cannot be fetched.', `${url}: ${error?.message}`);
     }
   }
 

@@ -183,10 +183,10 @@ async function openStream(source, request, stallMs) {
   } catch (error) {
     if (request.signal.aborted) throw aborted();
     if (error instanceof ViewerError) throw error;
-    throw new ViewerError('network', `${source} cannot be fetched.`);
+    throw new ViewerError('network', 'The file cannot be fetched.', String(source));
   }
   if (!response.ok)
-    throw new ViewerError('network', `${source}: the server says ${response.status} ${response.statusText}.`);
+    throw new ViewerError('network', `The server says ${response.status}.`, `${source} ${response.statusText}`);
   const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
   const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
   // Whether that is so is not seen of another origin.

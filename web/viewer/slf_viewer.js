@@ -150,6 +150,8 @@ export class SlfViewerElement extends HTMLElement {
     const words = await wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));
     if (!this.isConnected || this.viewer) return this.viewer;
     const frame = this.#elements.frame;
+    frame.classList.remove('asleep');
+    frame.classList.toggle('empty', !this.#opened && !this.getAttribute('src'));
     this.#elements = new Elements(this.shadowRoot, frame, words);
     const source = this.#opened,
       page = { scroll: 'polite' };
@@ -212,7 +214,7 @@ export class SlfViewerElement extends HTMLElement {
     }
     this.shadowRoot.adoptedStyleSheets = [sheet];
     const frame = document.createElement('div');
-    frame.className = 'frame';
+    frame.className = 'frame asleep';
     frame.innerHTML = markup;
     this.shadowRoot.replaceChildren(frame);
     this.#elements = new Elements(this.shadowRoot, frame);

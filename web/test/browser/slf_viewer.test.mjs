@@ -99,6 +99,7 @@ test('twelve that are seen at once all show their picture, and a click wakes one
   await page.waitForFunction(shows);
   const asleep = await page.evaluate(() => [...document.querySelectorAll('slf-viewer')].filter((each) => !each.viewer).map((each) => each.id));
   assert.equal(asleep.length, 4);
+  assert.ok(await page.isHidden(`#${asleep[0]} #tools`));
   await page.click(`#${asleep[0]}`);
   assert.equal(await state(page, asleep[0]), 'ready');
   assert.deepEqual(page.wrong, []);

@@ -155,4 +155,6 @@ export default {
   'next note, guided tour': 'nächste Anmerkung, Rundgang',
   'The notes cannot be read.': 'Die Anmerkungen lassen sich nicht lesen.',
   'The notes cannot be fetched.': 'Die Anmerkungen sind nicht zu bekommen.',
+  'The file cannot be fetched.': 'Die Datei ist nicht zu bekommen.',
+  'The server says {}.': 'Der Server sagt {}.',
 };

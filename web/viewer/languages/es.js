@@ -155,4 +155,6 @@ export default {
   'next note, guided tour': 'nota siguiente, visita guiada',
   'The notes cannot be read.': 'No se pueden leer las notas.',
   'The notes cannot be fetched.': 'No se pueden obtener las notas.',
+  'The file cannot be fetched.': 'No se puede obtener el archivo.',
+  'The server says {}.': 'El servidor responde {}.',
 };

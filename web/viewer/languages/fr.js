@@ -155,4 +155,6 @@ export default {
   'next note, guided tour': 'note suivante, visite guidée',
   'The notes cannot be read.': 'Les notes ne peuvent pas être lues.',
   'The notes cannot be fetched.': 'Les notes ne peuvent pas être obtenues.',
+  'The file cannot be fetched.': 'Le fichier ne peut pas être obtenu.',
+  'The server says {}.': 'Le serveur répond {}.',
 };

@@ -155,4 +155,6 @@ export default {
   'next note, guided tour': '次の注釈、ガイドツアー',
   'The notes cannot be read.': '注釈を読み取れません。',
   'The notes cannot be fetched.': '注釈を取得できません。',
+  'The file cannot be fetched.': 'ファイルを取得できません。',
+  'The server says {}.': 'サーバーの応答は {} です。',
 };

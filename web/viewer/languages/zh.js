@@ -155,4 +155,6 @@ export default {
   'next note, guided tour': '下一条注释、导览',
   'The notes cannot be read.': '无法读取注释。',
   'The notes cannot be fetched.': '无法获取注释。',
+  'The file cannot be fetched.': '无法获取文件。',
+  'The server says {}.': '服务器返回 {}。',
 };
