@@ -122,8 +122,7 @@ export class FieldLoader {
 
   /** A new worker for every file: memory that WebAssembly has grown to is never given back otherwise. */
   async restart(current) {
-    const starting = this.start();
-    const worker = starting instanceof Promise ? await starting.catch(refused) : starting;
+    const worker = await this.startWorker();
     const module = await this.decoder();
     if (!current()) {
       worker.terminate?.();
@@ -140,6 +139,14 @@ export class FieldLoader {
       this.waiting.clear();
     };
     worker.postMessage({ wasm: module });
+  }
+
+  async startWorker() {
+    try {
+      return await this.start();
+    } catch (error) {
+      throw new ViewerError('network', 'The script of the decoder cannot be fetched.', error?.message);
+    }
   }
 
   /** One that did not arrive is asked for once more, and again by the next file. */

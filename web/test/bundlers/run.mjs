@@ -18,8 +18,14 @@ function skipped(why) {
   process.exit(77);
 }
 
-const npm = (cwd, ...words) =>
-  execFileSync('npm', [...words, '--no-audit', '--no-fund', '--silent', '--ignore-scripts'], { cwd, timeout: 300_000 });
+function npm(cwd, ...words) {
+  try {
+    return execFileSync('npm', [...words, '--no-audit', '--no-fund', '--silent', '--ignore-scripts'], { cwd, timeout: 300_000 });
+  } catch (error) {
+    if (words[0] !== 'install') throw error;
+    return skipped(`npm did not get ${words.slice(1).join(' ') || 'the bundlers of tools.json'}`);
+  }
+}
 
 if (missing) skipped(`there is no ${missing}`);
 if (!existsSync(join(web, 'made/inline.js'))) skipped('there is no made/inline.js (web/build.sh)');
@@ -29,11 +35,7 @@ if (spawnSync('npm', ['view', 'esbuild', 'version'], { timeout: 20_000 }).status
 const root = folder(), { three } = JSON.parse(readFileSync(join(web, 'package.json'), 'utf8')).devDependencies;
 const REACT = ['react@19.3.1', 'react-dom@19.3.1'], JSX = 'react.js'; // the page of examples/react
 writeFileSync(join(root, 'package.json'), JSON.stringify({ private: true, devDependencies: tools }));
-try {
-  npm(root, 'install');
-} catch {
-  skipped('npm did not get the bundlers of tools.json');
-}
+npm(root, 'install');
 slf('synth', 'can', '-o', join(root, 'capture'), '--size', '64x64');
 slf('encode', join(root, 'capture'), '-o', join(root, 'can.slf'), '--effort', 1, '--quiet');
 npm(web, 'pack', '--pack-destination', root);
