@@ -127,7 +127,7 @@ std::string script_json(const nlohmann::ordered_json& json) {
   return out;
 }
 
-/// Of the template's picture element.
+/// The source element for night in the template's picture element; none without such a poster.
 std::string night_source(const std::string& poster) {
   if (poster.empty()) return "";
   return "<source media=\"(prefers-color-scheme: dark)\" srcset=\"" + poster + "\">";

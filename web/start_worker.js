@@ -12,7 +12,7 @@ export async function startWorker(own, copy) {
   try {
     return await started(own());
   } catch {
-    // Of another origin, not there, or forbidden: what follows says it if it is the last.
+    // Its script is of another origin, not there, or forbidden. The second try says why it fails, if it does.
   }
   let address;
   try {

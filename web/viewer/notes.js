@@ -26,7 +26,7 @@ export function readNotes(root) {
   return { annotations, tracks };
 }
 
-/** Of an address. */
+/** Fetches, parses and checks. @throws {ViewerError} 'network', 'damaged' */
 export async function fetchNotes(address) {
   const response = await fetch(address).catch(() => null);
   if (!response?.ok) throw new ViewerError('network', 'The notes cannot be fetched.', String(address));

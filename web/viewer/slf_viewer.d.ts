@@ -24,7 +24,7 @@ export interface SlfViewerEvents {
 
 /** Attributes: viewer/README.md. */
 export class SlfViewerElement extends HTMLElement {
-  /** Of every viewer of the page: where the package's files are, if not beside its code. */
+  /** Where the package's files are, if not beside its code; holds for every viewer of the page. */
   static parts: SLFParts;
 
   /** 'idle', 'loading', 'coarse', 'ready', or 'failed' and the kind of the error. */

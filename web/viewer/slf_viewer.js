@@ -20,7 +20,7 @@ let sheet = null;
 export class SlfViewerElement extends HTMLElement {
   static observedAttributes = ['src', ...LIVE];
 
-  /** Of every viewer: where the package's files are (SLFLoader has the same). */
+  /** Where the package's files are, for every viewer; SLFLoader has the same options. */
   static parts = {};
 
   #elements = null;

@@ -5,9 +5,9 @@ import type { PackedField } from './packed_field.js';
 
 /** What Raycaster finds of a light field. */
 export interface LightFieldIntersection extends Intersection<SurfaceLightField> {
-  /** Of the point whose disc is met. */
+  /** The point whose disc is met. */
   index: number;
-  /** Of the surface, towards the ray's origin, in the object's axes. */
+  /** The surface's, towards the ray's origin, in the object's axes. */
   normal: Vector3;
   /** What is seen along the ray, with the object's exposure. */
   color: Color;

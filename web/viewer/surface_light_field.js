@@ -115,7 +115,7 @@ export class SurfaceLightField extends Mesh {
       pipeline.accumulate(view, { meanOnly: this.meanOnly, share: this.share });
     });
     withState(gl, () => {
-      // Of other targets WebGL encodes those that are sRGB.
+      // WebGL itself encodes what is drawn into any other sRGB target.
       const linear = target !== null && !(target.isXRRenderTarget === true && target.texture.colorSpace === 'srgb');
       pipeline.resolve({
         viewport: [x, y, width, height],

@@ -31,7 +31,7 @@ export class Wiring {
     this.listen();
   }
 
-  /** Of what outlives a viewer: the root of its elements, and the page around it. */
+  /** Listens on the root, which outlives a viewer: until dispose(). */
   onRoot(type, handler) {
     this.page.root.addEventListener(type, handler, { signal: this.end.signal });
   }
