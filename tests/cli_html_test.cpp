@@ -49,6 +49,17 @@ TEST_F(CliHtmlTest, WithoutAPosterThePageIsSmaller) {
   EXPECT_EQ(read("bare.html").find("data:image/jpeg"), std::string::npos);
 }
 
+TEST_F(CliHtmlTest, ABackgroundThatNobodyChoseIsThatOfTheHour) {
+  if (!has_page()) GTEST_SKIP() << kWithoutPage;
+  const std::string night =
+      "<source media=\"(prefers-color-scheme: dark)\" srcset=\"data:image/jpeg";
+  EXPECT_NE(read("x.html").find(night), std::string::npos);
+  EXPECT_EQ(read("x.html").find("\"background\":"), std::string::npos);
+  ASSERT_EQ(slf("html x.slf -o grey.html --background 808080 --quiet").code, 0);
+  EXPECT_EQ(read("grey.html").find(night), std::string::npos);
+  EXPECT_NE(read("grey.html").find("\"background\":\"808080\""), std::string::npos);
+}
+
 TEST_F(CliHtmlTest, TheFirstViewIsTheCameraThatWasNamed) {
   if (!has_page()) GTEST_SKIP() << kWithoutPage;
   ASSERT_EQ(slf("html x.slf -o camera.html --camera die/cameras.json:1 --quiet").code, 0);

@@ -17,9 +17,11 @@ namespace slf::tools {
 namespace {
 
 constexpr int kPosterPixels = 480, kPosterQuality = 75;
+// The viewer's own by day and by night: `paper` and `slate` of web/viewer/options.js.
+constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
 struct HtmlOptions {
-  std::string input, output, title, camera, poster, background = "f3f1ec";
+  std::string input, output, title, camera, poster, background;
   double azimuth = 30, elevation = 20, fov = 30, autorotate = 0;
   bool no_poster = false;
   LimitOptions limits;
@@ -38,7 +40,7 @@ bool parse_colour(std::string_view given, std::array<std::uint8_t, 3>& rgb) {
 
 Outcome check_options(const HtmlOptions& given) {
   std::array<std::uint8_t, 3> rgb{};
-  if (!parse_colour(given.background, rgb))
+  if (!given.background.empty() && !parse_colour(given.background, rgb))
     return Failure{kUsage, "html: --background " + given.background + " is not RRGGBB"};
   if (given.no_poster && !given.poster.empty())
     return Failure{kUsage, "html: --poster and --no-poster do not go together"};
@@ -79,19 +81,34 @@ Camera square(Camera camera) {
   return resized(std::move(camera), kPosterPixels, kPosterPixels);
 }
 
-Result<std::string, Failure> rendered_poster(const HtmlOptions& given, const LightField& field,
-                                             const std::optional<Camera>& camera) {
+/// Addresses of the pictures that show until the file is decoded; `night` is empty where it is that
+/// of the day.
+struct Posters {
+  std::string day, night;
+};
+
+/// The first view on the background that was chosen, else on those of day and night.
+Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightField& field,
+                                          const std::optional<Camera>& camera) {
   RenderSettings settings;
-  parse_colour(given.background, settings.background);
   settings.threads = given.common.threads;
   const ViewMaps maps(field, given.common.threads);
-  const Renderer renderer(maps, settings);
-  const Camera view = camera ? square(*camera)
-                             : renderer.orbit(given.azimuth / 360, given.elevation, kPosterPixels,
-                                              kPosterPixels, given.fov);
-  SLF_TRY(const auto jpeg,
-          from(std::string(), encode_jpeg(renderer.render(view).image, kPosterQuality)));
-  return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
+  const auto rendered = [&](const std::string& background) -> Result<std::string, Failure> {
+    parse_colour(background, settings.background);
+    const Renderer renderer(maps, settings);
+    const Camera view = camera ? square(*camera)
+                               : renderer.orbit(given.azimuth / 360, given.elevation, kPosterPixels,
+                                                kPosterPixels, given.fov);
+    SLF_TRY(const auto jpeg,
+            from(std::string(), encode_jpeg(renderer.render(view).image, kPosterQuality)));
+    return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
+  };
+  Posters posters;
+  SLF_TRY(posters.day, rendered(given.background.empty() ? kPaper : given.background));
+  if (given.background.empty()) {
+    SLF_TRY(posters.night, rendered(kSlate));
+  }
+  return posters;
 }
 
 /// A picture that was given, as it is.
@@ -110,13 +127,19 @@ std::string script_json(const nlohmann::ordered_json& json) {
   return out;
 }
 
+/// The source element for night in the template's picture element; none without such a poster.
+std::string night_source(const std::string& poster) {
+  if (poster.empty()) return "";
+  return "<source media=\"(prefers-color-scheme: dark)\" srcset=\"" + poster + "\">";
+}
+
 nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string& title,
                                     const std::optional<Camera>& camera) {
   nlohmann::ordered_json options{{"title", title},
-                                 {"background", given.background},
                                  {"azimuth", given.azimuth},
                                  {"elevation", given.elevation},
                                  {"fov", given.fov}};
+  if (!given.background.empty()) options["background"] = given.background;
   if (given.autorotate != 0) options["autorotate"] = given.autorotate;
   if (camera) options["view"] = view_json(*camera);
   return options;
@@ -136,24 +159,25 @@ Outcome run_html(const HtmlOptions& given) {
   if (!decoded) return decode_failure(name, decoded.error(), input, options);
   const LightField& field = *decoded;
   SLF_CHECK(require_view_maps(field, given.input));
-  std::string poster;
+  Posters poster;
   if (!given.poster.empty()) {
-    SLF_TRY(poster, given_poster(given.poster));
+    SLF_TRY(poster.day, given_poster(given.poster));
   } else if (!given.no_poster) {
-    SLF_TRY(poster, rendered_poster(given, field, camera));
+    SLF_TRY(poster, rendered_posters(given, field, camera));
   }
   const std::string title = title_of(given, input.info.metadata);
   const std::string file = base64(stream.data(), stream.size());
   const std::string page = filled_template(
       page_template(), {{"title", escaped_html(title)},
-                        {"poster", poster.empty() ? "data:," : poster},
+                        {"poster", poster.day.empty() ? "data:," : poster.day},
+                        {"night", night_source(poster.night)},
                         {"options", script_json(page_options(given, title, camera))},
                         {"file", file}});
   SLF_CHECK(save(given.output, page));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", page.size()},
                                         {"file", file.size()},
-                                        {"poster", poster.size()},
+                                        {"poster", poster.day.size() + poster.night.size()},
                                         {"partial", field.partial}});
   if (!given.common.quiet)
     std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
@@ -192,9 +216,9 @@ void add_html(CLI::App& program, Run& run) {
                    "Degrees a second until somebody takes hold; 0: still")
       ->capture_default_str()
       ->check(range(-90, 90));
-  verb->add_option("--background", o->background, "RRGGBB")
-      ->type_name("RRGGBB")
-      ->capture_default_str();
+  verb->add_option("--background", o->background,
+                   "RRGGBB; default: light by day and dark by night, as the reader's device has it")
+      ->type_name("RRGGBB");
   verb->add_option("--poster", o->poster,
                    "PNG or JPEG that shows until the file is decoded; default: the first view")
       ->type_name("FILE");

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds the decoder in WebAssembly (build_wasm.sh) and, with packages of npm, the page of `slf html`
-# (dist/one_file.html). 77 and a line where a tool or a network is missing; what can be built without it
-# is built first. Safe to repeat, quick when nothing has changed; two at a time wait for one another.
+# Builds the decoder in WebAssembly (build_wasm.sh) and, with packages of npm, what a package has beside the
+# sources (made/) and the page of `slf html` (dist/one_file.html). 77 and a line where a tool or a network is
+# missing; what can be built without it is built first. Safe to repeat, quick when nothing has changed; two
+# at a time wait for one another.
 set -euo pipefail
 cd "$(dirname "$0")"
 exec 9<.
@@ -24,5 +25,7 @@ if [[ package-lock.json -nt node_modules/.package-lock.json ]]; then
     skipped "npm ci did not get the packages of web/package-lock.json (network?)"
   }
 fi
-newest=$(find viewer slf.js slf_*.js slf.wasm -newer dist/one_file.html 2>/dev/null || echo all)
+newest=$(find viewer build_package.mjs slf*.js start_worker.js slf.wasm -newer made/viewer_markup.js 2>/dev/null || echo all)
+[[ -e made/viewer_markup.js && -z "$newest" ]] || node build_package.mjs
+newest=$(find viewer slf*.js start_worker.js slf.wasm -newer dist/one_file.html 2>/dev/null || echo all)
 [[ -e dist/one_file.html && -z "$newest" ]] || node viewer/build_page.mjs

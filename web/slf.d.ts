@@ -1,9 +1,10 @@
 // Surface light fields decoded in WebAssembly. No globals, no dependency; every function throws SlfError.
 
-/** Code of an error: as in include/slf/slf.h without SLF_, and two of reading from a network. */
+/** Code of an error: as in include/slf/slf.h without SLF_, and three of the page: network, its own end, its policy. */
 export type SlfCode =
   | 'NOT_SLF' | 'TRUNCATED' | 'CHECKSUM' | 'OUT_OF_RANGE' | 'RESERVED' | 'UNSUPPORTED' | 'LIMIT_EXCEEDED'
-  | 'INVALID_ARGUMENT' | 'OUT_OF_MEMORY' | 'CANCELLED' | 'READ_FAILED' | 'INTERNAL' | 'NETWORK' | 'ABORTED';
+  | 'INVALID_ARGUMENT' | 'OUT_OF_MEMORY' | 'CANCELLED' | 'READ_FAILED' | 'INTERNAL' | 'NETWORK' | 'ABORTED'
+  | 'POLICY';
 
 export class SlfError extends Error {
   constructor(code: SlfCode, message: string, details?: Partial<Pick<SlfError, 'element' | 'unit' | 'bitOffset'>> & { cause?: unknown });
@@ -172,12 +173,20 @@ export class SlfField {
 }
 
 type Bytes = ArrayBufferLike | ArrayBufferView;
-type WasmSource = string | URL | Response | Promise<Response> | ArrayBuffer | ArrayBufferView | WebAssembly.Module;
+/** Where a decoder comes from: an address, a response, bytes or a compiled module, or a promise of one of them. */
+export type WasmSource = WasmValue | Promise<WasmValue> | undefined;
+type WasmValue = string | URL | Response | ArrayBuffer | ArrayBufferView | WebAssembly.Module;
+
+export interface SlfParts {
+  wasm?: WasmSource;
+  /** Address of `slf.wasm` or `slf_scalar.wasm`; nothing: beside this module. Not asked where there is `wasm`. */
+  locateFile?: (name: string) => string | URL | undefined;
+}
 
 export class SlfDecoder {
   private constructor();
-  /** NETWORK where it cannot be loaded. wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
-  static create(options?: { wasm?: WasmSource }): Promise<SlfDecoder>;
+  /** NETWORK where it cannot be loaded, POLICY where the page forbids WebAssembly. wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
+  static create(options?: SlfParts): Promise<SlfDecoder>;
   /** May be posted to workers. */
   readonly module: WebAssembly.Module;
   info(bytes: Bytes): SlfInfo;
@@ -237,10 +246,13 @@ export interface SlfWanted {
   signal?: AbortSignal;
 }
 
-/** Decoding in a worker of its own. From slf_worker.js, which the worker runs too. */
+/** The package's decoder, compiled once a page. */
+export function decoderModule(options?: SlfParts): Promise<WebAssembly.Module>;
+
+/** Decoding in a worker of its own, which runs slf_worker_service.js. From slf_worker.js. */
 export class SlfWorker {
   private constructor();
-  static create(options?: { wasm?: WasmSource; worker?: Worker }): Promise<SlfWorker>;
+  static create(options?: SlfParts & { worker?: Worker | (() => Worker | Promise<Worker>) }): Promise<SlfWorker>;
   info(bytes: Bytes): Promise<SlfInfo>;
   decode(bytes: Bytes, options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & { transfer?: boolean }): Promise<SlfPlainField>;
   open(url: string | URL, options?: SlfOpenOptions): Promise<{

@@ -25,7 +25,7 @@ export class SlfDecoder {
   /** Use SlfDecoder.create(). */
   constructor(module) { this.#module = module; }
 
-  static async create({ wasm } = {}) { return new SlfDecoder(await compile(wasm)); }
+  static async create({ wasm, locateFile } = {}) { return new SlfDecoder(await compile(wasm, locateFile)); }
 
   /** The compiled module: may be posted to workers and given to their create(). */
   get module() { return this.#module; }
@@ -146,4 +146,5 @@ export class SlfDecoder {
 }
 
 export { SlfError } from './slf_error.js';
+export { decoderModule } from './slf_instance.js';
 export { SlfField, readInfo, preflight, setOptions };

@@ -1,6 +1,6 @@
 // The error of every module here.
 
-/** What went wrong. code: as in include/slf/slf.h without SLF_ ("OUT_OF_RANGE"), or "NETWORK" and "ABORTED". */
+/** What went wrong. code: as in include/slf/slf.h without SLF_ ("OUT_OF_RANGE"), or "NETWORK", "ABORTED", "POLICY". */
 export class SlfError extends Error {
   constructor(code, message, details = {}) {
     super(message, details.cause === undefined ? undefined : { cause: details.cause });

@@ -5,34 +5,58 @@ import { SlfError } from './slf_error.js';
 const SIMD_PROBE = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0,
   253, 15, 11);
 
-function defaultUrl() {
+/** How a `file:` address is read: slf_node.js sets it, so that nothing that a browser runs names node. */
+export const files = { read: null };
+
+const NAMES = { simd: 'slf.wasm', scalar: 'slf_scalar.wasm' };
+
+/** Each address stands here in full: bundlers look for this form and for no other. */
+function defaultAddress(locateFile) {
   const simd = WebAssembly.validate(SIMD_PROBE);
-  return new URL(simd ? './slf.wasm' : './slf_scalar.wasm', import.meta.url);
+  const located = locateFile?.(simd ? NAMES.simd : NAMES.scalar);
+  if (located) return located;
+  return simd ? new URL('./slf.wasm', import.meta.url) : new URL('./slf_scalar.wasm', import.meta.url);
 }
 
-async function bytesOfFile(url) {
-  const { readFile } = await import(/* @vite-ignore */ 'node:fs/promises');
-  return readFile(url);
-}
-
-/** A module from a module, an address, a response, bytes, or a promise of one of them. */
-export async function compile(source) {
+/**
+ * A module from a module, an address, a response, bytes, or a promise of one of them.
+ * @param locateFile  (name) => address of a file of this package, or nothing: where it is by default
+ */
+export async function compile(source, locateFile) {
   try {
-    return await moduleOf(source);
+    return await moduleOf((await source) ?? defaultAddress(locateFile));
   } catch (error) {
     if (error instanceof SlfError) throw error;
+    if (/content security policy|unsafe-eval/i.test(error?.message))
+      throw new SlfError('POLICY', "POLICY: the page's Content-Security-Policy forbids WebAssembly; script-src needs "
+        + "'wasm-unsafe-eval'", { cause: error });
     throw new SlfError('NETWORK', `NETWORK: the decoder could not be loaded: ${error.message}`, { cause: error });
   }
 }
 
+let shared = null;
+
+/** As compile(); the package's own decoder is compiled once a page, and asked for again where it did not arrive. */
+export function decoderModule({ wasm, locateFile } = {}) {
+  if (wasm !== undefined || locateFile) return compile(wasm, locateFile);
+  shared ??= compile().catch((error) => {
+    shared = null;
+    throw error;
+  });
+  return shared;
+}
+
 async function moduleOf(source) {
-  source = await source;
   if (source instanceof WebAssembly.Module) return source;
-  if (source === undefined) source = defaultUrl();
   if (typeof source === 'string' || source instanceof URL) {
-    const isFile = String(source).startsWith('file:') && typeof process === 'object' && process.versions?.node;
-    if (isFile) return WebAssembly.compile(await bytesOfFile(new URL(source)));
-    source = await fetch(source);
+    const address = String(source);
+    if (address.startsWith('file:') && files.read) return WebAssembly.compile(await files.read(new URL(address)));
+    const response = await fetch(address);
+    const type = response.headers.get('content-type') ?? '';
+    if (!response.ok || type.startsWith('text/html'))
+      throw new Error(`${address} is not there (${response.status} ${type}): copy ${NAMES.simd} and ${NAMES.scalar} `
+        + 'of the package to that place, or name them by the options wasm or locateFile');
+    source = response;
   }
   if (typeof Response === 'function' && source instanceof Response) {
     if (!source.ok) throw new Error(`${source.status} ${source.url}`);

@@ -3,6 +3,7 @@
 #   web/test.sh node        the decoder, under node
 #   web/test.sh browser [NAME]   the viewer, in Chromium (CHROMIUM), against the program slf
 #                           (SLF_PROGRAM): test/browser/NAME.test.mjs, or all
+#   web/test.sh bundlers [NAME]  what bundlers make of the package, drawn in Chromium; from npm's registry
 set -euo pipefail
 cd "$(dirname "$0")"
 which=${1:-node}
@@ -21,4 +22,5 @@ for browser in ${CHROMIUM:-chromium chromium-browser google-chrome}; do
 done
 [[ -n ${CHROMIUM:-} ]] || skipped "there is no chromium (tools/setup.sh lab)"
 export CHROMIUM
+[[ $which != bundlers ]] || exec node test/bundlers/run.mjs "${@:2}"
 exec node --test --test-concurrency=1 test/browser/${2:-*}.test.mjs

@@ -4,7 +4,7 @@
 // decodes (Linux), which is what a page waits for where there are two cores.
 import { existsSync, readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
-import { SlfDecoder } from '../slf.js';
+import { SlfDecoder } from '../slf_node.js';
 
 const [file, wasm] = process.argv.slice(2);
 const bytes = readFileSync(file);

@@ -1,13 +1,28 @@
 // Types of SLFLoader.js.
 import type { Loader, LoadingManager } from 'three';
+import type { WasmSource } from '../slf.js';
 import type { SurfaceLightField } from './surface_light_field.js';
+
+/** Where the package's files are, if not beside its code. */
+export interface SLFParts {
+  /** Address, bytes or module of the decoder. */
+  wasm?: WasmSource;
+  /** Starts a worker that runs `slf-decoder/viewer/decode_worker.js`. */
+  worker?: (() => Worker | Promise<Worker>) | null;
+  /** Address of `slf.wasm` or `slf_scalar.wasm`; nothing: where it is by default. */
+  locateFile?: (name: string) => string | URL | undefined;
+}
 
 /**
  * three.js loader of surface light fields: scene.add(await new SLFLoader().loadAsync('can.slf')).
  * load() and loadAsync() also take a File or Blob, and decode in a worker.
  */
 export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
-  constructor(manager?: LoadingManager);
+  constructor(manager?: LoadingManager, parts?: SLFParts);
+
+  wasm: SLFParts['wasm'];
+  worker: SLFParts['worker'];
+  locateFile: SLFParts['locateFile'];
 
   /** Bytes that decoding may take; more is refused as 'too-large'. 2 GiB. */
   maxMemory: number;
@@ -20,7 +35,7 @@ export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
 
   /**
    * A whole file, decoded on this thread.
-   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network'
+   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network', 'policy'
    */
   parse(buffer: ArrayBuffer | Uint8Array): Promise<SurfaceLightField>;
 }

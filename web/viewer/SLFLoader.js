@@ -1,34 +1,37 @@
 // three.js loader of surface light fields.
 //
-//   import { SLFLoader } from '@slf/viewer/SLFLoader.js'
+//   import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js'
 //   scene.add(await new SLFLoader().loadAsync('can.slf'))
 import { FileLoader, Loader } from 'three';
+import { SlfDecoder, decoderModule } from '../slf.js';
 import { FieldLoader } from './field_loader.js';
 import { DecodeSession, plainError } from './decode_session.js';
 import { ViewerError } from './packed_field.js';
 import { SurfaceLightField } from './surface_light_field.js';
 
-/** One decoder for parse() of all loaders: each keeps memory for its next decode. */
-let decoder = null;
-function sharedDecoder() {
-  decoder ??= import('../slf.js')
-    .then(({ SlfDecoder }) => SlfDecoder.create())
-    .catch((error) => {
-      decoder = null; // to be tried again
-      throw error;
-    });
-  return decoder;
+/** A decoder for parse() of all loaders of one module: each keeps memory for its next decode. */
+const decoders = new WeakMap();
+async function decoderOf(module) {
+  const compiled = await module;
+  if (!decoders.has(compiled)) decoders.set(compiled, SlfDecoder.create({ wasm: compiled }));
+  return decoders.get(compiled);
 }
 
 /**
  * load(url, onLoad, onProgress, onError), loadAsync(url, onProgress) as every loader of three; both also
- * take a File or Blob. They decode in a worker. parse() decodes on this thread.
+ * take a File or Blob. They decode in a worker. parse() decodes on this thread. Every error is a ViewerError.
  */
 export class SLFLoader extends Loader {
-  constructor(manager) {
+  /**
+   * @param {object} parts  where the package's files are, if not beside this one; properties too:
+   *   wasm: address, bytes or module of the decoder; worker: () => Worker that runs decode_worker.js, or a promise of one;
+   *   locateFile: (name) => address of `slf.wasm` or `slf_scalar.wasm`
+   */
+  constructor(manager, { wasm, worker, locateFile } = {}) {
     super(manager);
     this.part = {};
     this.maxMemory = 2 ** 31;
+    Object.assign(this, { wasm, worker, locateFile });
   }
 
   /** Fewer octree levels, plane groups or quality layers than the file has; 0: all. */
@@ -57,7 +60,7 @@ export class SLFLoader extends Loader {
 
   /** Coarse objects first. @param onCoarse  called with each, which the next replaces */
   async stream(url, onCoarse) {
-    const loader = new FieldLoader({ maxMemory: this.maxMemory });
+    const loader = this.fieldLoader();
     try {
       const field = (packed, info, final) => {
         if (!final) onCoarse(new SurfaceLightField(packed, info));
@@ -80,10 +83,10 @@ export class SLFLoader extends Loader {
   /**
    * @param {ArrayBuffer|Uint8Array} buffer  a whole file
    * @returns {Promise<SurfaceLightField>}
-   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network'
+   * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network', 'policy'
    */
   async parse(buffer) {
-    const session = new DecodeSession(sharedDecoder);
+    const session = new DecodeSession(() => decoderOf(decoderModule(this)));
     session.append(new Uint8Array(buffer));
     try {
       const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });
@@ -93,6 +96,11 @@ export class SLFLoader extends Loader {
     }
   }
 
+  fieldLoader() {
+    const { worker, wasm, locateFile, maxMemory } = this;
+    return new FieldLoader({ worker, wasm, locateFile, maxMemory });
+  }
+
   async fetch(url, onProgress) {
     if (url instanceof Blob) return url.arrayBuffer();
     const loader = new FileLoader(this.manager);
@@ -100,11 +108,16 @@ export class SLFLoader extends Loader {
     loader.setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader);
     loader.setWithCredentials(this.withCredentials);
-    return loader.loadAsync(url, onProgress);
+    try {
+      return await loader.loadAsync(url, onProgress);
+    } catch (error) {
+      if (error?.name === 'AbortError') throw error;
+      throw new ViewerError('network', 'The file cannot be fetched.', `${url}: ${error?.message}`);
+    }
   }
 
   async decode(bytes) {
-    const loader = new FieldLoader({ maxMemory: this.maxMemory });
+    const loader = this.fieldLoader();
     try {
       const { packed, info } = await loader.load(bytes, {}, this.part);
       return new SurfaceLightField(packed, info);

@@ -20,7 +20,7 @@ async function bundle(entry, name) {
     globalName: name,
     target: 'es2022',
     legalComments: 'none',
-    external: ['node:*'],
+    external: ['../made/*'], // this page brings a worker of its own
     define: { 'import.meta.url': '"about:blank"' },
     plugins: [shaders],
   });
@@ -67,7 +67,7 @@ html = replace(
 html = replace(html, '<link rel="stylesheet" href="viewer.css">', `<style>${style.trim()}</style>`);
 html = replace(html, '<script type="module" src="page.js"></script>', `<script>${start.trim()}</script>`);
 html = replace(html, '<body class="empty">', '<body>');
-html = replace(html, '<img id="poster" alt="" hidden>', '<img id="poster" alt="" src="{{slf:poster}}">');
+html = replace(html, '<img id="poster" alt="" hidden>', '<picture>{{slf:night}}<img id="poster" alt="" src="{{slf:poster}}"></picture>');
 html = replace(
   html,
   '</body>',

@@ -1,12 +1,12 @@
 // Looking through the cameras of a capture: a photograph beside the rendering, and how alike they are.
 import { fetchCapture, psnrWithin } from './capture.js';
-import { at, press } from './elements.js';
 import { axesOf, dot, fittedCamera, poseOfCamera } from './view.js';
 
 export class Comparison {
   /** @param {import('./viewer.js').Viewer} viewer */
   constructor(viewer) {
     this.viewer = viewer;
+    this.page = viewer.page;
     this.cameras = [];
     this.shown = null; // of the one that is looked through: index, camera, photograph, is it wanted to be seen
   }
@@ -15,16 +15,16 @@ export class Comparison {
     try {
       this.cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
     } catch (error) {
-      return this.viewer.fail(error);
+      return this.viewer.report.fail(error);
     }
-    at('cameras').replaceChildren(new Option('Free view', ''), ...this.cameras.map((c, i) => new Option(c.name, i)));
-    at('photographs').hidden = false;
-    document.querySelector('[data-do=compare]').hidden = false;
+    this.page.at('cameras').replaceChildren(new Option(this.page.t('Free view'), ''), ...this.cameras.map((c, i) => new Option(c.name, i)));
+    this.page.at('photographs').hidden = false;
+    this.page.one('[data-do=compare]').hidden = false;
     const { camera } = this.viewer.options;
     if (camera === null) return;
     const named = this.cameras.findIndex((c) => c.name === camera || c.name.split('/').pop() === camera);
     const index = named >= 0 ? named : Number(camera);
-    if (this.cameras[index]) await this.lookThrough(index);
+    if (index >= 0 && this.cameras[index]) await this.lookThrough(index);
   }
 
   async lookThrough(index) {
@@ -36,13 +36,13 @@ export class Comparison {
     this.viewer.controls.pose = poseOfCamera(camera, this.viewer.stage.field);
     this.viewer.stage.pose = this.viewer.controls.pose;
     this.viewer.stage.camera = camera;
-    at('cameras').value = index;
-    at('psnr').textContent = 'The photograph is on its way.';
+    this.page.at('cameras').value = index;
+    this.page.at('psnr').textContent = this.page.t('The photograph is on its way.');
     this.viewer.stage.redraw();
     try {
       own.photograph = await camera.photograph();
     } catch (error) {
-      if (this.shown === own) at('psnr').textContent = error.message;
+      if (this.shown === own) this.page.at('psnr').textContent = this.page.t(error.message);
       return;
     }
     if (this.shown !== own) return;
@@ -61,7 +61,7 @@ export class Comparison {
     const { camera, photograph } = this.shown,
       { width, height } = camera;
     if (camera.distorted) {
-      at('psnr').textContent = 'Its lens bends lines, the rendering does not: no PSNR.';
+      this.page.at('psnr').textContent = this.page.t('Its lens bends lines, the rendering does not: no PSNR.');
       return;
     }
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
@@ -73,47 +73,47 @@ export class Comparison {
       height,
     );
     this.viewer.facts.psnr = value;
-    at('psnr').textContent = Number.isNaN(value)
-      ? 'The object is not in this picture.'
-      : `PSNR within the object: ${value.toFixed(2)} dB`;
+    this.page.at('psnr').textContent = Number.isNaN(value)
+      ? this.page.t('The object is not in this picture.')
+      : this.page.t(`PSNR within the object: ${value.toFixed(2)} dB`);
   }
 
   show(shown) {
     if (shown && !this.shown) return this.lookThrough(this.nearest());
     if (this.shown) this.shown.wanted = shown;
     if (shown && !this.shown.photograph) return; // it shows when it comes
-    at('compare').hidden = !shown;
-    press('compare', shown);
+    this.page.at('compare').hidden = !shown;
+    this.page.press('compare', shown);
     if (shown) this.lay();
     else if (this.viewer.stage) this.viewer.stage.redraw();
   }
 
   /** Where the camera's picture is on the stage. */
   lay() {
-    const canvas = at('photograph'),
+    const canvas = this.page.at('photograph'),
       [width, height] = this.viewer.stage.pixels();
     canvas.width = width;
     canvas.height = height;
     const [x, y, w, h] = fittedCamera(this.shown.camera, width, height).frame;
     canvas.getContext('2d').drawImage(this.shown.photograph, x, y, w, h);
-    at('compare').style.setProperty('--at', `${at('divider').value}%`);
+    this.page.at('compare').style.setProperty('--at', `${this.page.at('divider').value}%`);
   }
 
   /** The cameras are those of a file that goes. */
   close() {
     this.leave();
     this.cameras = [];
-    at('photographs').hidden = true;
-    document.querySelector('[data-do=compare]').hidden = true;
+    this.page.at('photographs').hidden = true;
+    this.page.one('[data-do=compare]').hidden = true;
   }
 
   leave() {
     this.shown = null;
     if (this.viewer.stage) this.viewer.stage.camera = null;
-    at('compare').hidden = true;
-    at('cameras').value = '';
-    at('psnr').textContent = '';
-    press('compare', false);
+    this.page.at('compare').hidden = true;
+    this.page.at('cameras').value = '';
+    this.page.at('psnr').textContent = '';
+    this.page.press('compare', false);
   }
 
   step(by) {

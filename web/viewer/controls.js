@@ -1,5 +1,6 @@
 // Mouse, touch and keyboard to a pose (view.js). Everything is scaled by the distance, so small and
 // large objects turn alike. Nothing here draws.
+import { Manners } from './manners.js';
 import { add, axesOf } from './view.js';
 
 const TURN = 0.35; // degrees a pixel
@@ -10,7 +11,8 @@ const KEYS = { KeyW: [2, 1], KeyS: [2, -1], KeyD: [0, 1], KeyA: [0, -1], KeyE: [
 export class Controls {
   /**
    * @param {HTMLElement} element  that is dragged on; focusable, for keys
-   * @param {object} on  change(): the pose has moved; start(): a person has begun to
+   * @param {object} on  change(): the pose has moved; start(): a person has begun to; refused(text): a polite viewer
+   *   leaves a gesture to the page, and what would have moved it
    */
   constructor(element, on) {
     this.element = element;
@@ -23,6 +25,7 @@ export class Controls {
     this.speed = [0, 0]; // degrees a frame, of what was let go
     this.pressed = new Set();
     this.pointers = new Map();
+    this.manners = new Manners(element, (text) => on.refused?.(text));
     const listen = (type, handler, options) => element.addEventListener(type, handler.bind(this), options);
     listen('pointerdown', this.pointerDown);
     listen('pointermove', this.pointerMove);
@@ -32,6 +35,15 @@ export class Controls {
     listen('keydown', this.keyDown);
     listen('keyup', (event) => this.pressed.delete(event.code));
     listen('blur', () => this.pressed.clear());
+  }
+
+  /** Whether the page scrolls until somebody takes hold. */
+  setPolite(polite) {
+    this.manners.set(polite);
+  }
+
+  dispose() {
+    this.manners.dispose();
   }
 
   /** The object keeps its size. */
@@ -98,8 +110,9 @@ export class Controls {
   }
 
   pointerDown(event) {
-    if (!this.pose) return;
+    if (!this.pose || !this.manners.admits(event)) return;
     this.element.setPointerCapture(event.pointerId);
+    for (const [id, place] of this.manners.waiting) this.pointers.set(id, place); // the first of two fingers
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
     this.speed = [0, 0];
     this.panning = event.button === 2 || event.button === 1 || event.shiftKey;
@@ -117,14 +130,20 @@ export class Controls {
     if (this.pointers.size >= 2) {
       const after = this.spread();
       if (before.length > 0 && after.length > 0) this.zoom(before.length / after.length);
-      return this.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
+      const moved = [after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]];
+      return this.manners.scrolls ? this.turn(...this.turned(...moved)) : this.pan(...moved);
     }
     if (this.panning) return this.pan(dx, dy);
-    const sign = this.mode === 'fly' ? 0.4 : -1;
-    const turned = [sign * TURN * dx, -sign * TURN * dy];
+    const turned = this.turned(dx, dy);
     this.turn(...turned);
     if (this.smooth) this.speed = turned.map((v, i) => 0.6 * v + 0.4 * this.speed[i]);
     this.moved = event.timeStamp;
+  }
+
+  /** Degrees of so many pixels. */
+  turned(dx, dy) {
+    const sign = this.mode === 'fly' ? 0.4 : -1;
+    return [sign * TURN * dx, -sign * TURN * dy];
   }
 
   pointerUp(event) {
@@ -141,7 +160,7 @@ export class Controls {
   }
 
   wheel(event) {
-    if (!this.pose) return;
+    if (!this.pose || !this.manners.admits(event)) return;
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 16 : 1;
     this.on.start();
@@ -150,7 +169,7 @@ export class Controls {
 
   keyDown(event) {
     if (!this.pose || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (this.mode === 'fly' && event.code in KEYS) {
+    if (this.mode === 'fly' && Object.hasOwn(KEYS, event.code)) {
       this.pressed.add(event.code);
       event.preventDefault();
       this.on.start();
@@ -165,7 +184,7 @@ export class Controls {
 
   keyAction({ key, shiftKey }) {
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    if (key in arrows) {
+    if (Object.hasOwn(arrows, key)) {
       const [x, y] = arrows[key];
       return shiftKey ? () => this.pan(-24 * x, 24 * y) : () => this.turn(STEP * x, STEP * y);
     }

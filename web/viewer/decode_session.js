@@ -20,7 +20,7 @@ export function answer(port, create) {
 }
 
 export class DecodeSession {
-  /** @param {(wasm?: ArrayBuffer) => Promise<object>} create  a decoder of slf.js */
+  /** @param {(wasm?: WebAssembly.Module) => Promise<object>} create  a decoder of slf.js */
   constructor(create) {
     this.create = create;
     this.reset();
@@ -107,14 +107,17 @@ const WORDS = {
   LIMIT_EXCEEDED: 'Decoding it takes more than this page allows.',
   OUT_OF_MEMORY: 'There is not enough memory to decode it.',
   NETWORK: 'The decoder, a part of this page, did not arrive.',
+  POLICY: 'The rules of this page (Content-Security-Policy) forbid the decoder.',
 };
-const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network' };
+const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network', POLICY: 'policy' };
+
+const own = (table, name) => (Object.hasOwn(table, name) ? table[name] : undefined);
 
 /** An error as a message can carry it: what a ViewerError is made of. */
 export function plainError(error) {
   if (error instanceof ViewerError) return { kind: error.kind, words: error.words, detail: error.detail };
   if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError)
     return { kind: 'memory', words: 'There is not enough memory to decode this file.' };
-  const words = WORDS[error?.code] ?? 'Some of it says what cannot be.';
-  return { kind: KINDS[error?.code] ?? 'damaged', words, detail: String(error?.message ?? error) };
+  const words = own(WORDS, error?.code) ?? 'Some of it says what cannot be.';
+  return { kind: own(KINDS, error?.code) ?? 'damaged', words, detail: String(error?.message ?? error) };
 }

@@ -1,4 +1,7 @@
 // From a file, an address or bytes to packed light fields: coarse ones while the rest arrives.
+import { decoderModule } from '../slf.js';
+import { startWorker } from '../start_worker.js';
+import { plainError } from './decode_session.js';
 import { ViewerError } from './packed_field.js';
 
 const MOST_BYTES = 2 ** 30;
@@ -10,12 +13,15 @@ const LARGE = 200_000,
 /** One worker that holds one file at a time. */
 export class FieldLoader {
   /**
-   * @param {object} options  worker: () => Worker; wasm: the decoder's bytes, where the worker cannot
-   *   fetch them; maxMemory: bytes that a decode may take; stallMs: a server that sends nothing for so long is given up
+   * @param {object} options  worker: () => Worker that runs decode_worker.js, or a promise of one; wasm, locateFile: as
+   *   of SlfDecoder.create(); maxMemory: bytes that a decode may take; stallMs: a server that sends nothing for so long
+   *   is given up
    */
-  constructor({ worker = newWorker, wasm = null, maxMemory = 2 ** 31, stallMs = 30000 } = {}) {
-    this.start = worker;
+  constructor({ worker = null, wasm, locateFile, maxMemory = 2 ** 31, stallMs = 30000 } = {}) {
+    this.start = worker ?? newWorker;
     this.wasm = wasm;
+    this.locateFile = locateFile;
+    this.module = null; // a promise of the compiled decoder, for every worker
     this.maxMemory = maxMemory;
     this.stallMs = stallMs;
     this.waiting = new Map();
@@ -35,9 +41,11 @@ export class FieldLoader {
    * @throws {ViewerError}
    */
   async load(source, on = {}, options = {}) {
-    const turn = ++this.turn;
-    this.restart();
-    const { arriving } = this,
+    this.dispose();
+    const turn = this.turn;
+    this.stopped = null;
+    this.whole = false;
+    const arriving = (this.arriving = new AbortController()),
       { signal } = arriving,
       stop = () => arriving.abort();
     const current = () => turn === this.turn && !signal.aborted;
@@ -53,7 +61,10 @@ export class FieldLoader {
 
   async receive(source, on, options, current, signal) {
     const { headers, credentials } = options;
-    const stream = await openStream(source, { signal, headers, credentials }, this.stallMs);
+    const [stream] = await Promise.all([
+      openStream(source, { signal, headers, credentials }, this.stallMs),
+      this.restart(current),
+    ]);
     if (stream.total > MOST_BYTES) throw new ViewerError('too-large', `This file has ${stream.total} bytes.`);
     let received = 0,
       look = FIRST_LOOK,
@@ -110,36 +121,60 @@ export class FieldLoader {
   }
 
   /** A new worker for every file: memory that WebAssembly has grown to is never given back otherwise. */
-  restart() {
-    const turn = this.turn;
-    this.dispose();
-    this.turn = turn;
-    this.stopped = null;
-    this.whole = false;
-    this.arriving = new AbortController();
-    this.worker = this.start();
-    this.worker.onmessage = ({ data }) => {
-      const own = this.waiting.get(data.id);
-      if (!own) return;
-      this.waiting.delete(data.id);
-      if (data.error) own.reject(Object.assign(ViewerError.from(data.error), { info: data.info }));
-      else own.resolve(data);
-    };
-    this.worker.onerror = (event) => {
+  async restart(current) {
+    const worker = await this.startWorker();
+    const module = await this.decoder();
+    if (!current()) {
+      worker.terminate?.();
+      throw aborted();
+    }
+    this.worker = worker;
+    worker.onmessage = ({ data }) => this.answered(data);
+    worker.onerror = (event) => {
       event.preventDefault?.();
       this.stopped = event.message
-        ? new ViewerError('memory', `The decoder stopped: ${event.message}.`)
+        ? new ViewerError('memory', 'The decoder stopped.', event.message)
         : new ViewerError('network', 'The script of the decoder cannot be fetched.'); // that has no message
       for (const { reject } of this.waiting.values()) reject(this.stopped);
       this.waiting.clear();
     };
-    if (this.wasm) this.worker.postMessage({ wasm: this.wasm });
+    worker.postMessage({ wasm: module });
+  }
+
+  async startWorker() {
+    try {
+      return await this.start();
+    } catch (error) {
+      throw new ViewerError('network', 'The script of the decoder cannot be fetched.', error?.message);
+    }
+  }
+
+  /** One that did not arrive is asked for once more, and again by the next file. */
+  async decoder(again = true) {
+    this.module ??= decoderModule(this);
+    try {
+      return await this.module;
+    } catch (error) {
+      this.module = null;
+      return again && error.code === 'NETWORK' ? this.decoder(false) : refused(error);
+    }
+  }
+
+  answered(data) {
+    const own = this.waiting.get(data.id);
+    if (!own) return;
+    this.waiting.delete(data.id);
+    if (data.error) own.reject(Object.assign(ViewerError.from(data.error), { info: data.info }));
+    else own.resolve(data);
   }
 }
 
-function newWorker() {
-  return new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });
-}
+const refused = (error) => {
+  throw ViewerError.from(plainError(error));
+};
+
+const ownWorker = () => new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });
+const newWorker = () => startWorker(ownWorker, () => import('../made/decode_worker_text.js'));
 
 const aborted = () => new DOMException('Another file was opened.', 'AbortError');
 
@@ -155,10 +190,10 @@ async function openStream(source, request, stallMs) {
   } catch (error) {
     if (request.signal.aborted) throw aborted();
     if (error instanceof ViewerError) throw error;
-    throw new ViewerError('network', `${source} cannot be fetched.`);
+    throw new ViewerError('network', 'The file cannot be fetched.', String(source));
   }
   if (!response.ok)
-    throw new ViewerError('network', `${source}: the server says ${response.status} ${response.statusText}.`);
+    throw new ViewerError('network', `The server says ${response.status}.`, `${source} ${response.statusText}`);
   const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
   const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
   // Whether that is so is not seen of another origin.

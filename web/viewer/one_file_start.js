@@ -17,7 +17,7 @@ addEventListener('DOMContentLoaded', async () => {
       utf8 = new TextDecoder();
     script.textContent = utf8.decode(parts[0]);
     document.head.append(script);
-    slfPage.start({ worker: utf8.decode(parts[1]), wasm: parts[2] });
+    await slfPage.start({ worker: utf8.decode(parts[1]), wasm: parts[2] });
   } catch (error) {
     const problem = document.getElementById('problem');
     problem.hidden = false;

@@ -10,11 +10,11 @@ export const BACKGROUNDS = {
 };
 
 /** What is said of the first file and of no other that is opened after it. */
-export const OF_FIRST_FILE = { title: null, poster: null, capture: null, camera: null, view: null };
+export const OF_FIRST_FILE = { title: null, poster: null, notes: null, capture: null, camera: null, view: null };
 
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
-  const text = (name) => query.get(name) ?? page[name] ?? null;
+  const text = (name) => query.get(name) ?? (Object.hasOwn(page, name) ? page[name] : null) ?? null;
   const number = (name, low, high, fallback) => {
     const given = text(name),
       value = given === null || given === '' ? NaN : Number(given);
@@ -29,6 +29,7 @@ export function readOptions(query, page = {}) {
     capture: text('capture'),
     title: text('title'),
     poster: text('poster'),
+    notes: text('notes'),
     embed: flag('embed'),
     background: backgroundOf(text('background')),
     exposure: number('exposure', -3, 3, 0),
@@ -39,20 +40,29 @@ export function readOptions(query, page = {}) {
     fov: number('fov', 1, 170, 30),
     zoom: number('zoom', 0.05, 50, 1),
     camera: text('camera'),
-    view: page.view ?? null,
+    view: query.get('azimuth') === null ? (page.view ?? null) : null, // the address comes first
     points: number('points', 1, 100, 100),
     levels: number('levels', 0, 21, 0),
     groups: number('groups', 0, 4096, 0),
     layers: number('layers', 0, 4, 0),
+    target: triple(text('target')),
+    scroll: ['polite', 'own'].includes(text('scroll')) ? text('scroll') : flag('embed') ? 'polite' : 'own',
+    lang: text('lang'),
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
     memory: number('memory', 16, 3500, 2048) * 2 ** 20,
   };
 }
 
+/** "x,y,z" or three numbers; null where it is neither. */
+function triple(given) {
+  const numbers = (Array.isArray(given) ? given : String(given ?? '').split(',')).map((v) => (v === '' ? NaN : Number(v)));
+  return numbers.length === 3 && numbers.every(Number.isFinite) ? numbers : null;
+}
+
 /** Name of BACKGROUNDS, "transparent", or RRGGBB with or without #; null where it is none of them. */
 export function backgroundOf(given) {
   if (given === null) return null;
-  if (given in BACKGROUNDS || given === 'transparent') return given;
+  if (Object.hasOwn(BACKGROUNDS, given) || given === 'transparent') return given;
   const hex = /^#?([0-9a-f]{6})$/i.exec(given);
   return hex ? `#${hex[1].toLowerCase()}` : null;
 }
@@ -60,6 +70,6 @@ export function backgroundOf(given) {
 /** @returns {number[]|null} RGB 0 .. 1 of backgroundOf(); null: transparent */
 export function backgroundColour(name) {
   if (name === 'transparent') return null;
-  const hex = BACKGROUNDS[name] ?? name;
+  const hex = Object.hasOwn(BACKGROUNDS, name) ? BACKGROUNDS[name] : name;
   return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 }

@@ -4,7 +4,7 @@ import type { SlfField, SlfGrid } from '../slf.js';
 /** Why a file is not shown. */
 export class ViewerError extends Error {
   constructor(kind: ViewerError['kind'], words: string, detail?: string);
-  kind: 'too-large' | 'no-view-maps' | 'no-webgl2' | 'damaged' | 'unsupported' | 'network' | 'memory';
+  kind: 'too-large' | 'no-view-maps' | 'no-webgl2' | 'damaged' | 'unsupported' | 'network' | 'memory' | 'policy';
   /** For everybody, and for those who look for the cause; `message` has both. */
   words: string;
   detail: string;
@@ -23,6 +23,8 @@ export interface PackedField {
   readonly radius: number;
   /** From the centre to the farthest point of all. */
   readonly reach: number;
+  /** Least and greatest corner of all discs, in world units. */
+  readonly box: [number[], number[]];
   readonly up: string;
   readonly linear: boolean;
   readonly partial: boolean;

@@ -6,7 +6,7 @@ const COLUMNS = 1024;
 /** What stands in the way of a file that is sound: too large for the device, without view maps. */
 export class ViewerError extends Error {
   /**
-   * @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'} kind
+   * @param {'too-large'|'no-view-maps'|'no-webgl2'|'damaged'|'unsupported'|'network'|'memory'|'policy'} kind
    * @param {string} words  for everybody
    * @param {string} detail  for those who look for the cause
    */
@@ -36,7 +36,9 @@ export function packField(field, tableSize = 65) {
   const ball = boundingBall(field);
   const table = field.functionTable({ side: tableSize });
   const unit = packWeights(field.weights(), points, field.functions, texels);
-  const packed = {
+  const places = packPlaces(field, ball.centre, texels);
+  const toWorld = (place) => place.map((v, k) => field.grid.origin[k] + field.grid.step * (ball.centre[k] + v));
+  return {
     points,
     columns,
     rows,
@@ -54,9 +56,24 @@ export function packField(field, tableSize = 65) {
     reach: ball.reach * field.grid.step,
     size: ball.size.map((v) => v * field.grid.step),
     centre: ball.centre.map((c, k) => field.grid.origin[k] + field.grid.step * c),
-    ...packPlaces(field, ball.centre, texels),
+    ...places,
+    box: boxOfDiscs(places, points).map(toWorld),
   };
-  return packed;
+}
+
+/** The box of all discs, each as far as it reaches along an axis; voxels from the middle. */
+function boxOfDiscs({ places, discs }, points) {
+  const low = [0, 0, 0].fill(points ? Infinity : 0),
+    high = [0, 0, 0].fill(points ? -Infinity : 0);
+  for (let p = 0; p < 4 * points; p += 4)
+    for (let k = 0; k < 3; ++k) {
+      const n = discs[p + k],
+        at = places[p + k] + places[p + 3] * n,
+        reach = discs[p + 3] * Math.sqrt(Math.max(0, 1 - n * n));
+      if (at - reach < low[k]) low[k] = at - reach;
+      if (at + reach > high[k]) high[k] = at + reach;
+    }
+  return [low, high];
 }
 
 /** Of all that can be transferred to another thread without a copy. */

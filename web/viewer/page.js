@@ -1,4 +1,8 @@
 // What viewer.html runs.
+import { Elements } from './elements.js';
 import { Viewer } from './viewer.js';
+import { wordsOf } from './words.js';
 
-window.viewer = new Viewer();
+const wanted = new URLSearchParams(location.search).get('lang');
+const words = await wordsOf([wanted, ...navigator.languages].filter(Boolean));
+window.viewer = new Viewer({}, { elements: new Elements(document, document.body, words) });

@@ -1,24 +1,42 @@
 // A light field as an object of a three.js scene. It has the picture of `slf render` from wherever the
 // scene's camera is, hides what is behind it and is hidden by what is before it.
-import { BufferAttribute, BufferGeometry, Matrix4, Mesh, MeshBasicMaterial, Sphere, Vector3, Vector4 } from 'three';
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  LinearSRGBColorSpace,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Ray,
+  Sphere,
+  SRGBColorSpace,
+  Vector3,
+  Vector4,
+} from 'three';
+import { colourFrom, pick } from './pick.js';
 import { SurfelPipeline } from './surfel_pipeline.js';
 
 const viewport = new Vector4(),
-  toObject = new Matrix4();
+  toObject = new Matrix4(),
+  ray = new Ray(),
+  place = new Vector3();
 
 /**
- * Draws with WebGLRenderer. Moves, turns and scales (evenly) like any object; materials, fog and tone
+ * Draws with WebGLRenderer. Moves, turns and scales (evenly) like any object; materials, lamps, shadows, fog and tone
  * mapping do not apply: the light it was photographed in is in it. Blended after opaque objects.
  *
  * meanOnly: without what depends on the view; exposure: stops; share: of the points, 0 .. 1.
- * One renderer at a time: another gets its own copy of the textures when it draws first.
+ * One renderer at a time: another gets its own copy of the textures when it draws first. Clones share them.
  */
 export class SurfaceLightField extends Mesh {
-  /** @param packed  of packField(); kept, so that a lost context can be filled again */
-  constructor(packed, info = {}) {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(new Float32Array(9), 3));
-    super(geometry, new MeshBasicMaterial({ transparent: true, depthWrite: false, colorWrite: false }));
+  /**
+   * @param packed  of packField(); kept, so that a lost context can be filled again and rays can meet it
+   * @param shared  of a clone: what draws its original
+   */
+  constructor(packed, info = {}, shared = { pipelines: new Map(), users: 0 }) {
+    super(geometryOf(packed), new MeshBasicMaterial({ transparent: true, depthWrite: false, colorWrite: false }));
     this.isSurfaceLightField = true;
     this.type = 'SurfaceLightField';
     this.info = info;
@@ -26,14 +44,63 @@ export class SurfaceLightField extends Mesh {
     this.meanOnly = false;
     this.exposure = 0;
     this.share = 1;
-    this.pipelines = new Map();
-    geometry.boundingSphere = new Sphere(new Vector3(...packed.centre), packed.reach + 2 * packed.step);
-    geometry.computeBoundingSphere = () => {};
+    this.shared = shared;
+    this.disposed = false;
+    ++shared.users;
     this.onBeforeRender = this.draw;
   }
 
-  /** three's own intersection would meet a point at the origin. */
-  raycast() {}
+  get pipelines() {
+    return this.shared.pipelines;
+  }
+
+  /** Another of the same texels: graphics memory does not grow. */
+  clone(recursive = true) {
+    return new this.constructor(this.packed, this.info, this.shared).copy(this, recursive);
+  }
+
+  copy(source, recursive) {
+    const { geometry, material } = this;
+    super.copy(source, recursive);
+    const { meanOnly, exposure, share } = source;
+    return Object.assign(this, { geometry, material, meanOnly, exposure, share });
+  }
+
+  /**
+   * For Raycaster: the surface that is drawn where the ray meets it. Besides distance, point and object: index of the
+   * point, normal (in the object's axes, to the ray's origin), color (three's Color: what is seen along the ray).
+   */
+  raycast(raycaster, intersections) {
+    const { packed } = this,
+      { step, centre } = packed;
+    ray.copy(raycaster.ray).applyMatrix4(toObject.copy(this.matrixWorld).invert());
+    if (!ray.intersectsSphere(this.geometry.boundingSphere)) return;
+    ray.direction.normalize();
+    const from = ray.origin.toArray().map((x, k) => (x - centre[k]) / step);
+    const met = pick(packed, from, ray.direction.toArray(), this.share);
+    if (!met) return;
+    const point = ray.at(met.distance * step, new Vector3()).applyMatrix4(this.matrixWorld),
+      distance = raycaster.ray.origin.distanceTo(point);
+    if (distance < raycaster.near || distance > raycaster.far) return;
+    const normal = new Vector3(...met.normal);
+    intersections.push({
+      distance,
+      point,
+      object: this,
+      index: met.index,
+      normal,
+      face: { a: met.index, b: met.index, c: met.index, normal, materialIndex: 0 },
+      color: this.colourOf(met.index, ray.origin),
+    });
+  }
+
+  /** What is seen of a point from a place in the object's axes. @returns {Color} */
+  colourOf(index, eye) {
+    const { step, centre, linear } = this.packed;
+    const rgb = colourFrom(this.packed, index, place.copy(eye).toArray().map((x, k) => (x - centre[k]) / step), this.meanOnly);
+    const colour = new Color().setRGB(...rgb, linear ? LinearSRGBColorSpace : SRGBColorSpace);
+    return this.exposure === 0 ? colour : colour.multiplyScalar(2 ** this.exposure);
+  }
 
   draw(renderer, scene, camera) {
     const gl = renderer.getContext(),
@@ -48,7 +115,8 @@ export class SurfaceLightField extends Mesh {
       pipeline.accumulate(view, { meanOnly: this.meanOnly, share: this.share });
     });
     withState(gl, () => {
-      const linear = target !== null && target.isXRRenderTarget !== true && target.texture.colorSpace !== 'srgb';
+      // WebGL itself encodes what is drawn into any other sRGB target.
+      const linear = target !== null && !(target.isXRRenderTarget === true && target.texture.colorSpace === 'srgb');
       pipeline.resolve({
         viewport: [x, y, width, height],
         exposure: this.exposure,
@@ -59,6 +127,8 @@ export class SurfaceLightField extends Mesh {
   }
 
   pipelineOf(gl) {
+    if (this.disposed) ++this.shared.users;
+    this.disposed = false;
     let own = this.pipelines.get(gl);
     if (own && !own.lost) {
       if (own.failure) throw own.failure;
@@ -79,12 +149,28 @@ export class SurfaceLightField extends Mesh {
     return own;
   }
 
+  /** Textures go with the last of the clones. It can be drawn again. */
   dispose() {
-    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose?.();
-    this.pipelines.clear();
     this.geometry.dispose();
     this.material.dispose();
+    if (!this.disposed) --this.shared.users;
+    this.disposed = true;
+    if (this.shared.users > 0) return;
+    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose?.();
+    this.pipelines.clear();
   }
+}
+
+/** What three asks for bounds: a box of all discs, whose corners are all that it has. None of it is drawn. */
+function geometryOf({ box: [low, high], centre, reach, step }) {
+  const corners = Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((k) => ((i >> k) & 1 ? high : low)[k]));
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(corners.flat()), 3));
+  geometry.setDrawRange(0, 3);
+  geometry.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
+  geometry.boundingSphere = new Sphere(new Vector3(...centre), reach + 2 * step);
+  geometry.computeBoundingBox = geometry.computeBoundingSphere = () => {};
+  return geometry;
 }
 
 /** A pipeline with a field, or why there is none: the next frame need not try again. */

@@ -35,7 +35,7 @@ const AXES = {
   ],
 };
 
-export const upAxes = (up) => AXES[up] ?? AXES['+z'];
+export const upAxes = (up) => (Object.hasOwn(AXES, up) ? AXES[up] : AXES['+z']);
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const add = (a, b, s = 1) => a.map((x, k) => x + s * b[k]);
@@ -86,6 +86,19 @@ export function viewOf(pose, up, width, height) {
     cy: height / 2,
     rotation: rows.flat(),
     eye: add(pose.target, rows[2], -pose.distance),
+  };
+}
+
+/** Between two poses, the short way round; distances by their ratio. @param share  0: a, 1: b */
+export function blendedPose(a, b, share) {
+  const mix = (x, y) => x + share * (y - x),
+    around = ((b.azimuth - a.azimuth + 540) % 360) - 180;
+  return {
+    azimuth: a.azimuth + share * (around < -180 ? around + 360 : around),
+    elevation: mix(a.elevation, b.elevation),
+    fov: mix(a.fov, b.fov),
+    distance: a.distance * (b.distance / a.distance) ** share,
+    target: a.target.map((x, k) => mix(x, b.target[k])),
   };
 }
 

@@ -26,8 +26,19 @@ export interface ViewerFacts {
   psnr?: number;
 }
 
+/** Where a viewer is, if not on a page of its own: slf_viewer.js is an example. */
+export interface ViewerPlace {
+  /** Elements of elements.js; the document's. */
+  elements?: unknown;
+  /** What the address says; that of the page. */
+  query?: { get(name: string): string | null };
+  /** Address of a view; null: there is none. */
+  link?: ((parameters: Record<string, string>) => string) | null;
+  emit?: (name: string, detail?: unknown) => void;
+}
+
 export class Viewer {
-  constructor(page?: ViewerPage);
+  constructor(page?: ViewerPage, place?: ViewerPlace);
   readonly facts: ViewerFacts;
 
   /** An address, a File or bytes. Resolves when it shows, or what is wrong does. */

@@ -2,84 +2,87 @@
 // FieldLoader (bytes). `slf html` makes pages of the same parts.
 import { Comparison } from './comparison.js';
 import { Controls } from './controls.js';
-import {
-  at,
-  download,
-  grouped,
-  press,
-  sizeText,
-  slider,
-  writeFacts,
-  writeOutputs,
-  writePoster,
-  writeProblem,
-  writeProgress,
-  writeTheme,
-} from './elements.js';
+import { Elements, download } from './elements.js';
 import { FieldLoader } from './field_loader.js';
+import { Guide } from './guide.js';
 import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
-import { ViewerError } from './packed_field.js';
+import { Report } from './report.js';
 import { Stage } from './stage.js';
 import { fittingPose, poseOfCamera } from './view.js';
 import { Wiring } from './wiring.js';
 
 export class Viewer {
-  /** @param {object} page  defaults of options.js, and loader: a FieldLoader, file: bytes, name */
-  constructor(page = {}) {
-    this.options = readOptions(new URLSearchParams(location.search), page);
+  /**
+   * @param {object} page  defaults of options.js, and loader: a FieldLoader, file: bytes, name
+   * @param {object} place  elements: Elements; query: what the address says; link(parameters): address of a view, null
+   *   where there is none; emit(name, detail): tells a page about it
+   */
+  constructor(page = {}, { elements = new Elements(), query = new URLSearchParams(location.search), link, emit } = {}) {
+    this.options = readOptions(query, page);
+    this.page = elements;
+    this.link = link === undefined ? addressOfPage : link;
+    this.emit = emit ?? (() => {});
+    this.screen = elements.whole ? document.documentElement : elements.frame;
     this.loader = page.loader ?? new FieldLoader({ maxMemory: this.options.memory });
+    this.report = new Report(this);
     this.comparison = new Comparison(this);
+    this.guide = new Guide(this);
     this.facts = {};
-    this.background =
-      this.options.background ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'slate' : 'paper');
-    document.body.classList.toggle('embed', this.options.embed);
+    this.chosen = this.options.background; // null: as the page and the hour have it
+    this.background = this.chosen ?? (this.darkPage() ? 'slate' : 'paper');
+    this.page.frame.classList.toggle('embed', this.options.embed);
     this.wiring = new Wiring(this);
     this.paintBackground();
     try {
-      this.stage = new Stage(at('stage'), {
+      this.stage = new Stage(this.page.at('stage'), {
         tick: (seconds) => this.tick(seconds),
-        drawn: () => this.afterDrawing(),
-        lost: () => this.say('The graphics context was lost.'),
-        restored: (error) => (error ? this.fail(error) : this.say('The graphics context is back.')),
+        drawn: () => this.report.afterDrawing(),
+        lost: () => this.report.say('The graphics context was lost.'),
+        restored: (error) => (error ? this.report.fail(error) : this.report.say('The graphics context is back.')),
       });
     } catch (error) {
-      this.fail(error);
+      this.report.fail(error);
       return;
     }
-    this.controls = new Controls(at('stage'), {
+    this.controls = new Controls(this.page.at('stage'), {
       change: () => this.moved(),
       start: () => {
         this.touched = true;
+        this.guide.stop();
         this.spin(0);
       },
+      refused: (text) => this.report.hint(text),
     });
+    this.controls.setPolite(this.options.scroll === 'polite');
     this.setMode(this.options.mode);
     this.paintBackground();
     this.applyLook();
-    if (this.options.poster) writePoster(this.options.poster);
-    if (page.file) this.open(page.file, page.name);
-    else if (this.options.src) this.open(this.options.src, this.options.src.split(/[?#]/)[0].split('/').pop());
-    else if (this.options.poster) writePoster(null);
+    const { poster, src } = this.options;
+    if (poster) this.page.writePoster(poster);
+    if (page.file) this.opening = this.open(page.file, page.name);
+    else if (src) this.opening = this.open(src, src.split(/[?#]/)[0].split('/').pop());
+    else if (poster) this.page.writePoster(null);
   }
 
   /** @param source  of FieldLoader.load(). Resolves when it shows, or an error does. */
   async open(source, name = '') {
     if (!this.stage) return;
     const begin = performance.now();
-    this.hideProblem();
-    document.body.classList.remove('empty');
+    this.report.hideProblem();
+    this.page.frame.classList.remove('empty');
     if (this.source && this.source.source !== source) Object.assign(this.options, OF_FIRST_FILE);
     const own = (this.source = this.loading = { source, name });
     this.comparison.close();
+    this.guide.close();
     this.controls.pose = null;
     this.touched = false;
     this.stage.clear();
     this.facts = { name };
-    at('title').textContent = this.titleText();
-    this.arriving(0, 0);
+    this.page.at('title').textContent = this.report.titleText();
+    this.report.arriving(0, 0);
     try {
       const on = {
-        progress: (received, total) => this.arriving(received, total),
+        progress: (received, total) => this.report.arriving(received, total),
         field: (packed, info, final) => this.show(packed, info, final, begin),
       };
       const loading = this.loader.load(source, on, this.options); // sliders may move while the file arrives
@@ -88,14 +91,15 @@ export class Viewer {
       });
       this.facts.bytes = bytes;
       this.facts.loaded = performance.now() - begin;
-      this.describe();
-      this.say(`${this.titleText()} is shown.`);
+      this.report.describe();
+      this.report.say('It is shown.');
       if (Object.entries(part).some(([name, value]) => this.options[name] !== value)) await this.decodeAgain();
+      if (this.options.notes) await this.guide.open(this.options.notes);
       if (this.options.capture) await this.comparison.open(this.options.capture);
     } catch (error) {
-      if (error.name !== 'AbortError') this.fail(error);
+      if (error.name !== 'AbortError') this.report.fail(error);
     } finally {
-      if (this.source === own) at('progress').hidden = true;
+      if (this.source === own) this.page.at('progress').hidden = true;
     }
   }
 
@@ -103,17 +107,26 @@ export class Viewer {
     const first = !this.stage.field || !this.controls.pose;
     this.facts.info = info;
     this.stage.setField(packed);
-    this.hideProblem(); // of a decode before
-    document.body.classList.remove('empty');
+    this.report.hideProblem(); // of a decode before
+    this.page.frame.classList.remove('empty');
     this.facts.first ??= performance.now() - begin;
     this.facts.final = final;
     this.controls.up = packed.up;
     this.controls.radius = packed.radius;
     if (first || (final && !this.touched)) this.reset();
-    writePoster(null);
+    this.page.writePoster(null);
     if (final && this.controls.smooth && this.options.autorotate) this.spin(this.options.autorotate);
-    this.describe();
-    document.body.dataset.state = final ? 'ready' : 'coarse';
+    this.report.describe();
+    this.page.frame.dataset.state = final ? 'ready' : 'coarse';
+    this.emit(final ? 'ready' : 'coarse', { points: packed.points });
+  }
+
+  /** Frees the worker, the graphics context and what listens outside. */
+  dispose() {
+    this.loader.dispose();
+    this.controls?.dispose();
+    this.stage?.dispose();
+    this.wiring.dispose();
   }
 
   /** Decodes the same file with other levels, groups or layers; when it is here, where it is still on its way. */
@@ -122,35 +135,35 @@ export class Viewer {
     if (this.loading || !this.loader.whole) return;
     const { source } = this,
       begin = performance.now();
-    this.say('Decoding …');
+    this.report.say('Decoding …');
     try {
       const { packed, info } = await this.loader.decode(this.options);
       if (this.source !== source) return;
       if (!this.controls.pose) return this.show(packed, info, true, begin); // all of it was too much
       this.facts.info = info;
       this.stage.setField(packed);
-      this.hideProblem();
-      document.body.dataset.state = 'ready';
-      this.describe();
-      this.say('Decoded.');
+      this.report.hideProblem();
+      this.page.frame.dataset.state = 'ready';
+      this.report.describe();
+      this.report.say('Decoded.');
     } catch (error) {
-      if (error.name !== 'AbortError') this.fail(error);
+      if (error.name !== 'AbortError') this.report.fail(error);
     }
   }
 
   // Views
 
   startPose() {
-    const { azimuth, elevation, fov, zoom, view } = this.options;
+    const { azimuth, elevation, fov, zoom, target, view } = this.options;
     if (view) return poseOfCamera({ ...view, rotation: view.rotation }, this.stage.field);
     const pose = fittingPose(this.stage.field, { azimuth: azimuth ?? 30, elevation: elevation ?? 20, fov });
-    return { ...pose, distance: pose.distance / zoom };
+    return { ...pose, distance: pose.distance / zoom, target: target ?? pose.target };
   }
 
   reset() {
     this.comparison.leave();
     this.controls.pose = this.stage.pose = this.startPose();
-    at('fov').value = Math.round(this.controls.pose.fov);
+    this.page.at('fov').value = Math.round(this.controls.pose.fov);
     this.moved();
   }
 
@@ -162,6 +175,7 @@ export class Viewer {
   }
 
   moved() {
+    this.emit('viewchange');
     if (this.comparison.shown) this.comparison.leave();
     this.stage.redraw({ moving: true });
   }
@@ -169,12 +183,13 @@ export class Viewer {
   /** Degrees a second; 0 stops. */
   spin(speed) {
     this.spinning = speed;
-    press('spin', speed !== 0);
+    this.page.press('spin', speed !== 0);
     this.stage?.redraw({ moving: true });
   }
 
   tick(seconds) {
-    let moving = this.controls.tick(seconds);
+    const moved = this.controls.tick(seconds);
+    let moving = (this.controls.pose !== null && this.guide.tick(seconds)) || moved;
     if (this.spinning && this.controls.pose && !document.hidden) {
       this.controls.pose.azimuth += this.spinning * Math.min(seconds, 0.1);
       moving = true;
@@ -184,110 +199,56 @@ export class Viewer {
 
   setMode(mode) {
     this.controls.mode = mode;
-    document.querySelector(`input[name=mode][value=${mode}]`).checked = true;
-    this.say(mode === 'fly' ? 'Fly: W A S D Q E and drag.' : 'Orbit.');
-  }
-
-  // What is said
-
-  titleText() {
-    const metadata = this.facts.info?.metadata ?? {};
-    const named = (metadata.source ?? this.facts.name ?? '').replace(/\.slf$/, '').replaceAll('_', ' ');
-    return this.options.title ?? metadata.title ?? named;
-  }
-
-  describe() {
-    const { info, bytes, first, loaded, final } = this.facts,
-      field = this.stage.field;
-    const title = this.titleText();
-    at('title').textContent = title;
-    document.title = title ? `${title}: surface light field` : 'Surface light field';
-    const size = bytes ? sizeText(bytes) : '';
-    at('subtitle').textContent = [`${grouped(field.points)} points`, size, final ? '' : 'coarse, more is arriving']
-      .filter(Boolean)
-      .join(' · ');
-    slider('levels', 1, info.bits, this.options.levels || info.bits);
-    slider('groups', 1, Math.max(1, info.groups), this.options.groups || info.groups);
-    at('groups-row').hidden = !(info.groups > 1);
-    slider('layers', 1, Math.max(1, info.layers), this.options.layers || info.layers);
-    at('layers-row').hidden = !(info.layers > 1);
-    writeOutputs();
-    writeFacts(this.facts, this.stage);
-  }
-
-  afterDrawing() {
-    const now = performance.now();
-    if (this.stage.field && !at('panel').hidden && !(now < this.factsDue)) {
-      this.factsDue = now + 500; // ms
-      writeFacts(this.facts, this.stage);
-    }
-    if (!at('compare').hidden && this.comparison.shown?.photograph) this.comparison.lay();
-    document.body.dataset.frame = String(Number(document.body.dataset.frame ?? 0) + 1);
-  }
-
-  arriving(received, total) {
-    writeProgress(received, total);
-    const share = total ? `, ${((100 * received) / total).toFixed(0)} %` : '';
-    if (!this.stage.field) at('subtitle').textContent = `Loading${share}`;
-  }
-
-  say(text) {
-    at('status').textContent = text;
-  }
-
-  fail(error) {
-    if (!(error instanceof ViewerError)) {
-      console.error(error);
-      error = new ViewerError('damaged', error.message);
-    }
-    this.facts.info ??= error.info;
-    writeProblem(error, this.source !== undefined);
-    document.body.dataset.state = `failed ${error.kind}`;
-    document.body.classList.add('failed');
-    if (this.stage?.field) return;
-    document.body.classList.add('empty');
-    if (!at('panel').hidden) this.togglePanel(); // nothing is left that it is of
-  }
-
-  hideProblem() {
-    at('problem').hidden = true;
-    document.body.classList.remove('failed');
-    delete document.body.dataset.state;
+    this.page.one(`input[name=mode][value=${mode}]`).checked = true;
+    this.report.say(mode === 'fly' ? 'Fly: W A S D Q E and drag.' : 'Orbit.');
   }
 
   // Looks
 
+  /** Whether the page around it is dark: by its `color-scheme`, else by what its reader prefers. */
+  darkPage() {
+    const scheme = this.page.whole ? '' : getComputedStyle(this.page.root.host).colorScheme;
+    if (/^(only )?dark/.test(scheme)) return true;
+    return scheme !== 'light' && matchMedia('(prefers-color-scheme: dark)').matches;
+  }
+
+  /** As the page is now, where nobody has chosen. */
+  followPage() {
+    if (this.chosen === null) this.background = this.darkPage() ? 'slate' : 'paper';
+    this.paintBackground();
+  }
+
   applyLook() {
     const { options, stage } = this;
-    at('exposure').value = options.exposure;
-    at('mean').checked = options.mean;
-    at('points').value = options.points;
+    this.page.at('exposure').value = options.exposure;
+    this.page.at('mean').checked = options.mean;
+    this.page.at('points').value = options.points;
     Object.assign(stage.look, { exposure: options.exposure, meanOnly: options.mean, share: options.points / 100 });
-    writeOutputs();
+    this.page.writeOutputs();
   }
 
   paintBackground() {
     const colour = backgroundColour(this.background);
-    writeTheme(this.background, colour);
+    this.page.writeTheme(this.background, colour, this.darkPage());
     if (!this.stage) return;
     this.stage.look.background = colour;
     this.stage.redraw();
   }
 
   async save() {
-    download(await this.stage.screenshot(), `${(this.titleText() || 'light field').replace(/[^\w.-]+/g, '_')}.png`);
+    download(await this.stage.screenshot(), `${(this.report.titleText() || 'light field').replace(/[^\w.-]+/g, '_')}.png`);
   }
 
   togglePanel() {
-    const hidden = !at('panel').hidden;
-    at('panel').hidden = hidden;
-    document.body.classList.toggle('open', !hidden);
-    document.querySelector('[data-do=panel]').setAttribute('aria-expanded', String(!hidden));
+    const hidden = !this.page.at('panel').hidden;
+    this.page.at('panel').hidden = hidden;
+    this.page.frame.classList.toggle('open', !hidden);
+    this.page.one('[data-do=panel]').setAttribute('aria-expanded', String(!hidden));
   }
 
   nextBackground() {
     const names = Object.keys(BACKGROUNDS);
-    this.background = names[(names.indexOf(this.background) + 1) % names.length];
+    this.chosen = this.background = names[(names.indexOf(this.background) + 1) % names.length];
     this.paintBackground();
   }
 
@@ -296,4 +257,11 @@ export class Viewer {
     this.options.levels = Math.max(1, Math.min(this.options.levels || most, most) - 2);
     this.open(this.source.source, this.source.name);
   }
+}
+
+/** The page's own address with a view in it. */
+function addressOfPage(parameters) {
+  const address = new URL(location.href);
+  for (const [name, value] of Object.entries(parameters)) address.searchParams.set(name, value);
+  return address.href;
 }

@@ -1,6 +1,6 @@
 // Buttons, keys, sliders and files of the page to what the viewer does.
 import { droppedCapture } from './capture.js';
-import { at, press, writeOutputs } from './elements.js';
+import { copyEmbedding, copyLink } from './view_link.js';
 
 const KEYS = {
   r: 'reset',
@@ -18,84 +18,124 @@ const KEYS = {
   b: 'background',
   '[': 'before',
   ']': 'after',
+  n: 'note',
+  t: 'tour',
 };
 
 export class Wiring {
   /** @param {import('./viewer.js').Viewer} viewer */
   constructor(viewer) {
     this.viewer = viewer;
+    this.page = viewer.page;
+    this.end = new AbortController();
     this.listen();
   }
 
+  /** Listens on the root, which outlives a viewer: until dispose(). */
+  onRoot(type, handler) {
+    this.page.root.addEventListener(type, handler, { signal: this.end.signal });
+  }
+
+  dispose() {
+    this.end.abort();
+    this.around?.disconnect();
+  }
+
   listen() {
-    document.addEventListener('click', (event) => {
+    this.onRoot('click', (event) => {
       const button = event.target.closest?.('[data-do]');
       if (button) this.act(button.dataset.do);
     });
-    document.addEventListener('keydown', (event) => this.shortcut(event));
-    at('stage').addEventListener('dblclick', () => this.viewer.stage?.field && this.viewer.fit());
-    at('file').addEventListener('change', (event) => {
+    this.onRoot('keydown', (event) => this.shortcut(event));
+    this.page.at('stage').addEventListener('dblclick', () => this.viewer.stage?.field && this.viewer.fit());
+    this.page.at('file').addEventListener('change', (event) => {
       this.take([...event.target.files]);
       event.target.value = '';
     });
     this.listenToDrops();
     this.listenToPanel();
-    document.addEventListener('fullscreenchange', () => press('full', Boolean(document.fullscreenElement)));
+    this.onRoot('fullscreenchange', () => this.full(Boolean(this.page.root.fullscreenElement)));
+    this.followPage();
+    if (!this.viewer.link) this.page.one('[data-do=link]').hidden = true;
+    if (!this.page.whole || !/^http/.test(location.protocol)) this.page.one('[data-do=snippet]').hidden = true;
+  }
+
+  /** Dark or light, by the reader's device and by what a page says of itself. */
+  followPage() {
+    const follow = () => this.viewer.followPage();
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', follow, { signal: this.end.signal });
+    if (this.page.whole) return;
+    this.around = new MutationObserver(follow);
+    for (const each of [document.documentElement, document.body, this.page.root.host])
+      this.around.observe(each, { attributes: true, attributeFilter: ['class', 'style', 'data-theme'] });
+  }
+
+  /** Nothing scrolls beside a viewer that has the screen. */
+  full(full) {
+    this.page.press('full', full);
+    this.viewer.controls?.setPolite(!full && this.viewer.options.scroll === 'polite');
   }
 
   act(action) {
     const field = this.viewer.stage?.field;
     const actions = {
-      open: () => at('file').click(),
+      open: () => this.page.at('file').click(),
       reset: () => field && (this.viewer.spin(0), this.viewer.reset()),
       fit: () => field && this.viewer.fit(),
       spin: () => field && this.viewer.spin(this.viewer.spinning ? 0 : this.viewer.options.autorotate || 12),
-      compare: () => this.viewer.comparison.cameras.length && this.viewer.comparison.show(at('compare').hidden),
+      compare: () => this.viewer.comparison.cameras.length && this.viewer.comparison.show(this.page.at('compare').hidden),
       panel: () => this.viewer.togglePanel(),
       full: () =>
-        document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.(),
-      help: () => (at('help').open ? at('help').close() : at('help').showModal()),
+        this.page.root.fullscreenElement ? document.exitFullscreen() : this.viewer.screen.requestFullscreen?.(),
+      help: () => (this.page.at('help').open ? this.page.at('help').close() : this.page.at('help').showModal()),
       shot: () => field && this.viewer.save(),
+      note: () => field && this.viewer.guide.next(),
+      'note-close': () => this.viewer.guide.hide(),
+      tour: () => field && this.viewer.guide.play(),
+      link: () => field && copyLink(this.viewer),
+      snippet: () => field && copyEmbedding(this.viewer),
       mean: () => {
-        at('mean').checked = !at('mean').checked;
-        at('mean').dispatchEvent(new Event('input', { bubbles: true }));
+        this.page.at('mean').checked = !this.page.at('mean').checked;
+        this.page.at('mean').dispatchEvent(new Event('input', { bubbles: true }));
       },
       mode: () => this.viewer.setMode(this.viewer.controls.mode === 'fly' ? 'orbit' : 'fly'),
       background: () => this.viewer.nextBackground(),
       before: () => this.viewer.comparison.step(-1),
       after: () => this.viewer.comparison.step(1),
       dismiss: () => {
-        this.viewer.hideProblem();
-        if (field) document.body.dataset.state = 'ready';
-        at('stage').focus();
+        this.viewer.report.hideProblem();
+        if (field) this.page.frame.dataset.state = 'ready';
+        this.page.at('stage').focus();
       },
       coarser: () => this.viewer.openCoarser(),
     };
-    actions[action]?.();
+    if (Object.hasOwn(actions, action)) actions[action]();
   }
 
   shortcut(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || this.viewer.options.embed) return;
     if (event.target.matches?.('input, select, dialog *') && event.key !== 'h') return;
     if (event.key === ' ' && event.target.matches?.('button')) return;
-    if (event.key === 'Escape' && !at('panel').hidden) return this.viewer.togglePanel();
+    if (event.key === 'Escape' && !this.page.at('note').hidden) return this.viewer.guide.hide();
+    if (event.key === 'Escape' && !this.page.at('panel').hidden) return this.viewer.togglePanel();
     const flying = this.viewer.controls?.mode === 'fly' && /^[wasdqe]$/i.test(event.key);
-    const action = KEYS[event.key.toLowerCase()];
+    const key = event.key.toLowerCase(),
+      action = Object.hasOwn(KEYS, key) && KEYS[key];
     if (!action || flying) return;
     event.preventDefault();
     this.act(action);
   }
 
-  listenToDrops() {
-    const dragging = (on) => document.body.classList.toggle('dragging', on);
-    document.addEventListener('dragover', (event) => {
+  listenToDrops() { // what is dropped on a viewer is for that one
+    const dragging = (on) => this.page.frame.classList.toggle('dragging', on);
+    this.onRoot('dragover', (event) => {
       event.preventDefault();
       dragging(true);
     });
-    document.addEventListener('dragleave', (event) => {
+    this.onRoot('dragleave', (event) => {
       if (!event.relatedTarget) dragging(false);
     });
-    document.addEventListener('drop', (event) => {
+    this.onRoot('drop', (event) => {
       event.preventDefault();
       dragging(false);
       droppedFiles(event.dataTransfer).then((files) => this.take(files));
@@ -115,15 +155,15 @@ export class Wiring {
       if (source !== this.viewer.source) return; // another file was opened: the capture is not of that
       if (capture) await this.viewer.comparison.open(capture);
     } catch (error) {
-      this.viewer.fail(error);
+      this.viewer.report.fail(error);
     }
   }
 
   listenToPanel() {
     const on = (id, type, handler) =>
-      at(id).addEventListener(type, () => {
-        handler(at(id));
-        writeOutputs();
+      this.page.at(id).addEventListener(type, () => {
+        handler(this.page.at(id));
+        this.page.writeOutputs();
       });
     const look = (change) => {
       if (this.viewer.stage) {
@@ -145,12 +185,12 @@ export class Wiring {
     on('cameras', 'change', (e) =>
       e.value === '' ? this.viewer.reset() : this.viewer.comparison.lookThrough(Number(e.value)),
     );
-    on('divider', 'input', (e) => at('compare').style.setProperty('--at', `${e.value}%`));
-    at('backgrounds').addEventListener('change', (event) => {
-      this.viewer.background = event.target.value;
+    on('divider', 'input', (e) => this.page.at('compare').style.setProperty('--at', `${e.value}%`));
+    this.page.at('backgrounds').addEventListener('change', (event) => {
+      this.viewer.chosen = this.viewer.background = event.target.value;
       this.viewer.paintBackground();
     });
-    for (const input of document.querySelectorAll('input[name=mode]'))
+    for (const input of this.page.root.querySelectorAll('input[name=mode]'))
       input.addEventListener('change', () => this.viewer.setMode(input.value));
   }
 }

@@ -82,3 +82,27 @@ test('a light field that the device cannot hold fails alike in every frame, and 
   assert.equal(left, 0);
   await page.close();
 });
+
+test('every error of the loader has its kind, and a decoder that is not there is named', { skip }, async () => {
+  const page = await newPage(here.chrome);
+  await page.goto(`${here.server.three}?src=/files/can.slf`);
+  await page.waitForFunction(() => window.ready);
+  const said = await page.evaluate(async () => {
+    const { SLFLoader } = await import(new URL('SLFLoader.js', document.baseURI));
+    const met = (file, parts) => new SLFLoader(undefined, parts).loadAsync(file).then(() => ['loaded'], (error) => [error.kind, error.detail]);
+    const asked = [], locateFile = (name) => (asked.push(name), '/files/none.wasm');
+    return {
+      missing: await met('/files/none.slf'),
+      damaged: await met('/files/damaged.slf'),
+      decoder: await met('/files/can.slf', { locateFile }),
+      asked,
+      worker: await met('/files/can.slf', { worker: () => Promise.reject(new Error('none')) }),
+      own: await met('/files/can.slf', { wasm: new URL('../slf.wasm', document.baseURI), locateFile }),
+    };
+  });
+  assert.deepEqual([said.missing[0], said.damaged[0], said.decoder[0], said.own[0]], ['network', 'damaged', 'network', 'loaded']);
+  assert.match(said.decoder[1], /none\.wasm is not there .* locateFile/);
+  assert.deepEqual([...new Set(said.asked)], ['slf.wasm']);
+  assert.deepEqual(said.worker, ['network', 'none']);
+  await page.close();
+});

@@ -78,7 +78,7 @@ test('a file that takes too much memory is refused, and can be shown coarser', {
 
 for (const [name, pattern, words] of [
   ['the decoder', '**/slf.wasm', /^The decoder, a part of this page, did not arrive/],
-  ['its worker', '**/decode_worker.js', /^The script of the decoder cannot be fetched/],
+  ['its worker', '**/decode_worker*', /^The script of the decoder cannot be fetched/],
 ])
   test(`${name} that cannot be fetched is no fault of the file`, { skip }, async () => {
     const page = await newPage(here.chrome);
@@ -88,6 +88,25 @@ for (const [name, pattern, words] of [
     assert.match(await page.textContent('#problem p'), words);
     await page.close();
   });
+
+test('a worker whose own script does not arrive starts from the copy of it', { skip }, async () => {
+  const page = await newPage(here.chrome);
+  await page.route('**/decode_worker.js', (route) => route.abort());
+  await page.goto(`${here.server.page}?src=/files/can.slf`);
+  assert.equal(await settled(page), 'ready');
+  await page.close();
+});
+
+test('a value that is none, and names of what every object has, are as if they were not there', { skip }, async () => {
+  const page = await newPage(here.chrome);
+  for (const name of ['background', 'mode', 'camera', 'lang', 'scroll', 'target', 'azimuth'])
+    for (const value of ['constructor', '__proto__', 'toString']) {
+      await page.goto(`${here.server.page}?src=/files/can.slf&${name}=${value}`);
+      assert.equal(await settled(page), 'ready', `${name}=${value}`);
+    }
+  assert.deepEqual(page.wrong, []);
+  await page.close();
+});
 
 test('a decoder that did not arrive for the first picture is asked for again for the next', { skip }, async () => {
   const page = await newPage(here.chrome);

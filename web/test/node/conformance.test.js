@@ -1,7 +1,7 @@
 // The conformance suite against the decoder in WebAssembly: the same digests, the same refusals.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfDecoder, SlfError } from '../../slf_node.js';
 import { cases, digest, optionsOf } from './support.js';
 
 const builds = {

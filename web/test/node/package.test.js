@@ -9,7 +9,8 @@ import { fileURLToPath } from 'node:url';
 import { caseOf, suite } from './support.js';
 
 const web = fileURLToPath(new URL('../../', import.meta.url));
-const skip = spawnSync('npm', ['--version']).status !== 0 && 'there is no npm (tools/setup.sh web)';
+const skip = spawnSync('npm', ['--version']).status !== 0 ? 'there is no npm (tools/setup.sh web)'
+  : !existsSync(join(web, 'made/viewer_markup.js')) && 'there is no made/ (web/build.sh says why)';
 const place = mkdtempSync(join(tmpdir(), 'slf-package-'));
 const installed = join(place, 'node_modules/slf-decoder');
 after(() => rmSync(place, { recursive: true }));
@@ -27,7 +28,7 @@ test('a package says what it is and under which licence', { skip }, () => {
 });
 
 test('every file that one of a package names is in it', { skip }, () => {
-  const names = /(?:from |import\(|new URL\()'(\.[^']+)'|(?:src|href)="([\w./]+)"|\b(node_modules)\b/g;
+  const names = /(?:from |import\(|new URL\()'(\.[^']+)'|(?:src|href)="([\w./]+(?<!\.slf))"|\b(node_modules)\b/g;
   let found = 0;
   for (const name of readdirSync(installed, { recursive: true })) {
     if (!/\.(js|ts|mjs|html)$/.test(name)) continue;
@@ -49,4 +50,13 @@ test('a package decodes', { skip }, () => {
     console.log((await SlfDecoder.create()).decode(readFileSync(process.argv[2])).positions.length / 3);`);
   const said = execFileSync(process.execPath, ['use.mjs', join(suite, 'streams/harmonics', stream.file)], { cwd: place });
   assert.equal(Number(said), points);
+});
+
+test('no file that a browser is given names node', { skip }, () => {
+  const { exports } = JSON.parse(readFileSync(join(installed, 'package.json'), 'utf8'));
+  for (const name of readdirSync(installed, { recursive: true }))
+    if (name.endsWith('.js') && name !== 'slf_node.js')
+      assert.doesNotMatch(readFileSync(join(installed, name), 'utf8'), /['"`]node:/, name);
+  for (const [entry, { node, default: browser }] of Object.entries(exports))
+    if (node) assert.ok(node === './slf_node.js' && browser !== node, entry);
 });

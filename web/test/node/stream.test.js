@@ -1,7 +1,7 @@
 // Reading in parts from servers of all manners.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
-import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfDecoder, SlfError } from '../../slf_node.js';
 import { SlfStream } from '../../slf_stream.js';
 import { caseOf, cases, digest, serve } from './support.js';
 

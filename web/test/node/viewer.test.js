@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { test } from 'node:test';
-import { SlfDecoder, SlfError } from '../../slf.js';
+import { SlfDecoder, SlfError } from '../../slf_node.js';
 import { DecodeSession, plainError } from '../../viewer/decode_session.js';
 import { FieldLoader } from '../../viewer/field_loader.js';
 import { caseOf } from './support.js';
@@ -12,7 +12,9 @@ const { bytes, expect: [expected] } = caseOf('harmonics');
 const skip = !existsSync(new URL('../../node_modules/three', import.meta.url)) && 'there is no three: npm ci in web/';
 
 /** A loader whose worker answers nothing. */
-function silentLoader() { return new FieldLoader({ worker: () => ({ postMessage() {}, terminate() {} }) }); }
+function silentLoader() {
+  return new FieldLoader({ wasm: decoder.module, worker: () => ({ postMessage() {}, terminate() {} }) });
+}
 
 /** Calls use(requests, cancelled()) while fetch() answers with a body without an end. */
 async function withEndlessFetch(use) {
@@ -140,4 +142,14 @@ test('parse() of every loader has one decoder', { skip }, async () => {
   } finally {
     WebAssembly.compile = compile;
   }
+});
+
+test('the view of a page is that of its camera, unless the address names another', async () => {
+  const { readOptions } = await import('../../viewer/options.js');
+  const page = { azimuth: 30, view: { eye: [0, 0, 0] } }, view = (query) => readOptions(new URLSearchParams(query), page).view;
+  assert.equal(view(''), page.view);
+  assert.equal(view('azimuth=12'), null);
+  assert.equal(readOptions(new URLSearchParams('background=constructor&target=1,2&mode=__proto__')).background, null);
+  assert.deepEqual(readOptions(new URLSearchParams('target=1,-2,3.5')).target, [1, -2, 3.5]);
+  assert.deepEqual(['1,2', '1,2,', 'a,b,c', ''].map((each) => readOptions(new URLSearchParams({ target: each })).target), [null, null, null, null]);
 });

@@ -1,7 +1,7 @@
 // The page's side of a decoding worker, against a worker that answers as the test wants.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { SlfError } from '../../slf.js';
+import { SlfError } from '../../slf_node.js';
 import { SlfWorker } from '../../slf_worker.js';
 
 function code(wanted) { return (error) => error instanceof SlfError && error.code === wanted; }

@@ -1,9 +1,10 @@
 // Compiled and not run: what the documentation shows, and what must not compile.
-import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { Box3, PerspectiveCamera, Raycaster, Scene, WebGLRenderer } from 'three';
 import { SlfDecoder, SlfError } from 'slf-decoder';
 import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js';
-import { SurfaceLightField } from 'slf-decoder/viewer/surface_light_field.js';
+import { SurfaceLightField, type LightFieldIntersection } from 'slf-decoder/viewer/surface_light_field.js';
 import { Viewer } from 'slf-decoder/viewer/viewer.js';
+import { SlfViewerElement } from 'slf-decoder/viewer/slf_viewer.js';
 import { ViewerError, packField } from 'slf-decoder/viewer/packed_field.js';
 
 export async function scene(file: File, bytes: ArrayBuffer) {
@@ -40,4 +41,22 @@ export async function viewer() {
   // @ts-expect-error numbers are no source
   await page.open(7);
   return page.facts.loaded;
+}
+
+export async function element(bytes: Uint8Array) {
+  SlfViewerElement.parts = { wasm: '/slf.wasm', locateFile: (name) => `/parts/${name}` };
+  const viewer = document.createElement('slf-viewer');
+  viewer.addEventListener('ready', ({ detail }) => detail.points.toFixed());
+  viewer.addEventListener('error', ({ detail }) => detail.kind === 'policy');
+  viewer.view = { azimuth: 40, zoom: '2' };
+  await viewer.open(bytes, 'own.slf');
+  // @ts-expect-error a state is read alone
+  viewer.state = 'ready';
+  return [viewer.view?.target, await viewer.picture()];
+}
+
+export function met(field: SurfaceLightField) {
+  const loader = new SLFLoader(undefined, { wasm: new URL('slf.wasm', 'http://localhost'), worker: () => new Worker('w.js') });
+  const [found] = new Raycaster().intersectObject(field) as LightFieldIntersection[];
+  return [loader.wasm, new Box3().setFromObject(field.clone()), found.color.getHex(), found.normal.x, found.index];
 }

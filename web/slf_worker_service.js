@@ -1,0 +1,96 @@
+// What the worker of SlfWorker (slf_worker.js) runs: a decoder, and streams by their number.
+import { SlfDecoder, SlfError } from './slf.js';
+import { SlfStream } from './slf_stream.js';
+
+const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'frame', 'transfer', 'up', 'rightHanded',
+  'hasBasis', 'hasNormals', 'gamma', 'kernel', 'info'];
+const READERS = {
+  positions: (field) => field.positions,
+  values: (field) => field.values,
+  octahedral: (field) => field.octahedral,
+  weights: (field) => (field.hasBasis ? field.weights() : null),
+  meanColours: (field) => (field.hasBasis ? field.meanColours() : null),
+  normals: (field) => field.normals,
+  centres: (field) => field.centres,
+  radii: (field) => field.radii,
+  areas: (field) => field.areas,
+  frameNormals: (field) => field.frameNormals,
+};
+
+function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
+
+/** A field as data, with the arrays that were asked for, and what of it can be handed over. */
+function plainField(field, { arrays = Object.keys(READERS), functionTable } = {}) {
+  try {
+    const plain = Object.fromEntries(PLAIN.map((name) => [name, field[name]]));
+    const buffers = [];
+    for (const name of new Set(arrays)) {
+      if (!Object.keys(READERS).includes(name)) throw invalid(`no array is called ${name}`);
+      plain[name] = READERS[name](field);
+      if (plain[name]) buffers.push(plain[name].buffer);
+    }
+    if (functionTable && field.hasBasis) {
+      plain.functionTable = field.functionTable(functionTable);
+      buffers.push(plain.functionTable.data.buffer);
+    }
+    return { plain, buffers };
+  } finally {
+    field.release();
+  }
+}
+
+class Service {
+  #decoder; #streams = new Map(); #aborts = new Map();
+
+  async create({ module }) { this.#decoder = await SlfDecoder.create({ wasm: module }); }
+  async info({ bytes }) { return { plain: this.#decoder.info(bytes), buffers: [] }; }
+  async decode({ bytes, options, wanted }) { return plainField(this.#decoder.decode(bytes, options), wanted); }
+
+  async open({ id, url, options }) {
+    const stream = await SlfStream.open(url, { ...options, decoder: this.#decoder, signal: this.#signal(id) });
+    this.#streams.set(id, stream);
+    return { plain: { info: stream.info, bytes: stream.bytes, ranged: stream.ranged, received: stream.received },
+      buffers: [] };
+  }
+
+  async decodeStream({ id, stream, options, wanted }) {
+    const source = this.#streams.get(stream);
+    if (source === undefined) throw invalid('the stream was closed');
+    const onRead = (bytes, all) => postMessage({ id, read: [bytes, all] });
+    const field = await source.decode(options, { onRead, signal: this.#signal(id) });
+    return plainField(field, wanted);
+  }
+
+  async close({ stream }) { this.#streams.delete(stream); }
+  abort(id) {
+    this.#aborts.get(id)?.abort();
+    this.#streams.delete(id); // of an open() whose answer crossed this
+  }
+  done(id) { this.#aborts.delete(id); }
+
+  #signal(id) {
+    const abort = new AbortController();
+    this.#aborts.set(id, abort);
+    return abort.signal;
+  }
+}
+
+function serve(scope) {
+  const service = new Service();
+  scope.onmessage = async ({ data }) => {
+    if (data.call === 'abort') return service.abort(data.which);
+    try {
+      const answer = await service[data.call](data);
+      scope.postMessage({ id: data.id, result: answer?.plain }, answer?.buffers ?? []);
+    } catch (error) {
+      const { message, element, unit, bitOffset } = error;
+      const code = error instanceof SlfError ? error.code : 'INTERNAL'; // a DOMException's code is a number
+      scope.postMessage({ id: data.id, error: { code, message, element, unit, bitOffset } });
+    } finally {
+      service.done(data.id);
+    }
+  };
+}
+
+serve(globalThis);
+postMessage({ ready: true });

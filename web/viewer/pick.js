@@ -1,0 +1,110 @@
+// Where a ray meets a light field, and the colour that is seen that way: on the processor, from the texels that the
+// pipeline uploads. Lengths in voxels from `packed.centre`, as these texels are.
+
+const CORE = 0.4, // squared share of a disc's radius within which it fixes the depth: spec E.4
+  FLAT = 0.5; // squared length of a normal that is there
+
+/**
+ * @param {number[]} from  @param {number[]} along  of length 1
+ * @param {number} share  of the points that are drawn
+ * @returns {{index, distance, normal}|null} the first disc whose core is met, else the first disc; its normal looks back
+ */
+export function pick(packed, from, along, share = 1) {
+  const drawn = Math.max(1, Math.round(packed.points * Math.min(1, share))),
+    thinning = packed.points / drawn,
+    { places, discs } = packed;
+  let core = null,
+    rim = null;
+  for (let i = 0; i < drawn; ++i) {
+    const p = 4 * Math.floor(i * thinning),
+      square = discs[p + 3] ** 2 * thinning;
+    const x = places[p] + places[p + 3] * discs[p] - from[0],
+      y = places[p + 1] + places[p + 3] * discs[p + 1] - from[1],
+      z = places[p + 2] + places[p + 3] * discs[p + 2] - from[2];
+    const near = x * along[0] + y * along[1] + z * along[2];
+    if (near < 0 || x * x + y * y + z * z - near * near > square) continue; // not even its ball
+    const met = meetDisc(discs, p, [x, y, z], along, near);
+    if (!met || met.square >= square) continue;
+    if (met.square < CORE * square && !(core?.distance <= met.distance)) core = { index: p / 4, ...met };
+    else if (!(rim?.distance <= met.distance)) rim = { index: p / 4, ...met };
+  }
+  const found = core ?? rim;
+  return found && { index: found.index, distance: found.distance, normal: found.normal };
+}
+
+/** The place in the world under a point of a stage, in pixels of the page; null beside the object. */
+export function placeAt(stage, x, y) {
+  const { packed, canvas } = stage,
+    view = stage.view(canvas.clientWidth, canvas.clientHeight);
+  const across = (x - view.cx) / view.fx,
+    down = (y - view.cy) / view.fy;
+  const along = normalised([0, 1, 2].map((k) => across * view.rotation[k] + down * view.rotation[3 + k] + view.rotation[6 + k]));
+  const met = pick(packed, view.eye.map((v, k) => (v - packed.centre[k]) / packed.step), along, stage.look.share);
+  return met && view.eye.map((v, k) => v + met.distance * packed.step * along[k]);
+}
+
+/** Where a ray from the origin meets the plane of a disc: how far, and how far from its centre, squared. */
+function meetDisc(discs, p, centre, along, near) {
+  let normal = [discs[p], discs[p + 1], discs[p + 2]];
+  if (dot(normal, normal) < FLAT) normal = along.map((x) => -x);
+  const slope = dot(normal, along);
+  if (slope > 0) normal = normal.map((x) => -x);
+  const distance = Math.abs(slope) < 1e-6 ? near : dot(normal, centre) / -Math.abs(slope);
+  if (!(distance > 0)) return null;
+  return { distance, normal, square: centre.reduce((sum, x, k) => sum + (distance * along[k] - x) ** 2, 0) };
+}
+
+/** RGB 0 .. 1 of a point from `eye`, in the file's own transfer: the colour pass of shaders.js. Spec 6.4, 6.7. */
+export function colourFrom(packed, index, eye, meanOnly = false) {
+  const { places, frames, means, weights, functions, layers, columns, rows } = packed;
+  if (meanOnly) return [0, 1, 2].map((k) => means[4 * index + k] / 255);
+  const texels = columns * rows,
+    at = tableAt(functions, direction(packed, places, frames, 4 * index, eye));
+  const sum = [0, 0, 0];
+  for (let layer = 0; layer < layers; ++layer)
+    for (let f = 0; f < 4; ++f) {
+      const value = at(layer, f);
+      for (let c = 0; c < 3; ++c) sum[c] += value * weights[((3 * layer + c) * texels + index) * 4 + f];
+    }
+  return sum.map((x) => Math.max(0, Math.min(1, x / 32767)));
+}
+
+/** The direction to the eye in the point's frame, within what cameras saw. */
+function direction({ gamma }, places, frames, p, eye) {
+  let w = normalised([0, 1, 2].map((k) => eye[k] - places[p + k])) ?? [1, 0, 0];
+  const n = [frames[p], frames[p + 1], frames[p + 2]];
+  if (dot(n, n) > FLAT) {
+    const twice = 2 * dot(n, w);
+    w = w.map((x, k) => twice * n[k] - x);
+  }
+  const g = Math.max(gamma[0], Math.min(gamma[1], w[2]));
+  if (g === w[2]) return w;
+  const across = Math.hypot(w[0], w[1]),
+    rest = Math.sqrt(Math.max(0, 1 - g * g));
+  return across > 0 ? [(w[0] * rest) / across, (w[1] * rest) / across, g] : [rest, 0, g];
+}
+
+/** Values of the functions in a direction, between the four texels around it. @returns (layer, function) => value */
+function tableAt({ texels, width, height, faceSize }, w) {
+  const [ax, ay, az] = w.map(Math.abs);
+  let face, s, t;
+  if (ax >= ay && ax >= az) [face, s, t] = [w[0] < 0 ? 1 : 0, (w[0] < 0 ? w[2] : -w[2]) / ax, -w[1] / ax];
+  else if (ay >= az) [face, s, t] = [w[1] < 0 ? 3 : 2, w[0] / ay, (w[1] < 0 ? -w[2] : w[2]) / ay];
+  else [face, s, t] = [w[2] < 0 ? 5 : 4, (w[2] < 0 ? -w[0] : w[0]) / az, -w[1] / az];
+  const place = [s, t].map((v) => (v * 0.5 + 0.5) * (faceSize - 1)),
+    low = place.map((v) => Math.max(0, Math.min(faceSize - 2, Math.floor(v)))),
+    [u, v] = place.map((x, k) => x - low[k]);
+  const column = (face % 3) * faceSize + low[0],
+    row = Math.floor(face / 3) * faceSize + low[1];
+  return (layer, f) => {
+    const value = (x, y) => texels[((layer * height + row + y) * width + column + x) * 4 + f];
+    return (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) + v * ((1 - u) * value(0, 1) + u * value(1, 1));
+  };
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+function normalised(a) {
+  const length = Math.hypot(...a);
+  return length > 0 ? a.map((x) => x / length) : null;
+}

@@ -1,0 +1,241 @@
+// <slf-viewer src="can.slf">: the viewer as an element of any page, as many as there are. viewer/README.md has the
+// list of attributes, which is that of the address of viewer.html.
+//
+//     <script type="module">import 'slf-decoder/viewer/slf_viewer.js'</script>
+//     <slf-viewer src="can.slf" poster="can.jpg" azimuth="40"></slf-viewer>
+import { markup, style } from '../made/viewer_markup.js';
+import { Elements } from './elements.js';
+import { FieldLoader } from './field_loader.js';
+import { backgroundOf, readOptions } from './options.js';
+import { placeAt } from './pick.js';
+import { Viewer } from './viewer.js';
+import { viewParameters } from './view_link.js';
+import { Turns } from './viewer_turns.js';
+import { wordsOf } from './words.js';
+
+const LIVE = ['background', 'exposure', 'mean', 'points', 'autorotate']; // that change what is shown at once
+const turns = new Turns();
+let sheet = null;
+
+export class SlfViewerElement extends HTMLElement {
+  static observedAttributes = ['src', ...LIVE];
+
+  /** Where the package's files are, for every viewer; SLFLoader has the same options. */
+  static parts = {};
+
+  #elements = null;
+  #starting = null; // a promise of the viewer
+  #view = null; // parameters that come before the attributes
+  #opened = null; // of open(), in place of src
+  #still = null; // address of its last picture
+  #query = { get: (name) => this.#view?.get(name) ?? this.getAttribute(name) };
+
+  constructor() {
+    super();
+    this.attachShadow({ mode: 'open' });
+    this.viewer = null; // while it is shown
+  }
+
+  connectedCallback() {
+    this.#markUp();
+    const named = viewOfAddress(this.id);
+    if (named) this.#visit(named);
+    turns.watch(this, named !== null);
+    addEventListener('hashchange', this.#hashChanged);
+  }
+
+  disconnectedCallback() {
+    removeEventListener('hashchange', this.#hashChanged);
+    turns.forget(this);
+    this.sleep();
+  }
+
+  attributeChangedCallback(name, before, value) {
+    if (before === value || !this.isConnected) return;
+    if (name === 'src') this.#reopen();
+    else if (this.viewer?.stage) this.#look(name);
+  }
+
+  // What turns.js calls: a page has few graphics contexts and many viewers.
+
+  /** Loads and shows. @returns {Promise<Viewer|null>} */
+  wake() {
+    this.#starting ??= this.#start().catch((error) => {
+      this.#starting = null;
+      this.#emit('error', error);
+      return null;
+    });
+    return this.#starting;
+  }
+
+  /** Lets go of the worker, the memory and the context; its last picture stays. */
+  async sleep() {
+    const { viewer } = this;
+    this.#starting = this.viewer = null;
+    if (!viewer) return;
+    if (viewer.controls?.pose) this.#view = new URLSearchParams(viewParameters(viewer));
+    const picture = viewer.stage?.field && viewer.stage.canvas.isConnected ? viewer.stage.screenshot() : null;
+    const still = await picture;
+    viewer.dispose();
+    if (this.#starting) return; // it is wanted again
+    URL.revokeObjectURL(this.#still);
+    this.#still = still && URL.createObjectURL(still);
+    this.#markUp(this.#still ?? undefined);
+  }
+
+  // For pages
+
+  /** An address, a File or bytes in place of `src`. Resolves when it shows, or what is wrong does. */
+  async open(source, name) {
+    const awake = this.viewer;
+    this.#opened = { source, name };
+    const viewer = await this.wake();
+    return awake ? viewer.open(source, name) : viewer?.opening;
+  }
+
+  /** idle, loading, coarse, ready, or failed and the kind of the error. */
+  get state() {
+    return this.#elements?.frame.dataset.state ?? (this.viewer ? 'loading' : 'idle');
+  }
+
+  /** Azimuth, elevation, fov, zoom and target as attributes have them; null before it shows. */
+  get view() {
+    return this.viewer?.controls?.pose ? viewParameters(this.viewer) : null;
+  }
+
+  set view(parameters) {
+    this.#view = new URLSearchParams(parameters ?? {});
+    if (!this.viewer?.controls?.pose) return;
+    Object.assign(this.viewer.options, this.#options().view);
+    this.viewer.reset();
+  }
+
+  /** The place of the object under a point of the window (`clientX`, `clientY`); null beside it. */
+  pointAt(x, y) {
+    const { stage } = this.viewer ?? {};
+    if (!stage?.field || !this.viewer.controls.pose) return null;
+    const box = stage.canvas.getBoundingClientRect();
+    return placeAt(stage, x - box.left, y - box.top);
+  }
+
+  /** Plays a track of the notes, by name or number, or stops the one that plays. */
+  play(track = 0) {
+    this.viewer?.guide.play(track);
+  }
+
+  /** Opens an annotation of the notes, by its number from 0. */
+  show(annotation) {
+    if (this.viewer?.guide.marks[annotation]) this.viewer.guide.show(annotation);
+  }
+
+  reset() {
+    if (this.viewer?.stage?.field) this.viewer.reset();
+  }
+
+  fit() {
+    if (this.viewer?.stage?.field) this.viewer.fit();
+  }
+
+  spin(speed = 12) {
+    this.viewer?.spin(speed);
+  }
+
+  /** @returns {Promise<Blob|null>} PNG */
+  async picture() {
+    return this.viewer?.stage?.field ? this.viewer.stage.screenshot() : null;
+  }
+
+  async #start() {
+    this.#markUp(this.#still ?? undefined);
+    const words = await wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));
+    if (!this.isConnected || this.viewer) return this.viewer;
+    const frame = this.#elements.frame;
+    frame.classList.remove('asleep');
+    frame.classList.toggle('empty', !this.#opened && !this.getAttribute('src'));
+    this.#elements = new Elements(this.shadowRoot, frame, words);
+    const source = this.#opened,
+      page = { scroll: 'polite' };
+    const memory = Number(this.getAttribute('memory')) || 2048;
+    const loader = new FieldLoader({ ...SlfViewerElement.parts, maxMemory: memory * 2 ** 20 });
+    if (source) Object.assign(page, { file: source.source, name: source.name });
+    this.viewer = new Viewer({ ...page, loader }, {
+      elements: this.#elements,
+      query: this.#query,
+      link: this.id ? (parameters) => addressOf(this.id, parameters) : null,
+      emit: (name, detail) => this.#emit(name, detail),
+    });
+    return this.viewer;
+  }
+
+  #hashChanged = () => {
+    const named = viewOfAddress(this.id);
+    if (named) this.#visit(named);
+  };
+
+  /** A view that the address names. */
+  #visit(view) {
+    this.view = view;
+    const show = () => this.scrollIntoView({ block: 'center' });
+    if (document.readyState === 'complete') show();
+    else addEventListener('load', show, { once: true });
+  }
+
+  async #reopen() {
+    this.#opened = this.#view = null;
+    await this.sleep();
+    this.#still = null; // of the file before
+    this.#markUp();
+    turns.forget(this);
+    turns.watch(this);
+  }
+
+  #options() {
+    const read = readOptions(this.#query);
+    const { azimuth, elevation, fov, zoom, target } = read;
+    return { ...read, view: { azimuth, elevation, fov, zoom, target } };
+  }
+
+  #look(changed) {
+    const { viewer } = this, { background, exposure, mean, points, autorotate } = this.#options();
+    Object.assign(viewer.options, { background, exposure, mean, points, autorotate });
+    viewer.chosen = backgroundOf(this.getAttribute('background'));
+    if (viewer.chosen) viewer.background = viewer.chosen;
+    viewer.followPage();
+    viewer.applyLook();
+    if (changed === 'autorotate') viewer.spin(autorotate);
+    viewer.stage.redraw();
+  }
+
+  /** The elements as they are before anything is shown. */
+  #markUp(still = this.getAttribute('poster')) {
+    if (!sheet) {
+      sheet = new CSSStyleSheet();
+      sheet.replaceSync(style);
+    }
+    this.shadowRoot.adoptedStyleSheets = [sheet];
+    const frame = document.createElement('div');
+    frame.className = 'frame asleep';
+    frame.innerHTML = markup;
+    this.shadowRoot.replaceChildren(frame);
+    this.#elements = new Elements(this.shadowRoot, frame);
+    if (still) this.#elements.writePoster(still);
+  }
+
+  #emit(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+}
+
+/** `#can?azimuth=30`: a view of the viewer with that id. */
+function addressOf(id, parameters) {
+  const address = new URL(location.href);
+  address.hash = `${id}?${new URLSearchParams(parameters)}`;
+  return address.href;
+}
+
+function viewOfAddress(id) {
+  const [name, view] = decodeURIComponent(location.hash.slice(1)).split('?');
+  return id && name === id && view ? new URLSearchParams(view) : null;
+}
+
+if (!customElements.get('slf-viewer')) customElements.define('slf-viewer', SlfViewerElement);

@@ -1,0 +1,48 @@
+// Addresses that lead to a view, and the lines that put it into another page.
+import { fittingPose } from './view.js';
+
+const short = (value) => String(Number(value.toPrecision(6)));
+
+/** The parameters of README.md that lead to what is shown. */
+export function viewParameters({ controls, stage, options, background, chosen }) {
+  const { pose } = controls,
+    whole = fittingPose(stage.field, pose);
+  const parameters = {
+    azimuth: short(pose.azimuth),
+    elevation: short(pose.elevation),
+    fov: short(pose.fov),
+    zoom: short(whole.distance / pose.distance),
+    target: pose.target.map(short).join(','),
+  };
+  if (controls.mode !== options.mode) parameters.mode = controls.mode;
+  if (stage.look.exposure !== options.exposure) parameters.exposure = short(stage.look.exposure);
+  if (stage.look.meanOnly !== options.mean) parameters.mean = stage.look.meanOnly ? '1' : '0';
+  if (chosen !== null && background !== options.background) parameters.background = background.replace('#', '');
+  return parameters;
+}
+
+/** An iframe for any page. */
+export function embeddingOf(viewer) {
+  const address = viewer.link({ ...viewParameters(viewer), embed: '1' });
+  const quoted = (text) => text.replace(/[&"<>]/g, (c) => `&#${c.charCodeAt(0)};`);
+  return `<iframe src="${quoted(address)}" title="${quoted(viewer.report.titleText())}" width="640" height="480" \
+style="border: 0; max-width: 100%" loading="lazy" allow="fullscreen"></iframe>`;
+}
+
+export const copyLink = (viewer) => copy(viewer, viewer.link(viewParameters(viewer)));
+export const copyEmbedding = (viewer) => copy(viewer, embeddingOf(viewer));
+
+/** To the clipboard; in any case into a field, from which it can be copied by hand. */
+async function copy(viewer, text) {
+  const field = viewer.page.at('address');
+  field.value = text;
+  field.hidden = false;
+  field.select();
+  try {
+    await navigator.clipboard.writeText(text);
+    viewer.report.say('Copied.');
+    viewer.report.hint('Copied.');
+  } catch {
+    viewer.report.say('Copy it from the field.');
+  }
+}
