@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "exchange/splat_writers.h"
 #include "exchange/turn_gaussians.h"
 #include "slf/gaussian_files.h"
@@ -31,12 +33,11 @@ Result<std::vector<std::uint8_t>, InputError> splat_file(const SplatCloud& splat
   return file_of(DiscRows(splats), format);
 }
 
-Result<std::vector<std::uint8_t>, InputError> gaussian_file(const Gaussians& gaussians,
+Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians,
                                                             SplatFormat format) {
   if (gaussians.size() == 0) return InputError{Errc::kInvalidInput, "has no splats"};
   const SplatAxes axes = format == SplatFormat::kPly ? SplatAxes::kYDown : SplatAxes::kYUp;
-  if (!has_other_axes(gaussians, axes)) return file_of(GaussianRows(gaussians), format);
-  const Gaussians turned = in_axes(gaussians, axes);
+  const Gaussians turned = in_axes(std::move(gaussians), axes);
   return file_of(GaussianRows(turned), format);
 }
 

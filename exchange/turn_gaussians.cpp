@@ -127,13 +127,10 @@ void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& row
   }
 }
 
-bool has_other_axes(const Gaussians& gaussians, SplatAxes axes) {
-  return rows_to(gaussians, axes) != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-}
-
 Gaussians in_axes(Gaussians gaussians, SplatAxes axes) {
-  if (has_other_axes(gaussians, axes))
-    move_gaussians(gaussians, 0, rows_to(gaussians, axes), 1, {0, 0, 0});
+  const AxisRows rows = rows_to(gaussians, axes);
+  if (rows != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})
+    move_gaussians(gaussians, 0, rows, 1, {0, 0, 0});
   if (axes != SplatAxes::kWorld)
     gaussians.up = axes == SplatAxes::kYUp ? UpAxis::kPlusY : UpAxis::kMinusY;
   return gaussians;

@@ -27,9 +27,6 @@ class HarmonicTurn {
 void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
                     const Vec3& offset);
 
-/// Whether in_axes() would turn them.
-bool has_other_axes(const Gaussians& gaussians, SplatAxes axes);
-
 /// In the axes that a file wants: y up or y down. Splats without a known axis count as y down,
 /// which is the convention of files that do not say.
 Gaussians in_axes(Gaussians gaussians, SplatAxes axes);

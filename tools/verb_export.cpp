@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "slf/splats.h"
 #include "tools/dump.h"
@@ -139,16 +140,17 @@ Outcome convert_splats(const ExportOptions& given, SplatFormat format) {
           read_splat_file("export", given.input, given.part, given.limits, given.common));
   if (given.degree_given) cut(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz) format = SplatFormat::kSpz3;
-  SLF_TRY(const auto bytes, from(given.input, gaussian_file(file.gaussians, format)));
-  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   const std::size_t count = file.gaussians.size();
+  const int degree = file.gaussians.degree;
+  SLF_TRY(const auto bytes, from(given.input, gaussian_file(std::move(file.gaussians), format)));
+  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   const double each = static_cast<double>(bytes.size()) / static_cast<double>(count);
   if (given.common.json)
     return print(nlohmann::ordered_json{{"input_format", file.format},
                                         {"splats", count},
                                         {"left_out", file.left_out},
                                         {"mended", file.mended},
-                                        {"degree", file.gaussians.degree},
+                                        {"degree", degree},
                                         {"bytes", bytes.size()},
                                         {"bytes_per_splat", each}});
   if (!given.common.quiet)

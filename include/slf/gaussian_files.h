@@ -53,8 +53,9 @@ Result<GaussianFile, InputError> read_gaussians(const std::filesystem::path& fil
 /// The file, in the axes that the format has by convention: y down of PLY, y up of glTF and SPZ.
 /// Splats whose up axis is another are turned, harmonics with them; an unknown axis counts as -y.
 /// glTF and SPZ keep harmonics to degree 3. The same bytes for the same splats.
+/// @param gaussians  turned in place: who moves them in saves a copy
 /// @errors as splat_file; kInvalidInput: no splats
-Result<std::vector<std::uint8_t>, InputError> gaussian_file(const Gaussians& gaussians,
+Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians,
                                                             SplatFormat format);
 
 /// Discs of a light field as Gaussians, in their axes and from their origin.
