@@ -65,14 +65,26 @@ void put_harmonics(const PointValues& value, const Matrix3x3& to_rgb, int degree
       }
 }
 
+/// Are all functions of an attribute there, and coded?
+bool has_attribute(const LightFieldHeader& header, AttributeId id, int functions) {
+  const int first = first_function(header, id);
+  if (first >= header.num_functions) return false;
+  const auto coded = [&](int k) {
+    return header.coded.empty() ||
+           std::binary_search(header.coded.begin(), header.coded.end(), std::uint16_t(k));
+  };
+  for (int k = first; k < first + functions; ++k)
+    if (!coded(k)) return false;
+  return true;
+}
+
 }  // namespace
 
 bool has_gaussians(const LightFieldHeader& header) {
   return header.has_basis && header.basis.id == BasisId::kHarmonics &&
          header.basis.degree <= kMostDegree && header.frame == FrameId::kGlobal &&
-         header.transfer == Transfer::kDisplay &&
-         first_function(header, AttributeId::kOpacity) < header.num_functions &&
-         first_function(header, AttributeId::kShape) < header.num_functions;
+         header.transfer == Transfer::kDisplay && has_attribute(header, AttributeId::kOpacity, 1) &&
+         has_attribute(header, AttributeId::kShape, 2);
 }
 
 Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads) {

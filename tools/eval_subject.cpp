@@ -91,6 +91,15 @@ Result<Subject, Failure> decode_subject(const std::string& input, const Capture&
   return subject;
 }
 
+DrawPicture pictures_of(Gaussians gaussians) {
+  RenderSettings over_black;
+  over_black.background = {0, 0, 0};
+  over_black.threads = 1;
+  const auto kept = std::make_shared<const Gaussians>(std::move(gaussians));
+  const auto renderer = std::make_shared<const GaussianRenderer>(*kept, over_black);
+  return [kept, renderer](const Camera& camera) { return renderer->render(camera); };
+}
+
 Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
                                                  const LimitOptions& limits,
                                                  const CommonOptions& common) {
@@ -103,12 +112,7 @@ Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
   out.subject.bytes = std::filesystem::file_size(input, ignored);
   out.subject.settings = {{"format", file.format}, {"degree", file.gaussians.degree}};
   out.subject.bytes_text = "";
-  RenderSettings over_black;
-  over_black.background = {0, 0, 0};
-  over_black.threads = 1;
-  const auto kept = std::make_shared<const Gaussians>(std::move(file.gaussians));
-  const auto renderer = std::make_shared<const GaussianRenderer>(*kept, over_black);
-  out.draw = [kept, renderer](const Camera& camera) { return renderer->render(camera); };
+  out.draw = pictures_of(std::move(file.gaussians));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "slf/gaussians.h"
 #include "tools/eval_report.h"
 #include "tools/stream_input.h"
 
@@ -17,6 +18,9 @@ struct SubjectOptions {
 /// A .slf or an .igc, with view maps.
 Result<Subject, Failure> decode_subject(const std::string& input, const Capture& capture,
                                         const SubjectOptions& given);
+
+/// Pictures of splats.
+DrawPicture pictures_of(Gaussians gaussians);
 
 /// A file of Gaussian splats, and their pictures.
 struct SplatSubject {

@@ -21,6 +21,13 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
                      input_name(file) + ": has no points, or none in what was asked for"};
     scene->field_ = std::move(decoded.field);
     watch.lap();
+    if (has_gaussians(scene->field_.header)) {
+      SLF_TRY(scene->file_.gaussians,
+              from(input_name(file), gaussians_of(scene->field_, common.threads)));
+      scene->splats_ = std::make_unique<GaussianRenderer>(scene->file_.gaussians, settings);
+      scene->prepare_ = watch.lap();
+      return scene;
+    }
     scene->maps_ = std::make_unique<ViewMaps>(scene->field_, common.threads);
     scene->points_ = std::make_unique<Renderer>(*scene->maps_, settings);
   }

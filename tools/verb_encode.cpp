@@ -5,10 +5,12 @@
 #include "tools/capture_input.h"
 #include "tools/describe.h"
 #include "tools/encode_options.h"
+#include "tools/encode_splats.h"
 #include "tools/measure_file.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
+#include "tools/splat_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -120,6 +122,7 @@ Outcome run_encode(const EncodeOptions& given) {
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_TRY(EncoderSettings settings, resolved(given));
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
+  if (is_splat_file(given.capture)) return encode_splats(given, std::move(settings));
   ProgressLine line(given.common.quiet);
   const Progress progress = line.callback();
   SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));

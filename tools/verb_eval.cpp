@@ -133,20 +133,21 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
   return measured;
 }
 
-/// Splats of another program: pictures alone.
-Outcome eval_splats(const EvalOptions& given, const Capture& capture) {
+/// Splats: pictures alone.
+Outcome eval_splats(const EvalOptions& given, const Capture& capture, const SplatSubject& splats) {
   if (given.no_images || given.min_psnr || !given.unquantised.empty())
     return Failure{kUsage,
                    "eval: --no-images, --min-psnr and --unquantised are for light fields, "
                    "and " +
                        given.input + " holds splats"};
-  SLF_TRY(const SplatSubject splats, read_splat_subject(given.input, given.limits, given.common));
   const Judge judge = [&](std::span<const int> cameras, const EvaluateSettings& settings,
                           const Progress& progress) {
     return evaluate_pictures(splats.draw, capture, cameras, settings, progress);
   };
   Stopwatch watch;
-  SLF_TRY(const auto measured, measure(given, capture, given.split, judge, {}));
+  const std::string split =
+      given.split_given ? given.split : metadata_value(splats.subject.metadata, "split");
+  SLF_TRY(const auto measured, measure(given, capture, split, judge, {}));
   SLF_CHECK(report(given, splats.subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
@@ -154,11 +155,20 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture) {
 Outcome run_eval(const EvalOptions& given) {
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
-  if (is_splat_file(given.input)) return eval_splats(given, capture);
-  SLF_TRY(const Subject subject, decode_subject(given.input, capture, given.decode()));
+  if (is_splat_file(given.input)) {
+    SLF_TRY(const SplatSubject splats, read_splat_subject(given.input, given.limits, given.common));
+    return eval_splats(given, capture, splats);
+  }
+  SLF_TRY(Subject subject, decode_subject(given.input, capture, given.decode()));
   if (capture.cloud.positions.empty()) {
     warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
     capture = with_points_of(subject.field, std::move(capture), given.common.threads);
+  }
+  if (has_gaussians(subject.field.header)) {
+    SLF_TRY(Gaussians gaussians,
+            from(input_name(given.input), gaussians_of(subject.field, given.common.threads)));
+    subject.splats = gaussians.size();
+    return eval_splats(given, capture, {std::move(subject), pictures_of(std::move(gaussians))});
   }
   const ViewMaps maps(subject.field, given.common.threads);
   std::optional<Subject> unquantised;

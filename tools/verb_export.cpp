@@ -105,21 +105,6 @@ Outcome export_points(const ExportOptions& given) {
   return Done{};
 }
 
-Outcome export_splats(const ExportOptions& given, SplatFormat format) {
-  const std::string name = input_name(given.input);
-  SLF_TRY(const DecodedFile decoded,
-          decode_file(given.input, given.part, given.limits, given.common));
-  SLF_CHECK(require_view_maps(decoded.field, given.input));
-  const ViewMaps maps(decoded.field, given.common.threads);
-  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
-  SLF_TRY(const auto bytes, from(name, splat_file(splats, format)));
-  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
-  if (given.common.quiet && !given.common.json) return Done{};
-  return report(given, splats, bytes.size(),
-                splat_loss(maps, as_stored(splats, format), given.common.threads),
-                decoded.field.partial);
-}
-
 /// Harmonics up to a degree alone.
 void cut(Gaussians& splats, int degree) {
   const std::size_t from = 3 * splats.num_harmonics();
@@ -131,13 +116,11 @@ void cut(Gaussians& splats, int degree) {
   splats.harmonics.resize(splats.size() * to);
 }
 
-/// Splats of another program in another format. Their turns are any, which SPZ 3 holds better.
-Outcome convert_splats(const ExportOptions& given, SplatFormat format) {
+/// Splats in another format. Their turns are any, which SPZ 3 holds better.
+Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatFormat format) {
   if (given.mean || given.axes != "auto")
     return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
                                " holds splats"};
-  SLF_TRY(GaussianFile file,
-          read_splat_file("export", given.input, given.part, given.limits, given.common));
   if (given.degree_given) cut(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
@@ -159,6 +142,25 @@ Outcome convert_splats(const ExportOptions& given, SplatFormat format) {
   return Done{};
 }
 
+Outcome export_splats(const ExportOptions& given, SplatFormat format) {
+  const std::string name = input_name(given.input);
+  SLF_TRY(const DecodedFile decoded,
+          decode_file(given.input, given.part, given.limits, given.common));
+  SLF_CHECK(require_view_maps(decoded.field, given.input));
+  if (has_gaussians(decoded.field.header)) {
+    SLF_TRY(Gaussians gaussians, from(name, gaussians_of(decoded.field, given.common.threads)));
+    return convert_splats(given, {std::move(gaussians), "slf"}, format);
+  }
+  const ViewMaps maps(decoded.field, given.common.threads);
+  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
+  SLF_TRY(const auto bytes, from(name, splat_file(splats, format)));
+  SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
+  if (given.common.quiet && !given.common.json) return Done{};
+  return report(given, splats, bytes.size(),
+                splat_loss(maps, as_stored(splats, format), given.common.threads),
+                decoded.field.partial);
+}
+
 Outcome run_export(const ExportOptions& given) {
   const auto format = format_of(given);
   if (!format)
@@ -169,7 +171,11 @@ Outcome run_export(const ExportOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "export: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output));
-  if (is_splat_file(given.input)) return convert_splats(given, *format);
+  if (is_splat_file(given.input)) {
+    SLF_TRY(GaussianFile file,
+            read_splat_file("export", given.input, given.part, given.limits, given.common));
+    return convert_splats(given, std::move(file), *format);
+  }
   return given.mean ? export_points(given) : export_splats(given, *format);
 }
 

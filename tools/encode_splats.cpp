@@ -1,0 +1,71 @@
+#include "tools/encode_splats.h"
+
+#include <algorithm>
+#include <array>
+
+#include "slf/encode_gaussians.h"
+#include "tools/output.h"
+#include "tools/splat_input.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+namespace {
+
+/// What splats have no use for. A setting that changes nothing would be a promise not kept.
+Outcome check_given(const EncodeOptions& given) {
+  constexpr std::array kTaken = {
+      "quality",     "grid-bits",    "voxel-size", "target-bytes",   "klt",   "predict", "rdo",
+      "base-levels", "slice-points", "slices",     "quality-layers", "effort"};
+  const auto refused = [&](const std::string& option) {
+    return Failure{kUsage, "encode: --" + option + " is for photographs and clouds, and " +
+                               given.capture + " holds splats"};
+  };
+  if (!given.points.empty()) return refused("points");
+  if (!given.images.empty()) return refused("images");
+  if (!given.split.empty()) return refused("split");
+  if (!given.crop.empty()) return refused("crop");
+  for (const auto& [name, value] : given.given)
+    if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return refused(name);
+  return Done{};
+}
+
+}  // namespace
+
+Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
+  SLF_CHECK(check_given(given));
+  Stopwatch watch;
+  SLF_TRY(GaussianFile file, read_splat_file("encode", given.capture, {}, {}, given.common));
+  if (given.up_given) file.gaussians.up = given.up;
+  const double load = watch.lap();
+  settings.metadata.insert(settings.metadata.begin(), {"source", file.format});
+  SLF_TRY(const EncodedGaussians coded,
+          from(given.capture, encode_gaussians(file.gaussians, settings)));
+  const double code = watch.lap();
+  SLF_CHECK(save(given.output, coded.stream.data(), coded.stream.size()));
+  const double each = static_cast<double>(coded.stream.size()) / static_cast<double>(coded.splats);
+  if (given.common.json)
+    return print(nlohmann::ordered_json{
+        {"bytes", coded.stream.size()},
+        {"input_format", file.format},
+        {"splats", coded.splats},
+        {"left_out", file.left_out + coded.left_out},
+        {"mended", file.mended},
+        {"degree", file.gaussians.degree},
+        {"q", coded.q},
+        {"grid", {{"bits", coded.grid.bits}, {"step", coded.grid.step}}},
+        {"bytes_per_splat", each},
+        {"seconds", {{"load", load}, {"code", code}, {"total", load + code}}},
+        {"peak_memory_mib", peak_memory_mib()}});
+  if (given.common.quiet) return Done{};
+  std::fprintf(stderr,
+               "splats        %s of degree %d (%s that no pixel shows left out)\n"
+               "quality       Q %.4g; grid of %d bits, voxels of %.4g\n"
+               "seconds       load %.2f, code %.2f\n"
+               "file          %s bytes, %.1f a splat\n",
+               grouped(coded.splats).c_str(), file.gaussians.degree,
+               grouped(coded.left_out).c_str(), coded.q, coded.grid.bits, coded.grid.step, load,
+               code, grouped(coded.stream.size()).c_str(), each);
+  return Done{};
+}
+
+}  // namespace slf::tools
