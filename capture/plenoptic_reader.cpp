@@ -210,6 +210,7 @@ Result<PlenopticCloud, InputError> read_plenoptic(const std::filesystem::path& f
     PlenopticCloud cloud;
     cloud.views = columns->views;
     cloud.own_colour = columns->own_colour;
+    cloud.taken = columns->taken;
     for (std::size_t p = 0; p < element.properties.size(); ++p)
       if (columns->place[p])
         cloud.properties.push_back(

@@ -18,6 +18,7 @@
 #include "tools/measure_file.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/plenoptic_options.h"
 #include "tools/progress.h"
 #include "tools/stream_input.h"
 #include "tools/text.h"
@@ -200,6 +201,8 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
 }
 
 Outcome run_eval(const EvalOptions& given) {
+  if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)
+    return eval_plenoptic_file({given.input, given.capture, given.limits, given.common});
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
   SLF_TRY(const Subject subject, decode_subject(given, given.input, capture));
@@ -227,7 +230,8 @@ void add_eval(CLI::App& program, Run& run) {
   verb->add_option("FILE", o->input, "The .slf or .igc file; - is standard input")
       ->type_name("")
       ->required();
-  verb->add_option("CAPTURE", o->capture, "The capture (see slf encode --help)")
+  verb->add_option("CAPTURE", o->capture,
+                   "The capture (see slf encode --help), or the plenoptic cloud")
       ->type_name("")
       ->required();
   verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")

@@ -76,6 +76,24 @@ Outcome run_synth(const SynthOptions& given) {
               }));
 }
 
+void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
+  verb.add_option("--noise", d.noise,
+                  "Move points along their normals by Gaussian noise, standard deviation in point "
+                  "spacings; the true cloud becomes exact.ply")
+      ->capture_default_str()
+      ->check(range(0, 10));
+  verb.add_option("--noise-scale", d.noise_scale,
+                  "Over so many spacings the noise is the same; 0: each point by itself")
+      ->capture_default_str()
+      ->check(range(0, 1000));
+  verb.add_option("--hull", d.hull,
+                  "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
+      ->capture_default_str()
+      ->check(range(0, 20));
+  verb.add_option("--seed", d.seed, "Of --noise, --hull, --plenoptic and the terrace")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_synth(CLI::App& program, Run& run) {
@@ -114,22 +132,7 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("--supersampling", s.supersampling, "Rays per pixel and axis")
       ->capture_default_str()
       ->check(whole_range(1, 8));
-  verb->add_option("--noise", s.disturb.noise,
-                   "Move points along their normals by Gaussian noise, standard deviation in point "
-                   "spacings; the true cloud becomes exact.ply")
-      ->capture_default_str()
-      ->check(range(0, 10));
-  verb->add_option("--noise-scale", s.disturb.noise_scale,
-                   "Over so many spacings the noise is the same; 0: each point by itself")
-      ->capture_default_str()
-      ->check(range(0, 1000));
-  verb->add_option(
-          "--hull", s.disturb.hull,
-          "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
-      ->capture_default_str()
-      ->check(range(0, 20));
-  verb->add_option("--seed", s.disturb.seed, "Of --noise, --hull and the terrace")
-      ->capture_default_str();
+  add_disturbances(*verb, s.disturb);
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_option("--plenoptic", o->plenoptic,
                    "Write one PLY whose points have the colours of so many views, a quarter of the "

@@ -34,6 +34,7 @@ struct PlenopticCloud {
   std::vector<Vec3> view_positions;  ///< [N] world units of the file; or empty: not known
   /// Those of the file that are positions and colours, in its order.
   std::vector<PlenopticProperty> properties;
+  std::string taken;       ///< for a person: which properties were taken for views
   std::size_t merged = 0;  ///< points that fell into an occupied voxel: colours are means
 
   std::size_t num_points() const { return positions.size(); }
