@@ -21,7 +21,7 @@ Result<Done, InputError> correct(std::span<const std::uint8_t> stream, const Lig
           "the file is not whole: its bytes are near the exact ones, within a step");
     return Done{};
   }
-  const auto row = static_cast<std::size_t>(field.num_planes());
+  const std::size_t row = 3 * static_cast<std::size_t>(field.header.num_functions);
   const auto applied = apply_corrections(*payload, row, bytes, threads);
   if (!applied) return InputError{Errc::kInvalidInput, in_words(applied.error())};
   return Done{};

@@ -135,6 +135,17 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
   return encoded;
 }
 
+/// Bytes of a coefficient: as a float, as an integer, and while it is coded.
+constexpr std::uint64_t kCoefficientBytes = 3 * 12;
+
+void limit_degree(const PlenopticSettings& settings, std::size_t points, Basis& basis) {
+  if (settings.memory == 0 || basis.id != BasisId::kHarmonics) return;
+  while (basis.degree > 0 &&
+         static_cast<std::uint64_t>(basis.num_functions()) * points * kCoefficientBytes >
+             settings.memory)
+    --basis.degree;
+}
+
 Result<PlenopticEncoded, InputError> encode_view_maps(const PlenopticCloud& cloud,
                                                       const PlenopticRecord& record,
                                                       EncoderSettings settings,
@@ -172,11 +183,12 @@ Result<PlenopticEncoded, InputError> encode_plenoptic(const PlenopticCloud& clou
   record.properties = cloud.properties;
   record.views = cloud.views;
   record.own_colour = cloud.own_colour;
+  EncoderSettings encoder = settings.encoder;
+  limit_degree(settings, cloud.num_points(), encoder.fit.basis);
   Stopwatch watch;
-  SLF_TRY(PlenopticEncoded encoded,
-          as == PlenopticCoding::kPlanes
-              ? encode_planes(cloud, std::move(record), settings.encoder, progress)
-              : encode_view_maps(cloud, record, settings.encoder, progress));
+  SLF_TRY(PlenopticEncoded encoded, as == PlenopticCoding::kPlanes
+                                        ? encode_planes(cloud, std::move(record), encoder, progress)
+                                        : encode_view_maps(cloud, record, encoder, progress));
   if (as == PlenopticCoding::kPlanes) encoded.seconds_code = watch.lap();
   encoded.as = as;
   encoded.reason = reason;

@@ -134,6 +134,10 @@ Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOpt
   PlenopticSettings settings;
   SLF_TRY(settings.encoder, resolved(given));
   settings.as = way_of(plenoptic.as);
+  // A degree that is asked for is kept.
+  if (std::any_of(given.given.begin(), given.given.end(),
+                  [](const auto& setting) { return setting.first == "degree"; }))
+    settings.memory = 0;
   settings.hold_out = plenoptic.hold_out;
   std::sort(settings.hold_out.begin(), settings.hold_out.end());
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));

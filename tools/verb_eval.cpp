@@ -221,19 +221,23 @@ Outcome run_eval(const EvalOptions& given) {
   return check_floors(given, measured);
 }
 
+void add_inputs(CLI::App& verb, EvalOptions& o) {
+  verb.add_option("FILE", o.input, "The .slf or .igc file; - is standard input")
+      ->type_name("")
+      ->required();
+  verb.add_option("CAPTURE", o.capture,
+                  "The capture (see slf encode --help), or the plenoptic cloud")
+      ->type_name("")
+      ->required();
+}
+
 }  // namespace
 
 void add_eval(CLI::App& program, Run& run) {
   auto* verb =
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
-  verb->add_option("FILE", o->input, "The .slf or .igc file; - is standard input")
-      ->type_name("")
-      ->required();
-  verb->add_option("CAPTURE", o->capture,
-                   "The capture (see slf encode --help), or the plenoptic cloud")
-      ->type_name("")
-      ->required();
+  add_inputs(*verb, *o);
   verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")
       ->type_name("FILE");
   verb->add_option("--images", o->images,

@@ -74,6 +74,9 @@ struct PlenopticSettings {
   std::vector<int> hold_out;  ///< views that view maps are not fitted to
   /// encoder.q of kAutomaticQ: planes are exact, view maps have kPlainQ.
   EncoderSettings encoder;
+  /// Bytes that coefficients of view maps may take while they are fitted and coded: the degree of
+  /// harmonics is lowered to it. 0: any.
+  std::uint64_t memory = std::uint64_t{4} << 30;
 };
 
 struct PlenopticEncoded {
