@@ -90,6 +90,10 @@ Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex)
         ") are no whole triples: a view has three of them, one after the other (--as colour takes "
         "red, green, blue alone)");
   columns.views = bytes.size() / 3;
+  for (const PlyProperty& property : vertex.properties)  // names become metadata, which are UTF-8
+    if (std::any_of(property.name.begin(), property.name.end(),
+                    [](char c) { return c <= ' ' || c > '~'; }))
+      return refused_columns("a property's name has characters beyond ASCII: rename it");
   if (columns.views > kMostViews)
     return refused_columns(std::to_string(columns.views) + " views, of which " +
                            std::to_string(kMostViews) + " are the most");

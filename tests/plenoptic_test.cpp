@@ -103,6 +103,12 @@ TEST(PlenopticReader, RefusesNamesTwiceAndPositionsOfOtherViews) {
   EXPECT_THAT(comments.warnings, testing::Contains(HasSubstr("1 positions of views")));
 }
 
+TEST(PlenopticReader, RefusesNamesBeyondAscii) {
+  EXPECT_THAT(
+      read(properties_of({"\xff\xfe", "b", "c", "d", "e", "f"}), "0 0 0 1 2 3 4 5 6\n").error,
+      HasSubstr("beyond ASCII"));
+}
+
 TEST(PlenopticReader, LeavesCloudsOfOneColourAndSplatsAlone) {
   EXPECT_EQ(read(properties_of({"red", "green", "blue"}), "0 0 0 1 2 3\n").views, 0u);
   EXPECT_EQ(read(properties_of({"red", "green", "blue", "alpha"}), "0 0 0 1 2 3 4\n").views, 0u);
