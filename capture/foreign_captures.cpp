@@ -88,7 +88,8 @@ std::size_t photographs_in(const fs::path& folder) {
     if (++entries > kMostPhotographs) break;
     const std::string extension = extension_of(at->path());
     found += extension == ".jpg" || extension == ".jpeg" || extension == ".png" ||
-             extension == ".heic" || extension == ".tif" || extension == ".tiff";
+             extension == ".heic" || extension == ".ppm" || extension == ".tif" ||
+             extension == ".tiff";
   }
   return found;
 }

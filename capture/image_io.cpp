@@ -4,6 +4,7 @@
 
 #include "capture/image_formats.h"
 #include "capture/image_reduction.h"
+#include "capture/netpbm.h"
 
 namespace slf {
 
@@ -20,8 +21,13 @@ Result<Image, InputError> read_image_reduced(const std::filesystem::path& file, 
     size = {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height)};
     return reduced(std::move(image), reduction);
   }
+  if (is_netpbm(bytes)) {
+    SLF_TRY(Image image, decode_netpbm(file.string(), bytes));
+    size = {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height)};
+    return reduced(std::move(image), reduction);
+  }
   if (!is_jpeg(bytes))
-    return InputError{Errc::kInvalidInput, file.string() + ": neither PNG nor JPEG"};
+    return InputError{Errc::kInvalidInput, file.string() + ": neither PNG, JPEG nor PPM"};
   const int at_once = std::min(reduction, kMostJpegReduction);
   SLF_TRY(Image image, decode_jpeg(file.string(), bytes, at_once, size));
   return reduced(std::move(image), reduction - at_once);

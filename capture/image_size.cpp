@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "capture/image_formats.h"
+#include "capture/netpbm.h"
 
 namespace slf {
 
@@ -104,11 +105,12 @@ Result<ImageHeader, InputError> read_image_header(const std::filesystem::path& f
     if (std::ferror(in.get()) != 0) return unreadable();
     if (png_size(start)) return png_header(start);
     if (jpeg_size(start)) return jpeg_header(start);
+    if (const auto size = netpbm_size(start)) return ImageHeader{*size};
     if (!is_jpeg(start) || start.size() < want) break;
   }
   const char* cause = is_png(start)    ? ": PNG without a header (truncated?)"
                       : is_jpeg(start) ? ": JPEG without a frame header (truncated?)"
-                                       : ": neither PNG nor JPEG";
+                                       : ": neither PNG, JPEG nor PPM";
   return InputError{Errc::kInvalidInput, file.string() + cause};
 }
 

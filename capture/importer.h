@@ -36,6 +36,10 @@ Result<Import, InputError> import_transforms_json(const std::filesystem::path& f
 /// transforms_test.json "evaluation".
 Result<Import, InputError> import_transforms_splits(const std::filesystem::path& directory);
 
+/// Cameras of the surface light fields of Wood et al. (Fish, Elephant). Sizes are those of the
+/// photographs. @param file  index.cams
+Result<Import, InputError> import_index_cams(const std::filesystem::path& file);
+
 /// Refuses an image or mask path that is empty or leads out of the capture.
 /// @param label  for messages
 /// @return the path, absolute and without "." and ".."

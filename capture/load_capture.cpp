@@ -44,6 +44,7 @@ Result<Import, InputError> import_json(const fs::path& file) {
 Result<Import, InputError> import_file(const fs::path& file) {
   const std::string extension = extension_of(file);
   if (extension == ".json") return import_json(file);
+  if (extension == ".cams") return import_index_cams(file);
   const std::string stem = file.stem().string();
   const bool colmap = stem == "cameras" || stem == "images" || stem == "points3D";
   if (colmap && (extension == ".bin" || extension == ".txt"))
@@ -73,6 +74,7 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
     return import_transforms_json(directory / "transforms.json");
   if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
   if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
+  if (is_file(directory / "index.cams")) return import_index_cams(directory / "index.cams");
   const std::string what = foreign_capture(directory);
   return InputError{Errc::kInvalidInput, directory.string() +
                                              ": not a capture: no cameras.json, COLMAP model or "

@@ -71,8 +71,8 @@ void warn_of_skipped(const PlyElement& vertex, PlyColumns& columns) {
     columns.warnings.push_back(
         std::to_string(bytes.size() / 3) + " more colours of each point (" + bytes.front()->name +
         " ... " + bytes.back()->name +
-        "): a plenoptic cloud, of which red, green, blue alone are read; view maps are made of "
-        "photographs (docs/captures.md) or given as integers (slf pack)");
+        "): a plenoptic cloud, of which red, green, blue alone are read (slf encode CLOUD.ply, "
+        "without cameras, codes all of them)");
   else if (!names.empty())
     columns.warnings.push_back("properties skipped: " + names);
 }

@@ -34,29 +34,11 @@ constexpr std::array<NamedType, 16> kTypes{{
     {"float64", PlyType::kDouble},
 }};
 
-std::optional<PlyType> type_named(std::string_view name) {
-  for (const auto& known : kTypes)
-    if (known.name == name) return known.type;
-  return std::nullopt;
-}
-
 std::optional<PlyFormat> format_named(std::string_view name) {
   if (name == "ascii") return PlyFormat::kAscii;
   if (name == "binary_little_endian") return PlyFormat::kLittleEndian;
   if (name == "binary_big_endian") return PlyFormat::kBigEndian;
   return std::nullopt;
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t begin = line.find_first_not_of(" \t\r", at);
-    if (begin == std::string_view::npos) break;
-    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    at = end;
-  }
-  return words;
 }
 
 // Lines of the header one after the other.
@@ -71,7 +53,11 @@ class HeaderParser {
     while (at_ < text_.size()) {
       const auto words = words_of(next_line());
       if (!line_ended_) break;
-      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words.empty() || words[0] == "obj_info") continue;
+      if (words[0] == "comment") {
+        header_.comments.emplace_back(line_.substr(line_.find("comment") + 7));
+        continue;
+      }
       if (words[0] == "end_header") {
         if (!has_format) return invalid("PLY header without a format");
         header_.body = at_;
@@ -119,8 +105,8 @@ class HeaderParser {
   Result<Done, InputError> property(const std::vector<std::string_view>& words) {
     const bool is_list = words.size() == 5 && words[1] == "list";
     if (header_.elements.empty() || (words.size() != 3 && !is_list)) return bad_line();
-    const auto type = type_named(words[is_list ? 3 : 1]);
-    const auto count_type = is_list ? type_named(words[2]) : PlyType::kUint8;
+    const auto type = ply_type_named(words[is_list ? 3 : 1]);
+    const auto count_type = is_list ? ply_type_named(words[2]) : PlyType::kUint8;
     if (!type || !count_type || *count_type >= PlyType::kFloat) return bad_line();
     auto& properties = header_.elements.back().properties;
     PlyProperty property{std::string(words.back()), *type, is_list, *count_type};
@@ -150,6 +136,30 @@ class HeaderParser {
 };
 
 }  // namespace
+
+std::optional<PlyType> ply_type_named(std::string_view name) {
+  for (const auto& known : kTypes)
+    if (known.name == name) return known.type;
+  return std::nullopt;
+}
+
+const char* name_of(PlyType type) {
+  for (const auto& known : kTypes)
+    if (known.type == type) return known.name.data();
+  return "";
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t begin = line.find_first_not_of(" \t\r", at);
+    if (begin == std::string_view::npos) break;
+    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    at = end;
+  }
+  return words;
+}
 
 std::size_t size_of(PlyType type) {
   switch (type) {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slf/error.h"
@@ -23,6 +25,11 @@ enum class PlyType : std::uint8_t {
 };
 
 std::size_t size_of(PlyType type);
+/// The word of a header: "uchar".
+const char* name_of(PlyType type);
+std::optional<PlyType> ply_type_named(std::string_view name);
+/// What white space parts.
+std::vector<std::string_view> words_of(std::string_view line);
 
 enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
 
@@ -46,7 +53,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  std::size_t body = 0;  ///< offset of the first byte behind the header
+  std::vector<std::string> comments;  ///< without the word comment
+  std::size_t body = 0;               ///< offset of the first byte behind the header
 };
 
 /// Every count is checked against the bytes that follow the header.

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
               write_shared(p);
               write_text(p / "images/b.png", "text");
             },
-            "kInvalidInput: images/b.png: neither PNG nor JPEG"},
+            "kInvalidInput: images/b.png: neither PNG, JPEG nor PPM"},
         Bad{"image_is_a_pipe",
             [](const fs::path& p) {
               write_shared(p);

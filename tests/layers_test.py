@@ -30,6 +30,7 @@ LAYERS = {
     'scene': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit', 'codec',
               'encoder'],
     'igc': ['slf', 'base', 'bitstream', 'video', 'capture', 'lightfield', 'render', 'fit', 'encoder'],
+    'plenoptic': ['slf', 'base', 'bitstream', 'entropy', 'capture', 'lightfield', 'fit', 'codec', 'encoder'],
     'exchange': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'render'],
     'capi': ['slf', 'base', 'bitstream', 'lightfield', 'render', 'codec'],
     'tools': ['slf'],

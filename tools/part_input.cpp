@@ -70,7 +70,7 @@ std::optional<DecodedFile> decode_part_alone(const std::string& file, const Part
   auto field = decode_part(source, **beginning, decode_options(info, part, given, common));
   const double seconds = watch.lap() - (reader.seconds() - before);
   if (!field || !*field || !check_whole(file, info, given, common)) return std::nullopt;
-  return DecodedFile{**std::move(field), *bytes, seconds};
+  return DecodedFile{**std::move(field), *bytes, seconds, info.metadata};
 }
 
 }  // namespace slf::tools

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "slf/capture.h"
+#include "slf/plenoptic.h"
 #include "tools/heap.h"
 #include "tools/part_input.h"
 #include "tools/text.h"
@@ -109,7 +110,7 @@ DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
   options.levels = part.levels;
   options.groups = part.groups;
   options.layers = part.layers;
-  options.means_only = part.means_only;
+  options.means_only = part.means_only && !is_plenoptic(info.metadata);  // who has views to show
   options.max_bytes = part.max_bytes;
   if (!part.region.empty()) options.region = voxel_box(info.header.grid, part.region);
   return options;
@@ -149,12 +150,14 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
                                          const LimitOptions& given, const CommonOptions& common) {
   share_heap();
   if (auto decoded = decode_part_alone(file, part, given, common)) return *std::move(decoded);
-  SLF_TRY(const StreamFile stream, read_stream(file, given, common));
+  SLF_TRY(StreamFile stream, read_stream(file, given, common));
   const DecodeOptions options = decode_options(stream.info, part, given, common);
   Stopwatch watch;
   auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(file, field.error(), stream, options);
-  return DecodedFile{*std::move(field), stream.bytes.size(), watch.lap()};
+  DecodedFile decoded{*std::move(field), stream.bytes.size(), watch.lap(), stream.info.metadata};
+  if (is_plenoptic(decoded.metadata)) decoded.stream = std::move(stream.bytes);
+  return decoded;
 }
 
 Outcome require_view_maps(const LightField& field, const std::string& file) {

@@ -55,6 +55,8 @@ struct DecodedFile {
   LightField field;
   std::uint64_t bytes = 0;  ///< of the file, whatever was read of it
   double seconds = 0;       ///< of decoding alone
+  Metadata metadata = {};
+  std::vector<std::uint8_t> stream = {};  ///< of a plenoptic cloud that was read whole
 };
 /// Of a part of a regular file no more is read than it needs (tools/part_input.h).
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,

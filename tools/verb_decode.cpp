@@ -2,8 +2,10 @@
 #include <array>
 #include <memory>
 
+#include "slf/plenoptic.h"
 #include "slf/view_map.h"
 #include "tools/dump.h"
+#include "tools/interrupt.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/stream_input.h"
@@ -32,6 +34,22 @@ nlohmann::ordered_json report_json(const DecodedFile& decoded, std::uint64_t pea
           {"seconds", decoded.seconds}};
 }
 
+/// With the colours of all views, where it has some.
+Outcome save_cloud(const DecodeVerbOptions& given, const DecodedFile& decoded) {
+  const int threads = given.common.threads;
+  if (!is_plenoptic(decoded.metadata))
+    return save(given.output, mean_cloud(decoded.field, threads));
+  std::vector<std::string> warnings;
+  SLF_TRY(const PlenopticCloud cloud,
+          from(input_name(given.input), decode_plenoptic(decoded.stream, decoded.field,
+                                                         decoded.metadata, &warnings, threads)));
+  for (const std::string& warning : warnings)
+    warn(input_name(given.input) + ": " + warning, given.common.quiet);
+  const DeferInterrupts defer;
+  SLF_CHECK(from(output_name(given.output), write_plenoptic(given.output, cloud)));
+  return Done{};
+}
+
 Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.output.empty() && given.dump.empty())
     return Failure{kUsage, "decode: --output or --dump is missing"};
@@ -48,8 +66,7 @@ Outcome run_decode(const DecodeVerbOptions& given) {
     return Failure{kInputInvalid, input_name(given.input) +
                                       ": its points lie beyond what a PLY can hold (--dump "
                                       "writes them)"};
-  if (!given.output.empty())
-    SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
+  if (!given.output.empty()) SLF_CHECK(save_cloud(given, decoded));
   if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.planes, given.dump));
   if (given.common.json) return print(report_json(decoded, peak));
   if (!given.common.quiet)
@@ -70,7 +87,8 @@ void add_decode(CLI::App& program, Run& run) {
       ->required();
   verb->add_option("-o,--output", o->output,
                    "PLY with positions (world units), normals where coded, and the colour averaged "
-                   "over all directions; - is standard output. Without --dump only what these "
+                   "over all directions; of a plenoptic cloud the properties that it had, with the "
+                   "colour of every view; - is standard output. Without --dump only what these "
                    "need is decoded, and no digest is checked where that is not all")
       ->type_name("FILE");
   verb->add_option(

@@ -8,6 +8,7 @@
 #include "tools/encode_splats.h"
 #include "tools/measure_file.h"
 #include "tools/output.h"
+#include "tools/plenoptic_options.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
 #include "tools/splat_input.h"
@@ -152,12 +153,20 @@ void add_encode(CLI::App& program, Run& run) {
   struct Options {
     EncodeOptions encode;
     SceneOptions scene;
+    PlenopticVerbOptions plenoptic;
   };
   auto o = std::make_shared<Options>();
   add_encode_options(*verb, o->encode);
   add_scene(*verb, o->scene);
+  add_plenoptic(*verb, o->plenoptic);
   verb->callback([&run, o] {
-    run = [o] {
+    run = [o]() -> Outcome {
+      if (is_plenoptic_input(o->encode, o->plenoptic))
+        return encode_plenoptic_file(o->encode, o->plenoptic);
+      if (o->plenoptic.given() && o->plenoptic.as != "colour")
+        return Failure{kUsage,
+                       "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
+                           o->encode.capture + " has no views"};
       return o->scene.in_parts() ? encode_scene(o->encode, o->scene) : run_encode(o->encode);
     };
   });

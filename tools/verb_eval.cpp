@@ -16,6 +16,7 @@
 #include "tools/measure_file.h"
 #include "tools/options.h"
 #include "tools/output.h"
+#include "tools/plenoptic_options.h"
 #include "tools/progress.h"
 #include "tools/splat_input.h"
 #include "tools/text.h"
@@ -153,6 +154,8 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture, const Spla
 }
 
 Outcome run_eval(const EvalOptions& given) {
+  if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)
+    return eval_plenoptic_file({given.input, given.capture, given.limits, given.common});
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
   if (is_splat_file(given.input)) {
@@ -187,18 +190,23 @@ Outcome run_eval(const EvalOptions& given) {
   return check_floors(given, measured);
 }
 
+void add_inputs(CLI::App& verb, EvalOptions& o) {
+  verb.add_option("FILE", o.input, "A .slf or .igc, - of standard input; or Gaussian splats")
+      ->type_name("")
+      ->required();
+  verb.add_option("CAPTURE", o.capture,
+                  "The capture (see slf encode --help), or the plenoptic cloud")
+      ->type_name("")
+      ->required();
+}
+
 }  // namespace
 
 void add_eval(CLI::App& program, Run& run) {
   auto* verb =
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
-  verb->add_option("FILE", o->input, "A .slf or .igc, - of standard input; or Gaussian splats")
-      ->type_name("")
-      ->required();
-  verb->add_option("CAPTURE", o->capture, "The capture (see slf encode --help)")
-      ->type_name("")
-      ->required();
+  add_inputs(*verb, *o);
   verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")
       ->type_name("FILE");
   verb->add_option("--images", o->images,

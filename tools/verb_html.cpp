@@ -111,10 +111,14 @@ Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightF
   return posters;
 }
 
-/// A picture that was given, as it is.
+/// A picture that was given, as it is; as JPEG where browsers do not know its format.
 Result<std::string, Failure> given_poster(const std::string& file) {
   SLF_TRY(const auto bytes, from(file, read_file(file)));
-  SLF_TRY([[maybe_unused]] const Image image, from(file, read_image(file)));
+  SLF_TRY(const Image image, from(file, read_image(file)));
+  if (bytes[0] == 'P') {
+    SLF_TRY(const auto jpeg, from(file, encode_jpeg(image, kPosterQuality)));
+    return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
+  }
   const char* type = bytes[0] == 0xff ? "jpeg" : "png";  // what read_image takes
   return std::string("data:image/") + type + ";base64," + base64(bytes.data(), bytes.size());
 }
@@ -220,7 +224,7 @@ void add_html(CLI::App& program, Run& run) {
                    "RRGGBB; default: light by day and dark by night, as the reader's device has it")
       ->type_name("RRGGBB");
   verb->add_option("--poster", o->poster,
-                   "PNG or JPEG that shows until the file is decoded; default: the first view")
+                   "PNG, JPEG or PPM that shows until the file is decoded; default: the first view")
       ->type_name("FILE");
   verb->add_flag("--no-poster", o->no_poster, "A smaller page, empty until the file is decoded");
   add_limits(*verb, o->limits);

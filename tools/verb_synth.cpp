@@ -1,6 +1,7 @@
 // slf synth: a capture of an analytic scene.
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/synth/plenoptic.h"
 #include "tools/synth/synth.h"
 #include "tools/text.h"
 #include "tools/verb.h"
@@ -19,6 +21,7 @@ struct SynthOptions {
   synth::SynthSettings settings;
   std::string output, size = "256x256";
   bool list = false;
+  int plenoptic = 0;  ///< views; 0: a capture
   CommonOptions common;
 };
 
@@ -34,6 +37,17 @@ void leave_if_interrupted(const std::filesystem::path& directory) {
   exit_cancelled();
 }
 
+/// One PLY in place of a capture.
+Outcome run_plenoptic(const SynthOptions& given) {
+  SLF_CHECK(check_output(given.output, "synth", std::array{".ply"}));
+  const synth::PlenopticScene scene{given.settings.scene, given.plenoptic, given.settings.points,
+                                    static_cast<std::uint32_t>(given.settings.disturb.seed),
+                                    given.common.threads};
+  ProgressLine line(given.common.quiet);
+  const DeferInterrupts defer;
+  return from(given.output, synth::synthesise_plenoptic(scene, given.output, line.callback()));
+}
+
 Outcome run_synth(const SynthOptions& given) {
   if (given.list) {
     return print(std::string(
@@ -45,7 +59,8 @@ Outcome run_synth(const SynthOptions& given) {
   }
   if (given.settings.scene.empty())
     return Failure{kUsage, "synth: SCENE is missing (see slf synth --list)"};
-  if (given.output.empty()) return Failure{kUsage, "synth: --output DIR is missing"};
+  if (given.output.empty()) return Failure{kUsage, "synth: --output is missing"};
+  if (given.plenoptic > 0) return run_plenoptic(given);
   synth::SynthSettings settings = given.settings;
   if (!parse_size(given.size, settings.width, settings.height))
     return Failure{kUsage, "synth: --size " + given.size + " is not WxH"};
@@ -61,6 +76,24 @@ Outcome run_synth(const SynthOptions& given) {
               }));
 }
 
+void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
+  verb.add_option("--noise", d.noise,
+                  "Move points along their normals by Gaussian noise, standard deviation in point "
+                  "spacings; the true cloud becomes exact.ply")
+      ->capture_default_str()
+      ->check(range(0, 10));
+  verb.add_option("--noise-scale", d.noise_scale,
+                  "Over so many spacings the noise is the same; 0: each point by itself")
+      ->capture_default_str()
+      ->check(range(0, 1000));
+  verb.add_option("--hull", d.hull,
+                  "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
+      ->capture_default_str()
+      ->check(range(0, 20));
+  verb.add_option("--seed", d.seed, "Of --noise, --hull, --plenoptic and the terrace")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_synth(CLI::App& program, Run& run) {
@@ -71,7 +104,8 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("SCENE", s.scene, "Scene (see --list)")->type_name("");
   verb->add_option(
           "-o,--output", o->output,
-          "Directory to write the capture into: new, empty, or an earlier synthetic capture")
+          "Directory to write the capture into: new, empty, or an earlier synthetic capture; with "
+          "--plenoptic the PLY file")
       ->type_name("DIR");
   verb->add_option("--size", o->size, "Pixels of an image, WxH, 8x8 to 4096x4096")
       ->type_name("WxH")
@@ -98,23 +132,14 @@ void add_synth(CLI::App& program, Run& run) {
   verb->add_option("--supersampling", s.supersampling, "Rays per pixel and axis")
       ->capture_default_str()
       ->check(whole_range(1, 8));
-  verb->add_option("--noise", s.disturb.noise,
-                   "Move points along their normals by Gaussian noise, standard deviation in point "
-                   "spacings; the true cloud becomes exact.ply")
-      ->capture_default_str()
-      ->check(range(0, 10));
-  verb->add_option("--noise-scale", s.disturb.noise_scale,
-                   "Over so many spacings the noise is the same; 0: each point by itself")
-      ->capture_default_str()
-      ->check(range(0, 1000));
-  verb->add_option(
-          "--hull", s.disturb.hull,
-          "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
-      ->capture_default_str()
-      ->check(range(0, 20));
-  verb->add_option("--seed", s.disturb.seed, "Of --noise, --hull and the terrace")
-      ->capture_default_str();
+  add_disturbances(*verb, s.disturb);
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
+  verb->add_option("--plenoptic", o->plenoptic,
+                   "Write one PLY whose points have the colours of so many views, a quarter of the "
+                   "voxels of the surface, in place of a capture (can, die, vase): "
+                   "docs/plenoptic.md")
+      ->type_name("VIEWS")
+      ->check(whole_range(2, 254));
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");
   verb->add_flag("--list", o->list, "List the scenes");
   add_threads(*verb, o->common);

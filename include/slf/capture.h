@@ -103,7 +103,7 @@ struct CaptureOptions {
   std::filesystem::path points;  ///< the cloud or mesh, where it is not the capture's own
   bool check_images = true;      ///< open every image and compare its size with the calibration
   std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
-  bool cloud = true;  ///< false: cameras alone, as the file has them; Capture::origin is 0
+  bool cloud = true;          ///< false: cameras alone, as the file has them; Capture::origin is 0
   bool points_needed = true;  ///< false: a capture with cameras may have no points
   /// Where the photographs are, by their names in the capture, else by those without folders.
   /// Empty: where the format has them.
@@ -112,9 +112,9 @@ struct CaptureOptions {
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
 /// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0, sparse/1, ... or sparse),
-/// or transforms.json; or one of those files; or a lone .ply, .las, .laz or .e57 (a cloud without
-/// cameras). Every value is checked as `docs/captures.md` lists; what is suspicious but usable
-/// becomes a warning.
+/// transforms.json, or index.cams of the surface light fields of Wood et al.; or one of those
+/// files; or a lone .ply, .las, .laz or .e57 (a cloud without cameras). Every value is checked as
+/// `docs/captures.md` lists; what is suspicious but usable becomes a warning.
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
@@ -138,7 +138,7 @@ Result<Image, InputError> load_image(const Capture& capture, int camera);
 /// @errors kInvalidArgument: no such split.
 Result<std::vector<int>, InputError> split_cameras(const Capture& capture, const std::string& name);
 
-/// PNG (8 and 16 bit; grey, RGB, palette, alpha) or JPEG, by content.
+/// PNG (8 and 16 bit; grey, RGB, palette, alpha), JPEG, PPM or PGM, by content.
 /// @errors kUnreadable; kInvalidInput: something else, damaged, or larger than 65535 a side
 Result<Image, InputError> read_image(const std::filesystem::path& file);
 /// Written to a temporary name beside `file` and renamed. "-" is standard output.

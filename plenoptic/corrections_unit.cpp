@@ -1,0 +1,47 @@
+// The unit of corrections within a stream.
+#include <optional>
+
+#include "bitstream/index.h"
+#include "bitstream/parameter_sets.h"
+#include "codec/assemble.h"
+#include "plenoptic/corrections.h"
+
+namespace slf {
+namespace {
+
+/// Of those that the format leaves to applications (spec 7.1).
+constexpr UnitType kCorrections = static_cast<UnitType>(64);
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t> stream,
+                                                   std::span<const std::uint8_t> payload) {
+  SLF_TRY(const Units units, split_units(stream));
+  const Unit* sequence = units.first(UnitType::kSequence);
+  if (sequence == nullptr) return Error{Errc::kOutOfRange, "unit_type"};
+  SLF_TRY(const auto set, in_unit(*sequence, parse_sequence_parameter_set(sequence->payload)));
+  SLF_TRY(const auto index, find_index(units, set));
+  std::optional<std::vector<CellBox>> boxes;
+  if (index) boxes = index->boxes;
+  std::vector<CodedUnit> kept;
+  for (const Unit& unit : units.units) {
+    if (unit.type == UnitType::kSequence || unit.type == UnitType::kIndex ||
+        unit.type == UnitType::kEnd)
+      continue;
+    SliceUnitHeader ids;
+    if (has_ids(unit.type)) {
+      SLF_TRY(ids, read_ids(unit, set));
+    }
+    kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
+  }
+  kept.push_back({kCorrections, {payload.begin(), payload.end()}, {}});
+  return assemble(set, kept, boxes);
+}
+
+Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
+  SLF_TRY(const Units units, split_units(stream));
+  const Unit* unit = units.first(kCorrections);
+  return unit == nullptr ? std::span<const std::uint8_t>{} : unit->payload;
+}
+
+}  // namespace slf

@@ -1,0 +1,21 @@
+// Views as observations of view maps.
+#pragma once
+
+#include "encoder/fit_capture.h"
+#include "plenoptic/plenoptic_metadata.h"
+#include "slf/plenoptic.h"
+
+namespace slf {
+
+/// Fits view maps to what the views see that are not held out, as if they were cameras.
+/// @errors kInvalidInput: fewer than two directions; those of choose_fit and fit_view_maps
+Result<LightField, InputError> fit_plenoptic(const PlenopticCloud& cloud,
+                                             const PlenopticRecord& record,
+                                             EncoderSettings& settings, ChosenFit& chosen,
+                                             const Progress& progress);
+
+/// What the views see of the view maps, and the mean of them as the own colour.
+void look_from_views(const LightField& field, const PlenopticRecord& record, int threads,
+                     PlenopticCloud& cloud);
+
+}  // namespace slf
