@@ -5,14 +5,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
+#include <utility>
 
 #include "base/stopwatch.h"
-#include "bench/surfel_splats.h"
 #include "capture/spacing.h"
 #include "measure/captured_view.h"
 #include "slf/capture.h"
+#include "slf/gaussian_files.h"
 #include "train/draw_surfels.h"
 #include "train/fuse_surfels.h"
+#include "train/train_gaussians.h"
 #include "train/train_surfels.h"
 
 namespace {
@@ -48,6 +51,15 @@ bool add_view(const Capture& capture, const CapturedSurface& surface, const Trai
   return true;
 }
 
+bool write_splats(const char* file, Gaussians splats) {
+  const auto bytes = gaussian_file(std::move(splats), SplatFormat::kPly);
+  if (!bytes) return std::fprintf(stderr, "%s\n", bytes.error().message.c_str()), false;
+  const std::span<const std::byte> pieces[] = {std::as_bytes(std::span(*bytes))};
+  const auto written = write_file(file, pieces);
+  if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
+  return bool(written);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,8 +76,11 @@ int main(int argc, char** argv) {
   TrainSettings settings;
   if (argc > 3) settings.iterations = std::atoi(argv[3]);
   Stopwatch watch;
-  const auto views = load_training_views(*capture, *input, points, surface.spacing, 0, 0);
+  auto views = load_training_views(*capture, *input, points, surface.spacing, 0, 0);
   if (!views) return 1;
+  const bool gaussian = argc > 5;  // as those who read the PLY draw them
+  if (gaussian) settings.together = settings.decided = settings.spread = 0;
+  for (TrainingView& view : *views) view.camera.gaussian = gaussian;
   settings.surfels = argc > 4 && std::atoi(argv[4]) > 0
                          ? std::size_t(std::atoi(argv[4]))
                          : surfels_for(points, training_pixel(*views));
@@ -77,14 +92,14 @@ int main(int argc, char** argv) {
   std::printf("%zu surfels, %d iterations: %.1f s\n", surfels.size(), settings.iterations,
               watch.lap());
   if (argc > 5)
-    if (const auto written = write_surfel_splats(argv[5], surfels); !written)
-      return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 1;
+    if (!write_splats(argv[5], gaussians_of(surfels, gaussian))) return 1;
   Lattice lattice;
   lattice.step = 1.6 * training_pixel(*views);
   const SurfacePoints fused = fuse_surfels(surfels, *views, lattice, {});
   std::printf("%zu points in one layer: %.1f s\n", fused.size(), watch.lap());
-  const auto test = load_training_views(*capture, *held, points, surface.spacing, 0, 0);
+  auto test = load_training_views(*capture, *held, points, surface.spacing, 0, 0);
   if (!test) return 1;
+  for (TrainingView& view : *test) view.camera.gaussian = gaussian;
   HeldOut sums;
   for (const TrainingView& view : *test)
     if (!add_view(*capture, surface, surfels, view, sums)) return 1;

@@ -152,6 +152,8 @@ const char* word_of(Surface surface) {
       return "trained";
     case Surface::kAuto:
       return "auto";
+    case Surface::kSplats:
+      return "splats";
   }
   return "";
 }
@@ -181,7 +183,8 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
     const bool keeps = settings.surface == Surface::kGiven || settings.surface == Surface::kAuto;
     return keeps ? Start{} : Start{{capture.cloud, StartId::kPoints}};
   }
-  const bool trains = settings.surface == Surface::kAuto || settings.surface == Surface::kTrained;
+  const bool trains = settings.surface == Surface::kAuto || settings.surface == Surface::kTrained ||
+                      settings.surface == Surface::kSplats;
   if (!trains || !training_obstacle(capture, cameras).empty() ||
       is_dense(choose_density(capture, cameras)))
     return Start{};

@@ -8,6 +8,7 @@
 #include "encoder/choose_surface.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
+#include "encoder/encode_splats.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "slf/encoder.h"
@@ -132,11 +133,13 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress) {
   SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));
-  if (!points) return encode_from(capture, StartId::kPoints, cameras, settings, progress);
+  const auto encode_all =
+      settings.surface == Surface::kSplats && !cameras.empty() ? encode_splats : encode_from;
+  if (!points) return encode_all(capture, StartId::kPoints, cameras, settings, progress);
   Capture started = capture;
   started.cloud = std::move(points->cloud);
   started.mesh = {};
-  return encode_from(started, points->start, cameras, settings, progress);
+  return encode_all(started, points->start, cameras, settings, progress);
 }
 
 }  // namespace slf

@@ -63,9 +63,11 @@ void add_geometry(std::vector<SettingRow>& rows) {
               Words<Surface>{{"given", Surface::kGiven},
                              {"mended", Surface::kMended},
                              {"trained", Surface::kTrained},
-                             {"auto", Surface::kAuto}},
+                             {"auto", Surface::kAuto},
+                             {"splats", Surface::kSplats}},
               "Points as given (scans, exact models), moved to where photographs agree, trained by "
-              "photographs, or what predicts held-out input photographs best"),
+              "photographs, or what predicts held-out input photographs best; splats: no surface "
+              "but translucent points of any size, for outlines and rough geometry"),
        number(
            "surface-seconds", SLF_AT(surface_seconds), 0, 1e6,
            "Train a surface for about so long, seconds; 0: as long as it pays. Files then differ "

@@ -105,6 +105,8 @@ Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<cons
   SLF_CHECK(check_cameras(capture, cameras));
   Stopwatch watch;
   IgcEncoded encoded;
+  if (settings.slf.surface == Surface::kSplats)
+    return InputError{Errc::kInvalidArgument, "surface: splats are of .slf files"};
   SLF_TRY(const VoxelCloud cloud, choose_surface(capture, cameras, settings.slf, StartId::kPoints,
                                                  encoded.surface, progress));
   encoded.points = cloud.positions.size();

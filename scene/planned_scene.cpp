@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kPointsOfCell = 512;  // at least: what the base has is apart from slices
 
-InputError refused(const char* what) {
+InputError refused(const std::string& what) {
   return {Errc::kInvalidArgument, std::string(what) + " needs the whole scene at once"};
 }
 
@@ -121,9 +121,8 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (settings.target_bytes > 0 || settings.target_psnr > 0) return refused("a target");
   if (settings.geometry == GeometryCoder::kDraco) return refused("--geometry draco");
   if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
-  for (const Surface surface : {Surface::kMended, Surface::kTrained})
-    if (settings.surface == surface)
-      return refused(surface == Surface::kMended ? "--surface mended" : "--surface trained");
+  for (const Surface surface : {Surface::kMended, Surface::kTrained, Surface::kSplats})
+    if (settings.surface == surface) return refused(std::string("--surface ") + word_of(surface));
   if (settings.densify.mode == Densify::kOn) return refused("--densify on");
   if (settings.preset == Preset::kPaper) return refused("--preset paper");
   if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");

@@ -263,6 +263,9 @@ std::string surface_text(const SurfaceReport& r) {
   if (r.before_psnr > 0)
     judged = text("held-out photographs drawn with %.2f dB trained, %.2f %s", r.trained_psnr,
                   r.before_psnr, r.mended.outcome == RefineReport::kMended ? "mended" : "given");
+  if (r.kept == Surface::kSplats)
+    return text("surface       none: %s splats, trained from %s points%s\n",
+                grouped(r.surfels).c_str(), grouped(r.points_before).c_str(), from.c_str());
   if (r.kept == Surface::kTrained)
     return text("surface       trained: %s surfels, %s points for %s%s%s%s\n",
                 grouped(r.surfels).c_str(), grouped(r.points_after).c_str(),

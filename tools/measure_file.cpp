@@ -9,6 +9,7 @@
 #include "slf/evaluate.h"
 #include "slf/view_map.h"
 #include "tools/dump.h"
+#include "tools/eval_subject.h"
 #include "tools/options.h"
 #include "tools/text.h"
 
@@ -43,9 +44,16 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
   settings.threads = threads;
   const bool has_points = !capture.cloud.positions.empty();
   const Capture own = has_points ? Capture{} : with_points_of(field, capture, threads);
+  const Capture& judge = has_points ? capture : own;
+  if (has_gaussians(field.header)) {
+    SLF_TRY(Gaussians splats, from("the file that was written", gaussians_of(field, threads)));
+    SLF_TRY(const Quality quality,
+            from("the file that was written",
+                 evaluate_pictures(pictures_of(std::move(splats)), judge, some, settings)));
+    return FilePictures{quality.image.psnr, chosen, watch.lap()};
+  }
   SLF_TRY(const Quality quality,
-          from("the file that was written",
-               evaluate(ViewMaps(field), has_points ? capture : own, some, settings)));
+          from("the file that was written", evaluate(ViewMaps(field), judge, some, settings)));
   return FilePictures{quality.image.psnr, chosen, watch.lap()};
 }
 

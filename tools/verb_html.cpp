@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "slf/gaussians.h"
 #include "slf/jpeg.h"
 #include "slf/render.h"
 #include "tools/camera_file.h"
@@ -157,6 +158,11 @@ Outcome run_html(const HtmlOptions& given) {
   }
   const std::string name = input_name(given.input);
   SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
+  if (has_gaussians(input.info.header))
+    return Failure{kInputInvalid,
+                   input_name(given.input) +
+                       ": holds splats, which the page does not draw yet (slf render does; slf "
+                       "export writes them for viewers of splats)"};
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);

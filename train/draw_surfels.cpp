@@ -29,6 +29,7 @@ struct TileSums {
   std::array<Lanes, kBlocksOfTile> transparency, red, green, blue, near, near_square, pivot;
 };
 
+template <bool kGaussian>
 [[gnu::always_inline]] inline void add_surfel(const ProjectedSurfel& s, float left, float top,
                                               float most_near, TileSums& sums) {
   const BlockBox box = blocks_of(s, left, top);
@@ -37,8 +38,8 @@ struct TileSums {
       const auto i = std::size_t(kTileBlocks * row + column);
       Lanes& transparency = sums.transparency[i];
       BlockSurfel b;
-      if (!set_block_surfel(s, left + float(kBlockColumns * column), top + float(kBlockRows * row),
-                            transparency, b))
+      if (!set_block_surfel<kGaussian>(s, left + float(kBlockColumns * column),
+                                       top + float(kBlockRows * row), transparency, b))
         continue;
       const Lanes weight = b.alpha * transparency;
       const LaneMask first = b.shows & (transparency == 1.0f);
@@ -62,8 +63,14 @@ SLF_MULTIVERSION_ALL void draw_tile(const SurfelTiles& tiles, const TrainingView
   const float most_near = most_near_of(view.camera);
   TileSums sums{};
   for (Lanes& t : sums.transparency) t += 1.0f;
-  for (std::uint32_t k = tiles.first[tile]; k < tiles.first[tile + 1]; ++k)
-    add_surfel(tiles.projected[tiles.list[k]], float(x), float(y), most_near, sums);
+  for (std::uint32_t k = tiles.first[tile]; k < tiles.first[tile + 1]; ++k) {
+    const ProjectedSurfel& s = tiles.projected[tiles.list[k]];
+    if (view.camera.gaussian) {
+      add_surfel<true>(s, float(x), float(y), most_near, sums);
+    } else {
+      add_surfel<false>(s, float(x), float(y), most_near, sums);
+    }
+  }
   for (std::size_t i = 0; i < kBlocksOfTile; ++i) {
     const BlockPlace at{x + kBlockColumns * int(i % kTileBlocks),
                         y + kBlockRows * int(i / kTileBlocks), view.camera.width,
@@ -91,11 +98,12 @@ struct SurfelSums {
   Lanes red, green, blue, opacity, a, b, c, u, v, near, near_du, near_dv, drawn, pull;
 };
 
+template <bool kGaussian>
 [[gnu::always_inline]] inline void add_gradient(const ProjectedSurfel& s, float x, float y,
                                                 float spread, float most_near, BackwardBlock& block,
                                                 SurfelSums& sums) {
   BlockSurfel p;
-  if (!set_block_surfel(s, x, y, block.transparency, p)) return;
+  if (!set_block_surfel<kGaussian>(s, x, y, block.transparency, p)) return;
   const Lanes weight = p.alpha * block.transparency;
   Lanes near = p.near - block.pivot;
   LaneMask within;
@@ -110,7 +118,8 @@ struct SurfelSums {
   const Lanes by_kernel = free ? by_alpha : Lanes{};
   const Lanes pulled = spread * 2 * weight * (block.total * near - block.near);
   const Lanes by_near = within ? pulled : Lanes{};
-  const Lanes by_square = (-4 * s.opacity) * by_kernel * p.inside * p.inside * p.inside;
+  const Lanes by_square = kGaussian ? (-kGaussianReach / 2 * s.opacity) * by_kernel * p.kernel
+                                    : (-4 * s.opacity) * by_kernel * p.inside * p.inside * p.inside;
   const Lanes gu = s.a * p.du + s.b * p.dv, gv = s.b * p.du + s.c * p.dv;
   const Lanes by_u = -2 * by_square * gu - s.near_du * by_near;
   const Lanes by_v = -2 * by_square * gv - s.near_dv * by_near;
@@ -187,9 +196,15 @@ SLF_MULTIVERSION_ALL void tile_gradients(const SurfelTiles& tiles, const Trainin
     const BlockBox box = blocks_of(s, float(x), float(y));
     SurfelSums sums{};
     for (int row = box.top; row <= box.bottom; ++row)
-      for (int column = box.left; column <= box.right; ++column)
-        add_gradient(s, float(x + kBlockColumns * column), float(y + kBlockRows * row), spread,
-                     most_near, blocks[std::size_t(kTileBlocks * row + column)], sums);
+      for (int column = box.left; column <= box.right; ++column) {
+        BackwardBlock& block = blocks[std::size_t(kTileBlocks * row + column)];
+        const auto u = float(x + kBlockColumns * column), v = float(y + kBlockRows * row);
+        if (view.camera.gaussian) {
+          add_gradient<true>(s, u, v, spread, most_near, block, sums);
+        } else {
+          add_gradient<false>(s, u, v, spread, most_near, block, sums);
+        }
+      }
     pairs[k] = gradient_of(sums);
   }
 }

@@ -21,7 +21,10 @@ SLF_MULTIVERSION_ALL void find_depths(const SurfelTiles& tiles, const TrainingCa
         Lanes& t = transparency[std::size_t(kTileBlocks * row + column)];
         const int left = x + kBlockColumns * column, top = y + kBlockRows * row;
         BlockSurfel b;
-        if (!set_block_surfel(s, float(left), float(top), t, b)) continue;
+        const bool shows = camera.gaussian
+                               ? set_block_surfel<true>(s, float(left), float(top), t, b)
+                               : set_block_surfel<false>(s, float(left), float(top), t, b);
+        if (!shows) continue;
         const Lanes after = t - b.alpha * t;
         const LaneMask here = (t >= kOpaque) & (after < kOpaque);
         t = after;

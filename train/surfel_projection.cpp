@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "render/reference_kernel.h"
+#include "train/tile_pixels.h"
 
 namespace slf {
 namespace {
 
 constexpr auto kFilterSquare =
     float(kReferenceKernel.filter_pixels * kReferenceKernel.filter_pixels);
+constexpr float kGaussianFilter = 0.3f * kGaussianReach;  // annex E.6, in squared radii
 constexpr float kNearest = 0.02f;      // of the camera's depth: nearer, a disc is no ellipse
 constexpr float kLeastCosine = 0.15f;  // a flatter plane's depth says nothing
 constexpr float kLeastOpacity = 1.0f / 255;
@@ -37,8 +39,8 @@ float slope(float at, float focal, float principal, int size) {
   return std::clamp(at, std::min(low, 0.0f), std::max(high, 0.0f));
 }
 
-bool set_ellipse(SurfelProjection& p) {
-  float uu = kFilterSquare, uv = 0, vv = kFilterSquare;
+bool set_ellipse(float filter_square, SurfelProjection& p) {
+  float uu = filter_square, uv = 0, vv = filter_square;
   for (const auto& axis : p.across) {
     uu += axis[0] * axis[0];
     uv += axis[0] * axis[1];
@@ -130,7 +132,7 @@ std::optional<SurfelProjection> project_surfel(const TrainedSurfel& surfel,
     const Float3 axis = turned(camera.rotation, k == 0 ? p.axes.first : p.axes.second);
     for (std::size_t i = 0; i < 2; ++i) p.across[k][i] = p.radius[k] * dot(p.jacobian[i], axis);
   }
-  if (!set_ellipse(p)) return {};
+  if (!set_ellipse(camera.gaussian ? kGaussianFilter : kFilterSquare, p)) return {};
   const ProjectedSurfel& s = p.projected;
   if (!(s.u + s.half_width > 0 && s.u - s.half_width < float(camera.width) &&
         s.v + s.half_height > 0 && s.v - s.half_height < float(camera.height)))

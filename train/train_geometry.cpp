@@ -9,42 +9,17 @@
 #include "capture/spacing.h"
 #include "train/fuse_surfels.h"
 #include "train/train_surfels.h"
+#include "train/training_start.h"
 
 namespace slf {
 namespace {
 
 constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
-constexpr double kMostPixels = 1 << 20;                      // of a photograph
-constexpr double kPixelBytes = 3 * sizeof(float) * 4.0 / 3;  // with those of the coarser sizes
 constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/pictures/trained.md
-constexpr float kThinOpacity = 0.1f;     // of surfels that start anywhere
 constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the photographs
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
 constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface
 constexpr std::size_t kMostFused = 1'000'000;               // points, about
-
-SurfacePoints start_of(const Capture& capture, int threads) {
-  SurfacePoints points{capture.cloud.positions, capture.cloud.normals, {}};
-  if (!points.normals.empty()) return points;
-  std::vector<Vec3> viewpoints;
-  for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
-  points.normals = estimate_normals(capture.cloud, viewpoints, 16, threads);
-  return points;
-}
-
-/// Halvings after which all photographs fit.
-int reduction_of(const Capture& capture, std::span<const int> cameras, double most_bytes) {
-  double largest = 0, all = 0;
-  for (const int c : cameras) {
-    const Camera& camera = capture.cameras[std::size_t(c)];
-    const double pixels = double(camera.width) * double(camera.height);
-    largest = std::max(largest, pixels);
-    all += kPixelBytes * pixels;
-  }
-  int log2 = 0;
-  while (largest > kMostPixels || all > most_bytes) largest /= 4, all /= 4, ++log2;
-  return log2;
-}
 
 /// Largest side of the box of most surfels: some may be anywhere.
 /// @param outside  share of them at either end of an axis
@@ -92,31 +67,13 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
                                                    TrainedSurfels trained,
                                                    const Progress& progress) {
   TrainedGeometry out;
-  const SurfacePoints start = start_of(capture, settings.threads);
-  const double spacing = typical_spacing(start.positions);
-  if (!(spacing > 0)) return out;
-  SLF_TRY(const auto views,
-          load_training_views(capture, cameras, start, spacing,
-                              reduction_of(capture, cameras, settings.photograph_bytes),
-                              settings.threads));
-  TrainSettings training;
-  training.iterations = settings.iterations;
-  training.threads = settings.threads;
-  training.seconds = settings.seconds;
-  training.surfels =
-      settings.surfels > 0 ? settings.surfels : surfels_for(start, training_pixel(views));
-  if (progress)
-    training.progress = [&](double done) {
-      progress("train", done);
-      return true;
-    };
-  if (!trained.empty()) training.from = kTrainedBefore;
+  SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
+  if (start.views.empty()) return out;
+  const std::vector<TrainingView>& views = start.views;
+  if (!trained.empty()) start.settings.from = kTrainedBefore;
   TrainedSurfels& surfels = out.surfels;
-  surfels = !trained.empty() ? std::move(trained)
-                             : start_surfels(start, spacing, views, training.surfels / 2,
-                                             settings.is_volume ? kThinOpacity : kSolidOpacity,
-                                             settings.threads);
-  train_surfels(views, training, surfels);
+  surfels = !trained.empty() ? std::move(trained) : first_surfels(start, settings);
+  train_surfels(views, start.settings, surfels);
   if (surfels.size() < kLeastPoints) return out;
   Lattice lattice;
   out.pixel = sharpest_pixel(capture, cameras, surfels);

@@ -20,6 +20,8 @@ struct TrainingCamera {
   std::array<Float3, 3> rotation{};  ///< rows
   Float3 translation{}, centre{};    ///< centre: world
   float depth = 1;                   ///< of what it looks at, about: unit of inverse depths
+  /// Surfels are drawn as 3DGS draws them, not with the reference kernel.
+  bool gaussian = false;
 
   Float3 in_camera(const Float3& at) const {
     return {dot(rotation[0], at) + translation[0], dot(rotation[1], at) + translation[1],

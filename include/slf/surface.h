@@ -13,7 +13,8 @@ enum class Surface : std::uint8_t {
   kGiven,    ///< the capture's points: scans, exact models
   kMended,   ///< moved to where photographs agree (RefineGeometry::kOn)
   kTrained,  ///< trained by photographs, from the capture's points on
-  kAuto,     ///< what predicts held-out input photographs best
+  kAuto,     ///< what predicts held-out input photographs best: one of those above
+  kSplats,   ///< no surface: trained splats, translucent, of any size (slf/gaussians.h)
 };
 
 /// Where the points are from that a surface starts with.

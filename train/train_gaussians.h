@@ -1,0 +1,26 @@
+// From photographs to Gaussian splats.
+#pragma once
+
+#include <span>
+
+#include "slf/gaussians.h"
+#include "train/train_geometry.h"
+
+namespace slf {
+
+/// Surfels that are drawn as Gaussians while they are trained, flat ones as splats: drawn by
+/// GaussianRenderer they are what photographs were compared with. Nothing pulls them to a surface,
+/// and half as many as a surface has say more at equal bytes (the dino, 8,000 at Q 14: 66 kB
+/// 30.8 dB; 4,000 at Q 7: 48 kB 31.0 dB).
+/// @param settings  grid and voxel size have no meaning
+/// @errors those of load_image. Empty where no surfels are left.
+/// The same for any thread count. Time and memory: train_geometry's without fusing.
+Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
+                                              const TrainGeometrySettings& settings,
+                                              const Progress& progress = {});
+
+/// @param gaussian  they were trained as Gaussians; else by the reference kernel, which is nearly a
+///                  Gaussian of a third of the radius
+Gaussians gaussians_of(const TrainedSurfels& surfels, bool gaussian);
+
+}  // namespace slf
