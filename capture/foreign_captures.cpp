@@ -47,11 +47,17 @@ constexpr std::array kForeign = {
     Foreign{".csv", "#name,x,y",
             "cameras of RealityScan, which are not read: export its registration for COLMAP"},
     Foreign{".splat", "",
-            "Gaussian splats, which are not read: slf makes its own from photographs"},
+            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
+            "their PLY"},
     Foreign{".ksplat", "",
-            "Gaussian splats, which are not read: slf makes its own from photographs"},
-    Foreign{".spz", "", "Gaussian splats, which are not read: slf makes its own from photographs"},
-    Foreign{".sog", "", "Gaussian splats, which are not read: slf makes its own from photographs"},
+            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
+            "their PLY"},
+    Foreign{".spz", "",
+            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
+            "their PLY"},
+    Foreign{".sog", "",
+            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
+            "their PLY"},
     Foreign{".pcd", "", "a cloud of PCL: save it as PLY (pcl_pcd2ply, CloudCompare)"},
     Foreign{".xyz", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
     Foreign{".pts", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},

@@ -58,14 +58,16 @@ double extent_of(const Gaussians& splats) {
 
 class GaussianEncoder {
  public:
-  GaussianEncoder(const Gaussians& splats, const EncoderSettings& settings)
+  GaussianEncoder(const Gaussians& splats, const EncoderSettings& settings, const Vec3& origin)
       : splats_(splats),
         settings_(settings),
+        origin_(origin),
         deviation_(typical_deviation(splats)),
         extent_(extent_of(splats)) {}
 
   Result<double, InputError> code(double q, EncodedGaussians& out) const {
-    SLF_TRY(const LightField field, light_field_of(splats_, grid_step(q), settings_.threads));
+    SLF_TRY(LightField field, light_field_of(splats_, grid_step(q), settings_.threads));
+    for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
     CodingParameters parameters =
         gaussian_parameters(field, {q, kOpacityShare * q, kShapeShare * q}, settings_);
     parameters.metadata = {{"quality", std::to_string(q)}};
@@ -86,6 +88,7 @@ class GaussianEncoder {
 
   const Gaussians& splats_;
   const EncoderSettings& settings_;
+  Vec3 origin_;
   double deviation_, extent_;
 };
 
@@ -106,7 +109,8 @@ Result<Done, InputError> code_to_bytes(const GaussianEncoder& encoder, std::uint
 }  // namespace
 
 Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
-                                                      const EncoderSettings& settings) {
+                                                      const EncoderSettings& settings,
+                                                      const Vec3& origin) {
   if (settings.target_psnr > 0)
     return InputError{Errc::kInvalidArgument, "target PSNR: of splats there is --target-bytes"};
   const Gaussians shown = that_show(splats);
@@ -114,7 +118,7 @@ Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
     return InputError{Errc::kInvalidInput, splats.size() == 0
                                                ? "has no splats"
                                                : "has no splat with an opacity of 1/255 or more"};
-  const GaussianEncoder encoder(shown, settings);
+  const GaussianEncoder encoder(shown, settings, origin);
   EncodedGaussians out;
   if (settings.target_bytes > 0) {
     SLF_CHECK(code_to_bytes(encoder, settings.target_bytes, out));

@@ -38,18 +38,16 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  SLF_TRY(Gaussians splats,
+  SLF_TRY(const Gaussians splats,
           train_gaussians(capture, cameras, training_of(settings, start), progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};
-  for (auto& at : splats.positions)
-    for (std::size_t k = 0; k < 3; ++k) at[k] += static_cast<float>(capture.origin[k]);
   EncoderSettings coding = settings;
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
   if (progress) progress("code", 0);
-  SLF_TRY(EncodedGaussians coded, encode_gaussians(splats, coding));
+  SLF_TRY(EncodedGaussians coded, encode_gaussians(splats, coding, capture.origin));
   out.stream = std::move(coded.stream);
   out.q = coded.q;
   out.grid = coded.grid;

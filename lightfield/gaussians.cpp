@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kSplatsPerRange = 1024;
 constexpr int kMostDegree = 4;
+constexpr double kMostCoordinate = 1e15;  // squares of differences stay finite in floats
 
 /// The first function of an attribute; num_functions where it is not there.
 int first_function(const LightFieldHeader& header, AttributeId id) {
@@ -91,6 +92,10 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
   const LightFieldHeader& header = field.header;
   if (!has_gaussians(header))
     return InputError{Errc::kInvalidInput, "has no shape and opacity for every point"};
+  const double reach = std::ldexp(header.grid.step, header.grid.bits);
+  for (const double coordinate : header.grid.origin)
+    if (!(std::abs(coordinate) + reach < kMostCoordinate))
+      return InputError{Errc::kInvalidInput, "its splats lie beyond what floats hold"};
   const int opacity = first_function(header, AttributeId::kOpacity),
             shape = first_function(header, AttributeId::kShape);
   const std::vector<std::int32_t> planes = given_planes(field, threads);

@@ -55,6 +55,25 @@ TEST_F(SplatFileTest, IsRefusedWhereAnOptionMeansNothingForItAndWhenDamaged) {
   EXPECT_NE(ran.code, 0);
 }
 
+TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
+  const Ran coded = slf("encode x.ply -o x.slf -q 3 --json");
+  ASSERT_EQ(coded.code, 0) << coded.err;
+  const auto report = parsed(coded.out);
+  EXPECT_EQ(report["bytes"], read("x.slf").size());
+  EXPECT_EQ(report["q"], 3);
+  EXPECT_NE(slf("info x.slf").out.find("shape"), std::string::npos);
+  ASSERT_EQ(slf("render x.slf -o a.png --size 80x80").code, 0);
+  ASSERT_EQ(slf("render x.ply -o b.png --size 80x80").code, 0);
+  EXPECT_EQ(slf("export x.slf -o y.ply").code, 0);
+  EXPECT_EQ(read_gaussians(path("y.ply"))->gaussians.size(), report["splats"]);
+  EXPECT_EQ(slf("export x.slf -o y.spz").code, 0);
+  EXPECT_EQ(slf("encode y.spz -o z.slf --quiet").code, 0);
+  expect_failure(slf("html x.slf -o x.html"), 4, "x.slf", "splats");
+  expect_failure(slf("encode x.ply -o w.slf --degree 4"), 2, "x.ply", "--degree");
+  expect_failure(slf("encode x.ply -o w.slf --points x.ply"), 2, "x.ply", "--points");
+  expect_failure(slf("encode x.ply -o w.slf --target-bytes 100"), 2, "x.ply", "target bytes");
+}
+
 TEST_F(SplatFileTest, WarnsOfSplatsThatAreLeftOut) {
   write("bad.ply", [] {
     std::string text = test::ascii_header(2, test::kSplatNames);

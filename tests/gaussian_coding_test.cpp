@@ -155,6 +155,23 @@ TEST(EncodeGaussians, OfOneQualityAreSmallerWhereItIsCoarser) {
   }
 }
 
+TEST(EncodeGaussians, LieWhereTheirOriginIsOrAreRefused) {
+  const Gaussians given = some_splats(50, 0);
+  const auto far = encode_gaussians(given, {}, {1e6, -2e6, 0.5});
+  ASSERT_TRUE(far);
+  const auto here = encode_gaussians(given, {});
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(far->grid.origin[k] - here->grid.origin[k],
+                k == 0   ? 1e6
+                : k == 1 ? -2e6
+                         : 0.5,
+                1e-6);
+  EXPECT_TRUE(gaussians_of(*decode(far->stream)));
+  const auto nowhere = encode_gaussians(given, {}, {1e200, 0, 0});
+  ASSERT_TRUE(nowhere);
+  EXPECT_FALSE(gaussians_of(*decode(nowhere->stream)));
+}
+
 TEST(EncodeGaussians, MeetTheirBytes) {
   EncoderSettings settings;
   settings.target_bytes = 20000;

@@ -9,10 +9,14 @@
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
 #include "encoder/choose_surface.h"
+#include "slf/decoder.h"
+#include "slf/evaluate.h"
+#include "slf/gaussian_renderer.h"
 #include "tools/synth/synth.h"
 #include "traced_scene.h"
 #include "train/distance_blocks.h"
 #include "train/grow_surfels.h"
+#include "train/train_gaussians.h"
 
 namespace slf::train_geometry_test {
 namespace {
@@ -119,6 +123,45 @@ TEST_F(TrainGeometryTest, PhotographsThatWouldTakeTooMuchMemoryAreHalved) {
   ASSERT_TRUE(whole && any && halved);
   EXPECT_EQ(whole->cloud.positions, any->cloud.positions);
   EXPECT_NE(halved->cloud.positions, any->cloud.positions);
+}
+
+TEST_F(TrainGeometryTest, SplatsAreTheSameForAnyNumberOfThreads) {
+  const Capture capture = with(sparse(20));
+  const auto one = train_gaussians(capture, traced_->cameras, {.iterations = 60, .threads = 1});
+  const auto three = train_gaussians(capture, traced_->cameras, {.iterations = 60, .threads = 3});
+  ASSERT_TRUE(one && three);
+  EXPECT_GT(one->size(), 100u);
+  EXPECT_EQ(one->positions, three->positions);
+  EXPECT_EQ(one->harmonics, three->harmonics);
+}
+
+TEST_F(TrainGeometryTest, SplatsOfRoughPointsShowThePhotographs) {
+  const Capture capture = with(sparse(20));
+  EncoderSettings settings;
+  settings.surface = Surface::kSplats;
+  const auto coded = encode(capture, traced_->cameras, settings);
+  ASSERT_TRUE(coded) << coded.error().message;
+  EXPECT_EQ(coded->surface.kept, Surface::kSplats);
+  const auto field = decode(coded->stream);
+  ASSERT_TRUE(field);
+  ASSERT_TRUE(has_gaussians(field->header));
+  const Gaussians splats = *gaussians_of(*field);
+  const GaussianRenderer renderer(splats, {.background = {0, 0, 0}});
+  const Capture judge = with(traced_->exact);
+  const auto quality = evaluate_pictures(
+      [&](const Camera& camera) { return renderer.render(camera); }, judge, traced_->cameras, {});
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_GT(quality->image.all.psnr, 24);
+  EXPECT_GT(quality->image.coverage, 0.97);
+}
+
+TEST_F(TrainGeometryTest, SplatsNeedPhotographs) {
+  EncoderSettings settings;
+  settings.surface = Surface::kSplats;
+  const std::span<const int> four(traced_->cameras.data(), 4);
+  const auto refused = encode(with(traced_->exact), four, settings);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("too few cameras"), std::string::npos);
 }
 
 TEST_F(TrainGeometryTest, AnExactCloudStaysAndNothingIsTrained) {

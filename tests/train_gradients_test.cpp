@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "slf/gaussian_renderer.h"
 #include "train/draw_surfels.h"
 #include "train/picture_loss.h"
+#include "train/train_gaussians.h"
 
 namespace slf::train_gradients_test {
 namespace {
@@ -30,10 +32,11 @@ struct Scene {
 
 /// A turned camera that looks at a few large overlapping discs; not a multiple of a tile in size.
 /// @param depth  of the space that they are in and of their turns, over their usual ones
-Scene scene(int count, float depth = 1) {
+Scene scene(int count, float depth = 1, bool gaussian = false) {
   Noise noise;
   Scene s;
   TrainingCamera& camera = s.view.camera;
+  camera.gaussian = gaussian;
   camera.width = 45, camera.height = 38;
   camera.fx = 60, camera.fy = 62, camera.cx = 23, camera.cy = 18;
   const float angle = 0.4f;
@@ -97,8 +100,9 @@ std::vector<TrainedSurfel> gradients_of(const Scene& s, float spread, int thread
 
 /// Root of the mean squared difference between both gradients over values first .. last, relative.
 /// Kinks (order in depth, ends of kernels) and floats make it some hundredths.
-double mismatch(std::size_t first, std::size_t last, float spread, float depth) {
-  const Scene s = scene(12, depth);
+double mismatch(std::size_t first, std::size_t last, float spread, float depth,
+                bool gaussian = false) {
+  const Scene s = scene(12, depth, gaussian);
   const auto gradients = gradients_of(s, spread, 1);
   constexpr float kStep = 2e-3f;
   double apart = 0, size = 0;
@@ -138,6 +142,43 @@ TEST(TrainGradientsTest, PositionsAreThoseOfDifferences) {
 /// Flat enough that nothing is as far apart as counts no more.
 TEST(TrainGradientsTest, SpreadInDepthIsThatOfDifferences) {
   EXPECT_LT(mismatch(Surfel::kPosition, Surfel::kColour, 20, 0.05f), 0.05);
+}
+
+TEST(TrainGradientsTest, OfGaussiansAreThoseOfDifferences) {
+  EXPECT_LT(mismatch(Surfel::kColour, Surfel::kSize, 0, 1, true), 0.01);
+  EXPECT_LT(mismatch(Surfel::kOpacity, Surfel::kColour, 0, 1, true), 0.02);
+  EXPECT_LT(mismatch(Surfel::kLogRadius, Surfel::kOpacity, 0, 1, true), 0.03);
+  EXPECT_LT(mismatch(Surfel::kTurn, Surfel::kLogRadius, 0, 1, true), 0.03);
+  EXPECT_LT(mismatch(Surfel::kPosition, Surfel::kTurn, 0, 1, true), 0.03);
+}
+
+/// What photographs are compared with is what a reader of the splats draws.
+TEST(TrainGradientsTest, GaussiansAreThoseThatTheRendererDraws) {
+  const Scene s = scene(40, 0.8f, true);
+  DrawnSurfels drawn;
+  draw_surfels(tile_surfels(s.surfels, s.view.camera, 1), s.view, 1, drawn);
+  Camera camera;
+  const TrainingCamera& c = s.view.camera;
+  camera.width = c.width, camera.height = c.height;
+  camera.fx = double{c.fx}, camera.fy = double{c.fy}, camera.cx = double{c.cx};
+  camera.cy = double{c.cy};
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t a = 0; a < 3; ++a) camera.rotation[r][a] = double{c.rotation[r][a]};
+    camera.translation[r] = double{c.translation[r]};
+  }
+  RenderSettings settings;
+  for (std::size_t a = 0; a < 3; ++a)
+    settings.background[a] = std::uint8_t(std::lround(255 * double{s.view.background[a]}));
+  const Gaussians splats = gaussians_of(s.surfels, true);
+  const Rendering rendering = GaussianRenderer(splats, settings).render(camera);
+  double squares = 0;
+  const std::size_t pixels = drawn.picture.pixels();
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double value = std::clamp(double{drawn.picture.plane(a)[i]}, 0.0, 1.0);
+      squares += std::pow(255 * value - double(rendering.image.data[3 * i + a]), 2);
+    }
+  EXPECT_GT(10 * std::log10(255 * 255 * 3 * double(pixels) / squares), 38);
 }
 
 TEST(TrainGradientsTest, LossIsThatOfDifferences) {

@@ -24,9 +24,11 @@ struct EncodedGaussians {
 /// and so has the grid, against the median deviation along the middle axis.
 /// @param settings  q, or target_bytes; grid_bits or voxel_size in place of the grid; what
 ///                  CodingParameters are made of; metadata, threads. Nothing else of it counts.
+/// @param origin  world place that positions are from
 /// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of range, a
 ///         target_psnr; those of pack(). The same bytes for any thread count.
 Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
-                                                      const EncoderSettings& settings);
+                                                      const EncoderSettings& settings,
+                                                      const Vec3& origin = {0, 0, 0});
 
 }  // namespace slf
