@@ -68,7 +68,7 @@ class RandomStream:
         """7.2: the header in three pieces, between which sps_cut_flag and sps_cut_layers stand."""
         rng = self.rng
         self.normal_bits = rng.choice([0, 0, 4, 7])
-        head = BitWriter().u(0, 8).u(4, 8).u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
+        head = BitWriter().u(0, 8).u(5, 8).u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
         head.u(self.base, 5)
         self.geometry = range_ends(rng, self.bits, self.base, 3)
         tail = BitWriter().ue(len(self.geometry))
@@ -81,7 +81,14 @@ class RandomStream:
         tail.ue(functions)
         self.layers, self.body, coder = [1] * self.groups, "", rng.choice([0, 0, 3, 3, 1])
         if functions:
-            tail.u(0, 1).u(coder, 2).u(self.prediction, 1).u(self.groups - 1, 4)
+            attributes = {3: [(2, 2)], 6: [(0, 2), (1, 1), (2, 2)]}.get(functions, [])      # 6.8: behind one function
+            if attributes and rng.randrange(3) == 0:
+                tail.u(1, 1).u(1, 4).u(0, 4).u(0, 3).u(1, 3).u(0, 2).u(129, 8).u(127, 8).ue(len(attributes))
+                for meaning, count in attributes:
+                    tail.ue(meaning).ue(count - 1)
+            else:
+                tail.u(0, 1)
+            tail.u(coder, 2).u(self.prediction, 1).u(self.groups - 1, 4)
             if coder == 3:
                 self.layers = [rng.choice([1, 2, 2, 3, 4]) for _ in self.layers]
                 for layers in self.layers:

@@ -144,12 +144,14 @@ TEST(TrainGradientsTest, SpreadInDepthIsThatOfDifferences) {
   EXPECT_LT(mismatch(Surfel::kPosition, Surfel::kColour, 20, 0.05f), 0.05);
 }
 
+/// A Gaussian ends in a step of 1/255 of its opacity, as 3DGS has it, and differences see pixels
+/// that come over it: some hundredths more.
 TEST(TrainGradientsTest, OfGaussiansAreThoseOfDifferences) {
   EXPECT_LT(mismatch(Surfel::kColour, Surfel::kSize, 0, 1, true), 0.01);
   EXPECT_LT(mismatch(Surfel::kOpacity, Surfel::kColour, 0, 1, true), 0.02);
-  EXPECT_LT(mismatch(Surfel::kLogRadius, Surfel::kOpacity, 0, 1, true), 0.03);
-  EXPECT_LT(mismatch(Surfel::kTurn, Surfel::kLogRadius, 0, 1, true), 0.03);
-  EXPECT_LT(mismatch(Surfel::kPosition, Surfel::kTurn, 0, 1, true), 0.03);
+  EXPECT_LT(mismatch(Surfel::kLogRadius, Surfel::kOpacity, 0, 1, true), 0.06);
+  EXPECT_LT(mismatch(Surfel::kTurn, Surfel::kLogRadius, 0, 1, true), 0.06);
+  EXPECT_LT(mismatch(Surfel::kPosition, Surfel::kTurn, 0, 1, true), 0.06);
 }
 
 /// What photographs are compared with is what a reader of the splats draws.
