@@ -26,6 +26,7 @@ Result<BaseValues> decode_components(const PartUnits& units, const Request& requ
                                      const BaseState& base, int level, int threads, bool means) {
   const auto codes = grid_codes(base, request.stream);
   const RahtTop top = build_raht_top(codes, request.stream.lowest_split(level), base.weights());
+  SLF_CHECK(check_values(request, top.tree.size()));
   const ComponentRows rows{
       codes,         top.tree, top.first, 0, std::min(request.levels, request.stream.base_levels()),
       base.weights()};
@@ -125,6 +126,7 @@ Result<Done> give_out_base(const PartUnits& units, const Request& request, int t
     field.components = std::move(given.values);
   }
   field.positions = node_voxels(base.cells, base.level, request);
+  SLF_CHECK(check_values(request, field.num_points()));
   field.components.resize(field.num_points() * request.planes());
   field.normals.octahedral.resize(field.normals.bits > 0 ? field.num_points() : 0);
   return Done{};

@@ -210,6 +210,12 @@ DecodeShape shape_of(const Request& request) {
   return shape;
 }
 
+Result<Done> check_values(const Request& request, std::uint64_t rows) {
+  if (rows > request.most_values / std::max<std::uint64_t>(request.planes(), 1))
+    return Error{Errc::kLimitExceeded, "max_values_per_byte"};
+  return Done{};
+}
+
 namespace {
 
 Result<CostOnThreads> within_limits(const DecodeShape& shape, std::uint64_t points,
@@ -235,7 +241,11 @@ Result<CostOnThreads> check_limits(const Request& request, const DecodeOptions& 
   if (waits_for_base(request)) shape.base_alone = true;
   const std::uint64_t points =
       shape.base_alone ? stream.table.num_cells() : stream.table.num_points();
-  return within_limits(shape, points, options);
+  SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
+  // Of others what is there counts.
+  if (stream.complete && !request.missing && !request.region)
+    SLF_CHECK(check_values(request, points + (request.base_alone() ? 0 : stream.num_cells())));
+  return cost;
 }
 
 Result<CostOnThreads> check_limits_of_slices(const Request& request, const DecodeOptions& options,

@@ -40,6 +40,10 @@ CostOnThreads cost_of(const DecodeShape& shape, const DecodeOptions& options);
 /// That of what was asked for, which may be less than the whole.
 DecodeShape shape_of(const Request& request);
 
+/// Are so many rows, of the base and of slices, within what the caller allows of so many bytes?
+/// @errors kLimitExceeded: max_values_per_byte
+Result<Done> check_values(const Request& request, std::uint64_t rows);
+
 /// What the slices say they hold, before any of it is decoded; where a region is asked for, what
 /// the base takes, which tells the slices.
 /// @errors kLimitExceeded, with the limit as element.

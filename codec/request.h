@@ -23,7 +23,8 @@ struct Request {
   PlaneGroups groups = {};                ///< those to decode: places of their components
   std::vector<std::uint16_t> coded = {};  ///< [R] functions that components stand in
   std::vector<PlaneTransform> transforms = {};
-  std::vector<std::uint32_t> steps = {};  ///< [3 R]
+  std::vector<std::uint32_t> steps = {};          ///< [3 R]
+  std::uint64_t most_values = ~std::uint64_t{0};  ///< of components that are given out
   bool whole = true;     ///< no levels, groups or layers are left out: digests are checked
   bool missing = false;  ///< some are that would be part of what was asked for
   std::optional<VoxelBox> region = {};           ///< of the whole grid

@@ -41,7 +41,8 @@ class SceneDecoder {
         threads_(threads),
         in_place_(!request.kept_levels_only() && !request.region),
         scene_(scene),
-        field_(field) {
+        field_(field),
+        rows_(request.stream.has_base() ? scene.base.cells.size() : 0) {
     for (std::size_t s = 0; s < units.slices.size(); ++s)
       if (chosen[s]) tasks_.push_back({{request, scene, units.slices[s], s}});
   }
@@ -74,7 +75,7 @@ class SceneDecoder {
         decode_base(schedule);
       } else if (work.step == SliceWork::kGeometry) {
         decode_geometry(tasks_[work.slice]);
-        schedule.finish_geometry(work.slice, [&](std::size_t s) { admit(tasks_[s]); });
+        schedule.finish_geometry(work.slice, [&](std::size_t s) { return admit(tasks_[s]); });
       } else {
         decode_values(tasks_[work.slice], work.last ? threads_ : 1);
         schedule.finish_values(work.slice, [&](std::size_t s) { gather(tasks_[s]); });
@@ -104,9 +105,14 @@ class SceneDecoder {
     });
   }
 
-  /// Room for the points of the next slice.
-  void admit(Task& task) {
+  /// Room for the points of the next slice, if that is not too much.
+  bool admit(Task& task) {
     std::vector<Voxel> positions = std::move(task.geometry.positions);
+    rows_ += positions.size();
+    if (auto level = check_values(request_, rows_); !level) {
+      level_error_ = level.error();
+      return false;
+    }
     if (is_first(task) && task.error) in_place_ = false;  // room for what is not believed any more
     if (in_place_ && is_first(task)) reserve_points();
     if (in_place_) {
@@ -114,6 +120,7 @@ class SceneDecoder {
     } else {
       task.apart.positions = std::move(positions);
     }
+    return true;
   }
 
   /// Points, and components and normals of zero, behind those of the field.
@@ -184,6 +191,7 @@ class SceneDecoder {
   /// The error that stands first in the stream.
   Result<Done> finish() const {
     if (base_error_) return *base_error_;
+    if (level_error_) return *level_error_;
     const Error* first = nullptr;
     for (const Task& task : tasks_)
       if (task.error && (first == nullptr || place_of(*task.error) < place_of(*first)))
@@ -203,8 +211,9 @@ class SceneDecoder {
   bool in_place_;  // every point that the slices say has its place in the field
   SceneState& scene_;
   LightField& field_;
+  std::uint64_t rows_;  // of the base and of all slices so far
   std::vector<Task> tasks_;
-  std::optional<Error> base_error_;
+  std::optional<Error> base_error_, level_error_;
 };
 
 }  // namespace

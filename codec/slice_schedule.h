@@ -43,12 +43,14 @@ class SliceSchedule {
     monitor_.change([&] { base_done_ = true; });
   }
 
-  /// admit(s) is called for every slice in turn, by one thread at a time.
+  /// admit(s) is called for every slice in turn, by one thread at a time. False: the rest is not
+  /// begun.
   template <class Admit>
   void finish_geometry(std::size_t slice, const Admit& admit) {
     monitor_.change([&] {
       has_[slice] = kGeometry;
-      for (; admitted_ < has_.size() && has_[admitted_] == kGeometry; ++admitted_) admit(admitted_);
+      for (; admitted_ < has_.size() && has_[admitted_] == kGeometry && !stopped_; ++admitted_)
+        stopped_ = !admit(admitted_);
     });
   }
 

@@ -30,6 +30,7 @@ void do_geometry(SliceSchedule& schedule, Journal& journal, std::size_t slice) {
   schedule.finish_geometry(slice, [&](std::size_t s) {
     journal.expect(journal.state[s].exchange(2) == 1);
     journal.admitted.push_back(s);
+    return true;
   });
 }
 
@@ -75,10 +76,19 @@ TEST(Spec_8_2_Schedule, SmallSlicesAreBegunUpToTheirPointsTogether) {
     const SliceWork work = schedule.next();
     ASSERT_EQ(work.step, SliceWork::kGeometry);
     ASSERT_EQ(work.slice, s);
-    schedule.finish_geometry(s, [](std::size_t) {});
+    schedule.finish_geometry(s, [](std::size_t) { return true; });
   }
   schedule.finish_base();
   EXPECT_EQ(schedule.next().step, SliceWork::kValues);
+}
+
+TEST(Spec_8_2_Schedule, NothingBeginsAfterASliceThatIsNotAdmitted) {
+  SliceSchedule schedule({10, 10, 10}, 1, 0);
+  schedule.next();
+  schedule.finish_base();
+  ASSERT_EQ(schedule.next().step, SliceWork::kGeometry);
+  schedule.finish_geometry(0, [](std::size_t) { return false; });
+  EXPECT_EQ(schedule.next().step, SliceWork::kNothing);
 }
 
 TEST(Spec_8_2_Schedule, OnlyTheLastValuesHaveAllThreads) {
@@ -86,7 +96,8 @@ TEST(Spec_8_2_Schedule, OnlyTheLastValuesHaveAllThreads) {
   std::vector<bool> last;
   for (SliceWork work = schedule.next(); work.step != SliceWork::kNothing; work = schedule.next()) {
     if (work.step == SliceWork::kBase) schedule.finish_base();
-    if (work.step == SliceWork::kGeometry) schedule.finish_geometry(work.slice, [](std::size_t) {});
+    if (work.step == SliceWork::kGeometry)
+      schedule.finish_geometry(work.slice, [](std::size_t) { return true; });
     if (work.step != SliceWork::kValues) continue;
     last.push_back(work.last);
     schedule.finish_values(work.slice, [](std::size_t) {});

@@ -55,6 +55,12 @@ void add_limits(CLI::App& verb, LimitOptions& options) {
       ->capture_default_str()
       ->check(whole_range(1, std::int64_t{1} << 38))
       ->group(group);
+  verb.add_option("--max-values-per-byte", limits.max_values_per_byte,
+                  "Values of components for every byte of a file, beyond the first 4,194,304")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_range(1, std::int64_t{1} << 32))
+      ->group(group);
   verb.add_option("--max-work", limits.max_work,
                   "Steps of decoding at most: 8 for every node that the octrees may have, 1 for "
                   "every value of a component; a core does some 10^8 a second")
@@ -139,6 +145,10 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
     return {kLimitExceeded, name + "holds " + grouped(stream.info.num_points) +
                                 " points, more than the " + grouped(options.limits.max_points) +
                                 " of --max-points"};
+  if (beyond("max_values_per_byte"))
+    return {kLimitExceeded, name + "says more values than " +
+                                grouped(options.limits.max_values_per_byte) +
+                                " for each of its bytes (--max-values-per-byte)"};
   if (beyond("max_work"))
     return {kLimitExceeded, name + "decoding takes up to " + grouped(cost->work) +
                                 " steps, more than the " + grouped(options.limits.max_work) +

@@ -19,8 +19,13 @@ struct DecodeLimits {
   /// DecodeCost::work is held against it; a core takes some 10^8 of them a second.
   std::uint64_t max_work = std::uint64_t{1} << 35;
 
+  /// Values of components, beyond the first kFreeValues, for every byte of the stream: a few bytes
+  /// can say that millions of values are 0. Files of `slf encode` have some hundreds.
+  std::uint64_t max_values_per_byte = std::uint64_t{1} << 14;
+  static constexpr std::uint64_t kFreeValues = std::uint64_t{1} << 22;
+
   /// For streams that the caller has just made.
-  static DecodeLimits none() { return {kNone, kNone, kNone, kNone, kNone}; }
+  static DecodeLimits none() { return {kNone, kNone, kNone, kNone, kNone, kNone}; }
 };
 
 }  // namespace slf
