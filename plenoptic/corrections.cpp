@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kName = {'P', 'L', 'N', '1'};
 constexpr std::size_t kChunkPoints = std::size_t{1} << 16;  // a codeword each
-constexpr std::uint32_t kLimit = 255;                       // of counts of contexts
+constexpr std::uint32_t kMostCount = 255;                   // of counts of contexts
 constexpr int kUnary = 14;                                  // magnitudes beyond it follow raw
 constexpr int kLargest = 255;
 
@@ -50,13 +50,13 @@ class CorrectionModel {
     const int size = std::abs(given);
     auto& unary = size_[channel][near];
     int n = 0;
-    while (n < kUnary &&
-           coder.bit(unary[static_cast<std::size_t>(n)], kLimit, static_cast<unsigned>(size > n)))
+    while (n < kUnary && coder.bit(unary[static_cast<std::size_t>(n)], kMostCount,
+                                   static_cast<unsigned>(size > n)))
       ++n;
     if (n == kUnary)
       n += static_cast<int>(coder.raw(8, static_cast<std::uint32_t>(std::max(size - kUnary, 0))));
     if (n == 0) return 0;
-    const bool negative = coder.bit(sign_[channel][3 * view_sign + channel_sign], kLimit,
+    const bool negative = coder.bit(sign_[channel][3 * view_sign + channel_sign], kMostCount,
                                     static_cast<unsigned>(given < 0)) != 0;
     return negative ? -n : n;
   }
