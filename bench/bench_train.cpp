@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   std::printf("%zu surfels, %d iterations: %.1f s\n", surfels.size(), settings.iterations,
               watch.lap());
   if (argc > 5)
-    if (!write_splats(argv[5], gaussians_of(surfels, gaussian))) return 1;
+    if (!write_splats(argv[5], gaussians_of(surfels))) return 1;
   Lattice lattice;
   lattice.step = 1.6 * training_pixel(*views);
   const SurfacePoints fused = fuse_surfels(surfels, *views, lattice, {});

@@ -82,7 +82,7 @@ struct SequenceParameterSet {
   std::uint32_t layers_of(std::size_t group) const {
     return group < sps_num_layers_minus1.size() ? sps_num_layers_minus1[group] + 1 : 1;
   }
-  /// Of the group that has most; 1 where there is none.
+  /// As many as the group has that has most; 1 where there is none.
   std::uint32_t num_layers() const {
     std::uint32_t most = 1;
     for (std::size_t g = 0; g < sps_num_layers_minus1.size(); ++g)

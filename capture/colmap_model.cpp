@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/quaternion.h"
 #include "capture/file_names.h"
 
 namespace slf {
@@ -54,14 +55,6 @@ void set_intrinsics(const ColmapCamera& from, Camera& to) {
   to.cy = p[at++];
   // k; k1, k2; k1, k2, p1, p2: what is missing is zero.
   for (std::size_t i = 0; at < p.size(); ++i) to.distortion[i] = p[at++];
-}
-
-// Hamilton convention, of unit length.
-std::array<std::array<double, 3>, 3> rotation_of(const std::array<double, 4>& q) {
-  const auto [w, x, y, z] = q;
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-           {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 
 // The directory that image names are relative to: images/ beside the model, or beside sparse/ where

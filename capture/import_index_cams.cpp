@@ -8,6 +8,7 @@
 #include <limits>
 #include <string_view>
 
+#include "base/quaternion.h"
 #include "capture/file_names.h"
 #include "capture/image_formats.h"
 #include "capture/importer.h"
@@ -29,19 +30,10 @@ struct IndexLine {
   std::size_t line = 0;                 // of the file, from 1
 };
 
-/// Rows are the images of the world's axes: a vector of the world to one of the camera, or back.
-Matrix matrix_of(const std::array<double, 4>& q) {
-  const auto [x, y, z, w] = q;
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-           {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-           {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
-}
-
 /// The rotation of our cameras (x right, y down, z forward) by one of four readings.
 Matrix rotation_of(const IndexLine& line, bool to_world, bool looks_backward) {
   const auto& n = line.number;
-  const double length = std::hypot(std::hypot(n[3], n[4]), std::hypot(n[5], n[6]));
-  const Matrix given = matrix_of({n[3] / length, n[4] / length, n[5] / length, n[6] / length});
+  const Matrix given = slf::rotation_of(std::array{n[6], n[3], n[4], n[5]});
   Matrix rotation{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k)

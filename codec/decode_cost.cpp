@@ -242,7 +242,7 @@ Result<CostOnThreads> check_limits(const Request& request, const DecodeOptions& 
   const std::uint64_t points =
       shape.base_alone ? stream.table.num_cells() : stream.table.num_points();
   SLF_TRY(const CostOnThreads cost, within_limits(shape, points, options));
-  // Of others what is there counts.
+  // Other streams are held to what is there.
   if (stream.complete && !request.missing && !request.region)
     SLF_CHECK(check_values(request, points + (request.base_alone() ? 0 : stream.num_cells())));
   return cost;

@@ -87,7 +87,8 @@ Result<Request> request_of(const Units& units, const SceneUnits& scene,
   SLF_CHECK(check_options(set, options));
   Request request{scene.stream};
   request.region = options.region;
-  if (const std::uint64_t each = options.limits.max_values_per_byte; each < DecodeLimits::kNone >> 32)
+  if (const std::uint64_t each = options.limits.max_values_per_byte;
+      each < DecodeLimits::kNone >> 32)
     request.most_values = DecodeLimits::kFreeValues + each * scene.stream.bytes;
   request.levels = static_cast<int>(least(set.grid_bits(), options.levels, set.sps_cut_levels));
   request.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));

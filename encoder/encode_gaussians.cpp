@@ -46,14 +46,8 @@ double typical_deviation(const Gaussians& splats) {
 }
 
 double extent_of(const Gaussians& splats) {
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [low, high] =
-        std::minmax_element(splats.positions.begin(), splats.positions.end(),
-                            [k](const auto& a, const auto& b) { return a[k] < b[k]; });
-    extent = std::max(extent, double{(*high)[k]} - double{(*low)[k]});
-  }
-  return extent;
+  const auto [low, high] = bounds_of(splats);
+  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
 }
 
 class GaussianEncoder {

@@ -21,14 +21,7 @@ InputError bad(const char* what) { return {Errc::kInvalidInput, what}; }
 
 /// The smallest grid of at least this step that holds the positions.
 Result<Grid, InputError> grid_around(const Gaussians& splats, double step) {
-  Vec3 low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& at : splats.positions)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], double{at[k]});
-      high[k] = std::max(high[k], double{at[k]});
-    }
+  const auto [low, high] = bounds_of(splats);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
   if (!std::isfinite(extent)) return bad("splats: their extent is not finite");
@@ -106,6 +99,18 @@ LightFieldHeader header_of(const Gaussians& splats, const Grid& grid) {
 }
 
 }  // namespace
+
+std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
+  Vec3 low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const auto& at : splats.positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], double{at[k]});
+      high[k] = std::max(high[k], double{at[k]});
+    }
+  return {low, high};
+}
 
 Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads) {
   if (splats.size() == 0) return bad("splats: there are none");

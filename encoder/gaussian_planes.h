@@ -10,6 +10,9 @@ namespace slf {
 /// Component units of a grey level, and of 1 in a logit or a logarithm: 2^n.
 inline constexpr int kHarmonicsShift = 5, kOpacityShift = 10, kShapeShift = 10;
 
+/// Least and greatest coordinates. There is a splat.
+std::array<Vec3, 2> bounds_of(const Gaussians& splats);
+
 /// The light field that gaussians_of() makes splats of again. Splats are sorted; those that share
 /// a voxel move on to the next that is free, along the curve (6.2).
 /// @param step  of the grid, world units; coarser where 21 bits would not hold the extent

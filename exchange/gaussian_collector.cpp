@@ -19,7 +19,7 @@ bool is_usable(const RawGaussian& raw, std::span<const float> harmonics) {
                      [](float h) { return std::abs(h) <= kMostHarmonic; });  // false of NaN
 }
 
-/// Of unit length; of 0, no turn.
+/// Makes its length 1; a quaternion of 0 becomes no turn.
 std::array<float, 4> unit_quaternion(const std::array<float, 4>& q, bool& mended) {
   double square = 0;
   for (const float x : q) square += double{x} * double{x};

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "bitstream/deflate.h"
 #include "exchange/gaussian_readers.h"
-#include "exchange/gunzip.h"
 #include "exchange/half_float.h"
 
 namespace slf {
@@ -65,7 +65,8 @@ std::array<float, 4> first_three(FileBytes raw, std::size_t at) {
   return q;
 }
 
-/// Of x, y, z, w the largest in two bits, the others a sign and nine bits of sqrt(1/2) each.
+/// Two bits say which of x, y, z, w is the largest, the others have a sign and nine bits of
+/// sqrt(1/2) each.
 std::array<float, 4> smallest_three(FileBytes raw, std::size_t at) {
   std::uint32_t word = word_at(raw, at, 4);
   const std::size_t largest = word >> 30;

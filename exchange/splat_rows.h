@@ -98,7 +98,7 @@ class GaussianRows final : public SplatRows {
   const Gaussians& splats_;
 };
 
-/// Of so many harmonics as a degree has.
+/// How many harmonics a degree has.
 inline std::size_t functions_of(int degree) {
   return std::size_t(degree + 1) * std::size_t(degree + 1);
 }

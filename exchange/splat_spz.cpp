@@ -61,7 +61,7 @@ void put_first_three(const std::array<float, 4>& q, Bytes& out) {
   for (std::size_t k = 1; k < 4; ++k) out.push_back(byte_of(127.5f * (sign * q[k] + 1)));
 }
 
-/// Of x, y, z, w the largest by number, the others as a sign and nine bits of sqrt(1/2).
+/// The largest of x, y, z, w by its number, the others as a sign and nine bits of sqrt(1/2).
 void put_smallest_three(const std::array<float, 4>& q, Bytes& out) {
   const std::array<float, 4> xyzw{q[1], q[2], q[3], q[0]};
   std::size_t largest = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quaternion.h"
 #include "base/vec3.h"
 #include "exchange/splat_directions.h"
 #include "lightfield/harmonics.h"
@@ -30,26 +31,6 @@ void solve_symmetric(std::vector<double>& m, std::vector<double>& b, std::size_t
       b[i * n + c] /= m[i * n + i];
     }
   }
-}
-
-/// w, x, y, z of a rotation, from the largest of them.
-std::array<double, 4> quaternion_of(const AxisRows& r) {
-  const double trace = r[0][0] + r[1][1] + r[2][2];
-  std::array<double, 4> q{};
-  if (trace > 0) {
-    const double s = 2 * std::sqrt(1 + trace);
-    return {s / 4, (r[2][1] - r[1][2]) / s, (r[0][2] - r[2][0]) / s, (r[1][0] - r[0][1]) / s};
-  }
-  std::size_t i = 0;
-  if (r[1][1] > r[i][i]) i = 1;
-  if (r[2][2] > r[i][i]) i = 2;
-  const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-  const double s = 2 * std::sqrt(std::max(1 + r[i][i] - r[j][j] - r[k][k], 1e-12));
-  q[0] = (r[k][j] - r[j][k]) / s;
-  q[i + 1] = s / 4;
-  q[j + 1] = (r[j][i] + r[i][j]) / s;
-  q[k + 1] = (r[k][i] + r[i][k]) / s;
-  return q;
 }
 
 std::array<float, 4> product(const std::array<double, 4>& a, const std::array<float, 4>& q) {

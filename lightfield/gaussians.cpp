@@ -119,7 +119,8 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
       const Axes3 axes = eigen_axes(shape_of(value, shape));
       for (std::size_t i = 0; i < 3; ++i)
         out.log_deviations[p][i] = static_cast<float>(axes.value[i]);
-      out.rotations[p] = quaternion_of(axes);
+      const auto turn = quaternion_of(axes.axis);
+      for (std::size_t i = 0; i < 4; ++i) out.rotations[p][i] = static_cast<float>(turn[i]);
       put_harmonics(value, to_rgb, out.degree, &out.harmonics[p * row]);
     }
   });

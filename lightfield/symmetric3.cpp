@@ -69,38 +69,4 @@ Symmetric3 matrix_of(const Axes3& axes) {
   return out;
 }
 
-std::array<float, 4> quaternion_of(const Axes3& axes) {
-  const Matrix3x3& m = axes.axis;
-  const std::array<double, 4> square{1 + m[0][0] + m[1][1] + m[2][2],  // 4 times those of w .. z
-                                     1 + m[0][0] - m[1][1] - m[2][2],
-                                     1 - m[0][0] + m[1][1] - m[2][2],
-                                     1 - m[0][0] - m[1][1] + m[2][2]};
-  std::size_t most = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (square[i] > square[most]) most = i;
-  const double x = m[2][1] - m[1][2], y = m[0][2] - m[2][0], z = m[1][0] - m[0][1];
-  const double xy = m[1][0] + m[0][1], xz = m[0][2] + m[2][0], yz = m[2][1] + m[1][2];
-  const std::array<std::array<double, 4>, 4> times{{{square[0], x, y, z},
-                                                    {x, square[1], xy, xz},
-                                                    {y, xy, square[2], yz},
-                                                    {z, xz, yz, square[3]}}};
-  std::array<double, 4> q = times[most];
-  double length = 0;
-  for (const double v : q) length += v * v;
-  length = std::copysign(std::sqrt(length), q[0]);
-  std::array<float, 4> out;
-  for (std::size_t i = 0; i < 4; ++i) out[i] = static_cast<float>(q[i] / length);
-  return out;
-}
-
-Matrix3x3 rotation_of(const std::array<float, 4>& quaternion) {
-  double square = 0;
-  for (const float v : quaternion) square += double{v} * double{v};
-  const double scale = 2 / square, w = quaternion[0], x = quaternion[1], y = quaternion[2],
-               z = quaternion[3];
-  return {{{1 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)},
-           {scale * (x * y + w * z), 1 - scale * (x * x + z * z), scale * (y * z - w * x)},
-           {scale * (x * z - w * y), scale * (y * z + w * x), 1 - scale * (x * x + y * y)}}};
-}
-
 }  // namespace slf

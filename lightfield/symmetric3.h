@@ -3,9 +3,9 @@
 
 #include <array>
 
-namespace slf {
+#include "base/quaternion.h"
 
-using Matrix3x3 = std::array<std::array<double, 3>, 3>;
+namespace slf {
 
 /// xx, yy, zz, xy, xz, yz
 using Symmetric3 = std::array<double, 6>;
@@ -25,10 +25,5 @@ struct Axes3 {
 Axes3 eigen_axes(const Symmetric3& matrix);
 /// The sum of value times axis times its transpose.
 Symmetric3 matrix_of(const Axes3& axes);
-
-/// Unit quaternion w, x, y, z, w >= 0, of the rotation whose columns are the axes.
-std::array<float, 4> quaternion_of(const Axes3& axes);
-/// @param quaternion  of any length but 0
-Matrix3x3 rotation_of(const std::array<float, 4>& quaternion);
 
 }  // namespace slf

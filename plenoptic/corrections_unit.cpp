@@ -9,7 +9,7 @@
 namespace slf {
 namespace {
 
-/// Of those that the format leaves to applications (spec 7.1).
+/// A type that the format leaves to applications (spec 7.1).
 constexpr UnitType kCorrections = static_cast<UnitType>(64);
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quaternion.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -14,18 +15,13 @@ constexpr double kNearestShare = 0.02;  // of the radius of a scene that is smal
 /// R S S R^T of a unit quaternion and deviations.
 std::array<float, 6> covariance_of(const std::array<float, 4>& q,
                                    const std::array<float, 3>& log_deviations) {
-  const auto [w, x, y, z] = q;
-  std::array<std::array<float, 3>, 3> m{{
-      {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-      {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-      {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)},
-  }};
+  Matrix3x3 m = rotation_of(q);
   for (std::size_t k = 0; k < 3; ++k) {
-    const float deviation = std::exp(log_deviations[k]);
+    const double deviation = std::exp(double{log_deviations[k]});
     for (auto& row : m) row[k] *= deviation;
   }
   const auto product = [&](std::size_t i, std::size_t j) {
-    return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
+    return static_cast<float>(m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]);
   };
   return {product(0, 0), product(0, 1), product(0, 2), product(1, 1), product(1, 2), product(2, 2)};
 }

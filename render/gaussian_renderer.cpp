@@ -1,5 +1,6 @@
 #include "slf/gaussian_renderer.h"
 
+#include "render/empty_rendering.h"
 #include "render/gaussian_cloud.h"
 #include "render/gaussian_tiles.h"
 #include "render/orbit_camera.h"
@@ -9,18 +10,6 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kTilesPerRange = 4;
-
-/// A picture whose pixels are written one tile after the other.
-Rendering rendering_of(const Camera& camera) {
-  const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
-  Rendering out;
-  out.image.width = camera.width;
-  out.image.height = camera.height;
-  out.image.data.resize(3 * pixels);
-  out.coverage.resize(pixels);
-  out.depth.resize(pixels);
-  return out;
-}
 
 }  // namespace
 
@@ -33,7 +22,7 @@ Rendering GaussianRenderer::render(const Camera& camera) const {
   const auto splats =
       project_gaussians(gaussians_, *cloud_, camera, settings_.view_dependent, settings_.threads);
   const GaussianTiles tiles = bin_gaussians(splats, camera.width, camera.height, settings_.threads);
-  Rendering out = rendering_of(camera);
+  Rendering out = empty_rendering(camera);
   parallel_ranges(tiles.size(), kTilesPerRange, settings_.threads,
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t i = begin; i < end; ++i)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lightfield/colour.h"
+#include "render/empty_rendering.h"
 #include "render/render_splats.h"
 #include "render/surfel_cloud.h"
 
@@ -26,18 +27,6 @@ class DisplayCurve {
   static constexpr std::size_t kSteps = 1 << 14;
   std::vector<float> table_;
 };
-
-/// An image without anything yet.
-Rendering empty_rendering(const Camera& camera) {
-  const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
-  Rendering out;
-  out.image.width = camera.width;
-  out.image.height = camera.height;
-  out.image.data.resize(3 * pixels);
-  out.coverage.resize(pixels);
-  out.depth.resize(pixels);
-  return out;
-}
 
 /// Rows over the background, 8 bit.
 void compose(const SplatImage& rows, std::size_t first_pixel, const RenderSettings& settings,

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bitstream/deflate.h"
-#include "exchange/gunzip.h"
+#include "bitstream/deflate.h"
 #include "gaussian_support.h"
 
 namespace slf::gaussian_bad_input_test {

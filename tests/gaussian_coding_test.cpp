@@ -130,7 +130,7 @@ TEST(Spec_6_8_Shape, EigenvectorsAreARotationWhateverTheMatrix) {
                                a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
                                a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
     EXPECT_NEAR(determinant, 1, 1e-12);
-    const Matrix3x3 turned = rotation_of(quaternion_of(axes));
+    const Matrix3x3 turned = rotation_of(quaternion_of(axes.axis));
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(turned[r][c], a[r][c], 1e-6);
     const Symmetric3 coded = from_shape_values(shape_values(m));

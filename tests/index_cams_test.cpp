@@ -43,7 +43,7 @@ std::string cams(const Reading& reading, std::vector<Camera>* cameras = nullptr)
     if (reading.to_world)
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = 0; b < a; ++b) std::swap(r[a][b], r[b][a]);
-    // Of a matrix whose trace may be negative: the largest of the four first.
+    // The trace of the matrix may be negative: the largest of the four comes first.
     std::array<double, 4> q{};
     const double trace = r[0][0] + r[1][1] + r[2][2];
     const std::array<double, 4> size{r[0][0], r[1][1], r[2][2], trace};

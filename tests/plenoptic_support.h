@@ -11,7 +11,7 @@
 
 namespace slf::test {
 
-/// Of `views` cameras around it; smooth colours with noise of `noise` grey levels.
+/// Seen by `views` cameras around it; smooth colours with noise of `noise` grey levels.
 inline PlenopticCloud sphere_of_views(std::size_t views, int noise = 1, bool own_mean = true) {
   PlenopticCloud cloud;
   cloud.grid.bits = 6;

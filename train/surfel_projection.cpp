@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kFilterSquare =
     float(kReferenceKernel.filter_pixels * kReferenceKernel.filter_pixels);
-constexpr float kGaussianFilter = 0.3f * kGaussianReach;  // annex E.6, in squared radii
+constexpr float kGaussianFilter = GaussianKernel::filter * kGaussianReach;  // in squared radii
 constexpr float kNearest = 0.02f;      // of the camera's depth: nearer, a disc is no ellipse
 constexpr float kLeastCosine = 0.15f;  // a flatter plane's depth says nothing
 constexpr float kLeastOpacity = 1.0f / 255;

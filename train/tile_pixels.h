@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "render/gaussian_cloud.h"
 #include "render/lanes.h"
 #include "train/draw_surfels.h"
 
@@ -16,10 +17,11 @@ inline constexpr int kTileBlocks = kTileSide / kBlockColumns;  // in a row
 inline constexpr std::size_t kBlocksOfTile = std::size_t(kTileBlocks * (kTileSide / kBlockRows));
 
 /// Squared deviations at which a Gaussian of opacity 1 is 1/255: there a radius ends.
-inline constexpr float kGaussianReach = 11.0825f;
+inline constexpr float kGaussianReach = 11.0825f;  // 2 ln 255
+static_assert(GaussianKernel::least_alpha == 1.0f / 255);
 
-inline constexpr float kMostAlpha = 0.99f;               // so that what is behind can still be told
-inline constexpr float kLeastTransparency = 1.0f / 512;  // less shows nothing
+inline constexpr float kMostAlpha = GaussianKernel::most_alpha;  // what is behind can be told
+inline constexpr float kLeastTransparency = 1.0f / 512;          // less shows nothing
 
 /// Blocks of a tile that a surfel may touch, inclusive.
 struct BlockBox {

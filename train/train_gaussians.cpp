@@ -11,12 +11,11 @@ namespace slf {
 namespace {
 
 constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
-constexpr float kKernelReach = 3;    // deviations of (1 - r^2)^4 at r = 1, about
 
 }  // namespace
 
-Gaussians gaussians_of(const TrainedSurfels& surfels, bool gaussian) {
-  const float reach = std::log(gaussian ? std::sqrt(kGaussianReach) : kKernelReach);
+Gaussians gaussians_of(const TrainedSurfels& surfels) {
+  const float reach = std::log(kGaussianReach) / 2;
   Gaussians out;
   out.degree = 2;
   for (const TrainedSurfel& surfel : surfels) {
@@ -48,7 +47,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
   TrainedSurfels surfels = first_surfels(start, settings);
   train_surfels(start.views, training, surfels);
-  Gaussians out = gaussians_of(surfels, true);
+  Gaussians out = gaussians_of(surfels);
   out.up = capture.up;
   return out;
 }

@@ -19,8 +19,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
                                               const TrainGeometrySettings& settings,
                                               const Progress& progress = {});
 
-/// @param gaussian  they were trained as Gaussians; else by the reference kernel, which is nearly a
-///                  Gaussian of a third of the radius
-Gaussians gaussians_of(const TrainedSurfels& surfels, bool gaussian);
+/// Surfels that were trained as Gaussians.
+Gaussians gaussians_of(const TrainedSurfels& surfels);
 
 }  // namespace slf
