@@ -9,6 +9,8 @@
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/synth/moving.h"
+#include "tools/synth/moving_scene.h"
 #include "tools/synth/plenoptic.h"
 #include "tools/synth/synth.h"
 #include "tools/text.h"
@@ -22,6 +24,10 @@ struct SynthOptions {
   std::string output, size = "256x256";
   bool list = false;
   int plenoptic = 0;  ///< views; 0: a capture
+  int frames = 0;     ///< 0: 8, of a scene that moves
+  int bits = 0;       ///< of clouds that move
+  double camera_turn = 0;
+  int circles = 0, per_circle = 0;  ///< 0: what the scene has
   CommonOptions common;
 };
 
@@ -30,10 +36,11 @@ void leave_if_interrupted(const std::filesystem::path& directory) {
   if (!interrupt_pending()) return;
   const std::string mark = ".tmp" + std::to_string(getpid()) + "-";  // as write_file names them
   std::error_code ignored;
-  for (const auto& part : {directory, directory / "images"})
-    for (const auto& entry : std::filesystem::directory_iterator(part, ignored))
-      if (entry.path().filename().string().find(mark) != std::string::npos)
-        std::filesystem::remove(entry.path(), ignored);
+  std::vector<std::filesystem::path> parts;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory, ignored))
+    if (entry.path().filename().string().find(mark) != std::string::npos)
+      parts.push_back(entry.path());
+  for (const auto& part : parts) std::filesystem::remove(part, ignored);
   exit_cancelled();
 }
 
@@ -48,6 +55,37 @@ Outcome run_plenoptic(const SynthOptions& given) {
   return from(given.output, synth::synthesise_plenoptic(scene, given.output, line.callback()));
 }
 
+/// What a progress function does besides drawing: it leaves when it was interrupted.
+Progress interruptible(const std::filesystem::path& directory, ProgressLine& line) {
+  return [directory, draw = line.callback()](const char* stage, double fraction) {
+    leave_if_interrupted(directory);
+    if (draw) draw(stage, fraction);
+  };
+}
+
+/// A scene that moves: a directory with an entry for every frame.
+Outcome run_moving(const SynthOptions& given, synth::MovingSettings settings) {
+  const synth::SynthSettings& s = given.settings;
+  if (given.plenoptic > 0 || s.mesh || s.disturb.any() || s.houses != 0 || s.cameras != 0)
+    return Failure{kUsage, "synth: " + s.scene +
+                               " moves: it has no --plenoptic, --mesh, --noise, --hull, "
+                               "--houses, --cameras"};
+  settings.scene = s.scene;
+  if (given.frames != 0) settings.frames = given.frames;
+  settings.threads = given.common.threads;
+  settings.force = s.force;
+  settings.bits = given.bits;
+  settings.points = s.points;
+  settings.circles = given.circles;
+  settings.per_circle = given.per_circle;
+  settings.supersampling = s.supersampling;
+  settings.camera_turn = given.camera_turn;
+  ProgressLine line(given.common.quiet);
+  const DeferInterrupts defer;
+  return from(given.output,
+              synth::synthesise_moving(settings, given.output, interruptible(given.output, line)));
+}
+
 Outcome run_synth(const SynthOptions& given) {
   if (given.list) {
     return print(std::string(
@@ -55,25 +93,40 @@ Outcome run_synth(const SynthOptions& given) {
         "die      specular, slightly transparent die under 3 lights, as the paper's Die\n"
         "vase     glazed solid of revolution\n"
         "terrace  streets of houses, 1 to 10000 (--houses, --cameras, --seed): windows, "
-        "wet stones and metal that mirror sky and street\n"));
+        "wet stones and metal that mirror sky and street\n"
+        "\n"
+        "Scenes that move (--frames): captures\n"
+        "turn     the can turns about two axes under standing lamps, 4 degrees a frame\n"
+        "twist    a tube with three lobes twists and bends\n"
+        "walk     a figure of ten parts walks in a circle\n"
+        "appear   a ball is there from the third frame on, beside a can that turns\n"
+        "and clouds on one grid of --bits, to compare codecs with\n"
+        "still, noise   the can; with up to 0.3 voxel along its normals, anew in every frame\n"
+        "rot1, rot4     the can turns by 1, 4 degrees a frame about two axes\n"
+        "tube2, tube8   the tube's ends turn by 2, 8 degrees a frame against each other\n"));
   }
   if (given.settings.scene.empty())
     return Failure{kUsage, "synth: SCENE is missing (see slf synth --list)"};
   if (given.output.empty()) return Failure{kUsage, "synth: --output is missing"};
-  if (given.plenoptic > 0) return run_plenoptic(given);
   synth::SynthSettings settings = given.settings;
+  synth::MovingSettings moving;
   if (!parse_size(given.size, settings.width, settings.height))
     return Failure{kUsage, "synth: --size " + given.size + " is not WxH"};
+  moving.width = settings.width;
+  moving.height = settings.height;
+  if (synth::make_moving_scene(settings.scene)) return run_moving(given, moving);
+  if (given.frames != 0 || given.bits != 0 || given.camera_turn != 0)
+    return Failure{kUsage, "synth: " + settings.scene +
+                               " does not move: --frames, --bits and --camera-turn are of " +
+                               synth::moving_scene_names()};
+  if (given.plenoptic > 0) return run_plenoptic(given);
+  if (given.circles != 0) settings.circles = given.circles;
+  if (given.per_circle != 0) settings.per_circle = given.per_circle;
   settings.threads = given.common.threads;
-  const std::filesystem::path directory = given.output;
   ProgressLine line(given.common.quiet);
-  const Progress draw = line.callback();
   const DeferInterrupts defer;
   return from(given.output,
-              synth::synthesise(settings, directory, [&](const char* stage, double fraction) {
-                leave_if_interrupted(directory);
-                if (draw) draw(stage, fraction);
-              }));
+              synth::synthesise(settings, given.output, interruptible(given.output, line)));
 }
 
 void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
@@ -94,11 +147,24 @@ void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
       ->capture_default_str();
 }
 
+void add_motions(CLI::App& verb, SynthOptions& o) {
+  verb.add_option("--frames", o.frames,
+                  "Frames of a scene that moves: captures DIR/frame_0001 or clouds "
+                  "DIR/frame_0001.ply and so on (8)")
+      ->check(whole_range(1, 9999));
+  verb.add_option("--bits", o.bits, "Of the grid of clouds that move (8)")
+      ->check(whole_range(5, 12));
+  verb.add_option("--camera-turn", o.camera_turn,
+                  "Degrees that all cameras of a capture that moves go on by in a frame (0: they "
+                  "stand still)")
+      ->check(range(-180, 180));
+}
+
 }  // namespace
 
 void add_synth(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand(
-      "synth", "Write a capture of an analytic scene: can, die, vase, terrace");
+      "synth", "Write a capture of an analytic scene (--list), or of one that moves");
   auto o = std::make_shared<SynthOptions>();
   synth::SynthSettings& s = o->settings;
   verb->add_option("SCENE", s.scene, "Scene (see --list)")->type_name("");
@@ -123,15 +189,15 @@ void add_synth(CLI::App& program, Run& run) {
           "Photographs of the terrace, half of them from the street, half from above; every "
           "eighth is for evaluation (120)")
       ->check(whole_range(2, 10'000));
-  verb->add_option("--circles", s.circles, "Circles of cameras; not of the terrace")
-      ->capture_default_str()
+  verb->add_option("--circles", o->circles,
+                   "Circles of cameras; not of the terrace (11; 3 of scenes that move)")
       ->check(whole_range(1, 99));
-  verb->add_option("--per-circle", s.per_circle, "Cameras on a circle")
-      ->capture_default_str()
+  verb->add_option("--per-circle", o->per_circle, "Cameras on a circle (50; 8 of scenes that move)")
       ->check(whole_range(1, 360));
   verb->add_option("--supersampling", s.supersampling, "Rays per pixel and axis")
       ->capture_default_str()
       ->check(whole_range(1, 8));
+  add_motions(*verb, *o);
   add_disturbances(*verb, s.disturb);
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_option("--plenoptic", o->plenoptic,

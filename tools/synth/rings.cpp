@@ -69,7 +69,27 @@ std::string ring_image(int number) {
   return "images/" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".png";
 }
 
+void add_camera(Rings& rings, int circles, int per_circle, int number, int width, int height,
+                double radius) {
+  const int circle = number / per_circle, index = number % per_circle;
+  const double at = circles > 1 ? kLowest - 2 * kLowest * circle / (circles - 1) : 0;
+  const double azimuth = 2 * std::numbers::pi * index / per_circle;
+  rings.cameras.push_back(ring_camera(at, azimuth, width, height, radius));
+  rings.cameras.back().name = ring_image(number);
+  rings.circle.push_back(circle);
+  rings.index.push_back(index);
+}
+
 }  // namespace
+
+Rings make_even_rings(int circles, int per_circle, int width, int height, double radius) {
+  Rings rings;
+  for (int number = 0; number < circles * per_circle; ++number) {
+    rings.splits[number % 4 == 3 ? "evaluation" : "dense"].push_back(number);
+    add_camera(rings, circles, per_circle, number, width, height, radius);
+  }
+  return rings;
+}
 
 Rings make_rings(int circles, int per_circle, int width, int height, double radius) {
   const auto numbers = split_numbers(circles, per_circle);
@@ -80,13 +100,7 @@ Rings make_rings(int circles, int per_circle, int width, int height, double radi
   Rings rings;
   for (auto& [number, camera] : camera_of) {
     camera = static_cast<int>(rings.cameras.size());
-    const int circle = number / per_circle, index = number % per_circle;
-    const double at = circles > 1 ? kLowest - 2 * kLowest * circle / (circles - 1) : 0;
-    const double azimuth = 2 * std::numbers::pi * index / per_circle;
-    rings.cameras.push_back(ring_camera(at, azimuth, width, height, radius));
-    rings.cameras.back().name = ring_image(number);
-    rings.circle.push_back(circle);
-    rings.index.push_back(index);
+    add_camera(rings, circles, per_circle, number, width, height, radius);
   }
   for (const auto& [split, members] : numbers)
     for (const int number : members) rings.splits[split].push_back(camera_of.at(number));

@@ -21,5 +21,7 @@ struct Rings {
 /// of three circles, sparse 7 each of two. evaluation is what is in none of these, thinned to 100
 /// evenly chosen cameras: the paper's 425 would take three times as long and say the same.
 Rings make_rings(int circles, int per_circle, int width, int height, double radius);
+/// The same circles, all of their cameras: every fourth is "evaluation", the others are "dense".
+Rings make_even_rings(int circles, int per_circle, int width, int height, double radius);
 
 }  // namespace slf::synth
