@@ -1,0 +1,256 @@
+// Frames by their names, and what all captures of a sequence have in common.
+#include "slf/frame_inputs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <tuple>
+
+#include "capture/file_names.h"
+#include "capture/frame_names.h"
+#include "capture/ply_header.h"
+#include "slf/capture.h"
+
+namespace slf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCapturePrefix = "frame_";
+constexpr std::size_t kMostHeaderBytes = std::size_t{1} << 20;  // of a PLY
+
+InputError bad_frame(const fs::path& path, const std::string& cause) {
+  return {Errc::kInvalidInput, path.string() + ": " + cause};
+}
+
+/// An entry whose name is that of a frame.
+struct Candidate {
+  FramePattern pattern;
+  FrameInput frame;
+  FrameKind kind;
+};
+
+std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
+                                      const std::optional<FramePattern>& wanted) {
+  std::error_code ignored;
+  const bool directory = entry.is_directory(ignored);
+  const fs::path& path = entry.path();
+  const std::string name = path.filename().string();
+  auto pattern = wanted;
+  if (!wanted && directory && name.starts_with(kCapturePrefix)) pattern = pattern_of(name, "");
+  if (!wanted && !directory && extension_of(path) == ".ply")
+    pattern = pattern_of(path.stem().string(), path.extension().string());
+  if (!pattern) return std::nullopt;
+  const auto number = pattern->number_of(name);
+  if (!number) return std::nullopt;
+  if (!wanted && directory && pattern->before != kCapturePrefix) return std::nullopt;
+  return Candidate{
+      *pattern, {*number, path}, directory ? FrameKind::kCaptures : FrameKind::kClouds};
+}
+
+/// By number, then by name.
+Result<std::vector<Candidate>, InputError> candidates_in(
+    const fs::path& directory, const std::optional<FramePattern>& wanted) {
+  std::vector<Candidate> found;
+  std::error_code error;
+  fs::directory_iterator entry(directory, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (auto candidate = candidate_of(*entry, wanted)) found.push_back(std::move(*candidate));
+  if (error) return InputError{Errc::kUnreadable, directory.string() + ": " + error.message()};
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.frame.number, a.frame.path) < std::tie(b.frame.number, b.frame.path);
+  });
+  return found;
+}
+
+/// All are of one kind and one name.
+Result<Done, InputError> check_one_sequence(const std::vector<Candidate>& found) {
+  const Candidate& first = found.front();
+  for (const Candidate& c : found) {
+    if (c.kind != first.kind)
+      return bad_frame(c.frame.path,
+                       std::string(c.kind == FrameKind::kClouds ? "a cloud" : "a capture") +
+                           " beside " + first.frame.path.filename().string() +
+                           ": frames are all captures or all clouds");
+    if (c.pattern.before != first.pattern.before || c.pattern.behind != first.pattern.behind)
+      return bad_frame(c.frame.path, "another name than " + first.frame.path.filename().string() +
+                                         "; a pattern as " + first.pattern.before + "%04d" +
+                                         first.pattern.behind + " says which frames are meant");
+  }
+  return Done{};
+}
+
+/// What frames are called, as the first that is padded has it.
+FramePattern common_pattern(const std::vector<Candidate>& found) {
+  for (const Candidate& c : found)
+    if (c.pattern.width > 1) return c.pattern;
+  return found.front().pattern;
+}
+
+/// Numbers go up by one, over all of the range.
+Result<std::vector<FrameInput>, InputError> without_gaps(const std::vector<Candidate>& found,
+                                                         const fs::path& directory,
+                                                         const FrameRange& range) {
+  const FramePattern pattern = common_pattern(found);
+  const auto missing = [&](std::uint32_t number) {
+    return bad_frame(directory / pattern.name_of(number),
+                     "frame " + std::to_string(number) + " is missing");
+  };
+  std::vector<FrameInput> frames;
+  for (const Candidate& c : found) {
+    if (c.frame.number < range.first || c.frame.number > range.last) continue;
+    const std::uint32_t next = frames.empty() ? range.first : frames.back().number + 1;
+    if (c.frame.number < next)
+      return bad_frame(c.frame.path, "frame " + std::to_string(c.frame.number) +
+                                         " is there twice, as " +
+                                         frames.back().path.filename().string() + " too");
+    if (c.frame.number > next) return missing(next);
+    frames.push_back(c.frame);
+  }
+  if (frames.empty()) return missing(range.first);
+  if (frames.back().number != range.last) return missing(frames.back().number + 1);
+  return frames;
+}
+
+Result<Done, InputError> check_cloud(const fs::path& file) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error) return InputError{Errc::kUnreadable, file.string() + ": " + error.message()};
+  if (size == 0) return bad_frame(file, "the frame is empty");
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::uint8_t> head(
+      static_cast<std::size_t>(std::min<std::uint64_t>(size, kMostHeaderBytes)));
+  in.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+  if (!in) return InputError{Errc::kUnreadable, file.string() + ": cannot be read"};
+  SLF_TRY(const auto header, parse_ply_header(file.string(), head, size));
+  for (const PlyElement& element : header.elements)
+    if (element.name == "vertex") return Done{};
+  return bad_frame(file, "a PLY without vertices");
+}
+
+struct NamedSize {
+  std::string name;
+  int width, height;
+};
+
+/// Cameras of a capture by name.
+Result<std::vector<NamedSize>, InputError> cameras_of(const fs::path& directory) {
+  std::error_code ignored;
+  if (fs::is_empty(directory, ignored)) return bad_frame(directory, "the frame is empty");
+  SLF_TRY(const auto capture,
+          load_capture(directory, {.points = {}, .check_images = false, .cloud = false}));
+  std::vector<NamedSize> cameras;
+  for (const Camera& camera : capture.cameras)
+    cameras.push_back({camera.name, camera.width, camera.height});
+  std::sort(cameras.begin(), cameras.end(),
+            [](const NamedSize& a, const NamedSize& b) { return a.name < b.name; });
+  return cameras;
+}
+
+Result<Done, InputError> check_same_cameras(const FrameInput& frame,
+                                            const std::vector<NamedSize>& cameras,
+                                            const FrameInput& first,
+                                            const std::vector<NamedSize>& expected) {
+  const std::string reference = first.path.filename().string();
+  for (std::size_t i = 0; i < std::max(cameras.size(), expected.size()); ++i) {
+    // The first place where the sorted lists part: the lesser name is in one of them alone.
+    const bool ends = i >= cameras.size(), more = i >= expected.size();
+    if (ends || (!more && expected[i].name < cameras[i].name))
+      return bad_frame(frame.path,
+                       "no camera " + expected[i].name + ", which " + reference + " has");
+    if (more || cameras[i].name < expected[i].name)
+      return bad_frame(frame.path,
+                       "camera " + cameras[i].name + ", which " + reference + " has not");
+    const NamedSize &a = cameras[i], &b = expected[i];
+    if (a.width != b.width || a.height != b.height)
+      return bad_frame(frame.path, "camera " + a.name + " is of " + std::to_string(a.width) +
+                                       " x " + std::to_string(a.height) + ", in " + reference +
+                                       " of " + std::to_string(b.width) + " x " +
+                                       std::to_string(b.height));
+  }
+  return Done{};
+}
+
+Result<Done, InputError> check_frames(const FrameInputs& inputs) {
+  std::vector<NamedSize> expected;
+  for (const FrameInput& frame : inputs.frames) {
+    if (inputs.kind == FrameKind::kClouds) {
+      SLF_CHECK(check_cloud(frame.path));
+      continue;
+    }
+    SLF_TRY(auto cameras, cameras_of(frame.path));
+    if (&frame == &inputs.frames.front())
+      expected = std::move(cameras);
+    else
+      SLF_CHECK(check_same_cameras(frame, cameras, inputs.frames.front(), expected));
+  }
+  return Done{};
+}
+
+bool is_capture(const fs::path& directory) {
+  std::error_code ignored;
+  for (const char* mark : {"cameras.json", "transforms.json", "transforms_train.json", "index.cams",
+                           "cameras.bin", "cameras.txt", "sparse", "colmap"})
+    if (fs::exists(directory / mark, ignored)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool holds_frames(const fs::path& input) {
+  std::error_code ignored;
+  if (parse_pattern(input.filename().string())) return !fs::exists(input, ignored);
+  if (!fs::is_directory(input, ignored) || is_capture(input)) return false;
+  const auto found = candidates_in(input, std::nullopt);
+  return found && !found->empty();
+}
+
+Result<FrameInputs, InputError> list_frames(const fs::path& input,
+                                            std::optional<FrameRange> range) {
+  if (range && (range->first > range->last || range->last > kMostFrameNumber))
+    return InputError{Errc::kInvalidArgument, "frames " + std::to_string(range->first) + ":" +
+                                                  std::to_string(range->last) +
+                                                  ": not a range of 0 .. 999999999"};
+  std::error_code ignored;
+  std::optional<FramePattern> pattern;
+  fs::path directory = input;
+  if (!fs::is_directory(input, ignored)) {
+    pattern = parse_pattern(input.filename().string());
+    if (!pattern)
+      return InputError{Errc::kInvalidArgument,
+                        input.string() + ": neither a directory nor a pattern as frame_%04d.ply"};
+    directory = input.has_parent_path() ? input.parent_path() : fs::path(".");
+  }
+  SLF_TRY(const auto found, candidates_in(directory, pattern));
+  if (found.empty())
+    return bad_frame(input, pattern ? "no file has such a name"
+                                    : "no frames: neither frame_0001 and so on, nor clouds whose "
+                                      "names end in numbers");
+  SLF_CHECK(check_one_sequence(found));
+  const FrameRange all{found.front().frame.number, found.back().frame.number};
+  FrameInputs inputs{found.front().kind, {}};
+  SLF_TRY(inputs.frames, without_gaps(found, directory, range.value_or(all)));
+  SLF_CHECK(check_frames(inputs));
+  return inputs;
+}
+
+Result<FrameRange, InputError> parse_frame_range(const std::string& text) {
+  FrameRange range;
+  const char *at = text.data(), *end = text.data() + text.size();
+  auto parsed = std::from_chars(at, end, range.first);
+  bool sound = parsed.ec == std::errc() && parsed.ptr != at;
+  range.last = range.first;
+  if (sound && parsed.ptr != end) {
+    at = parsed.ptr + 1;
+    sound = *parsed.ptr == ':';
+    parsed = std::from_chars(at, end, range.last);
+    sound = sound && parsed.ec == std::errc() && parsed.ptr == end;
+  }
+  if (!sound || range.first > range.last || range.last > kMostFrameNumber)
+    return InputError{Errc::kInvalidArgument,
+                      "frames " + text + ": not A:B with 0 <= A <= B <= 999999999"};
+  return range;
+}
+
+}  // namespace slf
