@@ -79,5 +79,16 @@ TEST_F(CliNames, MasksThatLeaveNothingGiveNoFigureAndAWarning) {
   EXPECT_EQ(eval.out.find("nan"), std::string::npos) << eval.out;
 }
 
+TEST_F(CliNames, OptionsOfScenesThatMoveAndOfThoseThatDoNotAreToldApart) {
+  expect_failure(slf("synth can --frames 3 -o m"), 2, "can does not move", "rot1");
+  expect_failure(slf("synth turn --mesh -o m"), 2, "turn moves", "--mesh");
+  expect_failure(slf("synth rot1 --frames 0 -o m"), 2, "--frames", "1 to 9999");
+  expect_failure(slf("synth rot1 --points 500 -o m"), 2, "rot1", "--points");
+  EXPECT_FALSE(std::filesystem::exists(path("m")));
+  ASSERT_EQ(slf("synth rot1 --frames 2 --bits 5 -o m --quiet").code, 0);
+  for (const char* file : {"m/frame_0001.ply", "m/frame_0002.ply"})
+    EXPECT_NE(read(file).find("element vertex"), std::string::npos) << file;
+}
+
 }  // namespace
 }  // namespace slf::cli_names_test

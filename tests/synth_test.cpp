@@ -110,7 +110,9 @@ TEST_F(SynthTest, SettingsOutOfRangeAreNamed) {
     return result.error().message;
   };
   SynthSettings settings = small("bunny");
-  EXPECT_EQ(message(settings), "scene bunny is none of can, die, vase, terrace");
+  EXPECT_EQ(message(settings),
+            "scene bunny is none of can, die, vase, terrace, nor of those that move (slf synth "
+            "--list)");
   settings = small("can");
   settings.width = 4097;
   EXPECT_EQ(message(settings), "width 4097 is outside 8 .. 4096");

@@ -16,7 +16,7 @@ constexpr int kFirstFrame = 1;
 constexpr const char* kMovingMark = "\"renderer\": \"slf synth --frames\"";
 constexpr int kDefaultBits = 8, kDefaultPoints = 40'000, kDefaultCircles = 3, kDefaultPerCircle = 8;
 // Samples are so far apart, in voxels: hardly any voxel that the surface runs through has none.
-constexpr double kSampleSpacing = 0.38;
+constexpr double kSampleSpacing = 0.32;
 
 InputError not_allowed(const std::string& message) { return {Errc::kInvalidArgument, message}; }
 

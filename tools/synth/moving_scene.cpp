@@ -22,7 +22,7 @@ MovingPart can_part(std::function<Vec3(const Vec3&, double)> place) {
   const std::shared_ptr<Scene> can = make_can();
   const Scene::Bounds box = can->bounds();
   const double r = box.high[0];
-  MovingPart part{split_long(can->mesh(), 0.03),
+  MovingPart part{split_long(can->mesh(), 0.08),
                   [can](const SurfacePoint& p) { return can->albedo(p); }, kGloss,
                   std::move(place)};
   part.solid = Capsule{{0, 0, box.low[2] + r}, {0, 0, box.high[2] - r}, r};
@@ -61,7 +61,7 @@ Canvas paint_tube() {
                                       : 0x14233f));
   }
   for (int i = 0; i < 4; ++i)
-    canvas.text("MOVING LIGHT", kWide / 2, 0.22 + 0.37 * i, 0.1, 0.02, from_hex(0x14233f));
+    canvas.text("BENDING TUBE", kWide / 2, 0.22 + 0.37 * i, 0.1, 0.02, from_hex(0x14233f));
   return canvas;
 }
 

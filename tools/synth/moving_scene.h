@@ -25,6 +25,7 @@ std::optional<MovingScene> make_moving_scene(const std::string& name);
 std::string moving_scene_names();
 
 /// What moving_scene.cpp puts together.
+/// @param degrees_a_frame  about the first axis; 3/4 of it about the second
 MovingScene turning_can(double degrees_a_frame);
 /// @param speed  1: the ends turn against each other by 2 degrees a frame
 MovingScene twisting_tube(double speed);

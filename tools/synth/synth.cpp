@@ -97,8 +97,9 @@ Result<Done, InputError> synthesise(const SynthSettings& settings, const fs::pat
   if (settings.scene == kTerrace) return synthesise_terrace(settings, directory, progress);
   const auto scene = make_scene(settings.scene);
   if (!scene)
-    return InputError{Errc::kInvalidArgument,
-                      "scene " + settings.scene + " is none of " + scene_names()};
+    return InputError{Errc::kInvalidArgument, "scene " + settings.scene + " is none of " +
+                                                  scene_names() +
+                                                  ", nor of those that move (slf synth --list)"};
   const Rings rings = make_rings(settings.circles, settings.per_circle, settings.width,
                                  settings.height, scene->bounds().radius);
   SLF_TRY([[maybe_unused]] const Done prepared,
