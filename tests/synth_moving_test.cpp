@@ -10,7 +10,8 @@
 #include "tools/synth/moving.h"
 #include "tools/synth/moving_cloud.h"
 #include "tools/synth/moving_frame.h"
-#include "tools/synth/rings.h"
+#include "tools/synth/noise.h"
+#include "tools/synth/triangle_tree.h"
 
 namespace slf::synth::synth_moving_test {
 namespace {
@@ -233,6 +234,41 @@ TEST_F(MovingTest, SettingsOutOfRangeAreNamed) {
   s.camera_turn = std::nan("");
   EXPECT_EQ(message(s), "camera turn: -180 to 180 degrees");
   EXPECT_FALSE(fs::exists(root_ / "none"));
+}
+
+TEST(TriangleTreeTest, TheNearestIsThatOfAllTrianglesOneByOne) {
+  std::uint32_t drawn = 0;
+  const auto vector = [&drawn] {
+    Vec3 v;
+    for (double& x : v) x = 2 * unit(5, drawn++) - 1;
+    return v;
+  };
+  std::vector<TriangleTree::Corners> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 at = vector();
+    triangles.push_back({at, at + 0.3 * vector(), at + 0.3 * vector()});
+  }
+  const TriangleTree tree(triangles);
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 from = 3 * vector();
+    const Ray ray{from, normalised(vector() - from)};
+    std::optional<std::uint32_t> expected;
+    double nearest = 1e9;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      const auto one = TriangleTree({triangles[t]}).nearest(ray);
+      if (!one || one->t >= nearest) continue;
+      nearest = one->t;
+      expected = t;
+    }
+    const auto hit = tree.nearest(ray);
+    ASSERT_EQ(hit.has_value(), expected.has_value()) << i;
+    if (!hit) continue;
+    EXPECT_EQ(hit->triangle, *expected);
+    EXPECT_EQ(hit->t, nearest);
+    ++hits;
+  }
+  EXPECT_GT(hits, 50);
 }
 
 }  // namespace

@@ -83,22 +83,27 @@ std::optional<TriangleHit> TriangleTree::nearest(const Ray& ray) const {
   if (nodes_.empty()) return hit;
   const Vec3 inverse{1 / ray.direction[0], 1 / ray.direction[1], 1 / ray.direction[2]};
   double end = kNowhere;
-  std::array<std::uint32_t, 64> stack;  // halves of 2^32 triangles, and room
+  struct Entry {
+    std::uint32_t node;
+    double enter;
+  };
+  const auto entry = [&](std::uint32_t at) {
+    return Entry{at, enters(nodes_[at].low, nodes_[at].high, ray, inverse, end)};
+  };
+  std::array<Entry, 64> stack;  // halves of 2^32 triangles, and room
   std::size_t depth = 0;
-  stack[depth++] = 0;
+  stack[depth++] = entry(0);
   while (depth > 0) {
-    const std::uint32_t at = stack[--depth];
+    const auto [at, enter] = stack[--depth];
+    if (enter >= end) continue;  // nowhere is never before
     const Node& node = nodes_[at];
-    if (enters(node.low, node.high, ray, inverse, end) == kNowhere) continue;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
       test(order_[i], ray, end, hit);
     if (node.count > 0) continue;
-    const auto distance = [&](std::uint32_t child) {
-      return enters(nodes_[child].low, nodes_[child].high, ray, inverse, end);
-    };
-    const bool swapped = distance(node.first) < distance(at + 1);
-    stack[depth++] = swapped ? at + 1 : node.first;
-    stack[depth++] = swapped ? node.first : at + 1;
+    Entry near = entry(at + 1), far = entry(node.first);
+    if (far.enter < near.enter) std::swap(near, far);
+    if (far.enter < end) stack[depth++] = far;
+    if (near.enter < end) stack[depth++] = near;
   }
   return hit;
 }
