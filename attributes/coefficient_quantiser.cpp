@@ -10,6 +10,7 @@
 #include "attributes/predicted_node.h"
 #include "attributes/quantiser_step.h"
 #include "attributes/raht_arithmetic.h"
+#include "attributes/raht_inverse.h"
 #include "attributes/rate_model.h"
 #include "attributes/row_quantiser.h"
 #include "base/multiversion.h"
@@ -40,10 +41,11 @@ class LevelQuantiser {
                 input.base != nullptr ? input.base->level : 0, input.weights) {
     for (const auto& functions : input.groups)
       rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
+    if (input.reference != nullptr) levels_.predict_from(input.reference->moved);
     if (input.base != nullptr) {
       adopt(*input.base);
     } else {
-      code_whole_row(0);
+      code_root();
     }
   }
 
@@ -57,12 +59,13 @@ class LevelQuantiser {
   /// Chosen modes of the groups on the next level, which is coded with them.
   std::vector<std::uint8_t> next_level() {
     level_ = &levels_.next();
+    ++level_number_;
     merges_ = std::span(input_.tree.merges)
                   .subspan(level_->nodes.size() - 1,
                            level_->child_rows.size() - 1 - level_->nodes.size());
     if (input_.predict) means_.resize(level_->num_slots * planes_);
     const std::vector<std::uint8_t> modes =
-        input_.predict && level_->nodes.size() > 1
+        input_.predict && (level_->nodes.size() > 1 || input_.reference != nullptr)
             ? choose_modes()
             : std::vector<std::uint8_t>(input_.groups.size(), 0);
     std::vector<std::uint8_t> of_plane(planes_);
@@ -108,6 +111,28 @@ class LevelQuantiser {
     }
   }
 
+  void code_root() {
+    std::vector<std::int32_t> predicted(planes_);
+    for (std::size_t j = 0; input_.reference != nullptr && j < planes_; ++j)
+      predicted[j] = predicted_root(input_.reference->means[0][j],
+                                    static_cast<std::uint32_t>(levels_.points()));
+    for (std::size_t j = 0; j < planes_; ++j) coefficients_[j] -= predicted[j];
+    code_whole_row(0);
+    for (std::size_t j = 0; j < planes_; ++j)
+      values_[j] = std::clamp(values_[j] + predicted[j], -kPredictedLimit, kPredictedLimit);
+  }
+
+  /// Means of the children in the reference, of planes from `begin` on.
+  ConstLanes reference_lanes(std::size_t begin) const {
+    if (input_.reference == nullptr) return {nullptr, 0};
+    return {input_.reference->means[static_cast<std::size_t>(level_number_)].data() + begin,
+            planes_};
+  }
+
+  std::size_t num_modes() const {
+    return input_.reference != nullptr ? kModesWithReference : kPredictionModes;
+  }
+
   /// Coefficients of all planes of a row to quantised ones, and what a decoder makes of them.
   void code_whole_row(std::uint32_t row) {
     std::int32_t* coefficients = coefficients_.data() + row * planes_;
@@ -139,8 +164,8 @@ class LevelQuantiser {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[nodes[i]] * planes_),
                   planes_, parents.begin() + static_cast<std::ptrdiff_t>(i * planes_));
-    std::array<std::vector<ModeTrial>, kPredictionModes> tried;
-    for (std::uint8_t mode = 0; mode < kPredictionModes; ++mode) {
+    std::array<std::vector<ModeTrial>, kModesWithReference> tried;
+    for (std::uint8_t mode = 0; mode < num_modes(); ++mode) {
       tried[mode].resize(planes_);
       const std::vector<std::uint8_t> same(planes_, mode);
       parallel_ranges(planes_, kPredictionLanes, threads_, [&](std::size_t begin, std::size_t end) {
@@ -154,14 +179,15 @@ class LevelQuantiser {
     }
     std::vector<std::uint8_t> modes;
     for (const auto& functions : input_.groups) {
-      std::array<std::uint64_t, kPredictionModes> cost{};
-      for (std::size_t mode = 0; mode < kPredictionModes; ++mode)
+      std::array<std::uint64_t, kModesWithReference> cost{};
+      for (std::size_t mode = 0; mode < num_modes(); ++mode)
         for (const std::size_t j : planes_of(functions)) cost[mode] += tried[mode][j].cost_q8();
       // A mode takes a decoder's time: it has to save a 256th of a bit a node, and of all.
       const std::uint64_t least = nodes.size() * planes_of(functions).size();
       cost[0] -= std::min(cost[0], std::max(cost[0] / 256, least));
       modes.push_back(
-          static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin()));
+          static_cast<std::uint8_t>(
+              std::min_element(cost.begin(), cost.begin() + static_cast<std::ptrdiff_t>(num_modes())) - cost.begin()));
     }
     return modes;
   }
@@ -189,7 +215,7 @@ class LevelQuantiser {
         prefetch_row(coefficients_.data() + merges_[i].right * planes_ + begin, lanes);
         prefetch_row(values.row(merges_[i].right), lanes);
       }
-      node.predict(*level_, n, own, values, means);
+      node.predict(*level_, n, own, values, means, reference_lanes(begin));
       for (const Merge& m : own) code_row(m.right, begin, lanes, node.coefficients(m.right), tried);
       for (const Merge& m : own) inverse_rows(m, values.row(m.left), values.row(m.right), lanes);
       node.correct(values);
@@ -227,6 +253,7 @@ class LevelQuantiser {
   int threads_;
   TransformLevels levels_;
   const TransformLevel* level_ = nullptr;
+  int level_number_ = 0;   // of its children: 1 .. depth
   std::size_t apart_ = 1;  // every apart_-th run of nodes is tried
   std::span<const Merge> merges_;
   std::vector<RowQuantiser> rows_;

@@ -41,6 +41,7 @@ struct QuantiserInput {
   int dropped = 0;  ///< levels below the rows: of a base those of its slices
   CodeWeights weights{};
   const QuantisedBase* base = nullptr;  ///< nullptr: the tree is coded from the root
+  const ReferenceMeans* reference = nullptr;  ///< of a frame that is predicted, without a base
 };
 
 /// @param coefficients  [rows][planes] of raht_forward; replaced by quantised values, in the rows

@@ -15,7 +15,7 @@ constexpr std::int32_t kMeanLimit = (1 << 17) - 1;
 inline void accumulate(std::int32_t* __restrict sum, const std::int32_t* __restrict source,
                        const NodePrediction::Term& term, std::size_t lanes) {
   const std::int32_t weight = term.weight;
-  if (term.root_q30 == 0) {
+  if (term.root_q30 <= 0) {  // a mean
     for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * source[j];
   } else if (term.root_q30 == 1 << 30) {
     for (std::size_t j = 0; j < lanes; ++j) sum[j] += weight * limited(source[j], kMeanLimit);
@@ -92,6 +92,12 @@ inline void add_row(std::int32_t* __restrict value, const std::int32_t* __restri
 }  // namespace
 
 SLF_MULTIVERSION_LANES
+void node_means(const std::int32_t* values, std::uint32_t weight, std::int32_t* means,
+                std::size_t lanes) {
+  mean_row(values, roots_of(small_roots(), weight).reciprocal_q30, means, lanes);
+}
+
+SLF_MULTIVERSION_LANES
 void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
                  Lanes means, std::size_t lanes) {
   const SmallRoots& roots = small_roots();
@@ -107,16 +113,18 @@ void level_means(const TransformLevel& level, std::size_t begin, std::size_t end
 
 namespace {
 
-inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
-                          Corrections& out) {
+inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means, ConstLanes reference,
+                          std::size_t lanes, Corrections& out) {
   for (std::size_t i = 0; i < plan.children; ++i) {
     const NodePrediction::Child& child = plan.child[i];
     std::int32_t* sum = out[i].data();
     subtract_own(sum, means.row(plan.slot), child.others, lanes);
     for (std::size_t t = 0; t < child.terms; ++t) {
       const NodePrediction::Term& term = child.term[t];
-      const Lanes& from = term.root_q30 == 0 ? means : values;
-      accumulate(sum, from.row(term.index), term, lanes);
+      const std::int32_t* from = term.root_q30 == NodePrediction::Term::kSlot ? means.row(term.index)
+                                 : term.root_q30 > 0 ? values.row(term.index)
+                                                     : reference.row(term.index);
+      accumulate(sum, from, term, lanes);
     }
     for (std::size_t j = 0; j < lanes; ++j) sum[j] >>= 6;
   }
@@ -126,11 +134,13 @@ inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means,
 }  // namespace
 
 SLF_MULTIVERSION_LANES
-void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
-                      Corrections& out) {
-  if (lanes == kPredictionLanes) return predict_lanes(plan, values, means, kPredictionLanes, out);
-  if (lanes == 3) return predict_lanes(plan, values, means, 3, out);  // one function: the means
-  predict_lanes(plan, values, means, lanes, out);
+void predict_children(const NodePrediction& plan, Lanes values, Lanes means, ConstLanes reference,
+                      std::size_t lanes, Corrections& out) {
+  if (lanes == kPredictionLanes)
+    return predict_lanes(plan, values, means, reference, kPredictionLanes, out);
+  if (lanes == 3)  // one function: the means
+    return predict_lanes(plan, values, means, reference, 3, out);
+  predict_lanes(plan, values, means, reference, lanes, out);
 }
 
 SLF_MULTIVERSION_LANES

@@ -26,6 +26,17 @@ struct Lanes {
   std::int32_t* row(std::size_t r) const { return first + r * stride; }
 };
 
+/// The same of rows that are read alone.
+struct ConstLanes {
+  const std::int32_t* first;
+  std::size_t stride;
+  const std::int32_t* row(std::size_t r) const { return first + r * stride; }
+};
+
+/// Means of a node of `weight` points, of the values in its row.
+void node_means(const std::int32_t* values, std::uint32_t weight, std::int32_t* means,
+                std::size_t lanes);
+
 /// Means of level.means[begin .. end) into means [slot][lanes]. To be called for a node before its
 /// children are predicted, and with them all.
 void level_means(const TransformLevel& level, std::size_t begin, std::size_t end, Lanes values,
@@ -34,8 +45,9 @@ void level_means(const TransformLevel& level, std::size_t begin, std::size_t end
 /// What to add to each child, [child][kPredictionLanes], without the mean of all; lanes at most
 /// kPredictionLanes.
 using Corrections = std::array<std::array<std::int32_t, kPredictionLanes>, 8>;
-void predict_children(const NodePrediction& plan, Lanes values, Lanes means, std::size_t lanes,
-                      Corrections& out);
+/// reference: means of the nodes that the plan's terms name, where it has such
+void predict_children(const NodePrediction& plan, Lanes values, Lanes means, ConstLanes reference,
+                      std::size_t lanes, Corrections& out);
 
 /// Adds them to the children's values.
 void add_corrections(const NodePrediction& plan, const Corrections& corrections, Lanes values,

@@ -31,12 +31,34 @@ SLF_IN_LINE std::uint32_t closeness(const NodePlace& a, const NodePlace& b, bool
   return wide ? (1u << 24) / square : (1u << 30) / (square * square);
 }
 
+/// The child's terms give half of their weights to the reference, or all that it has.
+void add_reference(const TransformLevel& level, std::size_t index, bool half,
+                   NodePrediction::Child& child) {
+  const auto terms = level.reference.of(index);
+  if (terms.empty()) return;
+  if (half) {
+    child.others = 0;
+    for (std::uint32_t t = 0; t < child.terms; ++t)
+      child.others += child.term[t].weight /= 2;
+  } else {
+    child.terms = 0;
+    child.others = 0;
+  }
+  for (const ReferenceTerm& term : terms) {
+    const std::int32_t weight = half ? term.weight / 2 : term.weight;
+    child.term[child.terms++] = {term.node, weight, NodePrediction::Term::kReference};
+    child.others += weight;
+  }
+}
+
 }  // namespace
 
 // Pointers and sums are kept in variables: what is stored in the plan might be a part of them else.
 SLF_MULTIVERSION_ALL
-void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
+void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
                NodePrediction& plan) {
+  const bool from_reference = given >= kFromReference;
+  const std::uint32_t mode = given == kFromReference ? std::uint32_t{kSharp} : given & 3;
   const OctreeLevel& nodes = level.nodes;
   const std::uint8_t* const occupancy = nodes.occupancy.data();
   const std::uint32_t* const first_child = nodes.first_child.data();
@@ -89,6 +111,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
       others += term->weight;
     }
     child->others = others;
+    if (from_reference) add_reference(level, index, given != kFromReference, *child);
   }
   plan.slot = slot[n];
   plan.children = static_cast<std::uint32_t>(child - plan.child.data());

@@ -27,12 +27,12 @@ PredictedNode::PredictedNode(std::span<const std::uint8_t> modes)
 }
 
 void PredictedNode::predict(const TransformLevel& level, std::size_t n, std::span<const Merge> own,
-                            Lanes values, Lanes means) {
+                            Lanes values, Lanes means, ConstLanes reference) {
   if (!is_predicted()) return;
   for (const std::uint8_t mode : used_)
     if (mode != kUnpredicted) plan_node(level, n, mode, plans_[mode]);
   for (std::size_t block = 0; block < corrections_.size(); ++block)
-    predict_block(block, values, means);
+    predict_block(block, values, means, reference);
   const std::size_t lanes = modes_.size();
   for (std::size_t i = 0; i < plan_->children; ++i)
     for (std::size_t j = 0; j < lanes; ++j)
@@ -42,7 +42,8 @@ void PredictedNode::predict(const TransformLevel& level, std::size_t n, std::spa
                  &transformed_[child_of(own[m].right) * lanes], lanes);
 }
 
-void PredictedNode::predict_block(std::size_t block, Lanes values, Lanes means) {
+void PredictedNode::predict_block(std::size_t block, Lanes values, Lanes means,
+                                  ConstLanes reference) {
   for (auto& child : corrections_[block]) child.fill(0);
   const std::size_t begin = block * kPredictionLanes,
                     end = std::min(modes_.size(), begin + kPredictionLanes);
@@ -52,7 +53,8 @@ void PredictedNode::predict_block(std::size_t block, Lanes values, Lanes means) 
     if (modes_[first] == kUnpredicted) continue;
     Corrections some;
     predict_children(plans_[modes_[first]], {values.first + first, values.stride},
-                     {means.first + first, means.stride}, j - first, some);
+                     {means.first + first, means.stride},
+                     {reference.first + first, reference.stride}, j - first, some);
     for (std::size_t i = 0; i < plan_->children; ++i)
       std::copy_n(some[i].begin(), j - first,
                   corrections_[block][i].begin() + static_cast<std::ptrdiff_t>(first - begin));

@@ -25,7 +25,7 @@ class PredictedNode {
 
   /// own: the merges of the node. values, means: rows of the planes, as for predict_children.
   void predict(const TransformLevel& level, std::size_t n, std::span<const Merge> own, Lanes values,
-               Lanes means);
+               Lanes means, ConstLanes reference);
 
   /// What is predicted of the coefficients of a merge, by its right row; nullptr: nothing is.
   const std::int32_t* coefficients(std::uint32_t right) const;
@@ -35,11 +35,11 @@ class PredictedNode {
 
  private:
   std::size_t child_of(std::uint32_t row) const;
-  void predict_block(std::size_t block, Lanes values, Lanes means);
+  void predict_block(std::size_t block, Lanes values, Lanes means, ConstLanes reference);
 
   std::span<const std::uint8_t> modes_;
   std::vector<std::uint8_t> used_;  // of the modes, ascending
-  std::array<NodePrediction, kPredictionModes> plans_;
+  std::array<NodePrediction, kModesWithReference> plans_;
   const NodePrediction* plan_;             // any has the children
   std::vector<Corrections> corrections_;   // [blocks of kPredictionLanes]
   std::vector<std::int32_t> transformed_;  // [child][planes]

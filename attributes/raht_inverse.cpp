@@ -134,7 +134,7 @@ struct Run {
 
 /// Spec 8.7.6: a node, its own merges.
 std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<const Merge> own,
-                          const Run& run, const Range& range, Lanes means) {
+                          const Run& run, const Range& range, Lanes means, ConstLanes reference) {
   if (run.mode == 0) return inverse_lanes(own, range, run.begin, run.end - run.begin);
   std::int32_t bad = 0;
   NodePrediction plan;
@@ -143,7 +143,8 @@ std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<
   for (std::size_t j = run.begin; j < run.end; j += kBlock) {
     const std::size_t lanes = std::min(kBlock, run.end - j);
     const Lanes values{range.values.first + j, range.values.stride};
-    predict_children(plan, values, {means.first + j, means.stride}, lanes, corrections);
+    predict_children(plan, values, {means.first + j, means.stride},
+                     {reference.first + j, reference.stride}, lanes, corrections);
     bad |= inverse_lanes(own, range, j, lanes);
     add_corrections(plan, corrections, values, lanes);
   }
@@ -155,7 +156,8 @@ constexpr std::size_t kMergesAhead = 8;
 
 /// Spec 8.7.6. merges: of the level. Node by node, not run by run: a level does not fit the cache.
 std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
-                           std::span<const Run> runs, const Range& range, Lanes means) {
+                           std::span<const Run> runs, const Range& range, Lanes means,
+                           ConstLanes reference) {
   if (runs.size() == 1 && runs[0].mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
   std::int32_t bad = 0;
   std::size_t means_begin = 0;
@@ -172,7 +174,8 @@ std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> m
         level_means(level, means_begin, level.means_end[n],
                     {range.values.first + run.begin, range.values.stride},
                     {means.first + run.begin, means.stride}, run.end - run.begin);
-      bad |= inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means);
+      bad |= inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means,
+                          reference);
     }
     means_begin = level.means_end[n];
     merge += children - 1;
@@ -219,7 +222,21 @@ std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t 
   return clipped;
 }
 
+/// Means of the nodes that begin at these rows, of planes begin .. end - 1.
+void keep_means(std::span<const std::int32_t> values, std::span<const std::uint32_t> rows,
+                std::span<const NodePlace> places, std::size_t planes, std::size_t begin,
+                std::size_t end, std::vector<std::int32_t>& means) {
+  for (std::size_t n = 0; n < places.size(); ++n)
+    node_means(&values[rows[n] * planes + begin], places[n].weight, &means[n * planes + begin],
+               end - begin);
+}
+
 }  // namespace
+
+std::int32_t predicted_root(std::int32_t mean, std::uint32_t weight) {
+  return static_cast<std::int32_t>(
+      rounded<19>(std::int64_t{mean} * roots_of(small_roots(), weight).root_q19));
+}
 
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
                           std::span<std::int32_t> values, int threads,
@@ -242,10 +259,18 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     std::span<const std::uint32_t> steps,
                                     std::span<std::int32_t> values, int threads,
                                     std::span<const std::uint8_t> nonzero, std::size_t used,
-                                    std::size_t cells) {
+                                    std::size_t cells, const ReferenceMeans* reference,
+                                    LevelMeans* kept) {
   const Steps table(steps);
   used = std::min(used, steps.size());
   bool good = cells > 0 || dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
+  const auto weight = static_cast<std::uint32_t>(levels.points());
+  if (reference != nullptr) {
+    levels.predict_from(reference->moved);
+    for (std::size_t j = 0; j < used; ++j)
+      values[j] = std::clamp(values[j] + predicted_root(reference->means[0][j], weight),
+                             -kPredictedLimit, kPredictedLimit);
+  }
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
   std::size_t capacity = 0;
   for (int l = 0; l < levels.count(); ++l) {
@@ -254,6 +279,10 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
         std::span(tree.merges)
             .subspan(level.nodes.size() - 1, level.child_rows.size() - 1 - level.nodes.size());
     const std::vector<Run> runs = runs_of_level(planes, static_cast<std::size_t>(l));
+    if (kept != nullptr && l == 0)
+      keep_means(values, level.rows, level.places, steps.size(), 0, used, (*kept)[0]);
+    const std::int32_t* there =
+        reference == nullptr ? nullptr : reference->means[static_cast<std::size_t>(l) + 1].data();
     std::size_t width = 0;  // planes up to the last predicted one
     for (const Run& run : runs)
       if (run.mode != 0) width = run.end;
@@ -264,9 +293,16 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
       advise_huge_pages(means.get(), capacity * sizeof(std::int32_t));
     }
     good &= over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
-      return inverse_level(level, merges, clip(runs, begin, end),
+      const std::int32_t bad = inverse_level(level, merges, clip(runs, begin, end),
                            Range(values, table, begin, end, nonzero),
-                           {means ? means.get() + std::min(begin, width) : nullptr, width});
+                           {means ? means.get() + std::min(begin, width) : nullptr, width},
+                           there == nullptr
+                               ? ConstLanes{nullptr, 0}
+                               : ConstLanes{there + begin, steps.size()});
+      if (kept != nullptr)
+        keep_means(values, level.child_rows, level.child_places, steps.size(), begin, end,
+                   (*kept)[static_cast<std::size_t>(l) + 1]);
+      return bad;
     });
   }
   if (!good) return too_large();

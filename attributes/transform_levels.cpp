@@ -57,6 +57,8 @@ const TransformLevel& TransformLevels::next() {
           nodes.occupancy[n] | 1u << (codes_[current_.child_rows[child]] >> below & 7));
   }
   mark_means();
+  if (reference_ != nullptr)
+    current_.reference = find_reference_terms(*reference_, cells_of_children(), level_ + 1);
   return current_;
 }
 
@@ -103,6 +105,14 @@ std::vector<std::uint32_t> TransformLevels::rows_of(int level) const {
   rows[count++] = static_cast<std::uint32_t>(begins_.size());
   rows.resize(count);
   return rows;
+}
+
+/// Codes of the nodes of the level below.
+std::vector<std::uint64_t> TransformLevels::cells_of_children() const {
+  const int below = 3 * (depth_ - dropped_ - level_ - 1);
+  std::vector<std::uint64_t> cells(current_.child_rows.size() - 1);
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = codes_[current_.child_rows[n]] >> below;
+  return cells;
 }
 
 /// Codes of the nodes of level `start`.

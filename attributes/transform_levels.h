@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "attributes/code_weights.h"
+#include "attributes/reference_means.h"
 #include "geometry/octree_levels.h"
 
 namespace slf {
@@ -28,6 +29,7 @@ struct TransformLevel {
   std::vector<std::uint32_t> means_end;  ///< [nodes] of `means`, those that nodes 0 .. n need
   /// [nodes] where its mean is kept until the last node that needs it; undefined for others.
   std::vector<std::uint32_t> slot;
+  ReferenceTerms reference;     ///< of the children, in a frame that is predicted; else empty
   std::uint32_t num_slots = 0;  ///< far fewer than means: what is needed at a time fits a cache
 
   /// A node of one child has no merge, and nothing of it is predicted.
@@ -48,8 +50,11 @@ class TransformLevels {
                   const CodeWeights& weights = {});
 
   /// Levels from `start` on.
+  /// Before the first level of a frame that is predicted; kept by pointer.
+  void predict_from(const MovedReference& reference) { reference_ = &reference; }
   int count() const { return depth_ - dropped_ - start_; }
   std::size_t rows() const { return codes_.size(); }
+  std::size_t points() const { return first_.back(); }
   /// Begins with level `start`; called count() times.
   const TransformLevel& next();
 
@@ -57,8 +62,10 @@ class TransformLevels {
   void mark_means();
   std::vector<std::uint32_t> rows_of(int level) const;
   std::vector<std::uint64_t> cells_of(const std::vector<std::uint32_t>& rows) const;
+  std::vector<std::uint64_t> cells_of_children() const;
   std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
 
+  const MovedReference* reference_ = nullptr;
   int depth_, dropped_, start_, level_;
   CodeWeights weights_;
   std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels

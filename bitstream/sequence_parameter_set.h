@@ -8,7 +8,7 @@
 
 namespace slf {
 
-inline constexpr int kVersionMajor = 0, kVersionMinor = 5;
+inline constexpr int kVersionMajor = 0, kVersionMinor = 6;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
@@ -71,6 +71,8 @@ struct SequenceParameterSet {
   std::uint32_t sps_num_transforms_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
+  /// No element: frame_predicted_flag of the frame whose units these are. Spec 7.12
+  bool predicted = false;
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
   bool has_draco() const { return sps_geometry_coder == 1; }

@@ -128,9 +128,10 @@ void slice_unit_header(V& v, Header& h, UnitType type, const SequenceParameterSe
   if (set.sps_prediction_flag) {
     v.resize("cu_prediction", h.cu_prediction,
              set.coefficient_end(h.range) - set.coefficient_begin(h.range));
-    for (auto& mode : h.cu_prediction) v.u(2, "cu_prediction", mode, Range{0, 3});
+    for (auto& mode : h.cu_prediction)
+      v.u(set.predicted ? 3 : 2, "cu_prediction", mode, Range{0, set.predicted ? 7 : 3});
   }
-  if (set.sps_transform_flag && h.range == 0)
+  if (set.sps_transform_flag && h.range == 0 && !set.predicted)
     v.ue("cu_matrix_bytes", h.cu_matrix_bytes, Range{0, kMaxMatrixBytes});
 }
 

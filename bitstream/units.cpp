@@ -25,16 +25,6 @@ Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::siz
   return Error{Errc::kOutOfRange, "unit_length"};
 }
 
-/// Spec 7.10  end_unit( ): no unit was lost.
-Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before) {
-  BitReader in(payload);
-  const std::uint64_t count = in.ue("end_num_units");
-  in.trailing_bits("end_trailing_bits");
-  if (!in.ok()) return in.error();
-  if (count != units_before) return Error{Errc::kOutOfRange, "end_num_units"};
-  return Done{};
-}
-
 /// The unit that begins at `offset`; its checksum is in the stream, and not looked at.
 Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
   std::size_t at = offset;
@@ -50,6 +40,15 @@ Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset)
 }
 
 }  // namespace
+
+Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before) {
+  BitReader in(payload);
+  const std::uint64_t count = in.ue("end_num_units");
+  in.trailing_bits("end_trailing_bits");
+  if (!in.ok()) return in.error();
+  if (count != units_before) return Error{Errc::kOutOfRange, "end_num_units"};
+  return Done{};
+}
 
 const char* unit_name(UnitType type) {
   switch (type) {
@@ -75,6 +74,8 @@ const char* unit_name(UnitType type) {
       return "filler";
     case UnitType::kRefinement:
       return "refinement";
+    case UnitType::kFrame:
+      return "frame";
     case UnitType::kEnd:
       return "end";
   }

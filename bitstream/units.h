@@ -25,6 +25,7 @@ enum class UnitType : std::uint8_t {
   kDigest = 8,
   kTransform = 9,
   kRefinement = 10,
+  kFrame = 11,
   kFiller = 14,
   kEnd = 15,
 };
@@ -54,6 +55,9 @@ struct Units {
 /// the
 ///         end unit, or a length longer than it need be.
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0);
+
+/// Spec 7.10  end_unit( ): no unit was lost.
+Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before);
 
 /// The unit whose first byte is stream[offset]; offset < stream.size(). Its CRC-32 is checked.
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset);

@@ -5,12 +5,6 @@
 namespace slf {
 namespace {
 
-std::vector<std::uint8_t> end_payload(std::size_t units_before) {
-  BitWriter end;
-  end.ue(units_before);
-  return end.take();
-}
-
 Index index_of(std::span<const CodedUnit> units, std::span<const std::uint8_t> end,
                const std::vector<CellBox>& boxes) {
   Index index{{}, boxes};
@@ -23,6 +17,12 @@ Index index_of(std::span<const CodedUnit> units, std::span<const std::uint8_t> e
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> end_payload(std::size_t units_before) {
+  BitWriter end;
+  end.ue(units_before);
+  return end.take();
+}
 
 std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
                                    std::span<const CodedUnit> units,

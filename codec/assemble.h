@@ -10,6 +10,9 @@
 
 namespace slf {
 
+/// Of the end unit. Spec 7.10
+std::vector<std::uint8_t> end_payload(std::size_t units_before);
+
 /// Signature, sequence, index, the units, end.
 /// @param boxes  of the index, [slices] or none; nullopt: no index
 std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,

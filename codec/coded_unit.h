@@ -7,6 +7,7 @@
 
 #include "attributes/coefficient_quantiser.h"
 #include "bitstream/slice_headers.h"
+#include "codec/frame_state.h"
 #include "codec/unit_layout.h"
 #include "slf/encoder.h"
 
@@ -29,6 +30,7 @@ struct SliceCoding {
   double rdo = 0;  ///< CodingParameters
   /// [groups], or none: codewords of their columns, 7.11
   std::vector<std::vector<std::uint8_t>> matrices = {};
+  const FrameReference* reference = nullptr;  ///< of a frame that is predicted
 
   std::size_t planes() const { return steps.size(); }
   /// For the rows of a tree over these codes, from the root.

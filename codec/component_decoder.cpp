@@ -1,6 +1,7 @@
 #include "codec/component_decoder.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
@@ -19,7 +20,9 @@ void set_modes(const PartUnit& unit, std::size_t begin, std::vector<std::uint8_t
 }
 
 /// Planes up to the last that is not all zero; in others there is nothing to predict.
-std::size_t used_planes(const PlaneGroups& groups, CodedCoefficients& coded) {
+std::size_t used_planes(const Request& request, CodedCoefficients& coded) {
+  if (request.reference != nullptr) return request.planes();
+  const PlaneGroups& groups = request.groups;
   std::size_t used = 0;
   for (std::size_t g = 0; g < coded.any.size(); ++g)
     if (coded.any[g]) {
@@ -80,20 +83,26 @@ Result<Done> undo(const Request& request, const ComponentRows& rows, const Coded
   const auto is_predicted = [](const auto& levels) {
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
-  if (std::none_of(coded.modes.begin(), coded.modes.end(), is_predicted))
+  const FrameReference* reference = request.reference;
+  if (reference == nullptr && request.kept == nullptr &&
+      std::none_of(coded.modes.begin(), coded.modes.end(), is_predicted))
     return raht_inverse(rows.tree, steps, components, threads, coded.nonzero, used,
                         coded.cells.size());
   const int grid_bits = request.stream.grid_bits();
   TransformLevels levels(rows.codes, grid_bits, grid_bits - rows.levels, rows.start, rows.weights);
+  std::optional<ReferenceMeans> means;
+  if (reference != nullptr) means.emplace(reference->moved, reference->state.means);
   return raht_inverse_predicted(rows.tree, levels, predicted_planes(request, coded), steps,
-                                components, threads, coded.nonzero, used, coded.cells.size());
+                                components, threads, coded.nonzero, used, coded.cells.size(),
+                                means ? &*means : nullptr,
+                                request.kept != nullptr ? &request.kept->means : nullptr);
 }
 
 /// Spec 8.7.4, 8.7.6, 8.8.
 Result<Done> transform_back(const Request& request, const ComponentRows& rows,
                             CodedCoefficients& coded, std::span<std::int32_t> components,
                             int threads) {
-  const std::size_t used = used_planes(request.groups, coded);
+  const std::size_t used = used_planes(request, coded);
   if (used == 0) return Done{};
   if (!misses_layers(request.stream.set, coded))
     return undo(request, rows, coded, request.steps, components, used, threads);

@@ -35,10 +35,14 @@ Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOpti
   return decode_units(opened, options);
 }
 
-Result<LightField> decode_units(const OpenStream& opened, const DecodeOptions& options) {
+Result<LightField> decode_units(const OpenStream& opened, const DecodeOptions& options,
+                                const FrameContext& frame) {
   const auto& [units, scene] = opened;
-  SLF_CHECK(collect_metadata(units));                                 // 7.8
-  SLF_TRY(const Request request, request_of(units, scene, options));  // 7.11, 8.9
+  SLF_CHECK(collect_metadata(units));                                        // 7.8
+  SLF_TRY(Request request, request_of(units, scene, options, frame.group));  // 7.11, 8.9
+  request.reference = frame.reference;                                       // 8.12
+  request.kept = frame.kept;
+  if (frame.asked != nullptr) *frame.asked = request;
   SLF_CHECK(check_limits(request, options));                          // 9
   LightField field = empty_field(request);
   DecodeSeconds seconds;

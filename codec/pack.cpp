@@ -2,73 +2,29 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/assemble.h"
 #include "codec/pack_parameters.h"
-#include "codec/scene_encoder.h"
 #include "codec/scene_frame.h"
+#include "codec/pack_frame.h"
 #include "codec/sequence.h"
+#include "codec/sorted_field.h"
 #include "codec/texture_parameters.h"
 #include "codec/use_transforms.h"
-#include "geometry/morton.h"
 #include "slf/encoder.h"
 
 namespace slf {
 namespace {
 
-/// The light field in Morton order, with the codes.
-struct SortedField {
-  std::vector<std::uint64_t> morton;
-  std::vector<Voxel> positions;
-  std::vector<std::int32_t> components;
-  std::vector<std::array<std::uint16_t, 2>> normals;
-};
-
-Result<SortedField, InputError> sort_points(const LightField& field) {
-  const std::size_t count = field.num_points(),
-                    planes = static_cast<std::size_t>(field.num_planes());
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(count);
-  for (std::size_t i = 0; i < count; ++i)
-    order[i] = {morton(field.positions[i]), static_cast<std::uint32_t>(i)};
-  std::sort(order.begin(), order.end());
-  SortedField sorted;
-  sorted.morton.reserve(count);
-  sorted.positions.reserve(count);
-  sorted.components.reserve(count * planes);
-  for (const auto& [code, i] : order) {
-    if (!sorted.morton.empty() && sorted.morton.back() == code)
-      return InputError{Errc::kInvalidArgument,
-                        "positions: point " + std::to_string(i) + " stands where another does"};
-    sorted.morton.push_back(code);
-    sorted.positions.push_back(field.positions[i]);
-    const auto row = field.components.begin() + static_cast<std::ptrdiff_t>(i * planes);
-    sorted.components.insert(sorted.components.end(), row,
-                             row + static_cast<std::ptrdiff_t>(planes));
-    if (field.normals.bits > 0) sorted.normals.push_back(field.normals.octahedral[i]);
-  }
-  return sorted;
-}
-
-/// Base and slices.
-Result<std::vector<CodedUnit>, InputError> code_scene(SortedField& sorted,
-                                                      const SceneLayout& layout,
-                                                      const SliceCoding& coding, int threads) {
-  const std::size_t planes = coding.planes();
-  std::vector<SliceInput> slices;
-  for (const SliceCut& cut : layout.cuts) {
-    const std::size_t begin = cut.begin, points = cut.end - begin;
-    slices.push_back(
-        {std::span(sorted.morton).subspan(begin, points),
-         std::span(sorted.positions).subspan(begin, points),
-         std::span(sorted.components).subspan(begin * planes, points * planes),
-         std::span(sorted.normals)
-             .subspan(sorted.normals.empty() ? 0 : begin, sorted.normals.empty() ? 0 : points)});
-  }
-  return encode_scene(coding, layout, slices, threads);
+/// The frame unit of an intra frame with these units: it says how many bytes they have.
+CodedUnit frame_unit_before(std::span<const CodedUnit> units, FrameHeader& frame) {
+  std::uint64_t bytes = unit_bytes(end_payload(units.size() + 2).size());
+  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.payload.size());
+  frame.frame_bytes = static_cast<std::uint32_t>(bytes);
+  return {UnitType::kFrame, write_frame_header(frame, nullptr, 0), {}};
 }
 
 /// What a texture is coded with beside the steps, which have to fit its samples.
@@ -90,6 +46,12 @@ Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
 
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
                                                    const CodingParameters& parameters) {
+  return pack_frame(field, parameters, nullptr, nullptr);
+}
+
+Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field,
+                                                         const CodingParameters& parameters,
+                                                         FrameHeader* frame, GroupCoding* group) {
   SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
   SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
   SLF_TRY(const SceneLayout layout,
@@ -104,6 +66,8 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
           choose_transforms(field, {sorted.morton, sorted.components, layout.cuts}, layout,
                             parameters, set, coding, units));  // 7.11
   if (!chosen.transforms.empty()) sorted.components = std::move(chosen.components);
+  if (group != nullptr)
+    *group = {set, coding.groups, coding.steps, std::move(chosen.transforms), chosen.coded};
   units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});  // 7.3
   SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));     // 8.4 - 8.10
   std::move(parts.begin(), parts.end(), std::back_inserter(units));
@@ -111,7 +75,8 @@ Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8
   std::optional<std::vector<CellBox>> boxes;
   if (parameters.index) boxes = boxes_of(layout);
-  return assemble(set, units, boxes);  // 7.1, 7.7
+  if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.12
+  return assemble(set, units, boxes);                                                    // 7.1, 7.7
 }
 
 }  // namespace slf

@@ -37,8 +37,7 @@ std::size_t groups_of_means(const PlaneGroups& groups, std::span<const PlaneTran
 }
 
 /// Groups, and what stands in them.
-/// @return no group that was asked for is left out because means do not need it
-Result<bool> choose_groups(const Units& units, const DecodeOptions& options, Request& request) {
+Result<Done> choose_groups(const Units& units, const DecodeOptions& options, Request& request) {
   const SequenceParameterSet& set = request.stream.set;
   PlaneGroups groups = plane_groups(set);
   SLF_TRY(request.transforms, collect_transforms(units, groups));  // 7.11
@@ -54,18 +53,19 @@ Result<bool> choose_groups(const Units& units, const DecodeOptions& options, Req
   for (const std::uint16_t k : request.coded)
     request.steps.insert(request.steps.end(), steps[k].begin(), steps[k].end());
   request.missing = asked < set.num_groups();
-  return kept == asked;
+  request.all_groups = kept == asked;
+  return Done{};
 }
 
 }  // namespace
 
 bool Request::wants(const UnitSlot& slot) const {
-  const auto kept = static_cast<std::uint32_t>(levels);
+  const auto most = static_cast<std::uint32_t>(levels);
   if (slot.owner == Owner::kSlice && base_alone()) return false;
   if (slot.type == UnitType::kGeometry)
-    return needs_points() || stream.set.geometry_begin(slot.range) < kept;
+    return needs_points() || stream.set.geometry_begin(slot.range) < most;
   if (has_values(slot.type))
-    return slot.group < groups.size() && stream.set.coefficient_begin(slot.range) < kept &&
+    return slot.group < groups.size() && stream.set.coefficient_begin(slot.range) < most &&
            slot.layer < static_cast<std::uint32_t>(layers);
   return slot.type == UnitType::kNormals;
 }
@@ -82,22 +82,27 @@ bool Request::meets_region(const Voxel& low, const Voxel& high, int level) const
 }
 
 Result<Request> request_of(const Units& units, const SceneUnits& scene,
-                           const DecodeOptions& options) {
+                           const DecodeOptions& options, const GroupRequest* group) {
   const SequenceParameterSet& set = scene.stream.set;
   SLF_CHECK(check_options(set, options));
-  Request request{scene.stream};
+  Request request(scene.stream);
   request.region = options.region;
   if (const std::uint64_t each = options.limits.max_values_per_byte;
       each < DecodeLimits::kNone >> 32)
     request.most_values = DecodeLimits::kFreeValues + each * scene.stream.bytes;
   request.levels = static_cast<int>(least(set.grid_bits(), options.levels, set.sps_cut_levels));
   request.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));
-  SLF_TRY(const bool all_groups, choose_groups(units, options, request));
+  if (group == nullptr) {
+    SLF_CHECK(choose_groups(units, options, request));
+  } else {
+    static_cast<GroupRequest&>(request) = *group;
+    request.missing = group->groups.size() < set.num_groups();
+  }
   if (request.planes() > options.limits.max_planes)
     return of_sequence(Errc::kLimitExceeded, "sps_num_functions");
   request.missing = request.missing || request.kept_levels_only() ||
                     request.layers < static_cast<int>(set.num_layers());
-  request.whole = !request.missing && all_groups;
+  request.whole = !request.missing && request.all_groups;
   if (options.progress)
     request.watch =
         std::make_shared<DecodeWatch>(options.progress, bytes_wanted(scene, request, false));

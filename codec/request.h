@@ -10,24 +10,34 @@
 #include "attributes/plane_transform.h"
 #include "bitstream/index.h"
 #include "codec/decode_watch.h"
+#include "codec/frame_state.h"
 #include "codec/scene_units.h"
 #include "slf/decoder.h"
 #include "slf/types.h"
 
 namespace slf {
 
-struct Request {
-  const StreamHeader& stream;
-  int levels = 0;                         ///< octree levels to keep, 1 .. grid_bits
-  int layers = 1;                         ///< of coefficients to decode, at most
+/// What all frames of a group have in common.
+struct GroupRequest {
   PlaneGroups groups = {};                ///< those to decode: places of their components
   std::vector<std::uint16_t> coded = {};  ///< [R] functions that components stand in
   std::vector<PlaneTransform> transforms = {};
-  std::vector<std::uint32_t> steps = {};          ///< [3 R]
+  std::vector<std::uint32_t> steps = {};  ///< [3 R]
+  bool all_groups = true;                 ///< none is left out because means do not need it
+};
+
+struct Request : GroupRequest {
+  explicit Request(const StreamHeader& of) : stream(of) {}
+
+  const StreamHeader& stream;
+  int levels = 0;                                 ///< octree levels to keep, 1 .. grid_bits
+  int layers = 1;                                 ///< of coefficients to decode, at most
   std::uint64_t most_values = ~std::uint64_t{0};  ///< of components that are given out
   bool whole = true;     ///< no levels, groups or layers are left out: digests are checked
   bool missing = false;  ///< some are that would be part of what was asked for
   std::optional<VoxelBox> region = {};           ///< of the whole grid
+  const FrameReference* reference = nullptr;  ///< of a frame that is predicted
+  FrameState* kept = nullptr;                 ///< receives what the next may be predicted from
   std::shared_ptr<DecodeWatch> watch = nullptr;  ///< where the caller wants to know
 
   /// What was asked for is in the base alone: no unit of a slice is opened.
@@ -54,8 +64,9 @@ struct Request {
 
 /// @param scene  kept by reference: what it is asked of
 /// @errors kInvalidArgument: levels or groups beyond what the stream has; those of the transforms.
+/// @param group  of a predicted frame, which has no transforms of its own
 Result<Request> request_of(const Units& units, const SceneUnits& scene,
-                           const DecodeOptions& options);
+                           const DecodeOptions& options, const GroupRequest* group = nullptr);
 
 /// The loop over the layout: step(unit, place) for the units of an owner that are there, wanted and
 /// of these types, in the order of their slots.

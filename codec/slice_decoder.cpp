@@ -26,6 +26,15 @@ Result<const States*> wait_for(SharedStates<States>& shared, std::size_t place) 
   return states;
 }
 
+Error reference_lacks() { return {Errc::kOutOfRange, "frame_predicted_flag"}; }
+
+/// States after the unit at a place.
+template <class States>
+void keep(std::vector<std::optional<States>>& kept, std::size_t place, States states) {
+  if (kept.size() <= place) kept.resize(place + 1);
+  kept[place] = std::move(states);
+}
+
 Result<Done> decode_octree_unit(const SliceToDecode& slice, const PartUnit& unit, std::size_t place,
                                 OctreeDecoder& octree) {
   auto& shared = slice.scene.lead.geometry;
@@ -33,8 +42,14 @@ Result<Done> decode_octree_unit(const SliceToDecode& slice, const PartUnit& unit
     SLF_TRY(const OccupancyStates* states, wait_for(shared, place));
     octree.start_from(*states);
   }
+  if (const FrameReference* reference = slice.request.reference) {
+    const auto& states = reference->state.octree;
+    if (place >= states.size() || !states[place]) return in_unit(unit, reference_lacks());
+    octree.start_from(*states[place]);
+  }
   const int end = static_cast<int>(slice.stream().set.geometry_end(unit.header.range));
   SLF_CHECK(in_unit(unit, octree.decode(unit.payload, end)));
+  if (slice.request.kept != nullptr) keep(slice.request.kept->octree, place, octree.states());
   if (slice.leads())
     shared.publish(place,
                    end < slice.stream().grid_bits() ? octree.states() : octree.take_states());
@@ -46,12 +61,15 @@ Result<Done> decode_octree(const SliceToDecode& slice, OccupancyStates states,
   const StreamHeader& stream = slice.stream();
   OctreeDecoder octree(stream.grid_bits(), slice.points(), std::move(states), stream.base_levels(),
                        slice.cells());
+  if (slice.request.reference != nullptr) octree.predict_from(slice.request.reference->moved);
   const auto step = [&](const PartUnit& unit, std::size_t place) {
     return decode_octree_unit(slice, unit, place, octree);
   };
   SLF_CHECK(for_each_wanted(slice.units, Owner::kSlice, slice.request, has_occupancy, step));
   geometry.level = octree.level();
   geometry.codes = octree.take_morton();
+  if (FrameState* kept = slice.request.kept)
+    kept->cells = ReferenceCells(geometry.codes, geometry.level);
   return Done{};
 }
 
@@ -86,7 +104,7 @@ Result<Done> decode_nodes(const SliceToDecode& slice, OccupancyStates octree,
 /// The level of whose rows the units of slice 0 are decoded: others start from the states after a
 /// whole unit, also where fewer levels are kept.
 int levels_ahead(const SliceToDecode& slice) {
-  if (!slice.leads()) return slice.request.levels;
+  if (!slice.leads() && slice.request.kept == nullptr) return slice.request.levels;
   const SequenceParameterSet& set = slice.stream().set;
   std::uint32_t range = 0;
   while (static_cast<int>(set.coefficient_end(range)) < slice.request.levels) ++range;
@@ -105,8 +123,15 @@ Result<CodedCoefficients> decode_coefficient_units(const SliceToDecode& slice,
       SLF_TRY(const CoefficientStates* states, wait_for(shared, place));
       state.models.start_from(ids.group, *states, ids.layer);
     }
+    if (const FrameReference* reference = slice.request.reference) {
+      const auto& states = reference->state.coefficients;
+      if (place >= states.size() || !states[place]) return in_unit(unit, reference_lacks());
+      state.models.start_from(ids.group, *states[place], ids.layer);
+    }
     SLF_CHECK(decode_values_unit(unit, slice.request, rows, state, components));
     if (slice.leads()) shared.publish(place, state.models.states(ids.group, ids.layer));
+    if (slice.request.kept != nullptr)
+      keep(slice.request.kept->coefficients, place, state.models.states(ids.group, ids.layer));
     return Done{};
   };
   SLF_CHECK(for_each_wanted(slice.units, Owner::kSlice, slice.request, has_values, step));
@@ -130,6 +155,7 @@ Result<Done> decode_vectors(const SliceToDecode& slice, const SliceGeometry& geo
   const Request& request = slice.request;
   const ComponentRows rows{geometry.codes, geometry.top.tree, geometry.top.first,
                            request.stream.base_levels(), request.levels};
+  if (request.kept != nullptr) request.kept->make_room(request.levels, request.planes());
   const int levels = levels_ahead(slice);
   SLF_TRY(CodedCoefficients coded, levels > request.levels
                                        ? decode_ahead(slice, levels, rows, components)

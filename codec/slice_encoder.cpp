@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <numeric>
+#include <optional>
 
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
@@ -40,6 +41,8 @@ bool fits_transform(const SliceInput& input, const SceneLayout& layout) {
 
 Body encode_octree_unit(const SliceToEncode& slice, std::size_t place, OctreeEncoder& octree) {
   if (slice.follows()) octree.start_from(known(slice.lead->geometry.wait(place)));
+  if (const FrameReference* reference = slice.coding.reference)
+    octree.start_from(*reference->state.octree[place]);
   Body body =
       octree.encode(static_cast<int>(slice.coding.set.geometry_end(slice.slots[place].range)));
   if (slice.leads()) slice.lead->geometry.publish(place, octree.states());
@@ -69,6 +72,11 @@ Quantised quantise(const SliceToEncode& slice, const SliceTree& tree, const Enco
     cells.quantised = &base->quantised;
   }
   QuantiserInput rows = slice.coding.quantiser_input(tree.tree, slice.input.morton);
+  std::optional<ReferenceMeans> means;
+  if (const FrameReference* reference = slice.coding.reference) {
+    means.emplace(reference->moved, reference->state.means);
+    rows.reference = &*means;
+  }
   if (layout.base_levels > 0) rows.base = &cells;
   return quantise_coefficients(rows, slice.input.components, threads);
 }
@@ -90,6 +98,8 @@ CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree
     if (!has_values(slot.type)) continue;
     if (slice.follows())
       models.start_from(slot.group, known(slice.lead->coefficients.wait(place)), slot.layer);
+    if (const FrameReference* reference = slice.coding.reference)
+      models.start_from(slot.group, *reference->state.coefficients[place], slot.layer);
     units.push_back(encoder.encode(ids_of(slot, slice.slice_id())));
     if (slice.leads())
       slice.lead->coefficients.publish(place, models.states(slot.group, slot.layer));
@@ -115,6 +125,7 @@ Result<CodedUnits, InputError> encode_slice_geometry(const SliceToEncode& slice,
       slice.input.morton, slice.coding.grid_bits(),
       base != nullptr ? base->geometry : OccupancyStates(slice.input.morton.size()),
       slice.layout.base_levels);
+  if (slice.coding.reference != nullptr) octree.predict_from(slice.coding.reference->moved);
   CodedUnits units;
   for (std::size_t place = 0; place < slice.slots.size(); ++place) {
     const UnitSlot& slot = slice.slots[place];

@@ -9,6 +9,7 @@
 #include "encoder/component_planes.h"
 #include "geometry/morton.h"
 #include "lightfield/symmetric3.h"
+#include "slf/view_map.h"
 #include "slf/parallel.h"
 
 namespace slf {

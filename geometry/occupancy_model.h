@@ -20,6 +20,7 @@
 #include "geometry/occupancy_states.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
+#include "geometry/reference_view.h"
 
 namespace slf {
 
@@ -29,7 +30,15 @@ class OccupancyModel {
 
   const OccupancyStates& states() const { return states_; }
   OccupancyStates take_states() { return std::move(states_); }
-  void start_from(const OccupancyStates& states) { states_ = states; }
+  void start_from(const OccupancyStates& states) {
+    states_ = states;
+    if (reference_ != nullptr) states_.add_reference();
+  }
+  /// All that follows is predicted. reference: kept by pointer
+  void predict_from(const MovedReference& reference) {
+    reference_ = &reference;
+    states_.add_reference();
+  }
 
   /// only: do most nodes of the level have one child only? Spec 8.4.1; the encoder's.
   template <class Coder>
@@ -38,7 +47,7 @@ class OccupancyModel {
     level_ = static_cast<std::uint32_t>(level);
     only_ = coder.raw(1, only) != 0;
     if (only_ && states_.only_rows.empty())
-      states_.only_rows = std::vector<EightLanes>(States::kRows);
+      states_.only_rows = std::vector<EightLanes>(states_.rows.size());
   }
   /// nodes: of the level, all coded.
   void finish_level(const OctreeLevel& nodes) { history_.finish_level(nodes.morton); }
@@ -48,10 +57,13 @@ class OccupancyModel {
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
     const NodeView view = view_of(nodes, n, history_);
+    if (reference_ != nullptr) in_reference_ = reference_view(*reference_, level_, view);
     if (only_ && n + 1 < nodes.size())  // for the cache alone
       group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, kOnly, 3);
     unsigned coded = only_ ? code_only(coder, view, nodes, n, occupancy) : 0;
-    if (coded == 0) coded = code_children(coder, view, nodes, n, occupancy);
+    if (coded == 0)
+      coded = reference_ != nullptr ? code_children<true>(coder, view, nodes, n, occupancy)
+                                    : code_children<false>(coder, view, nodes, n, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
     constexpr std::uint32_t kFirst = OccupancyStates::kFirstRate,
                             kLast = OccupancyStates::kLastRate;
@@ -67,6 +79,7 @@ class OccupancyModel {
     unsigned corner;
     std::uint64_t cells;  ///< hash of the cells around it outside the node
     std::uint32_t group;  ///< of 8 contexts by those cells and all but its last 3 siblings
+    std::uint32_t in_reference;  ///< hashed context by the cells around it in the reference
   };
 
   /// What the decisions of one node have in common.
@@ -90,24 +103,24 @@ class OccupancyModel {
   static constexpr std::int32_t kCertain = 1152;
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
-  template <class Coder>
+  template <bool kPredicted, class Coder>
   unsigned code_children(Coder& coder, const NodeView& view, const OctreeLevel& nodes,
                          std::size_t n, unsigned occupancy) {
-    Node node = node_contexts(view);
+    Node node = node_contexts<kPredicted>(view);
     const SelectedRows rows = rows_of(view, nodes, n, states_.rows);
     node.by_rows = rows.logistic();
     unsigned coded = 0;
-    code_child(0, coder, node, coded, occupancy);
-    code_child(1, coder, node, coded, occupancy);
-    code_child(2, coder, node, coded, occupancy);
-    code_child(3, coder, node, coded, occupancy);
-    code_child(4, coder, node, coded, occupancy);
-    code_child(5, coder, node, coded, occupancy);
-    code_child(6, coder, node, coded, occupancy);
+    code_child<kPredicted>(0, coder, node, coded, occupancy);
+    code_child<kPredicted>(1, coder, node, coded, occupancy);
+    code_child<kPredicted>(2, coder, node, coded, occupancy);
+    code_child<kPredicted>(3, coder, node, coded, occupancy);
+    code_child<kPredicted>(4, coder, node, coded, occupancy);
+    code_child<kPredicted>(5, coder, node, coded, occupancy);
+    code_child<kPredicted>(6, coder, node, coded, occupancy);
     if (coded == 0)
       coded = 1u << 7;  // a node has a child: it must be the last
     else
-      code_child(7, coder, node, coded, occupancy);
+      code_child<kPredicted>(7, coder, node, coded, occupancy);
     rows.update(0xFF, coded, states_.rate);
     return coded;
   }
@@ -184,9 +197,12 @@ class OccupancyModel {
     // One of its own cells stands for the node.
     each(view.occupied | own_cell(0), [&](std::size_t cell) { rows.add(cell); });
     each(view.neighbours & ~view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, 0); });
+    if (reference_ != nullptr)
+      each(in_reference_.cells, [&](std::size_t cell) { rows.add(States::kReferenceRows + cell); });
     for (std::size_t axis = 0; axis < 3; ++axis)
       hashed(axis, static_cast<std::uint32_t>(view.cell[axis]));
     rows.end_slow();
+    if (reference_ != nullptr) rows.add(States::kReferenceRows + 64 + in_reference_.children);
     each(view.coded_neighbours, [&](std::size_t d) { by_neighbour(d, view.known[d]); });
     constexpr std::array<std::size_t, 3> kLower = {12, 10, 4}, kUpper = {14, 16, 22};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -200,6 +216,7 @@ class OccupancyModel {
     return rows;
   }
 
+  template <bool kPredicted>
   Node node_contexts(const NodeView& view) {
     Node node;
     node.neighbours_class = view.neighbours_class;
@@ -214,6 +231,12 @@ class OccupancyModel {
       if (c < 6) prefetch(&states_.corner[States::Corner::index(child.corner, 1u << c)]);
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
+      if constexpr (kPredicted) {
+        std::uint64_t h = (in_reference_.around(c) << 3 | c) * kFactorA;
+        h = (h ^ h >> 32) * kFactorA;
+        child.in_reference = static_cast<std::uint32_t>(h >> (64 - states_.hashed_bits));
+        prefetch(&states_.reference_cells[child.in_reference]);
+      }
     }
     return node;
   }
@@ -229,13 +252,13 @@ class OccupancyModel {
   }
 
   /// c: a constant where the function becomes a part of its caller.
-  template <class Coder>
+  template <bool kPredicted, class Coder>
   SLF_OWN_CALL void code_child(unsigned c, Coder& coder, Node& node, unsigned& coded,
                                unsigned occupancy) {
     const unsigned given = occupancy >> c & 1u;
     const std::int32_t by_rows = node.by_rows[c];
     const unsigned bit = std::abs(by_rows) < kCertain
-                             ? by_contexts(c, coder, node, coded, given)
+                             ? by_contexts<kPredicted>(c, coder, node, coded, given)
                              : by_branch(coder.bit(bounded_probability(by_rows), given));
     coded |= bit << c;
     // Where the later contexts are is known long before their turn.
@@ -245,7 +268,7 @@ class OccupancyModel {
   }
 
   /// coded: the siblings before c. bit: the encoder's.
-  template <class Coder>
+  template <bool kPredicted, class Coder>
   unsigned by_contexts(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit) {
     const Child& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
@@ -260,6 +283,8 @@ class OccupancyModel {
         &states_.hashed[kByCells][child.group + in_cells]};
     const SelectedContexts<3> contexts(selected);
     const std::int16_t by_rows = node.by_rows[c];
+    if constexpr (kPredicted)
+      return by_reference(c, coder, node, coded, bit, contexts);
     const EightLanes fifth(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows});
     const Mixed<3> mixed(
         contexts.inputs().saturating_plus(fifth),
@@ -272,6 +297,44 @@ class OccupancyModel {
     return bit;
   }
 
+  /// The same with what the reference says.
+  template <class Coder>
+  unsigned by_reference(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit,
+                        const SelectedContexts<3>& contexts) {
+    const unsigned siblings = 1u << c | coded;
+    const unsigned occupied = node.child[c].occupied + static_cast<unsigned>(std::popcount(coded));
+    const std::int16_t by_rows = node.by_rows[c];
+    const unsigned there = in_reference_.children >> c & 1u;
+    const unsigned density = in_reference_.density(c);
+    const unsigned wrong = std::min(
+        static_cast<unsigned>(std::popcount((in_reference_.children ^ coded) & ((1u << c) - 1))), 2u);
+    const unsigned count = static_cast<unsigned>(
+        std::popcount(in_reference_.around(c) & kAllAround));
+    ContextBit& faces = states_.reference_faces[States::ReferenceFaces::index(
+        there, density, count / 2, in_reference_.agreement, wrong)];
+    ContextBit& by_siblings = states_.reference_siblings[States::ReferenceSiblings::index(
+        in_reference_.children, siblings)];
+    ContextBit& cells = states_.reference_cells[node.child[c].in_reference];
+    const EightLanes others(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows, faces.logistic(),
+                                                        by_siblings.logistic(), cells.logistic()});
+    const Mixed<4> mixed(
+        contexts.inputs().saturating_plus(others),
+        {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
+         &states_.by_density[States::ByDensity::index(level_, occupied)],
+         &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))],
+         &states_.by_reference[States::ByReference::index(there, density, in_reference_.agreement,
+                                                          wrong)]});
+    bit = by_branch(coder.bit(mixed.p1(), bit));
+    mixed.update(bit, states_.rate);
+    contexts.update(bit);
+    faces.update(bit);
+    by_siblings.update(bit);
+    cells.update(bit);
+    return bit;
+  }
+
+  const MovedReference* reference_ = nullptr;
+  ReferenceView in_reference_;
   OccupancyHistory history_;
   SelectedRows::List selected_;
   std::uint32_t level_ = 0;

@@ -15,7 +15,7 @@ namespace slf {
 class SelectedRows {
  public:
   /// As many as a node may select. Apart from the rest, which is for registers.
-  using List = std::array<EightLanes*, 1 + 56 + 26 + 3 + 10>;  // OccupancyModel::rows_of
+  using List = std::array<EightLanes*, 1 + 56 + 26 + 3 + 10 + 64 + 1>;  // OccupancyModel::rows_of
 
   /// list: kept by reference.
   SelectedRows(EightLanes* rows, List& list) : rows_(rows), selected_(list) {}

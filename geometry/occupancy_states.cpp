@@ -11,4 +11,14 @@ OccupancyStates::OccupancyStates(std::uint64_t points)
   for (auto& contexts : hashed) contexts.resize(std::size_t{1} << hashed_bits);
 }
 
+void OccupancyStates::add_reference() {
+  if (!reference_faces.empty()) return;
+  reference_faces.resize(ReferenceFaces::kCount);
+  reference_siblings.resize(ReferenceSiblings::kCount);
+  reference_cells.resize(std::size_t{1} << hashed_bits);
+  by_reference = WeightSets(ByReference::kCount, kFirstWeight);
+  rows.resize(kPredictedRows);
+  if (!only_rows.empty()) only_rows.resize(kPredictedRows);
+}
+
 }  // namespace slf

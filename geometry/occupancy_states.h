@@ -37,6 +37,12 @@ struct OccupancyStates {
   static constexpr std::uint32_t kHashedRows = CellRows::kCount + NeighbourRows::kCount,
                                  kRows = kHashedRows + (1u << kHashedRowBits);
 
+  // What a predicted frame adds. Spec table 8-9.
+  using ReferenceFaces = ContextShape<2, 17, 14, 5, 3>;    // cell, its faces; agreement; siblings'
+  using ReferenceSiblings = ContextShape<256, 256>;    // children of the node; siblings
+  using ByReference = ContextShape<2, 17, 5, 3>;       // cell; cells around, in halves; as above
+  static constexpr std::uint32_t kReferenceRows = kRows, kPredictedRows = kRows + 64 + 256;
+
   static constexpr int kMostHashedBits = 18;
   static constexpr std::uint32_t kHashed = 3;
 
@@ -55,6 +61,12 @@ struct OccupancyStates {
   WeightSets by_rows{ByRows::kCount, kFirstWeight};
   WeightSets place_by_class{PlaceByClass::kCount, kFirstWeight};
   WeightSets place_by_level{PlaceByLevel::kCount, kFirstWeight};
+  // Empty until a frame is predicted.
+  std::vector<ContextBit> reference_faces, reference_siblings, reference_cells;
+  WeightSets by_reference{0, 0};
+
+  /// Before a frame that is predicted.
+  void add_reference();
 
   static constexpr int hashed_bits_of(std::uint64_t points) {
     return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);

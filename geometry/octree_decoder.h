@@ -36,6 +36,8 @@ class OctreeDecoder {
   int level() const { return level_; }  ///< of the nodes known so far
   const std::vector<std::uint64_t>& morton() const { return nodes_.morton; }
 
+  /// Before the first unit of a frame that is predicted. reference: kept by pointer
+  void predict_from(const MovedReference& reference) { model_.predict_from(reference); }
   const OccupancyStates& states() const { return model_.states(); }  ///< after the last unit
   /// The same and the nodes, out of a decoder that is done: memory that was never touched is dear.
   OccupancyStates take_states() { return model_.take_states(); }

@@ -22,6 +22,8 @@ class OctreeEncoder {
   /// @param classes  of the cells at `end`, where they are those of a base: 8.4.5; empty: none
   std::vector<std::uint8_t> encode(int end, std::span<const std::uint8_t> classes = {});
 
+  /// Before the first unit of a frame that is predicted. reference: kept by pointer
+  void predict_from(const MovedReference& reference) { model_.predict_from(reference); }
   const OccupancyStates& states() const { return model_.states(); }  ///< after the last unit
   void start_from(const OccupancyStates& states) { model_.start_from(states); }
 

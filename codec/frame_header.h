@@ -1,0 +1,74 @@
+// The frame unit: which instant a frame is of, and what it is predicted from. Spec 7.12.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "geometry/motion.h"
+#include "geometry/reference_cells.h"
+#include "slf/error.h"
+
+namespace slf {
+
+struct FrameHeader {
+  std::uint32_t frame_number = 0;
+  double frame_time = 0;  ///< seconds
+  std::uint32_t frame_predicted_flag = 0;
+  std::uint32_t frame_bytes = 0;  ///< behind this unit, the end unit included
+  std::uint32_t frame_motion_flag = 0, frame_lattice_flag = 0;
+  Motion motion;
+
+  bool predicted() const { return frame_predicted_flag != 0; }
+};
+
+inline constexpr std::int64_t kMostFrames = std::int64_t{1} << 31;
+inline constexpr std::int64_t kMostLattice = 1 << 18;  ///< points
+
+// Spec 7.12  frame_motion( )
+template <class V, class Header>
+void frame_motion(V& v, Header& h) {
+  for (auto& row : h.motion.matrix)
+    for (auto& entry : row)
+      v.se("frame_matrix", entry, Range{-Motion::kMostEntry, Motion::kMostEntry});
+  for (auto& shift : h.motion.shift)
+    v.se("frame_shift", shift, Range{-Motion::kMostShift, Motion::kMostShift});
+  v.u(1, "frame_lattice_flag", h.frame_lattice_flag, Range{0, 1});
+  if (!h.frame_lattice_flag) return;
+  v.u(4, "frame_lattice_log2", h.motion.lattice_log2, Range{3, 8});
+  for (auto& first : h.motion.lattice_first)
+    v.ue("frame_lattice_first", first, Range{0, (1 << 18) - 1});
+  std::int64_t points = 1;
+  for (auto& size : h.motion.lattice_size) {
+    v.ue("frame_lattice_size_minus1", size, Range{0, kMostLattice / points - 1});
+    points *= std::int64_t{size} + 1;
+  }
+}
+
+// Spec 7.12  frame_unit( )
+template <class V, class Header>
+void frame_unit(V& v, Header& h) {
+  v.ue("frame_number", h.frame_number, Range{0, kMostFrames - 1});
+  v.f64("frame_time", h.frame_time, false);
+  v.u(1, "frame_predicted_flag", h.frame_predicted_flag, Range{0, 1});
+  v.ue("frame_bytes", h.frame_bytes, Range{0, kMostFrames - 1});
+  if (!h.frame_predicted_flag) return;
+  v.u(1, "frame_motion_flag", h.frame_motion_flag, Range{0, 1});
+  if (h.frame_motion_flag) frame_motion(v, h);
+}
+
+/// The elements; of a motion with a lattice the vectors are still to be read.
+/// @param vectors  what follows the elements
+Result<FrameHeader> parse_frame_header(std::span<const std::uint8_t> payload,
+                                       std::span<const std::uint8_t>& vectors);
+/// The vectors of the motion's lattice, at points with a cell of the reference around them.
+/// @errors kOutOfRange: a vector too long, or a codeword that does not end where the unit does
+Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const ReferenceCells& reference,
+                          int bits, Motion& motion);
+
+/// The payload. Vectors that are not coded become zero in `header`.
+std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const ReferenceCells* reference,
+                                             int bits);
+
+}  // namespace slf

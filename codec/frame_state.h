@@ -1,0 +1,35 @@
+// What a frame leaves to the one that is predicted from it. Spec 8.12.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "attributes/coefficient_decoder.h"
+#include "attributes/reference_means.h"
+#include "geometry/occupancy_states.h"
+#include "geometry/reference_cells.h"
+
+namespace slf {
+
+/// By place: in the list of the units of its slice.
+struct FrameState {
+  ReferenceCells cells;
+  LevelMeans means;
+  std::vector<std::optional<OccupancyStates>> octree;
+  std::vector<std::optional<CoefficientStates>> coefficients;
+
+  /// Means of zero of the root and `levels` levels below.
+  void make_room(int levels, std::size_t planes) {
+    for (int l = static_cast<int>(means.size()); l <= levels; ++l)
+      means.emplace_back(cells.codes(l).size() * planes);
+  }
+};
+
+/// A frame that another is predicted from, and the motion between them.
+struct FrameReference {
+  const FrameState& state;
+  MovedReference moved;
+};
+
+}  // namespace slf

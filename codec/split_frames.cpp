@@ -1,0 +1,102 @@
+#include "codec/split_frames.h"
+
+#include <algorithm>
+
+namespace slf {
+namespace {
+
+bool begins_intra(std::span<const std::uint8_t> rest) {
+  return rest.size() >= kSignature.size() &&
+         std::equal(kSignature.begin(), kSignature.end(), rest.begin());
+}
+
+Error wrong(const Unit& unit, const char* element) {
+  return of_unit(unit.type, unit.offset, Errc::kOutOfRange, element);
+}
+
+/// Does a frame unit follow the sequence unit?
+bool moves(std::span<const std::uint8_t> stream) {
+  if (!begins_intra(stream)) return false;
+  const auto sequence = read_unit(stream, kSignature.size());
+  if (!sequence) return false;
+  const std::uint64_t next = sequence->offset + sequence->bytes;
+  return next < stream.size() &&
+         stream[static_cast<std::size_t>(next)] == static_cast<std::uint8_t>(UnitType::kFrame);
+}
+
+}  // namespace
+
+Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t at) {
+  FrameUnits frame;
+  frame.offset = at;
+  const bool intra = begins_intra(stream.subspan(at));
+  if (intra) {
+    SLF_TRY(const Unit sequence, read_unit(stream, at + kSignature.size()));
+    if (sequence.type != UnitType::kSequence) return wrong(sequence, "unit_type");
+    at = static_cast<std::size_t>(sequence.offset + sequence.bytes);
+  }
+  if (at >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * at};
+  SLF_TRY(frame.unit, read_unit(stream, at));
+  if (frame.unit.type != UnitType::kFrame) return wrong(frame.unit, "unit_type");
+  SLF_TRY(frame.header,
+          in_unit(frame.unit, parse_frame_header(frame.unit.payload, frame.vectors)));
+  if (frame.header.predicted() == intra) return wrong(frame.unit, "frame_predicted_flag");
+  const std::uint64_t end = frame.unit.offset + frame.unit.bytes + frame.header.frame_bytes;
+  frame.bytes = std::min<std::uint64_t>(end, stream.size()) - frame.offset;
+  return frame;
+}
+
+Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream) {
+  std::vector<FrameUnits> frames;
+  if (!moves(stream)) {
+    SLF_CHECK(split_units(stream));
+    frames.emplace_back();
+    frames.back().bytes = stream.size();
+    return frames;
+  }
+  for (std::uint64_t at = 0; at < stream.size();) {
+    auto frame = read_frame(stream, static_cast<std::size_t>(at));
+    if (!frame && frame.error().code == Errc::kTruncated && !frames.empty()) break;  // cut there
+    if (!frame) return frame.error();
+    if (!frames.empty()) {
+      const FrameHeader& before = frames.back().header;
+      if (frame->header.frame_number != before.frame_number + 1)
+        return wrong(frame->unit, "frame_number");
+      if (frame->header.frame_time <= before.frame_time) return wrong(frame->unit, "frame_time");
+    }
+    at += frame->bytes;
+    frames.push_back(*std::move(frame));
+  }
+  return frames;
+}
+
+std::span<const std::uint8_t> first_frame(std::span<const std::uint8_t> stream) {
+  if (!moves(stream)) return stream;
+  const auto frame = read_frame(stream, 0);
+  return frame ? stream.first(static_cast<std::size_t>(frame->bytes)) : stream;
+}
+
+Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame) {
+  Units result;
+  const std::uint64_t end = frame.offset + frame.bytes;
+  const auto bytes = stream.first(static_cast<std::size_t>(end));
+  for (std::uint64_t at = frame.offset; at < end;) {
+    auto unit = read_unit(bytes, static_cast<std::size_t>(at));
+    if (!unit) return unit.error();
+    const bool first = at == frame.offset;
+    if (result.complete) return wrong(*unit, "unit_type");
+    if ((unit->type == UnitType::kFrame) != first || unit->type == UnitType::kSequence ||
+        unit->type == UnitType::kTransform || unit->type == UnitType::kIndex ||
+        unit->type == UnitType::kMetadata)
+      return wrong(*unit, "unit_type");
+    if (unit->type == UnitType::kEnd) {
+      SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
+      result.complete = true;
+    }
+    result.units.push_back(*unit);
+    at += unit->bytes;
+  }
+  return result;
+}
+
+}  // namespace slf

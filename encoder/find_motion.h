@@ -1,0 +1,28 @@
+// The motion between two frames, found from places and colours. Informative.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/motion.h"
+
+namespace slf {
+
+/// Points of a frame: distinct codes, ascending, and a colour of each, in grey levels.
+struct FramePoints {
+  std::span<const std::uint64_t> codes;
+  std::span<const std::array<float, 3>> colours;
+};
+
+/// Where the points of `now` were in `before`: an affine motion, and a lattice where that is not
+/// all. Coarse to fine, the nearest in place and colour. Displacements of up to a sixteenth of the
+/// grid are found.
+/// The same for any thread count. O(points), some 50 neighbours each of 20,000 of them.
+Motion find_motion(const FramePoints& now, const FramePoints& before, int bits);
+
+/// The same, or its affine part, or none: what foretells places and colours best. Informative.
+Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits);
+
+}  // namespace slf

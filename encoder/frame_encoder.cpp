@@ -1,0 +1,140 @@
+// Frames of a moving light field, each predicted from what a decoder has of the one before.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "codec/frame_chain.h"
+#include "codec/pack_frame.h"
+#include "codec/pack_parameters.h"
+#include "encoder/find_motion.h"
+#include "geometry/morton.h"
+#include "slf/frames.h"
+#include "slf/view_map.h"
+
+namespace slf {
+
+/// Codes and colours of a frame in Morton order.
+struct FrameColours {
+  std::vector<std::uint64_t> codes;
+  std::vector<std::array<float, 3>> colours;
+
+  FramePoints points() const { return {codes, colours}; }
+};
+
+namespace {
+
+InputError invalid_frame(const std::string& what) {
+  return {Errc::kInvalidArgument, "frames: " + what};
+}
+
+CodingParameters parameters_of_frames(CodingParameters parameters) {
+  parameters.base_levels = 0;
+  parameters.max_slice_points = kMostSlicePoints;
+  parameters.index = false;
+  return parameters;
+}
+
+FrameColours colours_of(const LightField& field, int threads) {
+  std::vector<std::array<float, 3>> given(field.num_points());
+  if (field.header.has_basis) {
+    given = mean_colours(field, threads);
+  } else if (const auto planes = static_cast<std::size_t>(field.num_planes()); planes > 0) {
+    const float scale = std::ldexp(1.0F, field.header.shift.empty() ? 0 : -field.header.shift[0]);
+    for (std::size_t i = 0; i < given.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        given[i][c] = scale * static_cast<float>(field.components[i * planes + c]);
+  }
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < field.num_points(); ++i)
+    order.emplace_back(morton(field.positions[i]), i);
+  std::sort(order.begin(), order.end());
+  FrameColours colours;
+  for (const auto& [code, i] : order) {
+    colours.codes.push_back(code);
+    colours.colours.push_back(given[i]);
+  }
+  return colours;
+}
+
+}  // namespace
+
+struct FrameEncoder::Impl {
+  CodingParameters parameters;
+  int group_length = 16;
+  std::uint32_t number = 0;
+  double time = 0;
+  std::vector<std::uint8_t> header;  // of all frames, as it is coded
+  GroupCoding group;
+  FrameChain chain;
+  FrameColours before;  // as decoded
+
+  Result<Done, InputError> check(const LightField& field, double at) const {
+    if (parameters.quality_layers > 1 || !parameters.group_layers.empty())
+      return invalid_frame("they have one quality layer");
+    if (parameters.geometry != GeometryCoder::kOctree ||
+        parameters.coefficients != CoefficientCoder::kVector)
+      return invalid_frame("they are coded by the octree and vector coders");
+    if (field.num_points() == 0) return invalid_frame("one has no points");
+    if (field.num_points() > kMostSlicePoints)
+      return invalid_frame("one has more than " + std::to_string(kMostSlicePoints) + " points");
+    if (!std::isfinite(at) || (number > 0 && at <= time))
+      return invalid_frame("times do not ascend");
+    return Done{};
+  }
+
+  /// The gammas that cameras saw may differ; those of the first frame of a group stay.
+  Result<std::vector<std::uint8_t>, InputError> coded_header(const LightField& field) const {
+    SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));
+    set.sps_gamma_min = set.sps_gamma_max = 0;
+    return write_sequence_parameter_set(set);
+  }
+
+  Result<std::vector<std::uint8_t>, InputError> code(const LightField& field, FrameHeader& frame) {
+    if (!frame.predicted()) return pack_frame(field, parameters, &frame, &group);
+    const FrameColours now = colours_of(field, parameters.threads);
+    frame.motion = choose_motion(now.points(), before.points(), field.header.grid.bits);
+    return pack_predicted(field, parameters, group, chain.state(), frame);
+  }
+};
+
+FrameEncoder::FrameEncoder(const CodingParameters& parameters, int group)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->parameters = parameters_of_frames(parameters);
+  impl_->group_length = std::max(group, 1);
+}
+
+Result<std::vector<std::uint8_t>, InputError> FrameEncoder::add(const LightField& field,
+                                                                double time) {
+  Impl& self = *impl_;
+  SLF_CHECK(self.check(field, time));
+  SLF_TRY(std::vector<std::uint8_t> header, self.coded_header(field));
+  if (self.number > 0 && header != self.header)
+    return invalid_frame("grid, functions or attributes are not those of the first");
+  FrameHeader frame;
+  frame.frame_number = self.number;
+  frame.frame_time = time;
+  frame.frame_predicted_flag =
+      self.number % static_cast<std::uint32_t>(self.group_length) == 0 ? 0 : 1;
+  SLF_TRY(std::vector<std::uint8_t> bytes, self.code(field, frame));
+  const auto coded = read_frame(bytes, 0);
+  DecodeOptions options;
+  options.limits = DecodeLimits::none();
+  options.threads = self.parameters.threads;
+  const auto decoded = coded ? self.chain.decode(bytes, *coded, options)
+                             : Result<LightField>(coded.error());
+  if (!decoded)
+    return InputError{Errc::kInvalidArgument, "frames: one does not decode: " + to_string(decoded.error())};
+  self.before = colours_of(*decoded, self.parameters.threads);
+  self.header = std::move(header);
+  self.time = time;
+  ++self.number;
+  return bytes;
+}
+
+FrameEncoder::FrameEncoder(FrameEncoder&&) noexcept = default;
+FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
+FrameEncoder::~FrameEncoder() = default;
+
+}  // namespace slf

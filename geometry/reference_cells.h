@@ -1,0 +1,60 @@
+// Where a frame that was decoded before has points: at any level, at any place. Spec 8.12.2.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/occupancy_window.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// The cells of one level in bricks of 4 x 4 x 4.
+class ReferenceLevel {
+ public:
+  /// @param codes  of the cells at the level: distinct, ascending; kept by reference
+  explicit ReferenceLevel(std::span<const std::uint64_t> codes);
+
+  /// The 4 x 4 x 4 cells from `first` on, which may lie outside of the grid.
+  Window window(const Voxel& first) const;
+
+  static constexpr std::uint32_t kNone = ~0u;
+  /// Place of a cell among the codes; kNone where it is empty.
+  std::uint32_t find(const Voxel& cell) const;
+
+ private:
+  struct Brick {
+    std::uint64_t key = 0;     ///< 1 + code of the brick; 0: no brick
+    Window cells = 0;          ///< as a window has them
+    std::uint64_t morton = 0;  ///< the same in Morton order
+    std::uint32_t first = 0;   ///< place of its first cell
+  };
+  const Brick* brick(std::int32_t x, std::int32_t y, std::int32_t z) const;
+
+  std::vector<Brick> table_;  // open addressing, a power of two, at most half full
+  int shift_;
+};
+
+/// All levels of a frame.
+class ReferenceCells {
+ public:
+  ReferenceCells() = default;
+  /// @param codes  of the points, distinct, ascending, of `bits` levels
+  ReferenceCells(std::span<const std::uint64_t> codes, int bits);
+
+  /// Nodes of level 0 .. bits.
+  const ReferenceLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
+  std::span<const std::uint64_t> codes(int level) const {
+    return codes_[static_cast<std::size_t>(level)];
+  }
+  bool empty() const { return levels_.empty(); }
+
+ private:
+  std::vector<std::vector<std::uint64_t>> codes_;
+  std::vector<ReferenceLevel> levels_;
+};
+
+}  // namespace slf

@@ -1,0 +1,82 @@
+// Moving light fields: a stream of frames, an instant each. Spec 7.12, 8.12.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "slf/decoder.h"
+#include "slf/encoder.h"
+#include "slf/error.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// A frame of a stream, as its frame unit says.
+struct FrameInfo {
+  std::uint32_t number = 0;  ///< ascending by one
+  double time = 0;           ///< seconds, ascending
+  bool predicted = false;    ///< from the frame before it
+  std::uint64_t offset = 0;  ///< of its first byte in the stream
+  std::uint64_t bytes = 0;
+};
+
+/// The frames of a stream, by the lengths that their frame units say: units are not opened. A light
+/// field that does not move is one frame.
+/// @return what is there of them: the last may be cut short
+/// @errors kNotSlf, kTruncated: no frame begins. Those of a frame unit; kOutOfRange also: numbers or
+///         times that do not ascend, a predicted frame first. O(frames)
+Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream);
+
+/// Decodes any frame of a stream held in memory. A predicted frame needs those before it, back to
+/// one that is not: in order each frame is decoded once.
+class FrameDecoder {
+ public:
+  /// @param stream   kept by reference
+  /// @param options  of every frame. Fewer levels and groups are those of every frame, without
+  ///                 drift; a region is cut from frames decoded whole
+  /// @errors those of list_frames
+  static Result<FrameDecoder> open(std::span<const std::uint8_t> stream,
+                                   const DecodeOptions& options = {});
+  FrameDecoder(FrameDecoder&&) noexcept;
+  FrameDecoder& operator=(FrameDecoder&&) noexcept;
+  ~FrameDecoder();
+
+  const std::vector<FrameInfo>& frames() const;  ///< [F]
+  /// @param frame  place, 0 .. F - 1
+  /// @errors as decode(); those of a frame that it is predicted from. kInvalidArgument: no such
+  ///         place. Frames from the next on that is not predicted are not affected.
+  Result<LightField> decode(std::size_t frame);
+
+ private:
+  struct Impl;
+  explicit FrameDecoder(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Codes the frames of a stream, one after the other.
+class FrameEncoder {
+ public:
+  /// @param parameters  of every frame: no base, one layer, octree and vector coder, no index.
+  ///                    A transform is that of the first frame of a group
+  /// @param group       frames from one that is not predicted to the next, 1 or more
+  FrameEncoder(const CodingParameters& parameters, int group = 16);
+  FrameEncoder(FrameEncoder&&) noexcept;
+  FrameEncoder& operator=(FrameEncoder&&) noexcept;
+  ~FrameEncoder();
+
+  /// @param field  of the same functions, grid and basis as those before; its points are its own
+  /// @param time   seconds, more than that of the frame before
+  /// @return the bytes of the frame, which follow those of the frame before
+  /// @errors kInvalidArgument: a parameter that frames do not have, another header, time; those of
+  ///         pack(). The same bytes for any thread count. Holds one frame.
+  Result<std::vector<std::uint8_t>, InputError> add(const LightField& field, double time);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slf
