@@ -92,6 +92,7 @@ slf_shape shape_of(const slf_field& field) {
   out.has_normals = field.field.normals.bits > 0;
   out.gamma_min = header.gamma_min_q7 / 127.0;
   out.gamma_max = header.gamma_max_q7 / 127.0;
+  out.has_splats = field.has_splats();
   return out;
 }
 
@@ -103,6 +104,21 @@ slf_code read_discs(const slf_field* field, const Rows& rows, std::size_t width,
     return code;
   return guarded(error, [&] {
     copy_rows(rows, source(discs_of(*field)), width);
+    return slf_code{SLF_OK};
+  });
+}
+
+/// [count][width] floats of the splats; `name` is the array's.
+template <class Source>
+slf_code read_splats(const slf_field* field, const Rows& rows, std::size_t width, const char* name,
+                     slf_error* error, const Source& source) {
+  if (const slf_code code = check(field, rows, width * sizeof(float), error); code != SLF_OK)
+    return code;
+  if (!field->has_splats()) return invalid(error, name);
+  return guarded(error, [&] {
+    const SplatShapes& splats =
+        field->splats.get([&] { return splat_shapes(field->field, field->threads); });
+    copy_rows(rows, source(splats), width);
     return slf_code{SLF_OK};
   });
 }
@@ -229,4 +245,19 @@ slf_code slf_read_disc_areas(const slf_field* field, uint64_t first, uint64_t co
                              size_t stride, slf_error* error) {
   return read_discs(field, {first, count, to, stride}, 1, error,
                     [](const slf::SurfelCloud& discs) { return discs.areas.data(); });
+}
+
+slf_code slf_read_splat_covariances(const slf_field* field, uint64_t first, uint64_t count,
+                                    float* to, size_t stride, slf_error* error) {
+  return read_splats(field, {first, count, to, stride}, 6, "splat_covariances", error,
+                     [](const slf::SplatShapes& splats) -> const float* {
+                       return splats.covariances.empty() ? nullptr
+                                                         : splats.covariances.data()->data();
+                     });
+}
+
+slf_code slf_read_splat_opacities(const slf_field* field, uint64_t first, uint64_t count, float* to,
+                                  size_t stride, slf_error* error) {
+  return read_splats(field, {first, count, to, stride}, 1, "splat_opacities", error,
+                     [](const slf::SplatShapes& splats) { return splats.opacities.data(); });
 }

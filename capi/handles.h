@@ -7,8 +7,10 @@
 #include "base/monitor.h"
 #include "capi/memory.h"
 #include "lightfield/function_weights.h"
+#include "lightfield/gaussian_values.h"
 #include "render/surfel_cloud.h"
 #include "slf/decoder.h"
+#include "slf/gaussians.h"
 #include "slf/slf.h"
 
 namespace slf::capi {
@@ -51,6 +53,8 @@ struct slf_field {
   slf::capi::Lazy<slf::FunctionWeights> weights = {};
   slf::capi::Lazy<std::vector<std::array<float, 3>>> frame_normals = {};
   slf::capi::Lazy<slf::SurfelCloud> discs = {};
+  slf::capi::Lazy<slf::SplatShapes> splats = {};
 
   bool has_basis() const { return field.header.has_basis && field.header.num_functions > 0; }
+  bool has_splats() const { return slf::has_gaussians(field.header); }
 };

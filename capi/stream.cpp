@@ -87,6 +87,7 @@ slf_info info_of(const slf_stream& stream) {
   out.normal_bits = static_cast<std::uint32_t>(info.normal_bits);
   out.has_index = std::any_of(info.units.begin(), info.units.end(),
                               [](const UnitInfo& unit) { return unit.type == "index"; });
+  out.has_splats = has_gaussians(header);
   return out;
 }
 

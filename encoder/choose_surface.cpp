@@ -1,8 +1,10 @@
 #include "encoder/choose_surface.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "encoder/encode_splats.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
 #include "refine/held_out.h"
@@ -24,6 +26,7 @@ struct SurfaceChoice {
   const EncoderSettings& settings;
   SurfaceReport& report;
   const Progress& progress;
+  bool splats;  // may be chosen
 };
 
 /// The capture's points, or mended ones where photographs gain.
@@ -74,6 +77,20 @@ Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeom
   return on_grid(trained);
 }
 
+/// Whether splats predict photographs so much better than any surface that they are taken.
+/// @param points  of the best surface
+Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const CameraParts& parts,
+                                           std::size_t points) {
+  if (!job.splats) return false;
+  Stopwatch watch;
+  SLF_TRY(const auto judged, judge_splats(job.capture, job.report.start, parts.matched,
+                                          parts.held_out, job.settings, job.progress));
+  job.report.seconds_train += watch.lap();
+  job.report.splats_psnr = judged.psnr;
+  job.report.splats_bytes = judged.bytes;
+  return splats_win(job.report, points);
+}
+
 /// The points lie so close that nothing is missing between them.
 bool is_dense(const Density& density) { return density.spacing <= kDense * density.pixel; }
 
@@ -92,9 +109,15 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   }
   SLF_TRY(job.report.before_psnr, judged(job, parts, before));
   SLF_TRY(job.report.trained_psnr, judged(job, parts, *cloud));
-  if (job.report.before_psnr > kPerfect ||
-      job.report.trained_psnr < job.report.before_psnr + kLeastGain)
-    return before;
+  const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
+  if (job.report.before_psnr > kPerfect) return before;
+  SLF_TRY(const bool better,
+          splats_are_better(job, parts, (pays ? *cloud : before).positions.size()));
+  if (better) {
+    job.report.kept = Surface::kSplats;
+    return VoxelCloud{};
+  }
+  if (!pays) return before;
   SLF_TRY(const TrainedGeometry by_all,
           trained_by(job, job.cameras, std::move(trained.surfels), kAgain));
   if (by_all.cloud.positions.empty()) return before;
@@ -196,11 +219,12 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
 
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,
-                                              SurfaceReport& report, const Progress& progress) {
+                                              SurfaceReport& report, const Progress& progress,
+                                              bool splats) {
   report = {};
   report.start = start;
   report.points_before = capture.cloud.positions.size();
-  auto cloud = chosen_surface({capture, cameras, settings, report, progress});
+  auto cloud = chosen_surface({capture, cameras, settings, report, progress, splats});
   if (cloud) report.points_after = cloud->positions.size();
   if (progress) progress("train", 1);
   return cloud;

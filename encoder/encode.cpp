@@ -68,6 +68,36 @@ Result<Done, InputError> resolve_step(Job& job) {
 
 namespace {
 
+/// What a person may want to know of the points that are coded.
+void warn_of_points(Job& job) {
+  Encoded& encoded = job.encoded;
+  const bool automatic = job.settings.grid_bits == 0 && job.settings.voxel_size == 0;
+  const bool trained = encoded.surface.kept == Surface::kTrained;  // as dense as it pays
+  if (std::string warning = density_warning(encoded.density);
+      automatic && !trained && !warning.empty())
+    encoded.warnings.push_back(std::move(warning));
+  if (std::string warning = merged_warning(job.cloud, job.capture.cloud.positions.size());
+      automatic && encoded.surface.kept == Surface::kGiven && !warning.empty())
+    encoded.warnings.push_back(std::move(warning));
+  if (encoded.surface.mended.too_dense_for_grid && encoded.surface.kept == Surface::kGiven)
+    encoded.warnings.push_back(
+        "the cloud is denser than its photographs tell apart, and they disagree about it: on an "
+        "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
+}
+
+/// Splats with what became of the surface before they were chosen.
+Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
+  SurfaceReport& report = splats.surface;
+  report.mended = chosen.mended;
+  report.before_psnr = chosen.before_psnr;
+  report.trained_psnr = chosen.trained_psnr;
+  report.splats_psnr = chosen.splats_psnr;
+  report.splats_bytes = chosen.splats_bytes;
+  report.seconds_train += chosen.seconds_train;
+  report.seconds_judge += chosen.seconds_judge;
+  return splats;
+}
+
 Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
                                         std::span<const int> cameras, const EncoderSettings& given,
                                         const Progress& progress) {
@@ -81,23 +111,17 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress));
+  SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
+                                    may_be_splats(given)));
+  if (encoded.surface.kept == Surface::kSplats) {
+    SLF_TRY(Encoded splats, encode_splats(capture, start, cameras, given, progress));
+    return with_choice(std::move(splats), encoded.surface);
+  }
   encoded.points = job.cloud.positions.size();
   encoded.merged = job.cloud.merged;
   encoded.grid = moved(job.cloud.grid, capture.origin);
   encoded.density = job.cloud.density;
-  const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
-  const bool trained = encoded.surface.kept == Surface::kTrained;  // as dense as it pays
-  if (std::string warning = density_warning(encoded.density);
-      automatic && !trained && !warning.empty())
-    encoded.warnings.push_back(std::move(warning));
-  if (std::string warning = merged_warning(job.cloud, capture.cloud.positions.size());
-      automatic && encoded.surface.kept == Surface::kGiven && !warning.empty())
-    encoded.warnings.push_back(std::move(warning));
-  if (encoded.surface.mended.too_dense_for_grid && encoded.surface.kept == Surface::kGiven)
-    encoded.warnings.push_back(
-        "the cloud is denser than its photographs tell apart, and they disagree about it: on an "
-        "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
+  warn_of_points(job);
   encoded.seconds_voxelise = watch.lap() - encoded.surface.seconds();
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)

@@ -56,6 +56,7 @@ Metadata surface_metadata(const SurfaceReport& r) {
   if (r.before_psnr > 0)
     out.insert(out.end(), {{"surface_psnr_before", hundredths(r.before_psnr)},
                            {"surface_psnr_trained", hundredths(r.trained_psnr)}});
+  if (r.splats_psnr > 0) out.emplace_back("surface_psnr_splats", hundredths(r.splats_psnr));
   return out;
 }
 

@@ -17,10 +17,10 @@ constexpr int kEffort = 1;  // of the fit: degree 2, nothing searched
 
 /// Squared errors of one photograph.
 Result<ErrorSum, InputError> photograph_error(const Capture& capture, int index,
-                                              const Renderer& renderer) {
+                                              const std::function<Rendering(const Camera&)>& draw) {
   SLF_TRY(const Image loaded, load_image(capture, index));
   const auto camera = std::size_t(index);
-  const Rendering drawn = renderer.render(moved(capture.cameras[camera], capture.origin));
+  const Rendering drawn = draw(capture.cameras[camera]);
   const bool has_mask = camera < capture.mask_files.size() && !capture.mask_files[camera].empty();
   std::vector<std::uint8_t> object(drawn.coverage.size());
   for (std::size_t i = 0; i < object.size(); ++i)
@@ -56,11 +56,20 @@ Result<double, InputError> surface_psnr(const Capture& capture, std::span<const 
   rendering.background = {0, 0, 0};
   rendering.threads = 1;
   const Renderer renderer(maps, rendering);
-  std::vector<ErrorSum> sums(held_out.size());
-  std::vector<std::optional<InputError>> failures(held_out.size());
-  parallel_ranges(held_out.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+  return pictures_psnr(
+      capture, held_out,
+      [&](const Camera& camera) { return renderer.render(moved(camera, capture.origin)); },
+      threads);
+}
+
+Result<double, InputError> pictures_psnr(const Capture& capture, std::span<const int> cameras,
+                                         const std::function<Rendering(const Camera&)>& draw,
+                                         int threads) {
+  std::vector<ErrorSum> sums(cameras.size());
+  std::vector<std::optional<InputError>> failures(cameras.size());
+  parallel_ranges(cameras.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto sum = photograph_error(capture, held_out[i], renderer);
+      auto sum = photograph_error(capture, cameras[i], draw);
       if (sum)
         sums[i] = *sum;
       else

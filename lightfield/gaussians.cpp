@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightfield/gaussian_values.h"
 #include "lightfield/symmetric3.h"
 #include "lightfield/view_planes.h"
 #include "slf/given_planes.h"
@@ -17,42 +18,6 @@ namespace {
 constexpr std::size_t kSplatsPerRange = 1024;
 constexpr int kMostDegree = 4;
 constexpr double kMostCoordinate = 1e15;  // squares of differences stay finite in floats
-
-/// The first function of an attribute; num_functions where it is not there.
-int first_function(const LightFieldHeader& header, AttributeId id) {
-  int function = header.num_view_functions();
-  for (const Attribute& attribute : header.attributes) {
-    if (attribute.id == id) return function;
-    function += attribute.num_functions;
-  }
-  return header.num_functions;
-}
-
-/// Given planes of one point as real numbers.
-class PointValues {
- public:
-  PointValues(const LightFieldHeader& header, const std::int32_t* planes)
-      : header_(header), planes_(planes) {}
-
-  double operator()(int function, int channel) const {
-    const auto k = static_cast<std::size_t>(function);
-    const int shift = header_.shift.empty() ? 0 : header_.shift[k];
-    return std::ldexp(planes_[3 * k + static_cast<std::size_t>(channel)], -shift);
-  }
-
- private:
-  const LightFieldHeader& header_;
-  const std::int32_t* planes_;
-};
-
-/// The logarithm of deviations and axes, from six values.
-Symmetric3 shape_of(const PointValues& value, int function) {
-  std::array<double, 6> v;
-  for (int i = 0; i < 6; ++i)
-    v[static_cast<std::size_t>(i)] =
-        std::clamp(value(function + i / 3, i % 3), -kShapeBound, kShapeBound);
-  return from_shape_values(v);
-}
 
 /// Coefficients of harmonics on the unit sphere, towards the splat.
 void put_harmonics(const PointValues& value, const Matrix3x3& to_rgb, int degree, float* out) {
@@ -96,8 +61,7 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
   for (const double coordinate : header.grid.origin)
     if (!(std::abs(coordinate) + reach < kMostCoordinate))
       return InputError{Errc::kInvalidInput, "its splats lie beyond what floats hold"};
-  const int opacity = first_function(header, AttributeId::kOpacity),
-            shape = first_function(header, AttributeId::kShape);
+  const SplatFunctions functions = splat_functions(header);
   const std::vector<std::int32_t> planes = given_planes(field, threads);
   const auto to_rgb = colour_matrix(header.colour);
   Gaussians out;
@@ -115,8 +79,8 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
                               &planes[p * 3 * static_cast<std::size_t>(header.num_functions)]);
       const Vec3 at = header.grid.world(field.positions[p]);
       for (std::size_t i = 0; i < 3; ++i) out.positions[p][i] = static_cast<float>(at[i]);
-      out.logits[p] = static_cast<float>(std::clamp(value(opacity, 0), -kLogitBound, kLogitBound));
-      const Axes3 axes = eigen_axes(shape_of(value, shape));
+      out.logits[p] = static_cast<float>(logit_of(value, functions));
+      const Axes3 axes = eigen_axes(log_shape_of(value, functions));
       for (std::size_t i = 0; i < 3; ++i)
         out.log_deviations[p][i] = static_cast<float>(axes.value[i]);
       const auto turn = quaternion_of(axes.axis);

@@ -75,7 +75,7 @@ struct Field {
 
   slf_error error = SLF_ERROR_INIT;
   slf_field* handle = nullptr;
-  slf_shape shape{sizeof(slf_shape), 0, 0, 0, 0, {}, 0, 0, 0, 0, 0, 0, 0};
+  slf_shape shape{sizeof(slf_shape), 0, 0, 0, 0, {}, 0, 0, 0, 0, 0, 0, 0, 0};
   slf_code code;
 };
 

@@ -249,9 +249,11 @@ nlohmann::ordered_json surface_json(const SurfaceReport& r) {
   json["untrained"] = r.untrained;
   json["held_out_psnr_before"] = nullptr;
   json["held_out_psnr_trained"] = nullptr;
+  json["held_out_psnr_splats"] = nullptr;
   if (r.before_psnr > 0) {
     json["held_out_psnr_before"] = r.before_psnr;
     json["held_out_psnr_trained"] = r.trained_psnr;
+    if (r.splats_psnr > 0) json["held_out_psnr_splats"] = r.splats_psnr;
   }
   return json;
 }
@@ -263,9 +265,11 @@ std::string surface_text(const SurfaceReport& r) {
   if (r.before_psnr > 0)
     judged = text("held-out photographs drawn with %.2f dB trained, %.2f %s", r.trained_psnr,
                   r.before_psnr, r.mended.outcome == RefineReport::kMended ? "mended" : "given");
+  if (r.splats_psnr > 0) judged += text("; splats %.2f", r.splats_psnr);
   if (r.kept == Surface::kSplats)
-    return text("surface       none: %s splats, trained from %s points%s\n",
-                grouped(r.surfels).c_str(), grouped(r.points_before).c_str(), from.c_str());
+    return text("surface       none: %s splats, trained from %s points%s%s%s\n",
+                grouped(r.surfels).c_str(), grouped(r.points_before).c_str(), from.c_str(),
+                judged.empty() ? "" : ";\n              ", judged.c_str());
   if (r.kept == Surface::kTrained)
     return text("surface       trained: %s surfels, %s points for %s%s%s%s\n",
                 grouped(r.surfels).c_str(), grouped(r.points_after).c_str(),

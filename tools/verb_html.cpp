@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "slf/gaussians.h"
+#include "slf/gaussian_renderer.h"
 #include "slf/jpeg.h"
 #include "slf/render.h"
 #include "tools/camera_file.h"
@@ -88,20 +88,26 @@ struct Posters {
   std::string day, night;
 };
 
+/// The first view by the renderer of points or that of splats.
+template <class Drawn, class Of>
+Image first_view(const Of& of, const HtmlOptions& given, const std::optional<Camera>& camera,
+                 const RenderSettings& settings) {
+  const Drawn renderer(of, settings);
+  const Camera view = camera ? square(*camera)
+                             : renderer.orbit(given.azimuth / 360, given.elevation, kPosterPixels,
+                                              kPosterPixels, given.fov);
+  return renderer.render(view).image;
+}
+
 /// The first view on the background that was chosen, else on those of day and night.
-Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightField& field,
-                                          const std::optional<Camera>& camera) {
+/// @param draw  takes settings, gives a picture
+template <class Draw>
+Result<Posters, Failure> posters_by(const HtmlOptions& given, const Draw& draw) {
   RenderSettings settings;
   settings.threads = given.common.threads;
-  const ViewMaps maps(field, given.common.threads);
   const auto rendered = [&](const std::string& background) -> Result<std::string, Failure> {
     parse_colour(background, settings.background);
-    const Renderer renderer(maps, settings);
-    const Camera view = camera ? square(*camera)
-                               : renderer.orbit(given.azimuth / 360, given.elevation, kPosterPixels,
-                                                kPosterPixels, given.fov);
-    SLF_TRY(const auto jpeg,
-            from(std::string(), encode_jpeg(renderer.render(view).image, kPosterQuality)));
+    SLF_TRY(const auto jpeg, from(std::string(), encode_jpeg(draw(settings), kPosterQuality)));
     return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
   };
   Posters posters;
@@ -110,6 +116,20 @@ Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightF
     SLF_TRY(posters.night, rendered(kSlate));
   }
   return posters;
+}
+
+Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightField& field,
+                                          const std::optional<Camera>& camera) {
+  if (has_gaussians(field.header)) {
+    SLF_TRY(const Gaussians splats, from(given.input, gaussians_of(field, given.common.threads)));
+    return posters_by(given, [&](const RenderSettings& settings) {
+      return first_view<GaussianRenderer>(splats, given, camera, settings);
+    });
+  }
+  const ViewMaps maps(field, given.common.threads);
+  return posters_by(given, [&](const RenderSettings& settings) {
+    return first_view<Renderer>(maps, given, camera, settings);
+  });
 }
 
 /// A picture that was given, as it is; as JPEG where browsers do not know its format.
@@ -158,11 +178,6 @@ Outcome run_html(const HtmlOptions& given) {
   }
   const std::string name = input_name(given.input);
   SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
-  if (has_gaussians(input.info.header))
-    return Failure{kInputInvalid,
-                   input_name(given.input) +
-                       ": holds splats, which the page does not draw yet (slf render does; slf "
-                       "export writes them for viewers of splats)"};
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);

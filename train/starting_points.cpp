@@ -13,24 +13,16 @@
 #include "capture/surface_points.h"
 #include "slf/parallel.h"
 #include "train/chance.h"
-#include "train/object_outline.h"
+#include "train/outlines.h"
 
 namespace slf {
 namespace {
 
-constexpr double kOutlined = 0.8;         // of the photographs, for a hull
 constexpr int kCoarse = 48, kFine = 128;  // cells along the longest side
-constexpr double kMissed = 0.04;          // of the outlines that a cell may lie outside of
-constexpr double kSeen = 0.3;             // of the cameras, by which a cell is judged
 constexpr std::size_t kLeastHull = 300;   // points: fewer are no object
 constexpr double kOnHull = 1;             // of its cells, from it: half of the points
 constexpr std::size_t kVolumePoints = 30'000;
 constexpr double kCore = 0.7;  // of the radius: where the object is, mostly
-
-struct Outline {
-  const Camera* camera = nullptr;
-  std::vector<std::uint8_t> object;  ///< empty: the photograph does not tell
-};
 
 /// Cells of a box that are in the object as all outlines have it.
 struct Cells {
@@ -51,35 +43,6 @@ struct Cells {
     return {low[0] + (x + 0.5) * side, low[1] + (y + 0.5) * side, low[2] + (z + 0.5) * side};
   }
 };
-
-/// Whether the object may be at the point: in its photograph, half a cell to either side.
-/// Nothing: it lies outside of the photograph.
-std::optional<bool> may_show(const Outline& outline, const Vec3& at, double half_side) {
-  double depth = 0;
-  const auto image = outline.camera->project(at, &depth);
-  if (!image) return {};
-  const int width = outline.camera->width, height = outline.camera->height;
-  const double u = (*image)[0], v = (*image)[1];
-  if (!(u >= 0 && v >= 0 && u < width && v < height)) return {};
-  const double reach = std::min(outline.camera->fx * half_side / depth, double(width));
-  for (const auto& [du, dv] : {std::array{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-    const auto x = std::clamp(int(u + du * reach), 0, width - 1);
-    const auto y = std::clamp(int(v + dv * reach), 0, height - 1);
-    if (outline.object[std::size_t(y) * std::size_t(width) + std::size_t(x)]) return true;
-  }
-  return false;
-}
-
-bool in_hull(const std::vector<Outline>& outlines, const Vec3& at, double half_side) {
-  std::size_t seen = 0, missed = 0;
-  for (const Outline& outline : outlines) {
-    const auto shows = may_show(outline, at, half_side);
-    seen += shows.has_value();
-    missed += shows.has_value() && !*shows;
-    if (double(missed) > 1 + kMissed * double(outlines.size())) return false;
-  }
-  return double(seen) >= kSeen * double(outlines.size());
-}
 
 Cells carve(const std::vector<Outline>& outlines, const Vec3& low, const Vec3& high, int most,
             int threads) {
@@ -176,25 +139,6 @@ PointCloud volume_of(const LookedAt& ball) {
   return cloud;
 }
 
-Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
-                                                     std::span<const int> cameras, int threads) {
-  std::vector<Outline> outlines(cameras.size());
-  std::vector<std::optional<InputError>> failures(cameras.size());
-  parallel_ranges(cameras.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      auto photograph = load_image(capture, cameras[i]);
-      if (photograph)
-        outlines[i] = {&capture.cameras[std::size_t(cameras[i])], object_outline(*photograph)};
-      else
-        failures[i] = photograph.error();
-    }
-  });
-  for (const auto& failure : failures)
-    if (failure) return *failure;
-  std::erase_if(outlines, [](const Outline& outline) { return outline.object.empty(); });
-  return outlines;
-}
-
 }  // namespace
 
 bool lies_on(const PointCloud& hull, const PointCloud& points) {
@@ -212,7 +156,7 @@ Result<StartingPoints, InputError> starting_points(const Capture& capture,
                                                    std::span<const int> cameras, int threads) {
   SLF_TRY(const LookedAt ball, looked_at(capture, cameras));
   SLF_TRY(const auto outlines, outlines_of(capture, cameras, threads));
-  if (double(outlines.size()) >= kOutlined * double(cameras.size())) {
+  if (are_outlined(outlines, cameras.size())) {
     PointCloud hull = hull_of(outlines, ball, threads);
     if (hull.positions.size() >= kLeastHull) return StartingPoints{std::move(hull), StartId::kHull};
   }

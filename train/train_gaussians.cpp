@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slf/parallel.h"
+#include "train/outlines.h"
 #include "train/tile_pixels.h"
 #include "train/train_surfels.h"
 #include "train/training_start.h"
@@ -11,8 +13,30 @@ namespace slf {
 namespace {
 
 constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
+constexpr std::size_t kJudgedPerRange = 64;
 
 }  // namespace
+
+Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
+                                     int threads, TrainedSurfels& surfels) {
+  SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, threads));
+  if (!are_outlined(outlines, cameras.size())) return Done{};
+  std::vector<std::uint8_t> inside(surfels.size());
+  parallel_ranges(
+      surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const float* v = surfels[i].value.data() + TrainedSurfel::kLogRadius;
+          const double deviation = std::exp((v[0] + v[1]) / 2 - std::log(kGaussianReach) / 2);
+          const auto at = surfels[i].position();
+          inside[i] = in_hull(outlines, {at[0], at[1], at[2]}, deviation);
+        }
+      });
+  TrainedSurfels kept;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    if (inside[i]) kept.push_back(surfels[i]);
+  surfels = std::move(kept);
+  return Done{};
+}
 
 Gaussians gaussians_of(const TrainedSurfels& surfels) {
   const float reach = std::log(kGaussianReach) / 2;
@@ -47,6 +71,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
   TrainedSurfels surfels = first_surfels(start, settings);
   train_surfels(start.views, training, surfels);
+  SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));
   Gaussians out = gaussians_of(surfels);
   out.up = capture.up;
   return out;

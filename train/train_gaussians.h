@@ -5,6 +5,7 @@
 
 #include "slf/gaussians.h"
 #include "train/train_geometry.h"
+#include "train/trained_surfel.h"
 
 namespace slf {
 
@@ -18,6 +19,12 @@ namespace slf {
 Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
                                               const TrainGeometrySettings& settings,
                                               const Progress& progress = {});
+
+/// Leaves out surfels outside of the object, where outlines tell (train/outlines.h): what
+/// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
+/// @errors those of load_image
+Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
+                                     int threads, TrainedSurfels& surfels);
 
 /// Surfels that were trained as Gaussians.
 Gaussians gaussians_of(const TrainedSurfels& surfels);

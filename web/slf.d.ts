@@ -61,6 +61,8 @@ export interface SlfInfo {
   complete: boolean;
   /** Parts can be read without the rest. */
   hasIndex: boolean;
+  /** Points are Gaussian splats (spec 6.8), and drawn as those (annex E.6). */
+  hasSplats: boolean;
   metadata: Record<string, string>;
   /** Memory a decode of all of it takes, estimated from above; whether it is allowed does not matter. Of SlfDecoder.info. */
   decodeBytes?: number;
@@ -139,6 +141,8 @@ export class SlfField {
   readonly rightHanded: boolean;
   readonly hasBasis: boolean;
   readonly hasNormals: boolean;
+  /** Drawn by covariances and opacities, not by discs. */
+  readonly hasSplats: boolean;
   /** Directions are clamped to these gammas (sines of elevation). */
   readonly gamma: [number, number];
   readonly kernel: SlfKernel;
@@ -159,6 +163,10 @@ export class SlfField {
   readonly areas: Float32Array;
   /** [P][3] unit normals that directions are mirrored at; null in the global frame. */
   readonly frameNormals: Float32Array | null;
+  /** Of splats, else null: [P][6] covariance xx, xy, xz, yy, yz, zz about the point, world units squared. */
+  readonly covariances: Float32Array | null;
+  /** Of splats, else null: [P] share of what is behind it that a splat hides at its centre, 0 .. 1. */
+  readonly opacities: Float32Array | null;
 
   /** [P][W][3]: radiance = sum over W of weight times function, clamped to 0 .. 255. */
   weights(out?: Float32Array): Float32Array;
@@ -229,13 +237,14 @@ export interface SlfReading {
 }
 
 type SlfArray = 'positions' | 'values' | 'octahedral' | 'weights' | 'meanColours' | 'normals' | 'centres' | 'radii'
-  | 'areas' | 'frameNormals';
+  | 'areas' | 'frameNormals' | 'covariances' | 'opacities';
 
 /** A field as data, from a worker: the arrays that were asked for. */
 export type SlfPlainField =
   Pick<SlfField, 'points' | 'components' | 'functions' | 'partial' | 'grid' | 'frame' | 'transfer' | 'up' | 'rightHanded'
-    | 'hasBasis' | 'hasNormals' | 'gamma' | 'kernel' | 'info'>
-  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'frameNormals'>>
+    | 'hasBasis' | 'hasNormals' | 'hasSplats' | 'gamma' | 'kernel' | 'info'>
+  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'frameNormals'
+    | 'covariances' | 'opacities'>>
   & { weights?: Float32Array | null; meanColours?: Uint8Array | null; functionTable?: SlfFunctionTable };
 
 export interface SlfWanted {

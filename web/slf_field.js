@@ -7,7 +7,8 @@ const MOST_SIDE = 1024; // of a function table
 
 /** The arrays of slfw_read, by number. */
 const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, FRAME_NORMALS = 5,
-  DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9;
+  DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9,
+  SPLAT_COVARIANCES = 10, SPLAT_OPACITIES = 11;
 
 function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
 
@@ -20,8 +21,8 @@ export class SlfField {
     this.#field = field;
     this.#done = done;
     instance.call((w) => { if (w.slfw_shape(field) !== 0) instance.fail(); });
-    const [components, points, bits, partial, x, y, z, step, weights, frame, transfer, normals, gammaMin, gammaMax] =
-      instance.numbers(14);
+    const [components, points, bits, partial, x, y, z, step, weights, frame, transfer, normals, gammaMin, gammaMax,
+      splats] = instance.numbers(15);
     this.info = info;
     this.points = points;
     this.components = components;
@@ -34,6 +35,7 @@ export class SlfField {
     this.rightHanded = info.rightHanded;
     this.hasBasis = weights > 0;
     this.hasNormals = normals !== 0;
+    this.hasSplats = splats !== 0;
     this.gamma = [gammaMin, gammaMax];
   }
 
@@ -42,6 +44,13 @@ export class SlfField {
   get centres() { return this.#cached(DISC_CENTRES, () => this.#read(DISC_CENTRES, Float32Array, 3)); }
   get radii() { return this.#cached(DISC_RADII, () => this.#read(DISC_RADII, Float32Array, 1)); }
   get areas() { return this.#cached(DISC_AREAS, () => this.#read(DISC_AREAS, Float32Array, 1)); }
+  get covariances() {
+    if (!this.hasSplats) return null;
+    return this.#cached(SPLAT_COVARIANCES, () => this.#read(SPLAT_COVARIANCES, Float32Array, 6));
+  }
+  get opacities() {
+    return this.hasSplats ? this.#cached(SPLAT_OPACITIES, () => this.#read(SPLAT_OPACITIES, Float32Array, 1)) : null;
+  }
   get octahedral() {
     return this.hasNormals ? this.#cached(OCTAHEDRAL, () => this.#read(OCTAHEDRAL, Uint16Array, 2)) : null;
   }

@@ -41,8 +41,8 @@ export function readInfo(instance, stream) {
   const w = instance.wasm;
   if (w.slfw_info(stream) !== 0) instance.fail();
   const [format, bytes, points, slices, groups, levels, functions, components, normalBits, x, y, z, step, metres, up,
-    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers] =
-    instance.numbers(27);
+    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers,
+    splats] = instance.numbers(28);
   const text = (i, value) => instance.text(w.slfw_metadata(stream, i, value));
   // A key may be "__proto__", which an assignment would lose.
   const metadata = Object.fromEntries(Array.from({ length: pairs }, (_, i) => [text(i, 0), text(i, 1)]));
@@ -51,7 +51,8 @@ export function readInfo(instance, stream) {
     bits: levels, levels, slices, groups, layers, normalBits, grid: { origin: [x, y, z], step, bits: levels },
     metresPerUnit: metres, up: UP[up], rightHanded: leftHanded === 0, hasBasis: hasBasis !== 0,
     basis: basis === 0 ? 'bspline' : 'harmonics', frame: FRAMES[frame], transfer: TRANSFERS[transfer],
-    gamma: [gammaMin, gammaMax], complete: complete !== 0, hasIndex: hasIndex !== 0, metadata,
+    gamma: [gammaMin, gammaMax], complete: complete !== 0, hasIndex: hasIndex !== 0,
+    hasSplats: splats !== 0, metadata,
   };
 }
 

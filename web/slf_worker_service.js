@@ -3,7 +3,7 @@ import { SlfDecoder, SlfError } from './slf.js';
 import { SlfStream } from './slf_stream.js';
 
 const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'frame', 'transfer', 'up', 'rightHanded',
-  'hasBasis', 'hasNormals', 'gamma', 'kernel', 'info'];
+  'hasBasis', 'hasNormals', 'hasSplats', 'gamma', 'kernel', 'info'];
 const READERS = {
   positions: (field) => field.positions,
   values: (field) => field.values,
@@ -15,6 +15,8 @@ const READERS = {
   radii: (field) => field.radii,
   areas: (field) => field.areas,
   frameNormals: (field) => field.frameNormals,
+  covariances: (field) => field.covariances,
+  opacities: (field) => field.opacities,
 };
 
 function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }

@@ -45,7 +45,7 @@ extern "C" {
 /* Of this header. Minor: functions, codes and members of sized structs were added; major: a program
  * has to be changed. Before 1 every minor version may do that. */
 #define SLF_API_VERSION_MAJOR 0
-#define SLF_API_VERSION_MINOR 1
+#define SLF_API_VERSION_MINOR 2
 
 /* Of the library that is linked: SLF_API_VERSION_MAJOR << 16 | SLF_API_VERSION_MINOR. */
 SLF_API uint32_t slf_api_version(void);
@@ -174,6 +174,7 @@ typedef struct slf_info {
   uint32_t profile;            /* 0 main, 1 Draco geometry, 2 texture */
   uint32_t has_index;          /* parts can be read without the rest */
   uint32_t layers;             /* of the group that has most: what slf_options.layers counts */
+  uint32_t has_splats;         /* points are Gaussian splats (spec 6.8), and drawn as those: E.6 */
 } slf_info;
 
 SLF_API slf_code slf_get_info(const slf_stream* stream, slf_info* info, slf_error* error);
@@ -257,11 +258,12 @@ typedef struct slf_shape {
   double origin[3];    /* of the grid of these points, as in slf_info */
   double step;
   uint32_t weights;     /* W: real weights of a point are [W][3]; R, or K with a joint transform; 0
-                           without     a basis */
+                           without a basis */
   uint32_t frame;       /* SLF_FRAME_... */
   uint32_t transfer;    /* SLF_TRANSFER_... */
   uint32_t has_normals; /* coded ones */
   double gamma_min, gamma_max;
+  uint32_t has_splats; /* 1: slf_read_splat_..., and drawn by annex E.6, not E.1 to E.5 */
 } slf_shape;
 SLF_API slf_code slf_get_shape(const slf_field* field, slf_shape* shape, slf_error* error);
 
@@ -305,6 +307,15 @@ SLF_API slf_code slf_read_disc_radii(const slf_field* field, uint64_t first, uin
 /* float: s^2, the area of the surface that a point stands for, world units squared. */
 SLF_API slf_code slf_read_disc_areas(const slf_field* field, uint64_t first, uint64_t count,
                                      float* to, size_t stride, slf_error* error);
+
+/* Gaussian splats (spec 6.8; slf_shape.has_splats). Worked out for the whole field, once, when
+ * first asked for. float[6]: covariance xx, xy, xz, yy, yz, zz about the point's place, world units
+ * squared; what does not fit a float is infinite or no number, and such a splat is not drawn. */
+SLF_API slf_code slf_read_splat_covariances(const slf_field* field, uint64_t first, uint64_t count,
+                                            float* to, size_t stride, slf_error* error);
+/* float: share of what is behind it that a splat hides at its centre, 0 .. 1. */
+SLF_API slf_code slf_read_splat_opacities(const slf_field* field, uint64_t first, uint64_t count,
+                                          float* to, size_t stride, slf_error* error);
 
 /* The W functions of direction along `directions` (float[count][3], of any length > 0; in the frame
  * of the points: slf_frame_direction), gamma clamped to the field's range.

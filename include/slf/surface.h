@@ -13,7 +13,7 @@ enum class Surface : std::uint8_t {
   kGiven,    ///< the capture's points: scans, exact models
   kMended,   ///< moved to where photographs agree (RefineGeometry::kOn)
   kTrained,  ///< trained by photographs, from the capture's points on
-  kAuto,     ///< what predicts held-out input photographs best: one of those above
+  kAuto,     ///< what predicts held-out input photographs best: one of those above, or splats
   kSplats,   ///< no surface: trained splats, translucent, of any size (slf/gaussians.h)
 };
 
@@ -35,6 +35,8 @@ struct SurfaceReport {
   std::size_t points_before = 0, points_after = 0;
   double before_psnr = 0;  ///< of the points as given, or mended where those are better
   double trained_psnr = 0;
+  double splats_psnr = 0;        ///< of splats, where they may be chosen
+  std::size_t splats_bytes = 0;  ///< of their file then, about
   double seconds_train = 0, seconds_judge = 0;
 
   double seconds() const { return mended.seconds + seconds_train + seconds_judge; }

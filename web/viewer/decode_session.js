@@ -69,7 +69,7 @@ export class DecodeSession {
       throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
     const field = this.run(decoder, bytes, { ...part, maxMemory });
     try {
-      return { packed: packField(field, tableSize), info, end: bytes.length };
+      return { packed: packField(field, tableSize, prefix > 0), info, end: bytes.length };
     } finally {
       field.release();
     }

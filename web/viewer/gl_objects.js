@@ -62,7 +62,7 @@ export function layered(gl, internal, width, height, layers, format, type, data,
   return texture;
 }
 
-function unpackPlainly(gl) {
+export function unpackPlainly(gl) {
   gl.bindBuffer(gl.PIXEL_UNPACK_BUFFER, null);
   gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
   gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);

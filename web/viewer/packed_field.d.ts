@@ -23,15 +23,20 @@ export interface PackedField {
   readonly radius: number;
   /** From the centre to the farthest point of all. */
   readonly reach: number;
-  /** Least and greatest corner of all discs, in world units. */
+  /** Drawn as Gaussian splats (annex E.6). */
+  readonly splats?: boolean;
+  /** Least and greatest corner of all discs or splats, in world units. */
   readonly box: [number[], number[]];
   readonly up: string;
   readonly linear: boolean;
   readonly partial: boolean;
 }
 
-/** @param tableSize  samples along a side of a face of the function table; 65 */
-export function packField(field: SlfField, tableSize?: number): PackedField;
+/**
+ * @param tableSize  samples along a side of a face of the function table; 65
+ * @param arriving  more of the file will come: splats that stand for many are widened
+ */
+export function packField(field: SlfField, tableSize?: number, arriving?: boolean): PackedField;
 
 /** Of all that can be transferred to another thread without a copy. */
 export function buffersOf(packed: PackedField): ArrayBuffer[];

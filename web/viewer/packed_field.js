@@ -1,6 +1,8 @@
 // A decoded light field as the texels that the pipeline uploads: no DOM, no WebGL, so that a worker
 // does it.
 
+import { boxOfSplats, packSplats } from './packed_splats.js';
+
 const COLUMNS = 1024;
 
 /** What stands in the way of a file that is sound: too large for the device, without view maps. */
@@ -26,9 +28,10 @@ export class ViewerError extends Error {
  * Texels of a light field, lengths in voxels from the middle of its box.
  * @param field  of SlfDecoder.decode()
  * @param {number} tableSize  samples along a side of a face of the function table
+ * @param {boolean} arriving  more of the file will come
  * @returns {PackedField} typed arrays that can be transferred, and plain numbers
  */
-export function packField(field, tableSize = 65) {
+export function packField(field, tableSize = 65, arriving = false) {
   const points = field.points,
     columns = Math.min(COLUMNS, Math.max(1, points));
   const rows = Math.max(1, Math.ceil(points / columns)),
@@ -36,7 +39,8 @@ export function packField(field, tableSize = 65) {
   const ball = boundingBall(field);
   const table = field.functionTable({ side: tableSize });
   const unit = packWeights(field.weights(), points, field.functions, texels);
-  const places = packPlaces(field, ball.centre, texels);
+  const own = field.hasSplats ? packSplats(field, ball, texels, arriving) : packPlaces(field, ball.centre, texels);
+  const box = field.hasSplats ? boxOfSplats(own, points) : boxOfDiscs(own, points);
   const toWorld = (place) => place.map((v, k) => field.grid.origin[k] + field.grid.step * (ball.centre[k] + v));
   return {
     points,
@@ -53,11 +57,11 @@ export function packField(field, tableSize = 65) {
     levels: field.grid.bits,
     step: field.grid.step,
     radius: ball.radius * field.grid.step,
-    reach: ball.reach * field.grid.step,
+    reach: (field.hasSplats ? farthestOf(box) : ball.reach) * field.grid.step,
     size: ball.size.map((v) => v * field.grid.step),
     centre: ball.centre.map((c, k) => field.grid.origin[k] + field.grid.step * c),
-    ...places,
-    box: boxOfDiscs(places, points).map(toWorld),
+    ...own,
+    box: box.map(toWorld),
   };
 }
 
@@ -78,10 +82,11 @@ function boxOfDiscs({ places, discs }, points) {
 
 /** Of all that can be transferred to another thread without a copy. */
 export function buffersOf(packed) {
-  return [packed.places, packed.discs, packed.frames, packed.means, packed.weights, packed.functions.texels].map(
-    (array) => array.buffer,
-  );
+  return [...Object.values(packed), packed.functions.texels].filter(ArrayBuffer.isView).map((array) => array.buffer);
 }
+
+/** From the middle to the farthest corner of a box. */
+const farthestOf = ([low, high]) => Math.hypot(...low.map((v, k) => Math.max(-v, high[k])));
 
 const WIDE = 4, // of the box of all points, over that of most
   FEWEST = 100; // points of which a few can be told

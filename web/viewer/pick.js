@@ -1,6 +1,8 @@
 // Where a ray meets a light field, and the colour that is seen that way: on the processor, from the texels that the
 // pipeline uploads. Lengths in voxels from `packed.centre`, as these texels are.
 
+import { pickSplat } from './pick_splats.js';
+
 const CORE = 0.4, // squared share of a disc's radius within which it fixes the depth: spec E.4
   FLAT = 0.5; // squared length of a normal that is there
 
@@ -10,6 +12,7 @@ const CORE = 0.4, // squared share of a disc's radius within which it fixes the 
  * @returns {{index, distance, normal}|null} the first disc whose core is met, else the first disc; its normal looks back
  */
 export function pick(packed, from, along, share = 1) {
+  if (packed.splats) return pickSplat(packed, from, along, share);
   const drawn = Math.max(1, Math.round(packed.points * Math.min(1, share))),
     thinning = packed.points / drawn,
     { places, discs } = packed;
@@ -72,7 +75,7 @@ export function colourFrom(packed, index, eye, meanOnly = false) {
 /** The direction to the eye in the point's frame, within what cameras saw. */
 function direction({ gamma }, places, frames, p, eye) {
   let w = normalised([0, 1, 2].map((k) => eye[k] - places[p + k])) ?? [1, 0, 0];
-  const n = [frames[p], frames[p + 1], frames[p + 2]];
+  const n = frames ? [frames[p], frames[p + 1], frames[p + 2]] : [0, 0, 0];
   if (dot(n, n) > FLAT) {
     const twice = 2 * dot(n, w);
     w = w.map((x, k) => twice * n[k] - x);

@@ -1,13 +1,22 @@
 // GLSL of the reference reconstruction, spec annex E. Lengths are voxels, colours 0 .. 1, images have
 // their first row at the bottom, as WebGL has it. The constants are those of render/reference_kernel.h.
 
-const HEAD = `#version 300 es
+export const HEAD = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp sampler2DArray;
 precision highp isampler2DArray;
 `;
+
+/** Of colours: spec 6.5. */
+export const TRANSFERS = `
+vec3 toDisplay(vec3 c) {
+  return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+vec3 fromDisplay(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+}`;
 
 /** Every pixel of the target once: a triangle that holds all of it. */
 export const SCREEN_VERTEX = `${HEAD}
@@ -27,6 +36,7 @@ uniform vec2 gamma;
 uniform int points, layers;
 uniform float faceSize;  // texels along a face of the table
 uniform bool meanOnly;
+uniform float brightest;  // splats are not clamped from above: E.6
 out vec4 colour;
 
 /** Where direction w stands in the table: faces lie three beside two. */
@@ -74,7 +84,7 @@ void main() {
                 dot(vec4(texelFetch(weights, ivec3(at, 3 * l + 1), 0)), e),
                 dot(vec4(texelFetch(weights, ivec3(at, 3 * l + 2), 0)), e));
   }
-  colour = vec4(clamp(sum / 32767.0, 0.0, 1.0), 1);
+  colour = vec4(clamp(sum / 32767.0, 0.0, brightest), 1);
 }`;
 
 const DISC_VERTEX = (blending) => `${HEAD}
@@ -217,13 +227,7 @@ uniform bool linear, toLinear;    // transfer of the light field; of the target
 uniform vec2 depthRange;          // target depth = x + y * inverse depth
 out vec4 colour;
 
-vec3 toDisplay(vec3 c) {
-  return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
-}
-vec3 fromDisplay(vec3 c) {
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
-}
-
+${TRANSFERS}
 void main() {
   vec2 at = (gl_FragCoord.xy - viewport.xy) / viewport.zw;
   float sum = texture(weight, at).x;

@@ -1,6 +1,8 @@
 // A canvas with one light field on it: draws when something has changed, coarser while frames are
 // slow and a hand moves, and again after the context was lost.
-import { SurfelPipeline, summary } from './surfel_pipeline.js';
+import { pipelineWith } from './pipelines.js';
+import { summary } from './point_pipeline.js';
+import { SurfelPipeline } from './surfel_pipeline.js';
 import { ViewerError } from './packed_field.js';
 import { fittedCamera, viewOf } from './view.js';
 
@@ -36,7 +38,7 @@ export class Stage {
 
   /** While the context is lost it is uploaded when that comes back. */
   setField(packed) {
-    if (!this.gl.isContextLost()) this.pipeline.setField(packed);
+    if (!this.gl.isContextLost()) this.pipeline = pipelineWith(this.gl, packed, this.pipeline);
     this.packed = packed;
     this.field = summary(packed);
     this.redraw();
@@ -65,8 +67,8 @@ export class Stage {
     if (!this.settled) this.adapt(since);
     clearTimeout(this.rest);
     const scale = this.settled ? 1 : this.scale;
-    this.draw(scale);
-    if (more) return this.redraw({ moving: true });
+    this.draw(scale, !this.settled);
+    if (more || this.pipeline.unsettled) return this.redraw({ moving: true });
     this.last = undefined;
     if (this.settled) return;
     this.rest = setTimeout(() => {
@@ -89,7 +91,8 @@ export class Stage {
     return [this.canvas.clientWidth, this.canvas.clientHeight].map((v) => Math.max(1, Math.round(v * density)));
   }
 
-  draw(scale = 1) {
+  /** @param {boolean} patient  more frames will follow, of what takes longer than this */
+  draw(scale = 1, patient = false) {
     const { gl, canvas, pipeline } = this,
       [width, height] = this.pixels();
     if (canvas.width !== width || canvas.height !== height) {
@@ -97,7 +100,7 @@ export class Stage {
       canvas.height = height;
     }
     const size = [width, height].map((v) => Math.max(1, Math.round(v * scale)));
-    if (pipeline.field && (this.pose || this.camera)) pipeline.accumulate(this.view(...size), this.look);
+    if (pipeline.field && (this.pose || this.camera)) pipeline.accumulate(this.view(...size), { ...this.look, patient });
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     this.paint([0, 0, width, height], this.look.background);
     this.on.drawn?.();

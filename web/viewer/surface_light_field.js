@@ -16,7 +16,7 @@ import {
   Vector4,
 } from 'three';
 import { colourFrom, pick } from './pick.js';
-import { SurfelPipeline } from './surfel_pipeline.js';
+import { pipelineWith } from './pipelines.js';
 
 const viewport = new Vector4(),
   toObject = new Matrix4(),
@@ -112,7 +112,7 @@ export class SurfaceLightField extends Mesh {
     toObject.copy(this.matrixWorld).invert().multiply(camera.matrixWorld);
     const { view, scale } = viewOfCamera(camera.projectionMatrix.elements, toObject.elements, width, height);
     withState(gl, () => {
-      pipeline.accumulate(view, { meanOnly: this.meanOnly, share: this.share });
+      pipeline.accumulate(view, { meanOnly: this.meanOnly, share: this.share, withDepth: true });
     });
     withState(gl, () => {
       // WebGL itself encodes what is drawn into any other sRGB target.
@@ -135,7 +135,7 @@ export class SurfaceLightField extends Mesh {
       return own;
     }
     withState(gl, () => {
-      own = pipelineWith(gl, this.packed);
+      own = pipelineOrFailure(gl, this.packed);
     });
     gl.canvas.addEventListener(
       'webglcontextlost',
@@ -174,14 +174,10 @@ function geometryOf({ box: [low, high], centre, reach, step }) {
 }
 
 /** A pipeline with a field, or why there is none: the next frame need not try again. */
-function pipelineWith(gl, packed) {
-  let pipeline;
+function pipelineOrFailure(gl, packed) {
   try {
-    pipeline = new SurfelPipeline(gl);
-    pipeline.setField(packed);
-    return pipeline;
+    return pipelineWith(gl, packed);
   } catch (failure) {
-    pipeline?.dispose();
     return { failure };
   }
 }

@@ -1,5 +1,5 @@
 // Cameras: an orbit around a light field as `slf render --orbit` has it, a camera file's entries, and
-// what lies between. A View is what surfel_pipeline.js draws.
+// what lies between. A View is what point_pipeline.js draws.
 
 /** Right-handed world axes with `up` third, as the C++ renderer's orbit. */
 const AXES = {
@@ -19,8 +19,8 @@ const AXES = {
     [0, 1, 0],
   ],
   '-y': [
-    [0, 0, 1],
     [1, 0, 0],
+    [0, 0, 1],
     [0, -1, 0],
   ],
   '+z': [
@@ -53,7 +53,7 @@ const mixed = (a, u, b, v, c, w) => u.map((x, k) => a * x + b * v[k] + c * w[k])
 
 /** The whole light field in the picture, seen as `slf render --azimuth --elevation --fov` does. */
 export function fittingPose(field, { azimuth = 0, elevation = 20, fov = 30 } = {}) {
-  const radius = 1.03 * (field.radius + field.step);
+  const radius = 1.03 * (field.radius + (field.splats ? 0 : field.step));
   return { target: [...field.centre], distance: radius / Math.sin((fov * Math.PI) / 360), azimuth, elevation, fov };
 }
 
@@ -73,7 +73,7 @@ export function axesOf(pose, up) {
   ];
 }
 
-/** @returns {import('./surfel_pipeline.js').View} */
+/** @returns {import('./point_pipeline.js').View} */
 export function viewOf(pose, up, width, height) {
   const rows = axesOf(pose, up);
   const focal = Math.min(width, height) / (2 * Math.tan((pose.fov * Math.PI) / 360));

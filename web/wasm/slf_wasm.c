@@ -62,7 +62,7 @@ void EXPORT(slfw_release_stream)(slf_stream* stream) { slf_release_stream(stream
 
 /* format version, bytes, points, slices, groups, levels, K, R, normal bits, origin[3], step, metres
  * per unit, up, left-handed, has basis, basis, frame, transfer, gamma min, max, complete, pairs,
- * profile, has index, layers */
+ * profile, has index, layers, has splats */
 int EXPORT(slfw_info)(const slf_stream* stream) {
   slf_info i = {sizeof i};
   const slf_code code = slf_get_info(stream, &i, error());
@@ -70,7 +70,8 @@ int EXPORT(slfw_info)(const slf_stream* stream) {
                         i.levels, i.functions, i.components, i.normal_bits, i.origin[0],
                         i.origin[1], i.origin[2], i.step, i.metres_per_unit, i.up, i.left_handed,
                         i.has_basis, i.basis, i.frame, i.transfer, i.gamma_min, i.gamma_max,
-                        i.complete, i.metadata_pairs, i.profile, i.has_index, i.layers};
+                        i.complete, i.metadata_pairs, i.profile, i.has_index, i.layers,
+                        i.has_splats};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }
@@ -137,13 +138,14 @@ slf_field* EXPORT(slfw_decode)(const slf_stream* stream) {
 }
 void EXPORT(slfw_release_field)(slf_field* field) { slf_release_field(field); }
 
-/* R, P, levels, partial, origin[3], step, W, frame, transfer, has normals, gamma min, max */
+/* R, P, levels, partial, origin[3], step, W, frame, transfer, has normals, gamma min, max, has
+ * splats */
 int EXPORT(slfw_shape)(const slf_field* field) {
   slf_shape s = {sizeof s};
   const slf_code code = slf_get_shape(field, &s, error());
   const double all[] = {s.components, (double)s.points, s.levels, s.partial, s.origin[0],
                         s.origin[1], s.origin[2], s.step, s.weights, s.frame, s.transfer,
-                        s.has_normals, s.gamma_min, s.gamma_max};
+                        s.has_normals, s.gamma_min, s.gamma_max, s.has_splats};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }
@@ -160,7 +162,9 @@ int EXPORT(slfw_read)(const slf_field* field, int what, uint32_t first, uint32_t
     case 6: return slf_read_disc_normals(field, first, count, to, 0, error());
     case 7: return slf_read_disc_centres(field, first, count, to, 0, error());
     case 8: return slf_read_disc_radii(field, first, count, to, 0, error());
-    default: return slf_read_disc_areas(field, first, count, to, 0, error());
+    case 9: return slf_read_disc_areas(field, first, count, to, 0, error());
+    case 10: return slf_read_splat_covariances(field, first, count, to, 0, error());
+    default: return slf_read_splat_opacities(field, first, count, to, 0, error());
   }
 }
 

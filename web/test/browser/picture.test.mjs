@@ -1,9 +1,7 @@
 // The browser's pictures are the C++ renderer's.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { join } from 'node:path';
-import { readFileSync } from 'node:fs';
-import { launch, makeCan, newPage, pictureOf, psnr, readPng, serve, settled, skip, slf } from './support.mjs';
+import { launch, makeCan, newPage, pictureOf, psnr, rendered, serve, settled, skip, threePictureOf } from './support.mjs';
 
 const LEAST = 35; // dB, of every view
 let can, server, chrome;
@@ -33,26 +31,11 @@ test('five views of the viewer are those of slf render', { skip }, async (t) => 
 });
 
 test('mean colours are those of slf render --diffuse-only, and differ from the light field', { skip }, async (t) => {
-  const page = await newPage(chrome),
-    png = join(can.dir, 'mean.png');
-  slf(
-    'render',
-    can.file,
-    '--diffuse-only',
-    '--azimuth',
-    can.views[0].azimuth,
-    '--elevation',
-    can.views[0].elevation,
-    '--size',
-    `${can.size}x${can.size}`,
-    '-o',
-    png,
-    '--quiet',
-  );
+  const page = await newPage(chrome);
   await page.goto(`${server.page}?src=/files/can.slf&background=808080&embed&mean`);
   assert.equal(await settled(page), 'ready');
   const picture = await pictureOf(page, can.views[0], can.size);
-  const value = psnr(picture, readPng(readFileSync(png)));
+  const value = psnr(picture, rendered(can.file, can.views[0], can.size, '--diffuse-only'));
   t.diagnostic(`${value.toFixed(2)} dB; to the light field ${psnr(picture, can.pictures[0]).toFixed(2)} dB`);
   assert.ok(value >= LEAST);
   assert.ok(psnr(picture, can.pictures[0]) < value - 3);
@@ -65,33 +48,7 @@ test('five views of the three.js object are those of slf render', { skip }, asyn
   await page.waitForFunction(() => window.ready || window.failed);
   assert.equal(await page.evaluate(() => String(window.failed)), 'undefined');
   for (const [i, view] of can.views.entries()) {
-    const base64 = await page.evaluate(
-      async ([pose, size]) => {
-        const { field, renderer, THREE } = window,
-          { axesOf, fittingPose } = await import(new URL('view.js', document.baseURI));
-        const scene = new THREE.Scene(),
-          camera = new THREE.PerspectiveCamera(30, 1, 0.01, 100);
-        scene.background = new THREE.Color('#808080');
-        field.position.set(0, 0, 0);
-        field.quaternion.identity();
-        field.scale.setScalar(1);
-        scene.add(field);
-        const at = fittingPose(field.packed, pose),
-          [right, down, forward] = axesOf(at, field.packed.up);
-        const eye = at.target.map((v, k) => v - at.distance * forward[k]);
-        camera.matrixAutoUpdate = false;
-        camera.matrix
-          .makeBasis(...[right, down.map((v) => -v), forward.map((v) => -v)].map((v) => new THREE.Vector3(...v)))
-          .setPosition(...eye);
-        camera.updateMatrixWorld(true);
-        renderer.setPixelRatio(1);
-        renderer.setSize(size, size, false);
-        renderer.render(scene, camera);
-        return renderer.domElement.toDataURL().split(',')[1];
-      },
-      [view, can.size],
-    );
-    const value = psnr(readPng(Buffer.from(base64, 'base64')), can.pictures[i]);
+    const value = psnr(await threePictureOf(page, view, can.size), can.pictures[i]);
     t.diagnostic(`view ${i}: ${value.toFixed(2)} dB`);
     assert.ok(value >= LEAST, `view ${i}: ${value} dB`);
   }

@@ -41,25 +41,35 @@ export function makeCan(size = 320) {
     file = join(dir, 'can.slf');
   slf('synth', 'can', '-o', capture, '--size', '96x96');
   slf('encode', capture, '-o', file, '--effort', 1, '--quiet');
+  return { dir, capture, ...withViews(file, size) };
+}
+
+/** The can as Gaussian splats of degree 2. */
+export function makeSplats(size = 320) {
+  const { dir, file } = makeCan(size),
+    ply = join(dir, 'splats.ply'),
+    splats = join(dir, 'splats.slf');
+  slf('export', file, '-o', ply, '--degree', 2, '--quiet');
+  slf('encode', ply, '-o', splats, '--quiet');
+  return { dir, ...withViews(splats, size) };
+}
+
+/** A file, and five views of it by the C++ renderer. */
+export function withViews(file, size) {
   const views = [0, 1, 2, 3, 4].map((i) => ({ azimuth: 20 + 72 * i, elevation: 15 * i - 20 }));
-  const pictures = views.map((view, i) => {
-    const png = join(dir, `view${i}.png`);
-    slf(
-      'render',
-      file,
-      '--azimuth',
-      view.azimuth,
-      '--elevation',
-      view.elevation,
-      '--size',
-      `${size}x${size}`,
-      '-o',
-      png,
-      '--quiet',
-    );
-    return readPng(readFileSync(png));
-  });
-  return { dir, capture, file, bytes: readFileSync(file), views, pictures, size };
+  const pictures = views.map((view) => rendered(file, view, size));
+  return { file, bytes: readFileSync(file), views, pictures, size };
+}
+
+let pictures; // a folder
+
+/** The picture of `slf render`. */
+export function rendered(file, { azimuth, elevation }, size, ...options) {
+  pictures ??= folder();
+  const png = join(pictures, 'view.png'),
+    sides = `${size}x${size}`;
+  slf('render', file, '--azimuth', azimuth, '--elevation', elevation, '--size', sides, '-o', png, '--quiet', ...options);
+  return readPng(readFileSync(png));
 }
 
 const TYPES = {
@@ -145,19 +155,50 @@ export async function settled(page) {
   return page.evaluate(() => document.body.dataset.state);
 }
 
-/** The viewer's picture of a pose on its canvas, as its own screenshot has it. */
+/** The viewer's picture of a pose (null: as it is) on its canvas, as its own screenshot has it. */
 export async function pictureOf(page, pose, size) {
   await page.setViewportSize({ width: size, height: size });
   const base64 = await page.evaluate(
     async ([view]) => {
       const { viewer } = window,
-        { fittingPose } = await import(new URL('view.js', document.baseURI)).catch(() => viewer.parts);
+        parts = view && (await import(new URL('view.js', document.baseURI)));
       viewer.spin(0);
-      if (view) viewer.controls.pose = viewer.stage.pose = fittingPose(viewer.stage.field, view);
+      if (view) viewer.controls.pose = viewer.stage.pose = parts.fittingPose(viewer.stage.field, view);
       const blob = await viewer.stage.screenshot();
       return btoa(Array.from(new Uint8Array(await blob.arrayBuffer()), (b) => String.fromCharCode(b)).join(''));
     },
     [pose],
+  );
+  return readPng(Buffer.from(base64, 'base64'));
+}
+
+/** The picture of the three.js page's object from a pose. */
+export async function threePictureOf(page, view, side) {
+  const base64 = await page.evaluate(
+    async ([pose, size]) => {
+      const { field, renderer, THREE } = window,
+        { axesOf, fittingPose } = await import(new URL('view.js', document.baseURI));
+      const scene = new THREE.Scene(),
+        camera = new THREE.PerspectiveCamera(30, 1, 0.01, 100);
+      scene.background = new THREE.Color('#808080');
+      field.position.set(0, 0, 0);
+      field.quaternion.identity();
+      field.scale.setScalar(1);
+      scene.add(field);
+      const at = fittingPose(field.packed, pose),
+        [right, down, forward] = axesOf(at, field.packed.up);
+      const eye = at.target.map((v, k) => v - at.distance * forward[k]);
+      camera.matrixAutoUpdate = false;
+      camera.matrix
+        .makeBasis(...[right, down.map((v) => -v), forward.map((v) => -v)].map((v) => new THREE.Vector3(...v)))
+        .setPosition(...eye);
+      camera.updateMatrixWorld(true);
+      renderer.setPixelRatio(1);
+      renderer.setSize(size, size, false);
+      renderer.render(scene, camera);
+      return renderer.domElement.toDataURL().split(',')[1];
+    },
+    [view, side],
   );
   return readPng(Buffer.from(base64, 'base64'));
 }

@@ -13,7 +13,7 @@ const PROBLEMS = [
   ['a file that was cut', 'src=/files/cut.slf', 'damaged'],
   ['no such file', 'src=/files/none.slf', 'network'],
   ['a connection that breaks', 'src=/files/breaks.slf', 'network'],
-  ['a file of another kind', 'src=/files/view0.png', 'damaged'],
+  ['a file of another kind', 'src=/files/capture/cameras.json', 'damaged'],
   ['a server that is not there', 'src=http://127.0.0.1:9/x.slf', 'network'],
 ];
 for (const [name, query, kind] of PROBLEMS)

@@ -1,0 +1,49 @@
+// Attributes of a splat as real numbers. Spec 6.8.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lightfield/symmetric3.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// The first function of an attribute; num_functions where it is not there.
+int first_function(const LightFieldHeader& header, AttributeId id);
+
+/// Where a splat's attributes begin.
+struct SplatFunctions {
+  int opacity, shape;
+};
+SplatFunctions splat_functions(const LightFieldHeader& header);
+
+/// Given planes of one point (slf/given_planes.h) as real numbers.
+class PointValues {
+ public:
+  PointValues(const LightFieldHeader& header, const std::int32_t* planes)
+      : header_(header), planes_(planes) {}
+
+  double operator()(int function, int channel) const;
+
+ private:
+  const LightFieldHeader& header_;
+  const std::int32_t* planes_;
+};
+
+/// -kLogitBound .. kLogitBound
+double logit_of(const PointValues& value, const SplatFunctions& functions);
+/// The matrix L: logarithms of deviations along axes.
+Symmetric3 log_shape_of(const PointValues& value, const SplatFunctions& functions);
+
+/// Splats as a page draws them.
+struct SplatShapes {
+  std::vector<std::array<float, 6>> covariances;  ///< xx, xy, xz, yy, yz, zz; world units squared
+  std::vector<float> opacities;                   ///< 0 .. 1
+};
+
+/// Of a light field for which has_gaussians() holds. O(P K). The same for any thread count.
+SplatShapes splat_shapes(const LightField& field, int threads);
+
+}  // namespace slf

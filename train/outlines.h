@@ -1,0 +1,31 @@
+// The object as the outlines of its photographs have it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slf/capture.h"
+#include "slf/error.h"
+
+namespace slf {
+
+struct Outline {
+  const Camera* camera = nullptr;
+  std::vector<std::uint8_t> object;  ///< [height][width] 1: the object
+};
+
+/// Of the photographs that tell (object_outline); cameras are the capture's own.
+/// @errors those of load_image
+Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
+                                                     std::span<const int> cameras, int threads);
+
+/// Whether so many photographs tell that the object has a hull.
+bool are_outlined(const std::vector<Outline>& outlines, std::size_t cameras);
+
+/// Whether the object may be at a point, half_side to either side: all outlines but a few say so,
+/// and enough cameras see it.
+bool in_hull(const std::vector<Outline>& outlines, const Vec3& at, double half_side);
+
+}  // namespace slf

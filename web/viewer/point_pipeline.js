@@ -1,0 +1,213 @@
+// What pipelines of points share: the texels of a light field on the device, and the colours of its points from
+// a place.
+import { bind, image, layered, program, quadIndices, target, use } from './gl_objects.js';
+import { COLOUR_FRAGMENT, SCREEN_VERTEX } from './shaders.js';
+import { ViewerError } from './packed_field.js';
+
+const QUADS = 1 << 16; // of one draw: an index buffer for all draws
+
+/**
+ * @typedef {object} View  a camera with OpenCV axes (right, down, forward), as in cameras.json
+ * @property {number} width, height  pixels
+ * @property {number} fx, fy, cx, cy  pixels; the centre of the top left pixel is (0.5, 0.5)
+ * @property {number[]} rotation  [9] rows right, down, forward, world to camera
+ * @property {number[]} eye  [3] world
+ */
+
+/** Of a kind of points that says what its own texels are (ownTextures) and how they are drawn (drawPoints, resolve). */
+export class PointPipeline {
+  /**
+   * @param {WebGL2RenderingContext} gl  whose state draw() and setField() change: see withState()
+   * @param {object} programs  vertex and fragment shader of each
+   * @throws {ViewerError} kind 'no-webgl2' where the device cannot blend half floats
+   */
+  constructor(gl, programs) {
+    this.gl = gl;
+    if (!gl.getExtension('EXT_color_buffer_float') && !gl.getExtension('EXT_color_buffer_half_float'))
+      throw new ViewerError('no-webgl2', 'This device cannot blend in half floats.');
+    this.programs = { colour: program(gl, SCREEN_VERTEX, COLOUR_FRAGMENT) };
+    for (const [name, shaders] of Object.entries(programs)) this.programs[name] = program(gl, ...shaders);
+    this.nothing = gl.createVertexArray();
+    this.quads = quadIndices(gl, QUADS);
+    this.field = null;
+    this.textures = {};
+    this.sums = null;
+    this.coloured = null;
+    this.statistics = { discs: 0, colourFetches: 0 };
+  }
+
+  /** Uploads a light field in place of the one before. O(P R). @throws {ViewerError} 'too-large' */
+  setField(packed) {
+    const { gl } = this;
+    const side = gl.getParameter(gl.MAX_TEXTURE_SIZE),
+      layers = gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS);
+    if (packed.rows > side || 3 * packed.layers > layers || packed.functions.width > side)
+      throw new ViewerError(
+        'too-large',
+        `${packed.points} points with ${packed.components} components are more than this device's textures hold.`,
+      );
+    this.clearField();
+    const { columns: w, rows: h } = packed,
+      f = packed.functions;
+    this.textures = {
+      places: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, packed.places),
+      ...this.ownTextures(packed),
+      means: image(gl, gl.RGBA8, w, h, gl.RGBA, gl.UNSIGNED_BYTE, packed.means),
+      weights: layered(gl, gl.RGBA16I, w, h, 3 * packed.layers, gl.RGBA_INTEGER, gl.SHORT, packed.weights, gl.NEAREST),
+      functions: layered(gl, gl.RGBA16F, f.width, f.height, f.layers, gl.RGBA, gl.FLOAT, f.texels, gl.LINEAR),
+      colours: image(gl, gl.RGBA16F, w, h, gl.RGBA, gl.HALF_FLOAT, null),
+    };
+    this.colourTarget = target(gl, [this.textures.colours], null);
+    if (gl.getError() === gl.OUT_OF_MEMORY)
+      throw new ViewerError('too-large', 'The graphics memory does not hold this light field.');
+    this.field = summary(packed);
+    this.coloured = null;
+  }
+
+  clearField() {
+    const { gl } = this;
+    for (const texture of Object.values(this.textures)) gl.deleteTexture(texture);
+    if (this.colourTarget) gl.deleteFramebuffer(this.colourTarget);
+    this.textures = {};
+    this.colourTarget = this.field = null;
+  }
+
+  /**
+   * Depths, sums and coverage of a view, kept until the next call.
+   * @param {View} view
+   * @param {object} options  meanOnly; share: of the points, 0 .. 1; withDepth: resolve() will be asked for depths;
+   *   patient: what takes long may be that of a view before, and `unsettled` says so
+   */
+  accumulate(view, { meanOnly = false, share = 1, ...options } = {}) {
+    const { gl, field } = this;
+    if (!field) return;
+    const eye = view.eye.map((x, k) => (x - field.centre[k]) / field.step);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.disable(gl.STENCIL_TEST);
+    gl.disable(gl.CULL_FACE);
+    gl.colorMask(true, true, true, true);
+    this.colourPoints(eye, meanOnly);
+    this.prepareSums(view.width, view.height, options);
+    this.drawPoints(view, eye, share, options);
+  }
+
+  /** Whether a later frame of the same view would be another. */
+  get unsettled() {
+    return false;
+  }
+
+  /** Colours of all points; none of the work where neither eye nor mode have changed. */
+  colourPoints(eye, meanOnly) {
+    const { gl, field, textures: t } = this;
+    const key = `${eye} ${meanOnly}`;
+    if (this.coloured === key) return;
+    this.coloured = key;
+    const uniforms = use(gl, this.programs.colour);
+    bind(gl, uniforms, { places: t.places, frames: t.frames, means: t.means });
+    bind(gl, uniforms, { weights: t.weights, functions: t.functions }, gl.TEXTURE_2D_ARRAY, 3);
+    gl.uniform3fv(uniforms.eye, eye);
+    gl.uniform2fv(uniforms.gamma, field.gamma);
+    gl.uniform1i(uniforms.points, field.points);
+    gl.uniform1i(uniforms.layers, field.layers);
+    gl.uniform1f(uniforms.faceSize, field.faceSize);
+    gl.uniform1i(uniforms.meanOnly, meanOnly ? 1 : 0);
+    gl.uniform1f(uniforms.brightest, field.brightest);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.colourTarget);
+    gl.viewport(0, 0, field.columns, field.rows);
+    gl.disable(gl.BLEND);
+    gl.disable(gl.DEPTH_TEST);
+    this.drawScreen();
+    this.statistics.colourFetches = meanOnly ? 1 : 2 + 4 * field.layers;
+  }
+
+  /** The camera of a view, for a vertex shader of points. */
+  setCamera(uniforms, view, eye) {
+    const { gl } = this,
+      r = view.rotation;
+    gl.uniformMatrix3fv(uniforms.rotation, false, [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]]);
+    gl.uniform3fv(uniforms.eye, eye);
+    gl.uniform2f(uniforms.focal, view.fx, -view.fy);
+    gl.uniform2f(uniforms.centre, view.cx, view.height - view.cy);
+    gl.uniform2f(uniforms.size, view.width, view.height);
+  }
+
+  /** @param set  (uniforms) => sets what the program has beside textures */
+  drawQuads(program, textures, set, drawn) {
+    const { gl } = this;
+    const uniforms = use(gl, program);
+    bind(gl, uniforms, textures);
+    set(uniforms);
+    gl.bindVertexArray(this.quads.array);
+    for (let first = 0; first < drawn; first += QUADS) {
+      gl.uniform1i(uniforms.first, first);
+      gl.drawElements(gl.TRIANGLES, 6 * Math.min(QUADS, drawn - first), gl.UNSIGNED_INT, 0);
+    }
+  }
+
+  drawScreen() {
+    this.gl.bindVertexArray(this.nothing);
+    this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
+  }
+
+  /** State of a picture that is laid over the framebuffer that is bound, premultiplied. */
+  drawOver(viewport, depthRange) {
+    const { gl } = this;
+    gl.viewport(...viewport);
+    gl.enable(gl.BLEND);
+    gl.blendEquation(gl.FUNC_ADD);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    if (depthRange) {
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.LEQUAL);
+      gl.depthMask(true);
+    } else {
+      gl.disable(gl.DEPTH_TEST);
+      gl.depthMask(false);
+    }
+    this.drawScreen();
+  }
+
+  dispose() {
+    const { gl } = this;
+    this.clearField();
+    this.clearSums();
+    for (const { program } of Object.values(this.programs)) gl.deleteProgram(program);
+    gl.deleteVertexArray(this.nothing);
+    gl.deleteVertexArray(this.quads.array);
+    gl.deleteBuffer(this.quads.buffer);
+  }
+
+  clearSums() {
+    const { gl, sums } = this;
+    if (!sums) return;
+    for (const texture of sums.textures) gl.deleteTexture(texture);
+    for (const buffer of sums.targets) gl.deleteFramebuffer(buffer);
+    this.sums = null;
+  }
+}
+
+/** What drawing needs of a packed light field; its texels are the device's now. */
+export function summary(packed) {
+  const { points, columns, rows, layers, components, gamma, linear, step, radius, centre, up, partial, levels, splats } =
+    packed;
+  return {
+    points,
+    columns,
+    rows,
+    layers,
+    components,
+    gamma,
+    linear,
+    step,
+    centre,
+    up,
+    partial,
+    levels,
+    radius,
+    splats,
+    nearest: packed.nearest,
+    brightest: splats ? 65504 : 1, // of a colour, display white 1: the most of a half float
+    faceSize: packed.functions.faceSize,
+    bytes: 4 * points * (4 + 4 + 4 + 1 + 2) + packed.weights.byteLength + packed.functions.texels.byteLength / 2,
+  };
+}

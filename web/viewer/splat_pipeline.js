@@ -1,0 +1,99 @@
+// Gaussian splats (spec annex E.6) in WebGL2: colours of splats, and the splats blended from the farthest to the
+// nearest.
+import { bind, image, sample, target, unpackPlainly, use } from './gl_objects.js';
+import { PointPipeline } from './point_pipeline.js';
+import { SCREEN_VERTEX } from './shaders.js';
+import { SplatOrder } from './splat_order.js';
+import { SPLAT_FRAGMENT, SPLAT_RESOLVE_FRAGMENT, SPLAT_VERTEX } from './splat_shaders.js';
+
+export class SplatPipeline extends PointPipeline {
+  constructor(gl) {
+    super(gl, { splats: [SPLAT_VERTEX, SPLAT_FRAGMENT], resolve: [SCREEN_VERTEX, SPLAT_RESOLVE_FRAGMENT] });
+    this.sorting = null;
+  }
+
+  ownTextures({ columns: w, rows: h, points, places, spreads, tilts, nearest }) {
+    const { gl } = this;
+    this.sorting = new SplatOrder(places, points, nearest);
+    this.upload = new Uint32Array(w * h);
+    return {
+      spreads: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, spreads),
+      tilts: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, tilts),
+      order: image(gl, gl.R32UI, w, h, gl.RED_INTEGER, gl.UNSIGNED_INT, null),
+      frames: image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)), // no direction is mirrored
+    };
+  }
+
+  clearField() {
+    super.clearField();
+    this.sorting = this.upload = null;
+  }
+
+  get unsettled() {
+    return this.sorting !== null && !this.sorting.settled;
+  }
+
+  drawPoints(view, eye, share, { withDepth = false, patient = false }) {
+    const { gl, field, sums, textures: t, sorting } = this;
+    const drawn = Math.max(1, Math.round(field.points * Math.min(1, share)));
+    if (sorting.towards(eye, view.rotation.slice(6), drawn, patient && sorting.made !== null)) this.putOrder();
+    gl.viewport(0, 0, view.width, view.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, sums.blendTarget);
+    gl.disable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    gl.blendEquation(gl.FUNC_ADD);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
+    if (withDepth) gl.clearBufferfv(gl.COLOR, 1, [0, 0, 0, 0]);
+    const own = { places: t.places, spreads: t.spreads, tilts: t.tilts, colours: t.colours, order: t.order };
+    const set = (uniforms) => {
+      this.setCamera(uniforms, view, eye);
+      gl.uniform1f(uniforms.thinning, field.points / drawn);
+      gl.uniform1f(uniforms.nearest, field.nearest);
+    };
+    this.drawQuads(this.programs.splats, own, set, sorting.count);
+    gl.disable(gl.BLEND);
+    this.statistics.discs = sorting.count;
+  }
+
+  /** The rows of the texture that have splats of the order in them. */
+  putOrder() {
+    const { gl, field, upload, sorting } = this,
+      rows = Math.ceil(sorting.count / field.columns);
+    if (rows === 0) return;
+    upload.set(sorting.order.subarray(0, sorting.count));
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, this.textures.order);
+    unpackPlainly(gl);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, field.columns, rows, gl.RED_INTEGER, gl.UNSIGNED_INT, upload);
+  }
+
+  /** As SurfelPipeline's; a pixel's depth is the mean of what its splats show. */
+  resolve({ viewport, exposure = 0, toLinear = false, depthRange = null }) {
+    const { gl, sums, field } = this;
+    if (!field || !sums) return;
+    const uniforms = use(gl, this.programs.resolve);
+    bind(gl, uniforms, { blended: sums.blended, depth: sums.depth ?? sums.blended });
+    gl.uniform4fv(uniforms.viewport, viewport);
+    gl.uniform1f(uniforms.nearest, field.nearest);
+    gl.uniform1f(uniforms.exposure, 2 ** exposure);
+    gl.uniform1i(uniforms.toLinear, toLinear ? 1 : 0);
+    gl.uniform2fv(uniforms.depthRange, depthRange ?? [0, 0]);
+    this.drawOver(viewport, depthRange);
+  }
+
+  prepareSums(width, height, { withDepth = false }) {
+    const { gl } = this;
+    if (this.sums?.width === width && this.sums.height === height && Boolean(this.sums.depth) === withDepth) return;
+    this.clearSums();
+    const blended = image(gl, gl.RGBA16F, width, height, gl.RGBA, gl.HALF_FLOAT, null);
+    const depth = withDepth ? image(gl, gl.R16F, width, height, gl.RED, gl.HALF_FLOAT, null) : null;
+    const textures = depth ? [blended, depth] : [blended];
+    for (const texture of textures) {
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      sample(gl, gl.TEXTURE_2D, gl.LINEAR);
+    }
+    const blendTarget = target(gl, textures, null);
+    this.sums = { width, height, blended, depth, blendTarget, textures, targets: [blendTarget] };
+  }
+}
