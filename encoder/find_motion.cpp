@@ -110,8 +110,8 @@ class MotionModel {
       total += weights[i];
     }
     if (total <= 0) return;
-    for (int i = 0; i < 3; ++i) normal(i, i) += 1e-3 * scale + 1e-6;  // thin clouds do not turn
-    right.topRows<3>() += (1e-3 * scale + 1e-6) * matrix_.transpose();
+    for (int i = 0; i < 3; ++i) normal(i, i) += 1e-6 * scale + 1e-6;  // thin clouds do not turn
+    right.topRows<3>() += (1e-6 * scale + 1e-6) * matrix_.transpose();
     normal(3, 3) += 1e-9;
     const Eigen::Matrix<double, 4, 3> x = normal.ldlt().solve(right);
     matrix_ = x.topRows<3>().transpose();
@@ -191,6 +191,7 @@ class MotionModel {
 
 /// Of the lattice: what a difference of its neighbours costs, in points that are as far away.
 constexpr double kStiffness = 2;
+constexpr int kAffineRounds = 8, kLatticeRounds = 5;
 
 /// Grey levels that are as far apart as the side of a cell.
 constexpr double kGreyPerCell = 24;
@@ -241,16 +242,18 @@ Motion find_motion(const FramePoints& now, const FramePoints& before, int bits) 
   for (int dropped = std::max(bits - 4, 0); dropped >= 0; --dropped) {
     const CoarseFrame coarse = coarsen(now, dropped), coarse_before = coarsen(before, dropped);
     const ReferenceLevel index(coarse_before.codes);
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < kAffineRounds; ++round) {
       const Matches m = match(coarse, coarse_before, index, dropped, motion);
-      if (m.places.empty()) continue;
-      if (dropped >= bits - 6 && dropped > 0) {
-        motion.fit_affine(m.places, m.wanted, m.weights);
-        if (dropped == bits - 6 && round == 5) motion.begin_lattice(coarse, lattice_log2);
-      } else {
-        if (round == 0) motion.fit_affine(m.places, m.wanted, m.weights);
-        motion.fit_lattice(m.places, m.wanted, m.weights, kStiffness);
-      }
+      motion.fit_affine(m.places, m.wanted, m.weights);
+    }
+  }
+  for (int dropped = std::max(bits - 6, 0); dropped >= 0; --dropped) {
+    const CoarseFrame coarse = coarsen(now, dropped), coarse_before = coarsen(before, dropped);
+    const ReferenceLevel index(coarse_before.codes);
+    if (dropped == std::max(bits - 6, 0)) motion.begin_lattice(coarse, lattice_log2);
+    for (int round = 0; round < kLatticeRounds; ++round) {
+      const Matches m = match(coarse, coarse_before, index, dropped, motion);
+      motion.fit_lattice(m.places, m.wanted, m.weights, kStiffness);
     }
   }
   return motion.rounded();
