@@ -16,17 +16,6 @@
 namespace slf {
 namespace {
 
-/// A coloured cloud without cameras: the colour is the one component.
-Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
-  if (cloud.colours.empty())
-    return InputError{Errc::kInvalidInput,
-                      "the capture has no cameras and its points have no colours"};
-  CaptureFit fit;
-  for (const auto& rgb : cloud.colours)
-    fit.coefficients.insert(fit.coefficients.end(), rgb.begin(), rgb.end());
-  return fit;
-}
-
 /// What stays while a step is looked for, and what came out last.
 struct Job {
   const Capture& capture;

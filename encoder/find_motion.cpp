@@ -1,7 +1,6 @@
 #include "encoder/find_motion.h"
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +42,19 @@ CoarseFrame coarsen(const FramePoints& points, int dropped) {
   }
   return out;
 }
+
+/// Of the lattice: what a difference of its neighbours costs, in points that are as far away.
+constexpr double kStiffness = 2;
+constexpr int kAffineRounds = 8, kLatticeRounds = 5;
+constexpr int kSolverRounds = 60;
+constexpr std::size_t kAffinePlaces = 6000, kLatticePlaces = 20000;
+
+/// What one place asks of its displacement d: (weight d - wanted) is to be small.
+struct Match {
+  Place place;
+  Eigen::Matrix3d weight;
+  Place wanted;
+};
 
 /// What is looked for: displacements in voxels.
 class MotionModel {
@@ -95,68 +107,73 @@ class MotionModel {
     }
   }
 
-  /// Weighted least squares of wanted displacements.
-  void fit_affine(const std::vector<Place>& places, const std::vector<Place>& wanted,
-                  const std::vector<double>& weights) {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+  /// Least squares of what matches ask for.
+  void fit_affine(const std::vector<Match>& matches) {
+    Eigen::Matrix<double, 12, 12> normal = Eigen::Matrix<double, 12, 12>::Zero();
+    Eigen::Matrix<double, 12, 1> right = Eigen::Matrix<double, 12, 1>::Zero();
     double scale = 0, total = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      Eigen::Vector4d row;
-      row << places[i] - centre_, 1;
-      normal += weights[i] * row * row.transpose();
-      right += weights[i] * row * wanted[i].transpose();
-      scale += weights[i] * (places[i] - centre_).squaredNorm();
-      total += weights[i];
+    for (const Match& m : matches) {
+      Eigen::Vector4d at;
+      at << m.place - centre_, 1;
+      for (int a = 0; a < 4; ++a) {
+        right.segment<3>(3 * a) += at[a] * m.wanted;
+        for (int b = 0; b < 4; ++b)
+          normal.block<3, 3>(3 * a, 3 * b) += at[a] * at[b] * m.weight;
+      }
+      scale += m.weight.trace() * at.head<3>().squaredNorm();
+      total += m.weight.trace();
     }
-    if (total <= 0) return;
-    for (int i = 0; i < 3; ++i) normal(i, i) += 1e-6 * scale + 1e-6;  // thin clouds do not turn
-    right.topRows<3>() += (1e-6 * scale + 1e-6) * matrix_.transpose();
-    normal(3, 3) += 1e-9;
-    const Eigen::Matrix<double, 4, 3> x = normal.ldlt().solve(right);
-    matrix_ = x.topRows<3>().transpose();
-    shift_ = x.row(3).transpose();
+    if (!(total > 0)) return;
+    for (int k = 0; k < 12; ++k) {  // what nothing tells of stays as it is
+      const double stay = 1e-6 * (k < 9 ? scale : total) + 1e-9;
+      normal(k, k) += stay;
+      right[k] += stay * (k < 9 ? matrix_(k % 3, k / 3) : shift_[k - 9]);
+    }
+    const Eigen::Matrix<double, 12, 1> x = normal.ldlt().solve(right);
+    for (int k = 0; k < 9; ++k) matrix_(k % 3, k / 3) = x[k];
+    shift_ = x.tail<3>();
   }
 
-  void fit_lattice(const std::vector<Place>& places, const std::vector<Place>& wanted,
-                   const std::vector<double>& weights, double stiffness) {
-    const auto n = static_cast<int>(lattice_.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      std::array<std::pair<int, double>, 8> corner;
-      std::size_t count = 0;
-      for_corners(places[i], [&](std::size_t k, double w) {
-        corner[count++] = {static_cast<int>(k), w};
-      });
-      const Place rest = wanted[i] - affine(places[i]);
-      for (std::size_t a = 0; a < count; ++a) {
-        right.row(corner[a].first) += weights[i] * corner[a].second * rest.transpose();
-        for (std::size_t b = 0; b < count; ++b)
-          entries.emplace_back(corner[a].first, corner[b].first,
-                               weights[i] * corner[a].second * corner[b].second);
+  /// The same of the lattice, beside the affine part: conjugate gradients.
+  void fit_lattice(const std::vector<Match>& matches) {
+    using Field = std::vector<Place>;
+    const auto apply = [&](const Field& x) {
+      Field y(x.size(), Place::Zero());
+      for (const Match& m : matches) {
+        Place d = Place::Zero();
+        for_corners(m.place, [&](std::size_t k, double w) { d += w * x[k]; });
+        d = m.weight * d;
+        for_corners(m.place, [&](std::size_t k, double w) { y[k] += w * d; });
       }
+      add_stiffness(x, y);
+      return y;
+    };
+    const auto dot = [](const Field& a, const Field& b) {
+      double sum = 0;
+      for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+      return sum;
+    };
+    Field rest(lattice_.size(), Place::Zero());
+    for (const Match& m : matches) {
+      const Place d = m.wanted - m.weight * affine(m.place);
+      for_corners(m.place, [&](std::size_t k, double w) { rest[k] += w * d; });
     }
-    const std::array<int, 3> stride = {1, size_[0], size_[0] * size_[1]};
-    for (int k = 0; k < n; ++k) {
-      entries.emplace_back(k, k, 1e-3 * stiffness);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (k / stride[axis] % size_[axis] + 1 >= size_[axis]) continue;
-        const int other = k + stride[axis];
-        entries.emplace_back(k, k, stiffness);
-        entries.emplace_back(other, other, stiffness);
-        entries.emplace_back(k, other, -stiffness);
-        entries.emplace_back(other, k, -stiffness);
+    const Field of_now = apply(lattice_);
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= of_now[k];
+    Field way = rest;
+    const double first = dot(rest, rest);
+    double size = first;
+    for (int round = 0; round < kSolverRounds && size > 1e-8 * first; ++round) {
+      const Field there = apply(way);
+      const double by = size / dot(way, there);
+      for (std::size_t k = 0; k < rest.size(); ++k) {
+        lattice_[k] += by * way[k];
+        rest[k] -= by * there[k];
       }
+      const double now = dot(rest, rest);
+      for (std::size_t k = 0; k < rest.size(); ++k) way[k] = rest[k] + now / size * way[k];
+      size = now;
     }
-    Eigen::SparseMatrix<double> normal(n, n);
-    normal.setFromTriplets(entries.begin(), entries.end());
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
-    solver.setTolerance(1e-4);
-    solver.setMaxIterations(200);
-    solver.compute(normal);
-    const Eigen::MatrixXd x = solver.solve(right);
-    for (int k = 0; k < n; ++k) lattice_[static_cast<std::size_t>(k)] = x.row(k).transpose();
   }
 
   Motion rounded() const {
@@ -181,6 +198,22 @@ class MotionModel {
   }
 
  private:
+  /// Neighbours on the lattice are alike, and small.
+  void add_stiffness(const std::vector<Place>& x, std::vector<Place>& y) const {
+    const std::array<int, 3> stride = {1, size_[0], size_[0] * size_[1]};
+    for (int k = 0; k < static_cast<int>(x.size()); ++k) {
+      const auto here = static_cast<std::size_t>(k);
+      y[here] += 1e-2 * kStiffness * x[here];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (k / stride[axis] % size_[axis] + 1 >= size_[axis]) continue;
+        const auto other = static_cast<std::size_t>(k + stride[axis]);
+        const Place pull = kStiffness * (x[here] - x[other]);
+        y[here] += pull;
+        y[other] -= pull;
+      }
+    }
+  }
+
   Place centre_, shift_ = Place::Zero();
   Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
   int log2_ = 0;
@@ -189,48 +222,119 @@ class MotionModel {
   std::vector<Place> lattice_;
 };
 
-/// Of the lattice: what a difference of its neighbours costs, in points that are as far away.
-constexpr double kStiffness = 2;
-constexpr int kAffineRounds = 8, kLatticeRounds = 5;
-
 /// Grey levels that are as far apart as the side of a cell.
 constexpr double kGreyPerCell = 24;
 
-/// For some places of `now` the displacement to the nearest of `before`, by place and colour.
-struct Matches {
-  std::vector<Place> places, wanted;
-  std::vector<double> weights;
+/// A frame of some level that others are matched with: its surface and how colours change on it.
+class MatchedFrame {
+ public:
+  MatchedFrame(const FramePoints& points, int dropped)
+      : frame_(coarsen(points, dropped)),
+        index_(frame_.codes),
+        side_(std::ldexp(1.0, dropped)),
+        known_(frame_.codes.size()),
+        surface_(frame_.codes.size()) {}
+
+  double side() const { return side_; }
+  Match match(const Place& place, const Place& colour, const Place& guess);
+
+ private:
+  struct Surface {
+    Place normal = Place::Zero();    ///< 0: not known
+    Place gradient = Place::Zero();  ///< of the brightness, grey levels a voxel, along the surface
+  };
+  const Surface& surface(std::uint32_t at);
+  template <class Step>
+  void for_cells(const Place& at, const Step& step) const;
+  static double brightness(const Place& colour) { return colour.sum() / 3; }
+
+  CoarseFrame frame_;
+  ReferenceLevel index_;
+  double side_;
+  std::vector<bool> known_;
+  std::vector<Surface> surface_;
 };
 
-Matches match(const CoarseFrame& now, const CoarseFrame& before, const ReferenceLevel& index,
-              int dropped, const MotionModel& motion) {
-  constexpr std::size_t kMost = 20000;
-  constexpr int kReach = 2;  // cells
-  const double side = std::ldexp(1.0, dropped), by_colour = side * side / (kGreyPerCell * kGreyPerCell);
-  const std::size_t apart = std::max<std::size_t>(1, now.codes.size() / kMost);
-  Matches out;
-  for (std::size_t i = apart / 2; i < now.codes.size(); i += apart) {
-    const Place q = now.centres[i] + motion.at(now.centres[i]);
-    const Voxel cell = {static_cast<std::int32_t>(std::floor(q[0] / side)),
-                        static_cast<std::int32_t>(std::floor(q[1] / side)),
-                        static_cast<std::int32_t>(std::floor(q[2] / side))};
-    double best = 1e300;
-    std::uint32_t nearest = ReferenceLevel::kNone;
-    for (int z = -kReach; z <= kReach; ++z)
-      for (int y = -kReach; y <= kReach; ++y)
-        for (int x = -kReach; x <= kReach; ++x) {
-          const std::uint32_t at = index.find({cell[0] + x, cell[1] + y, cell[2] + z});
-          if (at == ReferenceLevel::kNone) continue;
-          const double d = (before.centres[at] - q).squaredNorm() +
-                           by_colour * (before.colours[at] - now.colours[i]).squaredNorm();
-          if (d < best) best = d, nearest = at;
-        }
-    if (nearest == ReferenceLevel::kNone) continue;
-    out.places.push_back(now.centres[i]);
-    out.wanted.push_back(before.centres[nearest] - now.centres[i]);
-    out.weights.push_back(1 / (1 + best / (side * side)));
-  }
-  return out;
+/// Those within two cells of a place.
+template <class Step>
+void MatchedFrame::for_cells(const Place& at, const Step& step) const {
+  constexpr int kReach = 2;
+  const Voxel cell = {static_cast<std::int32_t>(std::floor(at[0] / side_)),
+                      static_cast<std::int32_t>(std::floor(at[1] / side_)),
+                      static_cast<std::int32_t>(std::floor(at[2] / side_))};
+  for (int z = -kReach; z <= kReach; ++z)
+    for (int y = -kReach; y <= kReach; ++y)
+      for (int x = -kReach; x <= kReach; ++x)
+        if (const std::uint32_t i = index_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+            i != ReferenceLevel::kNone)
+          step(i);
+}
+
+/// A plane through what is around, and a slope of brightness in it.
+const MatchedFrame::Surface& MatchedFrame::surface(std::uint32_t at) {
+  Surface& surface = surface_[at];
+  if (known_[at]) return surface;
+  known_[at] = true;
+  Place mean = Place::Zero();
+  double count = 0, bright = 0;
+  for_cells(frame_.centres[at], [&](std::uint32_t i) {
+    mean += frame_.centres[i];
+    bright += brightness(frame_.colours[i]);
+    ++count;
+  });
+  if (count < 5) return surface;
+  mean /= count;
+  bright /= count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Place slope = Place::Zero();
+  for_cells(frame_.centres[at], [&](std::uint32_t i) {
+    const Place d = frame_.centres[i] - mean;
+    spread += d * d.transpose();
+    slope += d * (brightness(frame_.colours[i]) - bright);
+  });
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  surface.normal = axes.eigenvectors().col(0);
+  for (int k = 1; k < 3; ++k)
+    if (const double l = axes.eigenvalues()[k]; l > 1e-9)
+      surface.gradient += axes.eigenvectors().col(k).dot(slope) / l * axes.eigenvectors().col(k);
+  return surface;
+}
+
+/// Along the normal to the surface, along it to where colours agree.
+Match MatchedFrame::match(const Place& place, const Place& colour, const Place& guess) {
+  const Place q = place + guess;
+  double best = 1e300;
+  std::uint32_t nearest = ReferenceLevel::kNone;
+  for_cells(q, [&](std::uint32_t i) {
+    const double d = (frame_.centres[i] - q).squaredNorm();
+    if (d < best) best = d, nearest = i;
+  });
+  Match match{place, Eigen::Matrix3d::Zero(), Place::Zero()};
+  if (nearest == ReferenceLevel::kNone) return match;
+  const Place to = frame_.centres[nearest] - place;
+  const Surface& there = surface(nearest);
+  const auto add = [&](const Place& row, double b) {  // row . d = b, both in cells
+    const double wrong = row.dot(guess) - b, w = 1 / (1 + wrong * wrong);
+    match.weight += w * row * row.transpose();
+    match.wanted += w * row * b;
+  };
+  const Place normal = there.normal / side_, slope = there.gradient / kGreyPerCell;
+  add(normal, normal.dot(to));
+  add(slope, slope.dot(to) +
+                 (brightness(colour) - brightness(frame_.colours[nearest])) / kGreyPerCell);
+  constexpr double kHold = 1e-3;  // where neither tells
+  match.weight += kHold / (side_ * side_) * Eigen::Matrix3d::Identity();
+  match.wanted += kHold / (side_ * side_) * guess;
+  return match;
+}
+
+std::vector<Match> match_all(const CoarseFrame& now, MatchedFrame& before,
+                             const MotionModel& motion, std::size_t most) {
+  const std::size_t apart = std::max<std::size_t>(1, now.codes.size() / most);
+  std::vector<Match> matches;
+  for (std::size_t i = apart / 2; i < now.codes.size(); i += apart)
+    matches.push_back(before.match(now.centres[i], now.colours[i], motion.at(now.centres[i])));
+  return matches;
 }
 
 }  // namespace
@@ -240,21 +344,17 @@ Motion find_motion(const FramePoints& now, const FramePoints& before, int bits) 
   MotionModel motion(bits);
   const int lattice_log2 = std::clamp(bits - 4, 3, 8);
   for (int dropped = std::max(bits - 4, 0); dropped >= 0; --dropped) {
-    const CoarseFrame coarse = coarsen(now, dropped), coarse_before = coarsen(before, dropped);
-    const ReferenceLevel index(coarse_before.codes);
-    for (int round = 0; round < kAffineRounds; ++round) {
-      const Matches m = match(coarse, coarse_before, index, dropped, motion);
-      motion.fit_affine(m.places, m.wanted, m.weights);
-    }
+    const CoarseFrame coarse = coarsen(now, dropped);
+    MatchedFrame there(before, dropped);
+    for (int round = 0; round < kAffineRounds; ++round)
+      motion.fit_affine(match_all(coarse, there, motion, kAffinePlaces));
   }
   for (int dropped = std::max(bits - 6, 0); dropped >= 0; --dropped) {
-    const CoarseFrame coarse = coarsen(now, dropped), coarse_before = coarsen(before, dropped);
-    const ReferenceLevel index(coarse_before.codes);
+    const CoarseFrame coarse = coarsen(now, dropped);
+    MatchedFrame there(before, dropped);
     if (dropped == std::max(bits - 6, 0)) motion.begin_lattice(coarse, lattice_log2);
-    for (int round = 0; round < kLatticeRounds; ++round) {
-      const Matches m = match(coarse, coarse_before, index, dropped, motion);
-      motion.fit_lattice(m.places, m.wanted, m.weights, kStiffness);
-    }
+    for (int round = 0; round < kLatticeRounds; ++round)
+      motion.fit_lattice(match_all(coarse, there, motion, kLatticePlaces));
   }
   return motion.rounded();
 }

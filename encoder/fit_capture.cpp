@@ -181,8 +181,18 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
   return fit;
 }
 
+Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
+  if (cloud.colours.empty())
+    return InputError{Errc::kInvalidInput,
+                      "the capture has no cameras and its points have no colours"};
+  CaptureFit fit;
+  for (const auto& rgb : cloud.colours)
+    fit.coefficients.insert(fit.coefficients.end(), rgb.begin(), rgb.end());
+  return fit;
+}
+
 LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
-                         const EncoderSettings& settings) {
+                         const EncoderSettings& settings, const std::vector<int>& shift) {
   LightField field;
   LightFieldHeader& header = field.header;
   header.grid = moved(cloud.grid, origin);
@@ -196,9 +206,11 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
   header.gamma_max_q7 = fit.gamma_max_q7;
   if (header.frame == FrameId::kReflected) header.normal_cell_log2 = settings.fit.normal_cell_log2;
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
-  header.shift =
-      component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
-                       std::min<std::size_t>(2 * cloud.positions.size(), kMostBaseWeight));
+  header.shift = shift;
+  if (shift.empty())
+    header.shift =
+        component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
+                         std::min<std::size_t>(2 * cloud.positions.size(), kMostBaseWeight));
   field.components = to_components(fit.coefficients, header.shift, settings.threads);
   field.positions = cloud.positions;
   field.normals = coded_normals(cloud, settings.normal_bits);

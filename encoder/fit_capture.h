@@ -75,7 +75,12 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
 /// The integer light field, its shifts as fine as the coder takes them. Spec 6.3, 6.5.
 /// @param origin    of the capture that the cloud was made of: the field is in the world
 /// @param settings  their fit is fit.chosen.settings
+/// @param shift     of the functions; empty: as fine as they can be
 LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
-                         const EncoderSettings& settings);
+                         const EncoderSettings& settings, const std::vector<int>& shift = {});
+
+/// Without cameras: the colours that the points have.
+/// @errors kInvalidInput: they have none
+Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud);
 
 }  // namespace slf

@@ -106,6 +106,14 @@ void add_part(CLI::App& verb, PartOptions& options) {
       ->check(range(-1e300, 1e300));
 }
 
+void add_frame(CLI::App& verb, PartOptions& options) {
+  verb.add_option("--frame", options.frame,
+                  "Of a light field that moves, the frame to decode: 0 is the first. Those before "
+                  "it in its group are decoded, too")
+      ->type_name("N")
+      ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
+}
+
 double Stopwatch::lap() {
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> taken = now - last_;

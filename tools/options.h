@@ -34,9 +34,12 @@ struct PartOptions {
   int layers = 0;
   std::uint64_t max_bytes = 0;
   std::vector<double> region;  ///< two corners in world units, or nothing
+  int frame = -1;              ///< place among the frames; -1: the first, and only
   bool means_only = false;     ///< what is not needed for them is left out; no option of its own
 };
 void add_part(CLI::App& verb, PartOptions& options);
+/// --frame, of verbs that show one.
+void add_frame(CLI::App& verb, PartOptions& options);
 
 /// Wall time for reports.
 class Stopwatch {

@@ -101,6 +101,7 @@ void add_decode(CLI::App& program, Run& run) {
       "--planes", o->planes,
       "With --dump, planes.npy [P,K,3] too: those given to pack, made of the components");
   add_part(*verb, o->part);
+  add_frame(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);

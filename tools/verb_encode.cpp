@@ -4,6 +4,7 @@
 
 #include "tools/capture_input.h"
 #include "tools/describe.h"
+#include "tools/encode_frames.h"
 #include "tools/encode_options.h"
 #include "tools/encode_splats.h"
 #include "tools/measure_file.h"
@@ -154,13 +155,16 @@ void add_encode(CLI::App& program, Run& run) {
     EncodeOptions encode;
     SceneOptions scene;
     PlenopticVerbOptions plenoptic;
+    FrameOptions frames;
   };
   auto o = std::make_shared<Options>();
   add_encode_options(*verb, o->encode);
   add_scene(*verb, o->scene);
   add_plenoptic(*verb, o->plenoptic);
+  add_frames(*verb, o->frames);
   verb->callback([&run, o] {
     run = [o]() -> Outcome {
+      if (is_frame_input(o->encode, o->frames)) return encode_frame_list(o->encode, o->frames);
       if (is_plenoptic_input(o->encode, o->plenoptic))
         return encode_plenoptic_file(o->encode, o->plenoptic);
       if (o->plenoptic.given() && o->plenoptic.as != "colour")

@@ -18,7 +18,7 @@
 namespace slf::tools {
 namespace {
 
-const std::map<std::string, SplatFormat> kFormats{
+const std::map<std::string, SplatFormat> kExportFormats{
     {"ply", SplatFormat::kPly}, {"glb", SplatFormat::kGlb}, {"spz", SplatFormat::kSpz}};
 
 struct ExportOptions {
@@ -38,8 +38,8 @@ std::optional<SplatFormat> format_of(const ExportOptions& given) {
   name.erase(0, name.starts_with('.') ? 1 : 0);
   for (char& c : name)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto found = kFormats.find(name);
-  return found == kFormats.end() ? std::nullopt : std::optional(found->second);
+  const auto found = kExportFormats.find(name);
+  return found == kExportFormats.end() ? std::nullopt : std::optional(found->second);
 }
 
 SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
@@ -218,6 +218,7 @@ void add_export(CLI::App& program, Run& run) {
       ->excludes(axes)
       ->excludes(verb->get_option("--degree"));
   add_part(*verb, o->part);
+  add_frame(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);

@@ -283,6 +283,7 @@ void add_render(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 1000));
   add_part(*verb, o->part);
+  add_frame(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);

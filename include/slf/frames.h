@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "slf/decoder.h"
@@ -78,5 +80,48 @@ class FrameEncoder {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// How a list of frames becomes a stream.
+struct FrameSettings {
+  int group = 16;     ///< frames from one that is not predicted to the next
+  double rate = 30;   ///< frames a second
+};
+
+/// What one frame is made of, loaded when it is its turn.
+struct LoadedFrame {
+  Capture capture;
+  std::vector<int> cameras;  ///< input cameras; none of a coloured cloud
+};
+using LoadFrame = std::function<Result<LoadedFrame, InputError>(std::size_t)>;
+/// Takes the bytes of a frame; an error ends the encoding.
+using TakeFrame =
+    std::function<Result<Done, InputError>(std::size_t, std::span<const std::uint8_t>)>;
+
+/// What became of a frame.
+struct EncodedFrame {
+  bool predicted = false;
+  std::size_t points = 0;
+  std::uint64_t bytes = 0;
+  double seconds = 0;
+};
+struct EncodedFrames {
+  std::vector<EncodedFrame> frames;
+  Grid grid;     ///< of all of them
+  double q = 0;  ///< of all of them
+  std::vector<std::string> warnings;
+};
+
+/// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the
+/// first frame chose. Points are as given: nothing is mended, trained or made up.
+/// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be coded
+/// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
+///         textures); those of load, take, encode() and FrameEncoder
+/// One frame is in memory at a time, and what is left of the one before. The same bytes for any
+/// thread count of one binary.
+Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
+                                                const EncoderSettings& settings,
+                                                const FrameSettings& frame_settings,
+                                                const TakeFrame& take,
+                                                const Progress& progress = {});
 
 }  // namespace slf
