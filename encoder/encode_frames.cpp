@@ -1,0 +1,171 @@
+// Captures or clouds of several instants to one stream.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "capture/voxelise.h"
+#include "encoder/choose_step.h"
+#include "encoder/coding_parameters.h"
+#include "encoder/encode_metadata.h"
+#include "encoder/fit_capture.h"
+#include "encoder/rate_control.h"
+#include "slf/frames.h"
+
+namespace slf {
+namespace {
+
+InputError of_frames(const std::string& what) {
+  return {Errc::kInvalidArgument, "frames: " + what};
+}
+
+Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings& s,
+                                      const FrameSettings& f) {
+  if (frames == 0) return of_frames("there are none");
+  if (has_target(s)) return of_frames("a target of bytes or PSNR is of one light field alone");
+  if (s.quality_layers > 1) return of_frames("they have one quality layer");
+  if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
+    return of_frames("they are coded by the octree and vector coders");
+  if (f.group < 1) return of_frames("a group has one at the least");
+  if (!(f.rate > 0) || !std::isfinite(f.rate)) return of_frames("so many a second: above 0");
+  return Done{};
+}
+
+/// In the world, double: the origins of captures may differ.
+Box box_in_world(const Capture& capture) {
+  Box box;
+  for (std::size_t i = 0; i < capture.cloud.positions.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = capture.origin[k] + double{capture.cloud.positions[i][k]};
+      box.min[k] = i == 0 ? x : std::min(box.min[k], x);
+      box.max[k] = i == 0 ? x : std::max(box.max[k], x);
+    }
+  return box;
+}
+
+/// The grid of all frames: its step is the first frame's.
+class SharedGrid {
+ public:
+  Result<Done, InputError> add(const LoadedFrame& frame, const EncoderSettings& settings) {
+    const PointCloud& cloud = frame.capture.cloud;
+    if (cloud.positions.empty()) return of_frames("one has no points");
+    const Box box = box_in_world(frame.capture);
+    if (points_ == 0) {
+      const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
+      bits_ = settings.grid_bits;
+      step_ = automatic ? choose_density(frame.capture, frame.cameras).voxel_size
+                        : settings.voxel_size;
+      box_ = box;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      box_.min[k] = std::min(box_.min[k], box.min[k]);
+      box_.max[k] = std::max(box_.max[k], box.max[k]);
+    }
+    points_ += cloud.positions.size();
+    return Done{};
+  }
+  Result<Grid, InputError> grid() const { return choose_grid(box_, points_, bits_, step_); }
+
+ private:
+  Box box_;
+  std::size_t points_ = 0;
+  int bits_ = 0;
+  double step_ = 0;
+};
+
+/// The points of a frame on the grid of all, which is given from the world's origin.
+VoxelCloud on_grid(const LoadedFrame& frame, const Grid& grid, const EncoderSettings& settings) {
+  const Capture& capture = frame.capture;
+  PointCloud cloud = capture.cloud;
+  if (cloud.normals.empty() && (!frame.cameras.empty() || settings.normal_bits > 0)) {
+    std::vector<Vec3> viewpoints;
+    for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
+    cloud.normals = estimate_normals(cloud, viewpoints, 16, settings.threads);
+  }
+  Vec3 back{};
+  for (std::size_t k = 0; k < 3; ++k) back[k] = -capture.origin[k];
+  VoxelCloud voxels = voxelise_on(cloud, moved(grid, back));
+  voxels.grid = moved(grid, back);
+  return voxels;
+}
+
+/// What the first frame chooses for those after it.
+struct ChosenForAll {
+  EncoderSettings settings;
+  std::vector<int> shift;
+  CodingParameters parameters;
+};
+
+Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const VoxelCloud& cloud,
+                                              const EncoderSettings& given, bool chooses,
+                                              std::optional<ChosenForAll>& chosen,
+                                              const Progress& progress) {
+  EncoderSettings settings = chosen ? chosen->settings : given;
+  SLF_TRY(CaptureFit fit, frame.cameras.empty()
+                              ? colours_alone(cloud)
+                              : fit_capture(frame.capture, frame.cameras, cloud, settings, progress,
+                                            chooses && !chosen));
+  if (!frame.cameras.empty()) settings.fit = fit.chosen.settings;
+  if (!chosen && settings.q == kAutomaticQ) {
+    SLF_TRY(const StepAndOrigin step, choose_step(settings, fit, cloud.grid, cloud.positions.size(),
+                                                  frame.cameras.size()));
+    settings.q = step.q;
+  }
+  LightField field = quantise_grid(cloud, std::move(fit), frame.capture.origin, frame.capture.up,
+                                   settings, chosen ? chosen->shift : std::vector<int>{});
+  if (!chosen) {
+    chosen.emplace(settings, field.header.shift, coding_parameters(field, settings));
+    chosen->settings.search = FitSearch::none();
+    chosen->settings.check_cameras = false;
+  }
+  return field;
+}
+
+}  // namespace
+
+Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
+                                                const EncoderSettings& given,
+                                                const FrameSettings& frame_settings,
+                                                const TakeFrame& take, const Progress& progress) {
+  SLF_CHECK(check_settings(given));
+  SLF_CHECK(check_frames(frames, given, frame_settings));
+  EncoderSettings settings = given;
+  settings.observe.threads = settings.fit.threads = settings.threads;
+  SharedGrid shared;
+  bool clouds = false;
+  for (std::size_t f = 0; f < frames; ++f) {
+    SLF_TRY(const LoadedFrame frame, load(f));
+    clouds = frame.cameras.empty();
+    SLF_CHECK(shared.add(frame, settings));
+  }
+  if (clouds) fit_colours_alone(settings);
+  EncodedFrames encoded;
+  SLF_TRY(encoded.grid, shared.grid());
+  const bool chooses = !clouds && settings.q == kAutomaticQ;
+  std::optional<ChosenForAll> chosen;
+  std::optional<FrameEncoder> encoder;
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (progress) progress("frames", static_cast<double>(f) / static_cast<double>(frames));
+    Stopwatch watch;
+    SLF_TRY(const LoadedFrame frame, load(f));
+    const VoxelCloud cloud = on_grid(frame, encoded.grid, settings);
+    SLF_TRY(const LightField field,
+            light_field_of(frame, cloud, settings, chooses, chosen, progress));
+    if (!encoder) {
+      encoded.q = chosen->settings.q;
+      CodingParameters parameters = chosen->parameters;
+      parameters.metadata = given.metadata;
+      encoder.emplace(parameters, frame_settings.group);
+    }
+    SLF_TRY(const auto bytes, encoder->add(field, static_cast<double>(f) / frame_settings.rate));
+    SLF_CHECK(take(f, bytes));
+    encoded.frames.push_back({f % static_cast<std::size_t>(frame_settings.group) != 0,
+                              field.num_points(), bytes.size(), watch.lap()});
+  }
+  if (progress) progress("frames", 1);
+  return encoded;
+}
+
+}  // namespace slf

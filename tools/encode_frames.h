@@ -1,0 +1,23 @@
+// slf encode of frames: a directory of captures or clouds, an instant each.
+#pragma once
+
+#include <string>
+
+#include "tools/encode_options.h"
+
+namespace slf::tools {
+
+struct FrameOptions {
+  std::string range;  ///< A:B of the numbers in the names
+  int group = 16;
+  double rate = 30;
+  bool given = false;
+};
+void add_frames(CLI::App& verb, FrameOptions& options);
+
+/// Is the input a list of frames, or was one asked for?
+bool is_frame_input(const EncodeOptions& given, const FrameOptions& frames);
+
+Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames);
+
+}  // namespace slf::tools
