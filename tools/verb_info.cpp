@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 
+#include "slf/frames.h"
 #include "tools/describe.h"
 #include "tools/info_syntax.h"
 #include "tools/stream_input.h"
@@ -98,8 +99,32 @@ std::string cost_text(const DecodeCost& cost) {
               grouped(cost.work).c_str());
 }
 
+/// Of a light field that moves: all else that is told is of its first frame.
+nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
+  auto list = nlohmann::ordered_json::array();
+  for (const FrameInfo& f : frames)
+    list.push_back({{"number", f.number},
+                    {"time", f.time},
+                    {"predicted", f.predicted},
+                    {"offset", f.offset},
+                    {"bytes", f.bytes}});
+  return list;
+}
+
+std::string frames_text(const std::vector<FrameInfo>& frames) {
+  if (frames.size() < 2) return {};
+  std::uint64_t predicted = 0, bytes = 0;
+  for (const FrameInfo& f : frames) {
+    predicted += f.predicted;
+    bytes += f.predicted ? f.bytes : 0;
+  }
+  return text("  frames        %s in %.3f s, %s of them predicted in %s bytes; the first:\n",
+              grouped(frames.size()).c_str(), frames.back().time - frames.front().time,
+              grouped(predicted).c_str(), grouped(bytes).c_str());
+}
+
 nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
-                                 const DecodeCost& cost) {
+                                 const std::vector<FrameInfo>& frames, const DecodeCost& cost) {
   nlohmann::ordered_json json;
   json["bytes"] = bytes;
   json["version"] = {info.version_major, info.version_minor};
@@ -108,6 +133,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
   json["decode"] = decode_cost_json(cost);
+  if (frames.size() > 1) json["frames"] = frames_json(frames);
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["slice_start"] = start_name(info.slice_start);
@@ -118,7 +144,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
                    {"groups", info.cut->groups},
                    {"layers", info.cut->layers},
                    {"slices", info.cut->slices}};
-  json["bits_per_point"] = bits_per_point(bytes, info.num_points);
+  json["bits_per_point"] = bits_per_point(frames.front().bytes, info.num_points);
   json["geometry_coder"] = info.geometry_coder;
   json["coefficient_coder"] = info.coefficient_coder;
   json["header"] = header_json(info.header);
@@ -209,12 +235,14 @@ std::string slices_text(const StreamInfo& info) {
   return out;
 }
 
-std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t bytes,
-                      bool units, const DecodeCost& cost) {
-  std::string out = printable(input_name(file)) + ": " + grouped(bytes) + " bytes, .slf version " +
+std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t all_bytes,
+                      const std::vector<FrameInfo>& frames, bool units, const DecodeCost& cost) {
+  const std::uint64_t bytes = frames.front().bytes;
+  std::string out = printable(input_name(file)) + ": " + grouped(all_bytes) + " bytes, .slf version " +
                     text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
                          info.profile, info.level) +
                     (info.complete ? "\n" : ", CUT SHORT (no end unit)\n");
+  out += frames_text(frames);
   out += text("  points        %s in %llu slice%s, %.3f bits per point%s\n",
               grouped(info.num_points).c_str(), static_cast<unsigned long long>(info.num_slices),
               info.num_slices == 1 ? "" : "s", bits_per_point(bytes, info.num_points),
@@ -250,8 +278,10 @@ Outcome run_info(const InfoOptions& given) {
   if (!cost) return cost.error();
   cost->memory += file.bytes.size();
   cost->memory_most += file.bytes.size();
-  if (given.common.json) return print(info_json(file.info, file.bytes.size(), *cost));
-  return print(info_text(file.info, given.input, file.bytes.size(), given.units, *cost));
+  SLF_TRY(const auto frames, from(input_name(given.input), list_frames(file.bytes)));
+  const std::uint64_t bytes = file.bytes.size();
+  if (given.common.json) return print(info_json(file.info, bytes, frames, *cost));
+  return print(info_text(file.info, given.input, bytes, frames, given.units, *cost));
 }
 
 }  // namespace
