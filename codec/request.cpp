@@ -52,7 +52,7 @@ Result<Done> choose_groups(const Units& units, const DecodeOptions& options, Req
   const auto steps = function_steps(set);
   for (const std::uint16_t k : request.coded)
     request.steps.insert(request.steps.end(), steps[k].begin(), steps[k].end());
-  request.missing = asked < set.num_groups();
+  request.groups_missing = asked < set.num_groups();
   request.all_groups = kept == asked;
   return Done{};
 }
@@ -96,11 +96,10 @@ Result<Request> request_of(const Units& units, const SceneUnits& scene,
     SLF_CHECK(choose_groups(units, options, request));
   } else {
     static_cast<GroupRequest&>(request) = *group;
-    request.missing = group->groups.size() < set.num_groups();
   }
   if (request.planes() > options.limits.max_planes)
     return of_sequence(Errc::kLimitExceeded, "sps_num_functions");
-  request.missing = request.missing || request.kept_levels_only() ||
+  request.missing = request.groups_missing || request.kept_levels_only() ||
                     request.layers < static_cast<int>(set.num_layers());
   request.whole = !request.missing && request.all_groups;
   if (options.progress)

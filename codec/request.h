@@ -23,6 +23,7 @@ struct GroupRequest {
   std::vector<std::uint16_t> coded = {};  ///< [R] functions that components stand in
   std::vector<PlaneTransform> transforms = {};
   std::vector<std::uint32_t> steps = {};  ///< [3 R]
+  bool groups_missing = false;            ///< some are that were asked for
   bool all_groups = true;                 ///< none is left out because means do not need it
 };
 

@@ -114,6 +114,14 @@ void add_frame(CLI::App& verb, PartOptions& options) {
       ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
 }
 
+void add_frames_to_show(CLI::App& verb, PartOptions& options) {
+  add_frame(verb, options);
+  verb.add_option("--frames", options.frames,
+                  "Several, both included; the name of the output has %d or %04d for the number")
+      ->type_name("A:B")
+      ->excludes("--frame");
+}
+
 double Stopwatch::lap() {
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> taken = now - last_;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ void add_quiet(CLI::App& verb, CommonOptions& options);
 void add_json(CLI::App& verb, CommonOptions& options);
 
 /// --levels, --groups, --layers, --max-bytes and --region: which part of a stream is decoded.
+class FrameSource;
+
 struct PartOptions {
   int levels = 0;
   int groups = 0;
@@ -35,11 +38,15 @@ struct PartOptions {
   std::uint64_t max_bytes = 0;
   std::vector<double> region;  ///< two corners in world units, or nothing
   int frame = -1;              ///< place among the frames; -1: the first, and only
+  std::string frames;          ///< "A:B": several of them, one after the other
+  std::shared_ptr<FrameSource> source;  ///< where they come from, so that each is decoded once
   bool means_only = false;     ///< what is not needed for them is left out; no option of its own
 };
 void add_part(CLI::App& verb, PartOptions& options);
 /// --frame, of verbs that show one.
 void add_frame(CLI::App& verb, PartOptions& options);
+/// --frame and --frames.
+void add_frames_to_show(CLI::App& verb, PartOptions& options);
 
 /// Wall time for reports.
 class Stopwatch {

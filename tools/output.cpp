@@ -105,4 +105,20 @@ std::string inside(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
 }
 
+std::string numbered(const std::string& pattern, int i) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(pattern, ignored) || pattern.ends_with('/'))
+    return inside(pattern, text("%03d.png", i));
+  const std::size_t percent = pattern.find('%');
+  if (percent == std::string::npos) return pattern;
+  std::size_t d = percent + 1;
+  while (d < pattern.size() && pattern[d] >= '0' && pattern[d] <= '9') ++d;
+  if (d == pattern.size() || pattern[d] != 'd' || d > percent + 3) return pattern;
+  const std::string width = pattern.substr(percent + 1, d - percent - 1);
+  std::string number = std::to_string(i);
+  const std::size_t digits = width.empty() ? 0 : static_cast<std::size_t>(std::stoi(width));
+  if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+  return pattern.substr(0, percent) + number + pattern.substr(d + 1);
+}
+
 }  // namespace slf::tools

@@ -36,6 +36,9 @@ Outcome save(const std::string& file, const std::string& text);
 Outcome save(const std::string& file, const Image& image);
 Outcome save(const std::string& file, const PointCloud& cloud);
 
+/// "%03d" or "%d" of a name replaced by a number; within a directory NUMBER.png; else the name.
+std::string numbered(const std::string& pattern, int i);
+
 /// Path of `name` within `directory`.
 std::string inside(const std::string& directory, const std::string& name);
 

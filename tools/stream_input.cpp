@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "slf/frames.h"
 #include "slf/capture.h"
 #include "slf/plenoptic.h"
+#include "tools/frame_source.h"
 #include "tools/heap.h"
 #include "tools/part_input.h"
 #include "tools/text.h"
@@ -156,28 +156,6 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
                                 " of --max-work"};
   return failure_of(error, input_name(file));
 }
-
-namespace {
-
-/// One frame of several. Of a light field that does not move there is frame 0 alone.
-Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOptions& part,
-                                          const LimitOptions& given, const CommonOptions& common) {
-  SLF_TRY(StreamFile stream, read_stream(file, given, common));
-  const DecodeOptions options = decode_options(stream.info, part, given, common);
-  const std::string name = input_name(file);
-  if (options.max_bytes > 0)
-    return Failure{kUsage, name + ": --max-bytes and --frame do not go together"};
-  Stopwatch watch;
-  SLF_TRY(FrameDecoder frames, from(name, FrameDecoder::open(stream.bytes, options)));
-  const std::size_t count = frames.frames().size(), frame = static_cast<std::size_t>(part.frame);
-  if (frame >= count)
-    return Failure{kUsage, name + ": --frame " + std::to_string(frame) + ", but it has " +
-                               std::to_string(count) + ", from 0 on"};
-  SLF_TRY(LightField field, from(name, frames.decode(frame)));
-  return DecodedFile{std::move(field), stream.bytes.size(), watch.lap(), stream.info.metadata};
-}
-
-}  // namespace
 
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          const LimitOptions& given, const CommonOptions& common) {

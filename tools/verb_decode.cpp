@@ -5,6 +5,7 @@
 #include "slf/plenoptic.h"
 #include "slf/view_map.h"
 #include "tools/dump.h"
+#include "tools/frame_source.h"
 #include "tools/interrupt.h"
 #include "tools/options.h"
 #include "tools/output.h"
@@ -101,12 +102,16 @@ void add_decode(CLI::App& program, Run& run) {
       "--planes", o->planes,
       "With --dump, planes.npy [P,K,3] too: those given to pack, made of the components");
   add_part(*verb, o->part);
-  add_frame(*verb, o->part);
+  add_frames_to_show(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_decode(*o); }; });
+  verb->callback([&run, o] {
+    run = [o] {
+      return for_each_frame("decode", o->output, o->part, [&] { return run_decode(*o); });
+    };
+  });
 }
 
 }  // namespace slf::tools

@@ -2,10 +2,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "tools/camera_file.h"
+#include "tools/frame_source.h"
 #include "tools/mosaic.h"
 #include "tools/options.h"
 #include "tools/output.h"
@@ -21,6 +22,7 @@ struct RenderOptions {
   int orbit = 0;
   double azimuth = 0, elevation = 20, fov = 30, radius = 0;
   bool sheet = false, pair = false, transparent = false, diffuse_only = false;
+  std::optional<Camera> orbit_camera;  ///< of the first of several frames, for all of them
   PartOptions part;
   LimitOptions limits;
   CommonOptions common;
@@ -41,24 +43,6 @@ bool parse_background(const std::string& given, std::array<std::uint8_t, 3>& rgb
     at = stopped;
   }
   return at == end;
-}
-
-/// Name of view i: "%03d" or "%d" of the pattern replaced, or i.png within a directory; else the
-/// pattern.
-std::string numbered(const std::string& pattern, int i) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(pattern, ignored) || pattern.ends_with('/'))
-    return inside(pattern, text("%03d.png", i));
-  const std::size_t percent = pattern.find('%');
-  if (percent == std::string::npos) return pattern;
-  std::size_t d = percent + 1;
-  while (d < pattern.size() && pattern[d] >= '0' && pattern[d] <= '9') ++d;
-  if (d == pattern.size() || pattern[d] != 'd' || d > percent + 3) return pattern;
-  const std::string width = pattern.substr(percent + 1, d - percent - 1);
-  std::string number = std::to_string(i);
-  const std::size_t digits = width.empty() ? 0 : static_cast<std::size_t>(std::stoi(width));
-  if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-  return pattern.substr(0, percent) + number + pattern.substr(d + 1);
 }
 
 Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
@@ -187,7 +171,7 @@ Result<Image, Failure> photograph(const RenderOptions& given, const Capture& cap
   return opaque(image, background);
 }
 
-Outcome run_render(const RenderOptions& given) {
+Outcome run_render(RenderOptions& given) {
   SLF_CHECK(check_options(given));
   Capture capture;
   int photo = -1;
@@ -207,6 +191,10 @@ Outcome run_render(const RenderOptions& given) {
           RenderScene::load(given.input, settings, given.part, given.limits, given.common));
   if (views.empty()) {
     SLF_TRY(views, orbit_views(given, *scene));
+    if (given.part.source) {  // frames: the camera stands
+      if (!given.orbit_camera) given.orbit_camera = views[0].camera;
+      views[0].camera = *given.orbit_camera;
+    }
   }
   Rendered rendered = render_views(given, *scene, views);
   if (given.pair) {
@@ -283,12 +271,16 @@ void add_render(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 1000));
   add_part(*verb, o->part);
-  add_frame(*verb, o->part);
+  add_frames_to_show(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_render(*o); }; });
+  verb->callback([&run, o] {
+    run = [o] {
+      return for_each_frame("render", o->output, o->part, [&] { return run_render(*o); });
+    };
+  });
 }
 
 }  // namespace slf::tools

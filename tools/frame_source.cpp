@@ -1,0 +1,48 @@
+#include "tools/frame_source.h"
+
+#include "slf/frame_inputs.h"
+#include "tools/output.h"
+#include "tools/text.h"
+
+namespace slf::tools {
+
+Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOptions& part,
+                                          const LimitOptions& given, const CommonOptions& common) {
+  const std::string name = input_name(file);
+  const auto source = part.source ? part.source : std::make_shared<FrameSource>();
+  if (!source->decoder) {
+    SLF_TRY(source->stream, read_stream(file, given, common));
+    const DecodeOptions options = decode_options(source->stream.info, part, given, common);
+    if (options.max_bytes > 0)
+      return Failure{kUsage, name + ": --max-bytes and frames do not go together"};
+    SLF_TRY(source->decoder, from(name, FrameDecoder::open(source->stream.bytes, options)));
+  }
+  const std::size_t count = source->decoder->frames().size(),
+                    frame = static_cast<std::size_t>(part.frame);
+  if (frame >= count)
+    return Failure{kUsage, name + ": frame " + std::to_string(frame) + " is asked for, but it has " +
+                               std::to_string(count) + ", from 0 on"};
+  Stopwatch watch;
+  SLF_TRY(LightField field, from(name, source->decoder->decode(frame)));
+  return DecodedFile{std::move(field), source->stream.bytes.size(), watch.lap(),
+                     source->stream.info.metadata};
+}
+
+Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
+                       const std::function<Outcome()>& run) {
+  if (part.frames.empty()) return run();
+  SLF_TRY(const FrameRange range, from("--frames", parse_frame_range(part.frames)));
+  const std::string pattern = output;
+  if (pattern.empty() || numbered(pattern, 0) == pattern)
+    return Failure{kUsage, std::string(verb) + ": --output " + pattern +
+                               " has no %d for the number of a frame"};
+  part.source = std::make_shared<FrameSource>();
+  for (std::uint32_t f = range.first; f <= range.last; ++f) {
+    part.frame = static_cast<int>(f);
+    output = numbered(pattern, part.frame);
+    SLF_CHECK(run());
+  }
+  return Done{};
+}
+
+}  // namespace slf::tools

@@ -1,0 +1,29 @@
+// The frames of a .slf file as input of a verb.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "slf/frames.h"
+#include "tools/stream_input.h"
+
+namespace slf::tools {
+
+/// A stream of frames and its decoder: in order each frame is decoded once.
+class FrameSource {
+ public:
+  StreamFile stream;
+  std::optional<FrameDecoder> decoder;
+};
+
+/// Frame part.frame. Of a light field that does not move there is frame 0 alone.
+Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOptions& part,
+                                          const LimitOptions& given, const CommonOptions& common);
+
+/// Runs a verb, or with --frames once for each of them: part.frame and output are set for it.
+/// @param output  whose %d becomes the frame's number
+Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
+                       const std::function<Outcome()>& run);
+
+}  // namespace slf::tools
