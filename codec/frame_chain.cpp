@@ -15,7 +15,7 @@ Error moved(Error error, std::uint64_t offset) {
   return error;
 }
 
-/// Spec 7.12: what predicted frames are not made for.
+/// Spec 7.13: what predicted frames are not made for.
 Result<Done> check_group(const SequenceParameterSet& set) {
   if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
   if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");

@@ -149,7 +149,7 @@ Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet&
 Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
                                std::uint64_t max_bytes) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(Units units, split_units(first_frame(stream), max_bytes));  // 7.1, 7.12
+  SLF_TRY(Units units, split_units(first_frame(stream), max_bytes));  // 7.1, 7.13
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
   SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7

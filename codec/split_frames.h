@@ -1,4 +1,4 @@
-// Where the frames of a stream are. Spec 7.12.
+// Where the frames of a stream are. Spec 7.13.
 #pragma once
 
 #include <cstdint>
