@@ -63,7 +63,8 @@ void frame_unit(V& v, Header& h) {
 Result<FrameHeader> parse_frame_header(std::span<const std::uint8_t> payload,
                                        std::span<const std::uint8_t>& vectors);
 /// The vectors of the motion's lattice, at points with a cell of the reference around them.
-/// @errors kOutOfRange: a vector too long, or a codeword that does not end where the unit does
+/// @errors kOutOfRange: a vector too long, a codeword that does not end where the unit does, or a
+///         reference that lacks the level
 Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const ReferenceCells& reference,
                           int bits, Motion& motion);
 
