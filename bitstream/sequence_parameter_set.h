@@ -71,7 +71,7 @@ struct SequenceParameterSet {
   std::uint32_t sps_num_transforms_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
-  /// No element: frame_predicted_flag of the frame whose units these are. Spec 7.12
+  /// No element: frame_predicted_flag of the frame whose units these are. Spec 7.13
   bool predicted = false;
 
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }

@@ -15,15 +15,6 @@ Error moved(Error error, std::uint64_t offset) {
   return error;
 }
 
-/// Spec 7.12: what predicted frames are not made for.
-Result<Done> check_group(const SequenceParameterSet& set) {
-  if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
-  if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");
-  if (!set.has_vectors() || set.num_layers() > 1)
-    return of_sequence(Errc::kOutOfRange, "sps_coefficient_coder");
-  return Done{};
-}
-
 }  // namespace
 
 Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream,
@@ -35,7 +26,6 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
   if (!opened) return moved(opened.error(), frame.offset);
   group_ = *std::move(opened);
   const bool moves = frame.unit.bytes > 0;
-  if (moves) SLF_CHECK(check_group(group_->scene.stream.set));
   request_.emplace();
   auto field = decode_units(*group_, options, {nullptr, moves ? &kept : nullptr, nullptr, &*request_});
   if (!field) return moved(field.error(), frame.offset);

@@ -110,6 +110,8 @@ Result<FrameHeader> parse_frame_header(std::span<const std::uint8_t> payload,
 Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const ReferenceCells& reference,
                           int bits, Motion& motion) {
   if (motion.lattice_log2 == 0) return Done{};
+  if (!reference.has(bits - motion.lattice_log2))
+    return Error{Errc::kOutOfRange, "frame_predicted_flag"};
   motion.lattice.resize(lattice_points(motion));
   RangeDecoder decoder(vectors);
   if (!code_lattice(decoder, reference, bits, motion))

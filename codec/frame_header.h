@@ -1,4 +1,4 @@
-// The frame unit: which instant a frame is of, and what it is predicted from. Spec 7.12.
+// The frame unit: which instant a frame is of, and what it is predicted from. Spec 7.13.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct FrameHeader {
 inline constexpr std::int64_t kMostFrames = std::int64_t{1} << 31;
 inline constexpr std::int64_t kMostLattice = 1 << 18;  ///< points
 
-// Spec 7.12  frame_motion( )
+// Spec 7.13  frame_motion( )
 template <class V, class Header>
 void frame_motion(V& v, Header& h) {
   for (auto& row : h.motion.matrix)
@@ -46,7 +46,7 @@ void frame_motion(V& v, Header& h) {
   }
 }
 
-// Spec 7.12  frame_unit( )
+// Spec 7.13  frame_unit( )
 template <class V, class Header>
 void frame_unit(V& v, Header& h) {
   v.ue("frame_number", h.frame_number, Range{0, kMostFrames - 1});
@@ -63,7 +63,8 @@ void frame_unit(V& v, Header& h) {
 Result<FrameHeader> parse_frame_header(std::span<const std::uint8_t> payload,
                                        std::span<const std::uint8_t>& vectors);
 /// The vectors of the motion's lattice, at points with a cell of the reference around them.
-/// @errors kOutOfRange: a vector too long, or a codeword that does not end where the unit does
+/// @errors kOutOfRange: a vector too long, a codeword that does not end where the unit does, or a
+///         reference that lacks the level
 Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const ReferenceCells& reference,
                           int bits, Motion& motion);
 

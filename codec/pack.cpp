@@ -75,7 +75,7 @@ Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8
   std::optional<std::vector<CellBox>> boxes;
   if (parameters.index) boxes = boxes_of(layout);
-  if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.12
+  if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.13
   return assemble(set, units, boxes);                                                    // 7.1, 7.7
 }
 

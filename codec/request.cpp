@@ -63,7 +63,7 @@ bool Request::wants(const UnitSlot& slot) const {
   const auto most = static_cast<std::uint32_t>(levels);
   if (slot.owner == Owner::kSlice && base_alone()) return false;
   if (slot.type == UnitType::kGeometry)
-    return needs_points() || stream.set.geometry_begin(slot.range) < most;
+    return needs_points() || kept != nullptr || stream.set.geometry_begin(slot.range) < most;
   if (has_values(slot.type))
     return slot.group < groups.size() && stream.set.coefficient_begin(slot.range) < most &&
            slot.layer < static_cast<std::uint32_t>(layers);

@@ -103,6 +103,18 @@ class Collector {
   bool in_slices_ = false;
 };
 
+/// Spec 7.13: a frame unit is the second unit, and the sequence one that frames have.
+Result<Done> check_frame(const Units& units, const SequenceParameterSet& set) {
+  for (std::size_t i = 0; i < units.units.size(); ++i)
+    if (i != 1 && units.units[i].type == UnitType::kFrame) return at(units.units[i], "unit_type");
+  if (units.units.size() < 2 || units.units[1].type != UnitType::kFrame) return Done{};
+  if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
+  if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");
+  if (!set.has_vectors() || set.num_layers() > 1)
+    return of_sequence(Errc::kOutOfRange, "sps_coefficient_coder");
+  return Done{};
+}
+
 }  // namespace
 
 Result<SequenceParameterSet> find_sequence(const Units& units) {
@@ -149,8 +161,10 @@ Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet&
 Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
                                std::uint64_t max_bytes) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(Units units, split_units(first_frame(stream), max_bytes));  // 7.1, 7.12
+  SLF_TRY(const auto frame, first_frame(stream));                 // 7.13
+  SLF_TRY(Units units, split_units(frame, max_bytes));            // 7.1
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
+  SLF_CHECK(check_frame(units, set));                             // 7.13
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
   SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7
   return OpenStream{std::move(units), std::move(scene)};

@@ -70,10 +70,10 @@ Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> strea
   return frames;
 }
 
-std::span<const std::uint8_t> first_frame(std::span<const std::uint8_t> stream) {
+Result<std::span<const std::uint8_t>> first_frame(std::span<const std::uint8_t> stream) {
   if (!moves(stream)) return stream;
-  const auto frame = read_frame(stream, 0);
-  return frame ? stream.first(static_cast<std::size_t>(frame->bytes)) : stream;
+  SLF_TRY(const FrameUnits frame, read_frame(stream, 0));
+  return stream.first(static_cast<std::size_t>(frame.bytes));
 }
 
 Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame) {
@@ -81,10 +81,10 @@ Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameU
   const std::uint64_t end = frame.offset + frame.bytes;
   const auto bytes = stream.first(static_cast<std::size_t>(end));
   for (std::uint64_t at = frame.offset; at < end;) {
+    if (result.complete) return Error{Errc::kOutOfRange, "end_of_stream", 8 * at};
     auto unit = read_unit(bytes, static_cast<std::size_t>(at));
     if (!unit) return unit.error();
     const bool first = at == frame.offset;
-    if (result.complete) return wrong(*unit, "unit_type");
     if ((unit->type == UnitType::kFrame) != first || unit->type == UnitType::kSequence ||
         unit->type == UnitType::kTransform || unit->type == UnitType::kIndex ||
         unit->type == UnitType::kMetadata)

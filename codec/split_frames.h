@@ -1,4 +1,4 @@
-// Where the frames of a stream are. Spec 7.12.
+// Where the frames of a stream are. Spec 7.13.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
 Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream);
 
 /// The first frame of a stream: all of it where it does not move.
-std::span<const std::uint8_t> first_frame(std::span<const std::uint8_t> stream);
+/// @errors those of its frame unit
+Result<std::span<const std::uint8_t>> first_frame(std::span<const std::uint8_t> stream);
 
 /// The units of a predicted frame.
 /// @errors those of units; kOutOfRange: one that such a frame does not have

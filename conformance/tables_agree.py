@@ -2,7 +2,7 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h, transform_header.h; unit types; table A-1; sizes of table 8-3 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
 import math
@@ -76,6 +76,9 @@ def check_slices():
     agree("elements of 7.3", text, visited(code("bitstream/slice_headers.h"), "slice_table", "slice"))
     text = elements(section("**7.11 Transform**", "## 8 Decoding"), "tr_")
     agree("elements of 7.11", text, visited(code("bitstream/transform_header.h"), "transform_header", "tr_"))
+    headers = code("codec/frame_header.h")
+    text = elements(section("| frame_unit( ) |", "Frames stand one after the other"), "frame_")
+    agree("elements of 7.13", text, visited(headers, "frame_unit", "frame_") + visited(headers, "frame_motion", "frame_"))
 
 
 def check_units():
@@ -87,13 +90,13 @@ def check_units():
              for name, number in re.findall(r"  k(\w+) = (\d+),", code("bitstream/units.h"))}
     agree("unit types", text, coded)
     third = dict(zip(("sequence", "slices", "geometry", "normals", "coefficients"), range(1, 6)))
-    third.update(zip(("index", "metadata", "digest", "transform", "refinement"), range(6, 11)), filler=14, end=15)
-    agree("unit types of the text decoder", text, third if "INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, END = 6, 7, 8, 9, 10, 15"
+    third.update(zip(("index", "metadata", "digest", "transform", "refinement", "frame"), range(6, 12)), filler=14, end=15)
+    agree("unit types of the text decoder", text, third if "INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, END = 6, 7, 8, 9, 10, 11, 15"
           in DECODER and "SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5" in DECODER else None)
 
 
 def check_tables():
-    """Tables A-1 and 8-3."""
+    """Tables A-1, 8-3 and 8-6."""
     text = [int(n) for n in re.findall(r"\d+", SPEC[SPEC.index("A-1: ") + 4:SPEC.index("## Annex B")])]
     agree("A-1 of the text decoder", text,
           [int(n) for n in re.search(r'TABLE_A1 = .*?"""(.*?)"""', DECODER, re.S).group(1).split()])
@@ -106,6 +109,14 @@ def check_tables():
     agree("table 8-3 of the code", [size for size in sizes if size.isdigit()], coded)
     agree("table 8-3 of the text decoder", sizes, re.sub(r"self\.hash_bits", "hash", re.search(
         r"widths = \((.*?)\)", DECODER).group(1)).split(", "))
+    sizes = [int(w) for w in re.findall(r"^\| [3-5] \| (\d+) \|", section("Table 8-6", "**8.12.4"), re.M)]
+    shapes = dict(shapes_of("geometry/occupancy_states.h"))
+    agree("table 8-6 of the code", sizes, [shapes["ReferenceFaces"], shapes["ReferenceSiblings"]])
+    widths = re.search(r"widths = (.*), 1 << self\.hash_bits\n", DECODER).group(1)
+    agree("table 8-6 of the text decoder", sizes, [math.prod(map(int, widths.split(",")[0].split("*"))), 1 << int(widths[-2:])])
+    rows = [int(n) for n in re.findall(r"^\| (\d{5}) \+ (?:i|family) \|", SPEC, re.M)]
+    all_rows = shapes["CellRows"] + shapes["NeighbourRows"] + (1 << 14)
+    agree("rows of 8.12.3", rows, [all_rows, all_rows + shapes["CellRows"]])
 
 
 def shapes_of(name):
@@ -134,6 +145,8 @@ def check_limits():
     sets = code("bitstream/sequence_parameter_set.h")
     shifts = {name: int(power) for name, power in re.findall(r"kMax(\w+) = 1u << (\d+)", sets)}
     shifts["BasePoints"] = int(re.search(r"kMostBaseWeight = std::uint64_t\{1\} << (\d+)", code("geometry/weight_classes.h"))[1])
+    lattice = int(re.search(r"K ≤ 4096, 2\^(\d+) points of a lattice", SPEC)[1])
+    agree("points of a lattice", lattice, int(re.search(r"kMostLattice = 1 << (\d+)", code("codec/frame_header.h"))[1]))
     points, slices, cells, weight = map(int, re.search(
         r"Level 0: 2\^(\d+) points a slice, 2\^(\d+) slices, 2\^(\d+) base cells that weigh 2\^(\d+) together", SPEC).groups())
     agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)

@@ -51,6 +51,8 @@ class ReferenceCells {
     return codes_[static_cast<std::size_t>(level)];
   }
   bool empty() const { return levels_.empty(); }
+  /// Are the nodes of the level known?
+  bool has(int level) const { return level < static_cast<int>(levels_.size()); }
 
  private:
   std::vector<std::vector<std::uint64_t>> codes_;

@@ -8,8 +8,8 @@ Decodes to the integer conformance point and leaves positions.npy (int32 [P, 3])
 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]) and, where the stream has normals, octahedral.npy
 (uint16 [P, 2]) in DIRECTORY, and light_field.json with the header. --levels keeps the
 first N levels of the grid, --groups the first N groups of functions, --region x0,y0,z0,x1,y1,z1 what meets a
-box of the world (clause 8.9). Exit code: 0 decoded, 1 refused, with the syntax element in question on
-standard error.
+box of the world (clause 8.9). A light field that moves (clause 7.13) is decoded frame after frame: a line for each, and the files of frame n in
+DIRECTORY/frame_n. Exit code: 0 decoded, 1 refused, with the syntax element in question on standard error.
 
 Needs Python 3 (3.10 or later) and numpy, and for the pictures of profile 2 (textures) libde265, by hevc.py;
 without it they are refused. Profile 1 (Draco geometry, clause 8.5) is not decoded but refused. Beyond 2^28
@@ -30,7 +30,7 @@ import numpy as np
 import hevc
 
 SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
-INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, END = 6, 7, 8, 9, 10, 15
+INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, END = 6, 7, 8, 9, 10, 11, 15
 MAX_VALUES = 1 << 28
 
 
@@ -124,10 +124,13 @@ def from_morton(code):
 
 # ---- 7 Syntax
 
-def read_units(data):
-    """7.1: the units of a stream as (type, payload, size of the whole unit)."""
-    require(data[:8] == bytes.fromhex("8B534C460D0A1A0A"), "signature")
-    position, units = 8, []
+SIGNATURE = bytes.fromhex("8B534C460D0A1A0A")
+
+
+def read_units(data, predicted=False):
+    """7.1: the units of a stream of one frame, or of a frame, as (type, payload, size of the whole unit)."""
+    require(predicted or data[:8] == SIGNATURE, "signature")
+    position, units = 0 if predicted else 8, []
     while position < len(data):
         start = position
         position += 1
@@ -148,8 +151,48 @@ def read_units(data):
         units.append((data[start], data[position:end], end + 4 - start))
         position = end + 4
         require(data[start] != END or position == len(data), "end_of_stream")
-    require(units and units[0][0] == SEQUENCE, "unit_type")
+    require(units and units[0][0] == (FRAME if predicted else SEQUENCE), "unit_type")
     return units
+
+
+def unit_at(data, position):
+    """7.1: payload and end of the unit at a place; None where the data end before it does."""
+    size = shift = 0
+    for at in range(position + 1, min(position + 7, len(data))):
+        size |= (data[at] & 127) << shift
+        shift += 7
+        if data[at] < 128:
+            end = at + 1 + size
+            if end + 4 > len(data):
+                return None
+            require(zlib.crc32(data[position:end]) == int.from_bytes(data[end:end + 4], "big"), "unit_crc")
+            return data[at + 1:end], end + 4
+    return None
+
+
+def split_frames(data):
+    """7.13: the frame unit, None of a light field that does not move, and the bytes of every frame."""
+    position, before = 0, None
+    while position < len(data):
+        intra, at = data[position:position + 8] == SIGNATURE, position
+        if intra:
+            sequence = unit_at(data, position + 8)
+            at = sequence[1] if sequence else len(data)
+        found = unit_at(data, at)
+        if before is None and (not intra or at >= len(data) or data[at] != FRAME):
+            yield None, data
+            return
+        if found is None and before:
+            return                          # the stream ends in it
+        require(found, "unit_payload (truncated)")
+        require(data[at] == FRAME, "unit_type")
+        frame = Frame(found[0])
+        require(frame.predicted != intra, "frame_predicted_flag")
+        if before:
+            require(frame.number == before.number + 1, "frame_number")
+            require(frame.time > before.time, "frame_time")
+        yield frame, data[position:found[1] + frame.bytes]
+        position, before = found[1] + frame.bytes, frame
 
 
 class Sequence:
@@ -166,7 +209,7 @@ class Sequence:
             return value
 
         checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 5, "sps_version_minor")
+        checked(8, lambda v: v == 6, "sps_version_minor")
         profile = checked(4, lambda v: v <= 2, "sps_profile")
         checked(4, lambda v: v == 0, "sps_level")
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
@@ -188,7 +231,7 @@ class Sequence:
         require(self.functions <= 4096, "sps_num_functions")
         self.coefficient_bounds = [0]
         self.texture = profile == 2
-        self.prediction = False
+        self.prediction = self.predicted = False
         self.attributes = []                # (id, functions) of each
         self.groups = []                    # functions of each group
         self.layers = []                    # quality layers of each group
@@ -241,6 +284,7 @@ class Sequence:
         require(all(self.groups), "sps_num_groups_minus1")
         require(self.cut_groups <= len(self.groups), "sps_cut_groups")
         require(profile != 1, "sps_profile (Draco geometry is not supported)")
+        self.profile = profile
         self.coded = list(self.groups)      # those in whose place components stand
 
     def read_attributes(self, reader):
@@ -437,6 +481,67 @@ def given_planes(sequence, coded, components):
     for transform in sequence.transforms:
         planes[:, transform.functions] = transform.expand(components, {k: r for r, k in enumerate(coded)})
     return planes
+
+
+class Frame:
+    """7.13: the frame unit."""
+
+    def __init__(self, payload):
+        """7.13: parses the unit but for the vectors of a lattice, which need the reference."""
+        reader = BitReader(payload)
+        self.number = reader.ue("frame_number")
+        require(self.number < 1 << 31, "frame_number")
+        self.time = reader.f64("frame_time")
+        self.predicted = bool(reader.u(1, "frame_predicted_flag"))
+        self.bytes = reader.ue("frame_bytes")
+        require(self.bytes < 1 << 31, "frame_bytes")
+        self.matrix, self.shift, self.lattice_log2 = [[0] * 3 for _ in range(3)], [0] * 3, 0
+        if self.predicted and reader.u(1, "frame_motion_flag"):
+            self.read_motion(reader)
+        self.codeword, self.vectors = reader.rest(), None
+        require(self.lattice_log2 or not self.codeword, "frame_vectors")
+
+    def read_motion(self, reader):
+        """7.13: frame_motion( )."""
+        self.matrix = [[reader.se("frame_matrix") for _ in range(3)] for _ in range(3)]
+        require(all(abs(entry) < 1 << 17 for row in self.matrix for entry in row), "frame_matrix")
+        self.shift = [reader.se("frame_shift") for _ in range(3)]
+        require(all(abs(part) < 1 << 20 for part in self.shift), "frame_shift")
+        if not reader.u(1, "frame_lattice_flag"):
+            return
+        self.lattice_log2 = reader.u(4, "frame_lattice_log2")
+        require(3 <= self.lattice_log2 <= 8, "frame_lattice_log2")
+        self.first = [reader.ue("frame_lattice_first") for _ in range(3)]
+        require(max(self.first) < 1 << 18, "frame_lattice_first")
+        self.size = [reader.ue("frame_lattice_size_minus1") + 1 for _ in range(3)]
+        require(math.prod(self.size) <= 1 << 18, "frame_lattice_size_minus1")
+
+    def read_vectors(self, cells):
+        """7.13: the vectors of the lattice, by point; cells are those of the reference, of all levels."""
+        if not self.lattice_log2:
+            return
+        level = len(cells) - 1 - self.lattice_log2
+        require(level < 0 or cells[level], "frame_predicted_flag")
+        decoder, self.vectors = ArithmeticDecoder(self.codeword), {}
+        nonzero, magnitudes = [Contexts(3) for _ in range(3)], [MagnitudeContexts() for _ in range(3)]
+        for z, y, x in itertools.product(*map(range, self.size[::-1])):
+            point = x, y, z
+            self.vectors[point] = [0] * 3
+            around_point = itertools.product(*[range(n + a - 2, n + a + 2) for n, a in zip(self.first, point)])
+            if level >= 0 and not any(cell in cells[level] for cell in around_point):
+                continue
+            before = [self.vectors[tuple(a - (i == k) for i, a in enumerate(point))] for k in range(3) if point[k]]
+            busy = 0
+            for i in range(3):
+                total = sum(vector[i] for vector in before)
+                value = abs(total) // max(len(before), 1) * (-1 if total < 0 else 1)
+                if decoder.adaptive(nonzero[i], busy, 255):
+                    rest = decoder.magnitude(magnitudes[i], 255, "frame_vectors")
+                    value += -rest if decoder.raw(1) else rest
+                    require(rest <= 1 << 16 and abs(value) <= 1 << 16, "frame_vectors")
+                    busy += 1
+                self.vectors[point][i] = value
+        decoder.finish("frame_vectors")
 
 
 class Slices:
@@ -722,9 +827,13 @@ NEXT = {context: (moved(context, 0), moved(context, 1)) for context in MIXED}
 INPUT = {context: 0 if probability(context) == 2048 else STRETCH[probability(context)] for context in MIXED}
 
 
-def decide_mixed(decoder, contexts, weights, rate, more=()):
-    """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt. more: inputs behind 256."""
+def decide_mixed(decoder, contexts, weights, rate, more=(), behind=()):
+    """8.3.3, 8.3.5: a decision in contexts, (table, index) each, and sets of weights; all adapt. more: inputs behind 256.
+
+    behind: contexts whose inputs are the last (8.12.3).
+    """
     inputs = [INPUT[table.contexts[i]] for table, i in contexts] + [256, *more]
+    inputs += [INPUT[table.contexts[i]] for table, i in behind]
     summed = weights[0]
     for row in weights[1:]:
         summed = [saturate(a + b) for a, b in zip(summed, row)]
@@ -734,7 +843,7 @@ def decide_mixed(decoder, contexts, weights, rate, more=()):
     steps = [x * error + (1 << 15) >> 16 for x in inputs]
     for row in weights:
         row[:len(steps)] = [saturate(w + step) for w, step in zip(row, steps)]
-    for table, i in contexts:
+    for table, i in [*contexts, *behind]:
         table.contexts[i] = NEXT[table.contexts[i]][bit]
     return bit
 
@@ -836,6 +945,7 @@ def hash_group(key, coded, bits, group_bits):
 
 
 CELL_ROWS, NEIGHBOUR_ROWS, HASHED_ROWS = 64, 27 * 256, 1 << 14      # of table 8-5
+REFERENCE_ROWS = CELL_ROWS + NEIGHBOUR_ROWS + HASHED_ROWS           # the first of 64 + 256 of 8.12.3
 OWN_CELL = window_bit(1, 1, 1)
 LOWER, UPPER = (12, 10, 4), (14, 16, 22)    # directions along x, y, z
 
@@ -856,7 +966,7 @@ class Rows:
 
     def __init__(self):
         """8.4.7: the initial state: eight lanes of 0, with 12 fractional bits."""
-        self.values = np.zeros((CELL_ROWS + NEIGHBOUR_ROWS + HASHED_ROWS, 8), np.int32)
+        self.values = np.zeros((REFERENCE_ROWS + 64 + 256, 8), np.int32)
 
     def copy(self):
         """8.1: as that of Contexts."""
@@ -895,13 +1005,21 @@ class OctreeState:
         self.only_tables = [MixedContexts(size) for size in (8000, 8000, 1 << self.hash_bits)]      # 8.4.6
         self.only_mixers = [Mixer([900] * 8) for _ in range(2)]
         self.rows, self.only_rows = Rows(), Rows()
-        self.nodes_coded = 0
+        self.nodes_coded, self.reference_tables = 0, []
+
+    def add_reference(self):
+        """8.12.5: what is new in the first predicted frame: contexts of table 8-6, a fourth mixer."""
+        if not self.reference_tables:
+            widths = 2 * 17 * 14 * 5 * 3, 1 << 16, 1 << self.hash_bits
+            self.reference_tables = [MixedContexts(size) for size in widths]
+            self.mixers.append(Mixer([900] * 8))
 
     def copy(self):
         """8.1: as that of Contexts."""
         return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers),
                       only_tables=copied_all(self.only_tables), only_mixers=copied_all(self.only_mixers),
-                      rows=self.rows.copy(), only_rows=self.only_rows.copy())
+                      rows=self.rows.copy(), only_rows=self.only_rows.copy(),
+                      reference_tables=copied_all(self.reference_tables))
 
 
 def lone(occupancy):
@@ -917,6 +1035,7 @@ class Octree:
     def __init__(self, nodes, level, most):
         """8.2, 8.4.1: what it begins with, and how many nodes a level may have."""
         self.nodes, self.level, self.most, self.state = nodes, level, most, None
+        self.moved = None                   # 8.12: the reference of a predicted frame
 
     def decode_level(self, decoder):
         """8.4.1: the children of all nodes of a level."""
@@ -939,10 +1058,11 @@ class Octree:
             beside = [occupancies[adjacent[i][d]] if d in adjacent[i] else 0 for d in LOWER]
             known = {d: occupancies[j] or 256 for d, j in adjacent[i].items()}
             further = [sum(1 << d for d in adjacent[adjacent[i][u]]) if u in adjacent[i] else 0 for u in UPPER]
-            rows = self.select_rows((x, y, z), around_node, known, further)
+            there = self.moved.there((x, y, z), self.level, occupied, unknown) if self.moved else None
+            rows = self.select_rows((x, y, z), around_node, known, further, there)
             rate = 8 - min(state.nodes_coded >> 13, 4)
             coded = self.decode_only(decoder, around_node, latest, beside, rows, rate) if only else 0
-            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rows, rate)
+            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rows, rate, there)
             state.nodes_coded += 1
             for table, entry in zip(history, entries):
                 table[entry] = coded
@@ -961,13 +1081,17 @@ class Octree:
             adjacent.append({d: j for d, j in enumerate(beside) if j != i})
         return adjacent
 
-    def select_rows(self, node, around_node, known, further):
-        """8.4.7: the rows of a node by table 8-5, and how many of them are slow."""
+    def select_rows(self, node, around_node, known, further, there=None):
+        """8.4.7, 8.12.3: the rows of a node by table 8-5, and how many of them are slow."""
         neighbours, occupied, _ = around_node
         rows = bits_of(occupied | OWN_CELL)
         rows += [CELL_ROWS + 256 * d for d in known if known[d] == 256]
+        if there:
+            rows += [REFERENCE_ROWS + i for i in bits_of(there.cells)]
         rows += [hashed_row(axis, node[axis]) for axis in range(3)]
         slow = len(rows)
+        if there:
+            rows.append(REFERENCE_ROWS + 64 + there.family)
         rows += [CELL_ROWS + 256 * d + known[d] for d in known if known[d] < 256]
         lower, upper = [[known.get(d, 0) for d in directions] for directions in (LOWER, UPPER)]
         for axis in range(3):
@@ -978,7 +1102,7 @@ class Octree:
         rows.append(hashed_row(12, neighbours))
         return rows, slow
 
-    def decode_node(self, decoder, around_node, columns, rows, rate):
+    def decode_node(self, decoder, around_node, columns, rows, rate, there=None):
         """8.4.1: eight decisions, the last of which may be implied."""
         coded, state = 0, self.state
         by_rows = state.rows.logistic(rows[0])
@@ -990,8 +1114,12 @@ class Octree:
                 coded |= decoder.decide(SQUASH[min(max(by_rows[c], -2047), 2047) + 2815]) << c
                 continue
             indices, sets = self.predict(c, coded, around_node, columns, by_rows[c])
+            behind = []
+            if there:
+                more, chosen = there.predict(c, coded, state.hash_bits)
+                behind, sets = list(zip(state.reference_tables, more)), (*sets, chosen)
             weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
-            coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate, [by_rows[c]]) << c
+            coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate, [by_rows[c]], behind) << c
         state.rows.learn(*rows, by_rows, [coded >> c & 1 for c in range(8)], rate)
         return coded
 
@@ -1467,9 +1595,12 @@ def dequantised(value, step, missing):
 class Prediction:
     """8.7.6: the corrections of the children of a level, for planes of one mode."""
 
-    def __init__(self, tree, grid_bits, level, mode):
-        """8.7.6: the nodes of the level and of the one below, by their cells."""
+    def __init__(self, tree, grid_bits, level, mode, there=None):
+        """8.7.6: the nodes of the level and of the one below, by their cells; there: 8.12.4, of the planes."""
         self.codes, self.before, self.mode = tree.codes, tree.before, mode
+        self.there, self.all_there = None, mode == 4
+        if mode >= 4:
+            self.mode, self.there = 3 if mode == 4 else mode - 4, there
         self.side = 1 << (grid_bits - 1 - level)
         self.sums = [(0, 0, 0)]             # of the positions before a row
         for code in self.codes:
@@ -1514,6 +1645,10 @@ class Prediction:
                 terms.append((self.closeness(here, self.nodes[other]), self.mean(before, self.nodes[other])))
         total = self.closeness(here, node) + sum(q for q, _ in terms)
         own = self.mean(before, node)
+        if self.there and (from_there := self.there(child)):            # 8.12.4
+            weighted = [] if self.all_there else [(4096 * q // total // 2, term) for q, term in terms]
+            weighted += [(w if self.all_there else w // 2, term) for w, term in from_there]
+            return sum([w * (term - own) for w, term in weighted], 0 * own) >> 6
         return sum([4096 * q // total * (term - own) for q, term in terms], 0 * own) >> 6
 
     def correct(self, values, before):
@@ -1535,14 +1670,15 @@ class Prediction:
 
 # ---- 8.8 Inverse transform
 
-def inverse_level(values, tree, grid_bits, level, modes):
-    """8.8.1, 8.7.6: the merges of a level, and the corrections; modes are those of the planes."""
+def inverse_level(values, tree, grid_bits, level, modes, there=None):
+    """8.8.1, 8.7.6: the merges of a level, and the corrections; modes are those of the planes; there: 8.12.4, by planes."""
     before = values.copy() if any(modes) else None
     undo_merges(values, tree, 3 * (grid_bits - level), 3 * (grid_bits - 1 - level))
     for mode in sorted(set(modes) - {0}):
         planes = [j for j, m in enumerate(modes) if m == mode]
         some = values[:, planes]
-        Prediction(tree, grid_bits, level, mode).correct(some, before[:, planes])
+        of_planes = (lambda child: there(child, planes)) if there else None
+        Prediction(tree, grid_bits, level, mode, of_planes).correct(some, before[:, planes])
         values[:, planes] = some
 
 
@@ -1563,6 +1699,123 @@ def undo_merges(values, tree, above, least):
         values[left] = round30(c * a - s * b)
         values[rows] = round30(s * a + c * b)
         begin = end
+
+
+# ---- 8.12 Predicted frames
+
+class Reference:
+    """8.12: what a frame leaves to the next."""
+
+    def __init__(self, light_field):
+        """8.12.2, 8.12.4, 8.12.5: cells of every level, means of every level, states by unit."""
+        sequence, part = light_field.sequence, light_field.parts[0] if light_field.parts else None
+        self.cells, self.means, self.states = [], [], light_field.left
+        if part is None or not part.known:
+            return
+        codes = [morton(*node) for node in part.octree.nodes]
+        for level in range(sequence.grid_bits + 1):     # none of a level that is not known
+            above = 3 * (part.octree.level - level)
+            cells = dict.fromkeys(code >> above for code in codes) if above >= 0 else {}
+            self.cells.append({from_morton(code): i for i, code in enumerate(cells)})
+        if part.tree:
+            self.wanted = Wanted(sequence, 0, 0, 0)
+            part.values(self.wanted, None, self.means)
+
+
+class Moved:
+    """8.12: a reference and the motion from it."""
+
+    def __init__(self, reference, frame, grid_bits):
+        """8.12.1: the motion of a frame."""
+        require(reference and reference.cells, "frame_predicted_flag")
+        self.reference, self.frame, self.grid_bits = reference, frame, grid_bits
+        frame.read_vectors(reference.cells)
+
+    def displacement(self, node, level):
+        """8.12.1: D of a node."""
+        frame = self.frame
+        place = [2 * x + 1 << self.grid_bits - level for x in node]
+        from_centre = [p - (1 << self.grid_bits) for p in place]
+        moved = [shift + (sum(m * p for m, p in zip(row, from_centre)) + (1 << 12) >> 13)
+                 for shift, row in zip(frame.shift, frame.matrix)]
+        if frame.lattice_log2:
+            moved = [a + b for a, b in zip(moved, self.of_lattice(place))]
+        return [min(max(part, -1 << 24), (1 << 24) - 16) for part in moved]
+
+    def of_lattice(self, place):
+        """8.12.1: L, of a place in halves of a voxel."""
+        frame, h, cell, far, total = self.frame, 1 << self.frame.lattice_log2 + 1, [], [], [0] * 3
+        for p, first, size in zip(place, frame.first, frame.size):
+            u = min(max(p - first * h, 0), (size - 1) * h)
+            cell.append(min(u // h, max(size - 2, 0)))
+            far.append(u - cell[-1] * h)
+        for b in itertools.product((0, 1), repeat=3):
+            weight = math.prod(f if upper else h - f for f, upper in zip(far, b))
+            if weight:
+                vector = frame.vectors[tuple(c + upper for c, upper in zip(cell, b))]
+                total = [t + 4 * v * weight for t, v in zip(total, vector)]
+        bits = 3 * frame.lattice_log2 + 3
+        return [t + (1 << bits - 1) >> bits for t in total]
+
+    def there(self, node, level, occupied, unknown):
+        """8.12.3: what the reference has about a node."""
+        return There(self.reference.cells[level + 1], node, self.displacement(node, level),
+                     self.grid_bits - level + 3, occupied, unknown)
+
+    def terms(self, child, level, planes):
+        """8.12.4: the weights of nodes of the reference for a node of a level, and their means."""
+        t = self.grid_bits - level + 1
+        y = [8 * x + (d + (1 << t - 1) >> t) for x, d in zip(child, self.displacement(child, level))]
+        cells, found = self.reference.cells[level], []
+        for b in CHILDREN:
+            weight = math.prod(p & 7 if upper else 8 - (p & 7) for p, upper in zip(y, b))
+            cell = tuple((p >> 3) + upper for p, upper in zip(y, b))
+            if weight and cell in cells:
+                found.append((weight, self.reference.means[level][cells[cell], planes]))
+        total = sum(weight for weight, _ in found)
+        shares = [4096 * weight // total for weight, _ in found]
+        if found:
+            shares[-1] = 4096 - sum(shares[:-1])
+        return [(share, mean) for share, (_, mean) in zip(shares, found)]
+
+
+class There:
+    """8.12.3: what the reference has about a node, and the contexts of it."""
+
+    def __init__(self, cells, node, displacement, s, occupied, unknown):
+        """8.12.3: the window, family and agreement; s: log2 of the side of a child, sixteenths of a voxel."""
+        whole = [d + (1 << s - 1) >> s for d in displacement]
+        self.beyond = [d - (w << s) >> s - 3 for d, w in zip(displacement, whole)]
+        x, y, z = [2 * x - 1 + w for x, w in zip(node, whole)]
+        self.cells = sum(window_bit(i, j, k) for i, j, k in itertools.product(range(4), repeat=3)
+                         if (x + i, y + j, z + k) in cells)
+        own = [window_bit(1 + cx, 1 + cy, 1 + cz) for cx, cy, cz in CHILDREN]
+        self.family = sum(1 << c for c in range(8) if self.cells & own[c])
+        known = (1 << 64) - 1 & ~(unknown | sum(own))
+        right, false = (occupied & self.cells & known).bit_count(), ((occupied ^ self.cells) & known).bit_count()
+        self.agreement = 4
+        if right + false:
+            self.agreement = 0 if not false else 1 if 4 * false <= right else 2 if false <= right else 3
+
+    def density(self, seen):
+        """8.12.3: density of a child with these cells around it."""
+        total = 0
+        for b in itertools.product((0, 1), repeat=3):
+            place = [1 + upper * (-1 if e < 0 else 1) for e, upper in zip(self.beyond, b)]
+            if seen & window_bit(*place):
+                total += math.prod(abs(e) if upper else 8 - abs(e) for e, upper in zip(self.beyond, b))
+        return total >> 5
+
+    def predict(self, c, coded, hash_bits):
+        """8.12.3: the indices of table 8-6, and the set of the fourth family."""
+        seen = self.cells >> WINDOW_SHIFT[c] & (ALL | OWN_CELL)
+        held, density, count = self.family >> c & 1, self.density(seen), (seen & ALL).bit_count()
+        wrong = min(((self.family ^ coded) & (1 << c) - 1).bit_count(), 2)
+        indices = (
+            (((held * 17 + density) * 14 + count // 2) * 5 + self.agreement) * 3 + wrong,
+            self.family * 256 + (1 << c | coded),
+            hash_group((8 * seen + c) * HASH_A, 0, hash_bits, 0))
+        return indices, ((held * 17 + density) * 5 + self.agreement) * 3 + wrong
 
 
 # ---- 8.2 The base and slices
@@ -1588,6 +1841,7 @@ class Part:
         self.coders = []                    # of each group; arrays [P, planes] of components for textures
         self.refiners = {}                  # 8.7.7: coders by (layer, group)
         self.states = {}                    # 8.1: by type of unit and group
+        self.moved = None                   # 8.12: the reference of a predicted frame
         self.expected = sequence.unit_order(self.is_base)
 
     def take(self, kind):
@@ -1603,11 +1857,14 @@ class Part:
             if self.base:
                 cells = self.base.octree.nodes[self.first_cell:self.first_cell + self.num_cells]
             self.octree = Octree(cells, self.first, self.points)
+            self.octree.moved = self.moved
 
     def decode_geometry(self, decoder, level_range, state):
         """8.4.1: the levels of a range."""
         self.begin_geometry()
         self.octree.state = state
+        if self.moved:
+            state.add_reference()
         end = self.sequence.geometry_bounds[level_range + 1]
         while self.octree.level < end:
             self.octree.decode_level(decoder)
@@ -1699,8 +1956,11 @@ class Part:
             require(not stream, "tx_pictures")
         self.coders.append(components)
 
-    def values(self, wanted, base_values):
-        """8.8: rows by planes, when the merges of the levels asked for are undone, with their corrections."""
+    def values(self, wanted, base_values, means=None):
+        """8.8: rows by planes, when the merges of the levels asked for are undone, with their corrections.
+
+        means: 8.12.4, receives those of the nodes of every level.
+        """
         sequence = self.sequence
         if sequence.texture:
             return texture_components(sequence, self.coders[:wanted.groups], self.points, wanted.coded)
@@ -1708,13 +1968,38 @@ class Part:
         if self.base and not self.apart:
             points, run = np.diff(self.cell_rows + [self.points]).tolist(), slice(self.first_cell, self.first_cell + self.num_cells)
             values[self.cell_rows] = cell_values(base_values[run], points, [1 << k for k in self.base.classes[run]])
+        if self.moved:                      # 8.12.4: the root
+            root = self.moved.reference.means[0][0, self.columns_there(wanted, range(values.shape[1]))]
+            values[0] = np.clip(values[0] + round_off(root * math.isqrt(self.points << 38), 19), -2**29, 2**29)
+        if means is not None:
+            means.append(self.means(values, 0))
         for level in range(self.first, min(self.last, wanted.levels)):
             modes = [0] * values.shape[1]
             for group, functions in enumerate(sequence.coded[:wanted.groups]):
                 for r in map(wanted.coded.index, functions):
                     modes[3 * r:3 * r + 3] = [self.modes.get((group, level), int(sequence.prediction))] * 3
-            inverse_level(values, self.tree, sequence.grid_bits, level, modes)
+            inverse_level(values, self.tree, sequence.grid_bits, level, modes, self.terms_there(wanted, level + 1))
+            if means is not None:
+                means.append(self.means(values, level + 1))
         return values
+
+    def means(self, values, level):
+        """8.12.4: the means of the nodes of a level."""
+        rows = self.tree.nodes(3 * (self.sequence.grid_bits - level))
+        weights = np.diff([self.tree.before[r] for r in rows + [self.points]])
+        scale = np.array([math.isqrt(2**60 // int(w)) for w in weights], np.int64)
+        return np.clip(round30(values[rows] * scale[:, None]), 1 - 2**17, 2**17 - 1)
+
+    def columns_there(self, wanted, planes):
+        """8.12.4: where the means of planes of the functions asked for stand, among those of all."""
+        whole = self.moved.reference.wanted.coded
+        return [3 * whole.index(wanted.coded[j // 3]) + j % 3 for j in planes]
+
+    def terms_there(self, wanted, level):
+        """8.12.4: what the reference has for children of a level, by planes."""
+        if not self.moved:
+            return None
+        return lambda child, planes: self.moved.terms(child, level, self.columns_there(wanted, planes))
 
     def nodes(self, wanted, base_values):
         """8.9.3, 8.8: points, or nodes of a level."""
@@ -1996,8 +2281,10 @@ def mean(values, first, weights):
 class LightField:
     """8.1: what the units of a stream make."""
 
-    def __init__(self, sequence):
-        """8.1: nothing but the sequence."""
+    def __init__(self, sequence, frame=None, reference=None):
+        """8.1: nothing but the sequence; of one that moves the frame unit, and of a predicted frame the reference."""
+        self.frame, self.reference = frame, reference
+        self.left = {}                      # 8.12.5: the states after each unit
         self.sequence, self.slices, self.base, self.parts = sequence, None, None, []
         self.boxes = None
         self.handed = {}                    # 8.1: the states after each unit of slice 0
@@ -2025,6 +2312,8 @@ class LightField:
             elif unit_type == END:
                 check_end(payload, number)
                 self.check_whole()
+            elif unit_type == FRAME:
+                require(number == 1 and self.frame and not self.reference, "unit_type (frame)")
         if self.boxes and self.slices:
             check_boxes(self.boxes, self.slices, self.base.octree.nodes if self.base.tree else None)
 
@@ -2037,6 +2326,8 @@ class LightField:
         self.base = Part(sequence, self.slices, None, None) if sequence.base_levels else None
         self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
         self.fresh_octree = OctreeState(sum(self.slices.points))
+        if self.reference:
+            self.parts[0].moved = Moved(self.reference, self.frame, sequence.grid_bits)
 
     def check_whole(self):
         """7.1: before the end unit nothing is missing that was not left out."""
@@ -2084,7 +2375,7 @@ class LightField:
         sequence, (_, level_range, group) = self.sequence, kind
         if sequence.prediction:
             for level in range(*sequence.coefficient_bounds[level_range:level_range + 2]):
-                part.modes[group, level] = reader.u(2, "cu_prediction")
+                part.modes[group, level] = reader.u(3 if sequence.predicted else 2, "cu_prediction")
         functions = len(sequence.coded[group])
         codeword = self.read_matrix(kind, reader)
         state = self.start_state(part, kind, lambda: sequence.coder.new_state(functions))
@@ -2095,6 +2386,8 @@ class LightField:
     def read_matrix(self, kind, reader):
         """7.6, 7.11: the columns of a group, before its first coefficients; what is behind them."""
         size, (_, level_range, group) = 0, kind
+        if self.sequence.predicted:
+            return reader.rest()
         if self.sequence.num_transforms and level_range == 0:
             size = reader.ue("cu_matrix_bytes")
         rest = reader.rest()
@@ -2118,6 +2411,10 @@ class LightField:
     def start_state(self, part, kind, new):
         """8.1: the state that a unit starts from."""
         what = kind[0], kind[2:]
+        if self.reference:                  # 8.12.5
+            require(kind in self.reference.states, "frame_predicted_flag")
+            part.states[what] = self.reference.states[kind].copy()
+            return part.states[what]
         if part.number and self.slices.shared:
             require(kind in self.handed, "slice_id (before the unit of slice 0)")
             return self.handed[kind].copy()
@@ -2130,6 +2427,8 @@ class LightField:
         what = kind[0], kind[2:]
         if part.number == 0 and self.slices.shared and what in part.states:
             self.handed[kind] = part.states[what].copy()
+        if self.frame and what in part.states:
+            self.left[kind] = part.states[what].copy()
         if not part.is_base and part.tree:
             part.states.pop((GEOMETRY, ()), None)
 
@@ -2156,22 +2455,54 @@ def given_out(sequence, light_field, wanted, region):
     return positions[keep], components[keep], normals[keep]
 
 
+def light_fields(data):
+    """7.13, 8.12: of every frame, in order, its units and light field; of a stream that does not move those of the stream."""
+    sequence = reference = None
+    for frame, own in split_frames(data):
+        units = read_units(own, bool(frame and frame.predicted))
+        if frame and frame.predicted:
+            require(not {INDEX, METADATA} & {unit_type for unit_type, _, _ in units}, "unit_type (predicted frame)")
+            light_field = LightField(copied(sequence, predicted=True), frame, reference)
+        else:
+            sequence = Sequence(units[0][1])
+            light_field = LightField(sequence, frame)
+        if frame:
+            require(sequence.profile == 0, "sps_profile")
+            require(sequence.base_levels == 0, "sps_base_levels")
+            with_vectors = not sequence.functions or sequence.coder is VectorCoder and max(sequence.layers) == 1
+            require(with_vectors, "sps_coefficient_coder")
+        light_field.read(units)
+        yield units, light_field
+        reference = Reference(light_field) if frame else None
+
+
 def decode(data, levels, groups, layers, region):
-    """8.1: units in; sequence, coded functions, positions, components, normals out."""
-    units = read_units(data)
-    sequence = Sequence(units[0][1])
-    light_field = LightField(sequence)
-    light_field.read(units)
+    """8.1: units in; sequence, coded functions, positions, components, normals out; of the first frame."""
+    light_field = next(light_fields(data))[1]
+    sequence = light_field.sequence
     wanted = Wanted(sequence, levels, groups, layers)
     return sequence, wanted.coded, *given_out(sequence, light_field, wanted, region)
 
 
-def description(data, sequence, coded, points, levels, groups, layers, region):
+def description(units, sequence, coded, points, levels, groups, layers, region):
     """6, 8.9: light_field.json: the header, and whether the light field is all there is."""
     wanted = Wanted(sequence, levels, groups, layers)
-    whole = wanted.all and not region and not sequence.cut and read_units(data)[-1][0] == END
+    whole = wanted.all and not region and not sequence.cut and units[-1][0] == END
     return {**header_of(sequence, wanted.shift), "component_function": coded, "points": points,
             "normal_bits": sequence.normal_bits, "partial": not whole}
+
+
+def write(directory, sequence, coded, arrays, with_planes):
+    """8.9: positions, components and normals as arrays, and the given planes."""
+    positions, components, normals = arrays
+    os.makedirs(directory, exist_ok=True)
+    np.save(os.path.join(directory, "positions.npy"), positions.astype("<i4"))
+    np.save(os.path.join(directory, "components.npy"), components.astype("<i4"))
+    if with_planes:
+        planes = given_planes(sequence, coded, components.astype(np.int64))
+        np.save(os.path.join(directory, "planes.npy"), planes.astype("<i4"))
+    if sequence.normal_bits:
+        np.save(os.path.join(directory, "octahedral.npy"), normals.astype("<u2"))
 
 
 def main():
@@ -2189,26 +2520,26 @@ def main():
     arguments = parser.parse_args()
     if len(arguments.region) not in (0, 6):
         parser.error("--region takes x0,y0,z0,x1,y1,z1")
+    request = arguments.levels, arguments.groups, arguments.layers
     try:
         with open(arguments.stream, "rb") as file:
             data = file.read()
-        request = arguments.levels, arguments.groups, arguments.layers, arguments.region
-        sequence, coded, positions, components, normals = decode(data, *request)
+        for units, light_field in light_fields(data):
+            sequence, wanted = light_field.sequence, Wanted(light_field.sequence, *request)
+            arrays = given_out(sequence, light_field, wanted, arguments.region)
+            frame, directory, said = light_field.frame, arguments.dump, []
+            if frame:
+                directory = directory and os.path.join(directory, f"frame_{frame.number}")
+                said = ["frame", frame.number, "time", frame.time, "predicted" if frame.predicted else "intra"]
+            if directory:
+                write(directory, sequence, wanted.coded, arrays, arguments.planes)
+                about = description(units, sequence, wanted.coded, len(arrays[0]), *request, arguments.region)
+                with open(os.path.join(directory, "light_field.json"), "w", encoding="utf-8") as file:
+                    json.dump(about, file, indent=2)
+            print(*said, "points", len(arrays[0]), "functions", sequence.functions, flush=True)
     except (Refused, OSError) as problem:
         print("refused:", problem, file=sys.stderr)
         return 1
-    if arguments.dump:
-        os.makedirs(arguments.dump, exist_ok=True)
-        np.save(os.path.join(arguments.dump, "positions.npy"), positions.astype("<i4"))
-        np.save(os.path.join(arguments.dump, "components.npy"), components.astype("<i4"))
-        if arguments.planes:
-            planes = given_planes(sequence, coded, components.astype(np.int64))
-            np.save(os.path.join(arguments.dump, "planes.npy"), planes.astype("<i4"))
-        if sequence.normal_bits:
-            np.save(os.path.join(arguments.dump, "octahedral.npy"), normals.astype("<u2"))
-        with open(os.path.join(arguments.dump, "light_field.json"), "w", encoding="utf-8") as file:
-            json.dump(description(data, sequence, coded, len(positions), *request), file, indent=2)
-    print("points", len(positions), "functions", sequence.functions)
     return 0
 
 

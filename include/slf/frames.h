@@ -1,4 +1,4 @@
-// Moving light fields: a stream of frames, an instant each. Spec 7.12, 8.12.
+// Moving light fields: a stream of frames, an instant each. Spec 7.13, 8.12.
 #pragma once
 
 #include <cstddef>
