@@ -31,7 +31,9 @@ class Collector {
   }
 
   Result<Done> add(const Unit& unit) {
+    ++units_;
     if (is_head(unit.type)) return add_head(unit);
+    if (unit.type == UnitType::kFrame) return check_frame(unit);
     if (unit.type == UnitType::kEnd) return check_end(unit);
     return has_ids(unit.type) ? add_part(unit) : Done{};  // others stand anywhere
   }
@@ -49,6 +51,12 @@ class Collector {
   }
 
   bool head_is_whole() const { return heads_ == head_.size(); }
+
+  /// That of a predicted frame, which the sequence of another stands before, was looked at there.
+  Result<Done> check_frame(const Unit& unit) const {
+    if (!set_.predicted && units_ != 2) return at(unit, "unit_type");
+    return Done{};
+  }
 
   Result<Done> add_head(const Unit& unit) {
     if (head_is_whole()) return at(unit, "unit_type");
@@ -100,6 +108,7 @@ class Collector {
   const SequenceParameterSet& set_;
   std::span<const UnitSlot> head_, base_, slice_;
   std::size_t heads_ = 0;  // units of the head so far
+  std::size_t units_ = 0;  // of all
   bool in_slices_ = false;
 };
 
@@ -149,7 +158,10 @@ Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet&
 Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
                                std::uint64_t max_bytes) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(Units units, split_units(first_frame(stream), max_bytes));  // 7.1, 7.12
+  SLF_TRY(const FrameUnits first, first_frame(stream));  // 7.12
+  const auto bytes = stream.first(static_cast<std::size_t>(first.bytes));
+  SLF_TRY(Units units, split_units(bytes, max_bytes));            // 7.1
+  SLF_CHECK(check_frame_bytes(first, units));                     // 7.12
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
   SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7

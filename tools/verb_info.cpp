@@ -250,7 +250,11 @@ Outcome run_info(const InfoOptions& given) {
   if (!cost) return cost.error();
   cost->memory += file.bytes.size();
   cost->memory_most += file.bytes.size();
-  if (given.common.json) return print(info_json(file.info, file.bytes.size(), *cost));
+  if (given.common.json) {
+    auto json = info_json(file.info, file.bytes.size(), *cost);
+    if (file.frames > 1) json["frames"] = file.frames;
+    return print(json);
+  }
   return print(info_text(file.info, given.input, file.bytes.size(), given.units, *cost));
 }
 
