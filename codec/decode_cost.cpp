@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "attributes/vector_states.h"
+#include "codec/frame_cost.h"
 #include "codec/scene_decoder.h"
 #include "geometry/occupancy_states.h"
 #include "slf/parallel.h"
@@ -62,7 +63,7 @@ class Model {
   DecodeCost cost(int threads) {
     active_ = shape_.slices.empty() ? 0 : threads;
     DecodeCost cost;
-    const Bytes slices = shape_.base_alone ? Bytes{} : output() + in_flight();
+    const Bytes slices = shape_.base_alone ? Bytes{} : output() + in_flight() + frames();
     const Bytes bytes = base() + slices;
     cost.memory = static_cast<std::uint64_t>(bytes.usual);
     cost.memory_most = static_cast<std::uint64_t>(bytes.most);
@@ -77,7 +78,7 @@ class Model {
     if (shape_.texture) return texture();
     Bytes row = Bytes::both(kFlags) + contexts();
     if (shape_.ahead) row = row + Bytes::both(4 * planes_);
-    if (shape_.prediction) row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
+    if (shape_.prediction || shape_.kept) row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
     return row;
   }
 
@@ -120,6 +121,12 @@ class Model {
     const Bytes octrees = at_work(geometry()) + Bytes::both(states_of_octrees(active_));
     const Bytes rows = at_work(values()) + Bytes::both(states_of_octrees(0) + states_of_values());
     return waiting + octrees.at_least(rows);
+  }
+
+  /// What a frame of several leaves to the next, and has of the one before.
+  Bytes frames() const {
+    const FrameCost cost = frame_cost(shape_, points_);
+    return {cost.usual, cost.most};
   }
 
   double coefficient_states() const {
@@ -206,7 +213,9 @@ DecodeShape shape_of(const Request& request) {
   shape.texture = set.has_texture();
   shape.normals = set.sps_normal_bits > 0;
   shape.shared_states = stream.table.shared();
-  shape.ahead = shape.shared_states && request.kept_levels_only();
+  shape.kept = request.kept != nullptr;
+  shape.reference = request.reference;
+  shape.ahead = (shape.shared_states || shape.kept) && request.kept_levels_only();
   return shape;
 }
 

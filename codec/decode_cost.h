@@ -26,6 +26,8 @@ struct DecodeShape {
   bool prediction = false, draco = false, texture = false, normals = false;
   bool shared_states = false;
   bool ahead = false;  ///< of slice 0 more levels are decoded than are kept
+  bool kept = false;   ///< a frame of several: what the next is predicted from stays
+  const FrameReference* reference = nullptr;  ///< of a frame that is predicted
 };
 
 /// What a decode takes on so many threads.

@@ -1,5 +1,6 @@
 #include "codec/frame_chain.h"
 
+#include <string_view>
 #include <utility>
 
 #include "codec/decode_units.h"
@@ -7,12 +8,15 @@
 namespace slf {
 namespace {
 
-Error of_frame(Errc code, const char* element) { return {code, element}; }
-
 /// Offsets of an intra frame count from its own first byte.
 Error moved(Error error, std::uint64_t offset) {
-  error.bit_offset += 8 * offset;
+  if (has_place(error)) error.bit_offset += 8 * offset;
   return error;
+}
+
+/// The reference has no points, or not all of its geometry.
+bool lacks_cells(const FrameState& reference, int bits) {
+  return reference.cells.levels() != bits;
 }
 
 }  // namespace
@@ -25,9 +29,12 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
   auto opened = open_stream(bytes, options.limits);
   if (!opened) return moved(opened.error(), frame.offset);
   group_ = *std::move(opened);
-  const bool moves = frame.unit.bytes > 0;
+  group_offset_ = frame.offset;
   request_.emplace();
-  auto field = decode_units(*group_, options, {nullptr, moves ? &kept : nullptr, nullptr, &*request_});
+  FrameContext context;
+  if (frame.moves()) context.kept = &kept;
+  context.asked = &*request_;
+  auto field = decode_units(*group_, options, context);
   if (!field) return moved(field.error(), frame.offset);
   return field;
 }
@@ -45,21 +52,27 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
   units.units.insert(units.units.end(), own.units.begin(), own.units.end());
   units.complete = own.complete;
   SLF_TRY(SceneUnits scene, collect_units(units, set));
+  scene.stream.bytes = frame.bytes;
   Motion motion = frame.header.motion;
   const int bits = scene.stream.grid_bits();
-  if (state_.cells.empty()) return in_unit(frame.unit, of_frame(Errc::kOutOfRange, "frame_predicted_flag"));
+  if (lacks_cells(state_, bits))
+    return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
   SLF_CHECK(in_unit(frame.unit, read_lattice(frame.vectors, state_.cells, bits, motion)));
   const FrameReference reference{state_, {state_.cells, motion, bits}};
-  return decode_units({std::move(units), std::move(scene)}, options,
-                      {&reference, &kept, &*request_, nullptr});
+  auto field = decode_units({std::move(units), std::move(scene)}, options,
+                            {&reference, &kept, &*request_, nullptr});
+  const bool of_group = !field && std::string_view(field.error().unit) == "sequence";
+  if (of_group) return moved(field.error(), group_offset_);
+  return field;
 }
 
 Result<LightField> FrameChain::decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                       const DecodeOptions& options) {
   FrameState kept;
+  if (!frame.header.predicted()) state_ = {};  // its memory
   auto field = frame.header.predicted() ? decode_predicted(stream, frame, options, kept)
                                         : decode_intra(stream, frame, options, kept);
-  if (field) state_ = std::move(kept);
+  state_ = field ? std::move(kept) : FrameState{};
   return field;
 }
 

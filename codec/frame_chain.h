@@ -14,7 +14,7 @@ namespace slf {
 class FrameChain {
  public:
   /// @param frame  the next, or one that is not predicted
-  /// @errors as slf::decode; the state is then that of the frame before
+  /// @errors as slf::decode. Behind it comes a frame that is not predicted
   Result<LightField> decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                             const DecodeOptions& options);
   /// Of the frame that was decoded last.
@@ -27,6 +27,7 @@ class FrameChain {
                                       const DecodeOptions& options, FrameState& kept);
 
   std::optional<OpenStream> group_;      // the frame that others of its group go back to
+  std::uint64_t group_offset_ = 0;
   std::optional<GroupRequest> request_;  // what it was asked for
   FrameState state_;
 };

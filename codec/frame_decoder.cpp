@@ -36,6 +36,7 @@ Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
                                         const DecodeOptions& options) {
   if (stream.size() > options.limits.max_stream_bytes)
     return Error{Errc::kLimitExceeded, "stream"};
+  if (options.max_bytes > 0) return Error{Errc::kInvalidArgument, "max_bytes"};
   auto impl = std::make_unique<Impl>();
   impl->stream = stream;
   impl->options = options;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,18 @@ struct FrameState {
   LevelMeans means;
   std::vector<std::optional<OccupancyStates>> octree;
   std::vector<std::optional<CoefficientStates>> coefficients;
+
+  /// Of memory. of_coefficients: of the states of a group
+  std::uint64_t bytes(std::uint64_t of_coefficients) const {
+    std::uint64_t sum = cells.bytes();
+    for (const auto& level : means) sum += level.size() * sizeof(std::int32_t);
+    for (const auto& states : octree)
+      if (states)
+        sum += OccupancyStates::bytes(std::uint64_t{1} << (states->hashed_bits - 5)) +
+               OccupancyStates::kReferenceBytes;
+    for (const auto& states : coefficients) sum += states ? of_coefficients : 0;
+    return sum;
+  }
 
   /// Means of zero of the root and `levels` levels below.
   void make_room(int levels, std::size_t planes) {

@@ -6,6 +6,7 @@
 #include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
+#include "codec/split_frames.h"
 #include "texture/texture_header.h"
 
 namespace slf {
@@ -31,6 +32,11 @@ class UnitVisitor {
       case UnitType::kTransform: {
         TransformHeader header;
         transform_header(parse_, header, set.num_groups());
+        break;
+      }
+      case UnitType::kFrame: {
+        FrameHeader header;
+        frame_unit(parse_, header);
         break;
       }
       case UnitType::kMetadata: {
@@ -101,7 +107,8 @@ Result<ListedUnit> list_unit(const Unit& unit, SequenceParameterSet& set) {
 Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream,
                                             const DecodeLimits& limits) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(const Units units, split_units(stream));
+  SLF_TRY(const FrameUnits first, first_frame(stream));
+  SLF_TRY(const Units units, split_units(stream.first(static_cast<std::size_t>(first.bytes))));
   SLF_CHECK(find_sequence(units));  // the unit that all others need
   SequenceParameterSet set;
   std::vector<ListedUnit> listed;

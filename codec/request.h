@@ -46,9 +46,9 @@ struct Request : GroupRequest {
   bool kept_levels_only() const { return levels < stream.grid_bits(); }
   int dropped_levels() const { return stream.grid_bits() - levels; }
   std::size_t planes() const { return 3 * coded.size(); }
-  /// Weights, and normals, need all points, whatever levels are kept.
+  /// Weights, normals and frames predicted from this one need all points, whatever levels are kept.
   bool needs_points() const {
-    return !kept_levels_only() || planes() > 0 || (stream.set.sps_normal_bits > 0 && !base_alone());
+    return !kept_levels_only() || kept != nullptr || planes() > 0 || (stream.set.sps_normal_bits > 0 && !base_alone());
   }
   /// Is the unit needed? Never a digest, which is of the whole.
   bool wants(const UnitSlot& slot) const;

@@ -70,10 +70,26 @@ Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> strea
   return frames;
 }
 
-Result<std::span<const std::uint8_t>> first_frame(std::span<const std::uint8_t> stream) {
-  if (!moves(stream)) return stream;
-  SLF_TRY(const FrameUnits frame, read_frame(stream, 0));
-  return stream.first(static_cast<std::size_t>(frame.bytes));
+Result<FrameUnits> first_frame(std::span<const std::uint8_t> stream) {
+  FrameUnits all;
+  all.bytes = stream.size();
+  if (!moves(stream)) return all;
+  auto frame = read_frame(stream, 0);
+  if (!frame && frame.error().code == Errc::kTruncated) return all;
+  return frame;
+}
+
+Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units) {
+  const std::uint64_t end = frame.unit.offset + frame.unit.bytes + frame.header.frame_bytes;
+  if (frame.moves() && units.complete && end != frame.offset + frame.bytes)
+    return wrong(frame.unit, "frame_bytes");
+  return Done{};
+}
+
+Result<Done> check_does_not_move(const Units& units) {
+  const Unit* frame = units.first(UnitType::kFrame);
+  if (frame == nullptr) return Done{};
+  return of_unit(frame->type, frame->offset, Errc::kUnsupported, kOneLightField);
 }
 
 Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame) {
@@ -96,6 +112,7 @@ Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameU
     result.units.push_back(*unit);
     at += unit->bytes;
   }
+  SLF_CHECK(check_frame_bytes(frame, result));
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "bitstream/units.h"
 #include "codec/frame_header.h"
 #include "slf/error.h"
+#include "slf/frames.h"
 
 namespace slf {
 
@@ -17,6 +18,8 @@ struct FrameUnits {
   std::span<const std::uint8_t> vectors;       ///< of the lattice
   Unit unit;                                   ///< the frame unit; of one frame alone: none
   std::uint64_t offset = 0, bytes = 0;         ///< of the frame, cut at the end of the stream
+
+  bool moves() const { return unit.bytes > 0; }
 };
 
 /// The frame that begins at `at`. Of an intra frame the frame unit follows the sequence unit.
@@ -25,12 +28,18 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
 /// @errors those of slf::list_frames
 Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream);
 
-/// The first frame of a stream: all of it where it does not move.
-/// @errors those of its frame unit
-Result<std::span<const std::uint8_t>> first_frame(std::span<const std::uint8_t> stream);
+/// The first frame of a stream: all of it where it does not move, or ends before that is told.
+Result<FrameUnits> first_frame(std::span<const std::uint8_t> stream);
+
+/// A frame that ends with its end unit has as many bytes as it says.
+/// @errors kOutOfRange: frame_bytes
+Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units);
+
+/// @errors kUnsupported, with the element kOneLightField: the stream is one of frames
+Result<Done> check_does_not_move(const Units& units);
 
 /// The units of a predicted frame.
-/// @errors those of units; kOutOfRange: one that such a frame does not have
+/// @errors those of units; kOutOfRange: one that such a frame does not have, frame_bytes
 Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame);
 
 }  // namespace slf

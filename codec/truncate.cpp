@@ -5,6 +5,7 @@
 #include "codec/base_decoder.h"
 #include "codec/decode_cost.h"
 #include "codec/scene_units.h"
+#include "codec/split_frames.h"
 #include "slf/truncate.h"
 
 namespace slf {
@@ -66,6 +67,7 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
                                            const DecodeOptions& options) {
   SLF_TRY(const OpenStream opened, open_stream(stream, options.limits));
   const auto& [units, scene] = opened;
+  SLF_CHECK(check_does_not_move(units));
   SLF_CHECK(collect_metadata(units));
   SLF_TRY(const Request request, request_of(units, scene, options));
   SLF_CHECK(check_limits(request, options));

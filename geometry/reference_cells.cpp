@@ -107,4 +107,11 @@ ReferenceCells::ReferenceCells(std::span<const std::uint64_t> codes, int bits) {
   for (const auto& level : codes_) levels_.emplace_back(level);
 }
 
+std::uint64_t ReferenceCells::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& codes : codes_) sum += codes.capacity() * sizeof(std::uint64_t);
+  for (const ReferenceLevel& level : levels_) sum += level.bytes();
+  return sum;
+}
+
 }  // namespace slf

@@ -15,7 +15,7 @@ namespace slf {
 /// The cells of one level in bricks of 4 x 4 x 4.
 class ReferenceLevel {
  public:
-  /// @param codes  of the cells at the level: distinct, ascending; kept by reference
+  /// @param codes  of the cells at the level: distinct, ascending
   explicit ReferenceLevel(std::span<const std::uint64_t> codes);
 
   /// The 4 x 4 x 4 cells from `first` on, which may lie outside of the grid.
@@ -24,6 +24,7 @@ class ReferenceLevel {
   static constexpr std::uint32_t kNone = ~0u;
   /// Place of a cell among the codes; kNone where it is empty.
   std::uint32_t find(const Voxel& cell) const;
+  std::uint64_t bytes() const { return table_.size() * sizeof(Brick); }  ///< of memory
 
  private:
   struct Brick {
@@ -53,6 +54,9 @@ class ReferenceCells {
   bool empty() const { return levels_.empty(); }
   /// Are the nodes of the level known?
   bool has(int level) const { return level < static_cast<int>(levels_.size()); }
+  /// Of the grid; -1: none are known.
+  int levels() const { return static_cast<int>(levels_.size()) - 1; }
+  std::uint64_t bytes() const;  ///< of memory
 
  private:
   std::vector<std::vector<std::uint64_t>> codes_;

@@ -7,6 +7,7 @@
 #include "codec/base_encoder.h"
 #include "codec/request.h"
 #include "codec/sequence.h"
+#include "codec/split_frames.h"
 #include "scene/part_sums.h"
 
 namespace slf {
@@ -29,6 +30,7 @@ class PartReader {
     SLF_TRY(units_, split_units(part_.bytes));
     SLF_TRY(cut_, find_sequence(units_));
     SLF_TRY(scene_, collect_units(units_, cut_));
+    SLF_CHECK(check_does_not_move(units_));
     SLF_TRY(parts_.metadata, collect_metadata(units_));
     parts_.table = scene_.stream.table;
     parts_.set = cut_;

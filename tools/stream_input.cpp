@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "slf/capture.h"
+#include "slf/frames.h"
 #include "slf/plenoptic.h"
 #include "tools/frame_source.h"
 #include "tools/heap.h"
@@ -35,6 +36,15 @@ std::string missing(const StreamInfo& info) {
   if (!info.complete) what += "it ends before its end unit";
   if (info.cut) what += info.complete ? "parts were cut off" : ", and parts were cut off";
   return what + "; what is missing counts as zero, and no digest is checked";
+}
+
+/// Of the frames that begin with a frame unit; 1 where nothing moves.
+Result<std::size_t, Failure> count_frames(const std::string& file,
+                                          std::span<const std::uint8_t> bytes,
+                                          const StreamInfo& info) {
+  if (info.units.size() < 2 || info.units[1].type != "frame") return std::size_t{1};
+  SLF_TRY(const auto frames, from(input_name(file), list_frames(bytes)));
+  return frames.size();
 }
 
 std::string mebibytes(std::uint64_t bytes) { return grouped((bytes + (1 << 20) - 1) >> 20); }
@@ -106,7 +116,11 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
                                         const LimitOptions& given, const CommonOptions& common) {
   SLF_TRY(StreamInfo info, from(input_name(file), read_info(bytes, given.limits)));
   SLF_CHECK(check_whole(file, info, given, common));
-  return StreamFile{std::move(bytes), std::move(info)};
+  SLF_TRY(const std::size_t frames, count_frames(file, bytes, info));
+  if (frames > 1)
+    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) + " the first is taken",
+         common.quiet);
+  return StreamFile{std::move(bytes), std::move(info), frames};
 }
 
 DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,

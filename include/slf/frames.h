@@ -16,6 +16,9 @@
 
 namespace slf {
 
+/// Element of the error (kUnsupported) of what takes one light field, of a stream of frames.
+inline constexpr const char* kOneLightField = "a stream of several frames";
+
 /// A frame of a stream, as its frame unit says.
 struct FrameInfo {
   std::uint32_t number = 0;  ///< ascending by one
@@ -39,7 +42,7 @@ class FrameDecoder {
   /// @param stream   kept by reference
   /// @param options  of every frame. Fewer levels and groups are those of every frame, without
   ///                 drift; a region is cut from frames decoded whole
-  /// @errors those of list_frames
+  /// @errors those of list_frames; kInvalidArgument: max_bytes
   static Result<FrameDecoder> open(std::span<const std::uint8_t> stream,
                                    const DecodeOptions& options = {});
   FrameDecoder(FrameDecoder&&) noexcept;
