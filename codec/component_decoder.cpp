@@ -160,8 +160,9 @@ CodedCoefficients keep_rows(const Request& request, const ComponentRows& finer,
                 to.begin() + static_cast<std::ptrdiff_t>(row * planes));
   }
   coded.nonzero.resize(rows.tree.size());
-  coded.cells =
-      find_cells(rows.tree, rows.first, request.stream.lowest_split(rows.start), coded.cells.first);
+  if (request.stream.has_base())
+    coded.cells = find_cells(rows.tree, rows.first, request.stream.lowest_split(rows.start),
+                             coded.cells.first);
   return coded;
 }
 
