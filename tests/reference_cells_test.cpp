@@ -76,7 +76,7 @@ TEST_P(ReferenceCellsTest, WindowsAndPlacesAreThoseOfBruteForceAtEveryLevel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Clouds, ReferenceCellsTest, testing::ValuesIn(test::clouds_of_every_shape()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& cloud) { return cloud.param.name; });
 
 TEST(Spec_8_12_2_ReferenceCells, OfNoFrameAreNone) { EXPECT_EQ(ReferenceCells().levels(), -1); }
 
