@@ -89,12 +89,14 @@ constexpr bool has_normals(UnitType type) { return type == UnitType::kNormals; }
 /// Payload bytes of the units that are wanted; values: of coefficients and refinements alone.
 std::uint64_t bytes_wanted(const SceneUnits& scene, const Request& request, bool values);
 
-/// [slices] Is it opened? Those that meet the region are, and the one they start from.
+/// [slices] Is it opened? Those that meet the region are, and the one they start from; all where
+/// another frame is predicted from this.
 /// @param meets  of a slice
 template <class Meets>
 std::vector<std::uint8_t> choose_slices(const Request& request, const Meets& meets) {
   const SliceTable& table = request.stream.table;
   std::vector<std::uint8_t> chosen(table.slices.size(), true);
+  if (request.kept != nullptr) return chosen;
   for (std::size_t s = 0; request.region && s < chosen.size(); ++s)
     chosen[s] = (s == 0 && table.shared()) || meets(s);
   return chosen;
