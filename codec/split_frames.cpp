@@ -10,6 +10,21 @@ bool begins_intra(std::span<const std::uint8_t> rest) {
          std::equal(kSignature.begin(), kSignature.end(), rest.begin());
 }
 
+/// What no frame begins with, cut short or not.
+Result<Done> check_first_byte(std::span<const std::uint8_t> rest, std::size_t at) {
+  const auto type = static_cast<UnitType>(rest[0]);
+  if (rest[0] == kSignature[0]) {
+    const auto end = std::min(rest.size(), kSignature.size());
+    const bool good = std::equal(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(end),
+                                 kSignature.begin());
+    if (!good) return Error{Errc::kOutOfRange, "signature", 8 * at};
+    if (end < kSignature.size()) return Error{Errc::kTruncated, "signature", 8 * at};
+  } else if (type != UnitType::kFrame) {
+    return of_unit(type, at, Errc::kOutOfRange, "unit_type");
+  }
+  return Done{};
+}
+
 Error wrong(const Unit& unit, const char* element) {
   return of_unit(unit.type, unit.offset, Errc::kOutOfRange, element);
 }
@@ -29,8 +44,11 @@ bool moves(std::span<const std::uint8_t> stream) {
 Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t at) {
   FrameUnits frame;
   frame.offset = at;
+  SLF_CHECK(check_first_byte(stream.subspan(at), at));
   const bool intra = begins_intra(stream.subspan(at));
   if (intra) {
+    if (at + kSignature.size() >= stream.size())
+      return Error{Errc::kTruncated, "unit_type", 8 * stream.size()};
     SLF_TRY(const Unit sequence, read_unit(stream, at + kSignature.size()));
     if (sequence.type != UnitType::kSequence) return wrong(sequence, "unit_type");
     at = static_cast<std::size_t>(sequence.offset + sequence.bytes);

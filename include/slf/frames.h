@@ -30,7 +30,8 @@ struct FrameInfo {
 
 /// The frames of a stream, by the lengths that their frame units say: units are not opened. A light
 /// field that does not move is one frame.
-/// @return what is there of them: the last may be cut short
+/// @return what is there of them: the last may be cut short. Bytes behind it are the beginning of
+///         one that was cut off, or is damaged in its first units' lengths
 /// @errors kNotSlf, kTruncated: no frame begins. Those of a frame unit; kOutOfRange also: numbers or
 ///         times that do not ascend, a predicted frame first. O(frames)
 Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream);
