@@ -5,12 +5,12 @@
 #include <bit>
 #include <cstdlib>
 
+#include "attributes/kept_means.h"
 #include "attributes/level_prediction.h"
 #include "attributes/mode_trial.h"
 #include "attributes/predicted_node.h"
 #include "attributes/quantiser_step.h"
 #include "attributes/raht_arithmetic.h"
-#include "attributes/raht_inverse.h"
 #include "attributes/rate_model.h"
 #include "attributes/row_quantiser.h"
 #include "base/multiversion.h"
@@ -185,9 +185,9 @@ class LevelQuantiser {
       // A mode takes a decoder's time: it has to save a 256th of a bit a node, and of all.
       const std::uint64_t least = nodes.size() * planes_of(functions).size();
       cost[0] -= std::min(cost[0], std::max(cost[0] / 256, least));
-      modes.push_back(
-          static_cast<std::uint8_t>(
-              std::min_element(cost.begin(), cost.begin() + static_cast<std::ptrdiff_t>(num_modes())) - cost.begin()));
+      modes.push_back(static_cast<std::uint8_t>(
+          std::min_element(cost.begin(), cost.begin() + static_cast<std::ptrdiff_t>(num_modes())) -
+          cost.begin()));
     }
     return modes;
   }
@@ -204,7 +204,8 @@ class LevelQuantiser {
     PredictedNode node(std::span<const std::uint8_t>(modes).subspan(begin, lanes));
     for (std::size_t n = 0, merge = 0, mean = 0; n < level_->nodes.size(); ++n) {
       if (!level_->branches(n)) continue;
-      if (node.is_predicted()) level_means(*level_, mean, level_->means_end[n], values, means, lanes);
+      if (node.is_predicted())
+        level_means(*level_, mean, level_->means_end[n], values, means, lanes);
       mean = level_->means_end[n];
       const auto children = static_cast<std::size_t>(std::popcount(level_->nodes.occupancy[n]));
       const std::span<const Merge> own = merges_.subspan(merge, children - 1);

@@ -40,7 +40,7 @@ struct QuantiserInput {
   double rdo = 0;   ///< 0 .. 1
   int dropped = 0;  ///< levels below the rows: of a base those of its slices
   CodeWeights weights{};
-  const QuantisedBase* base = nullptr;  ///< nullptr: the tree is coded from the root
+  const QuantisedBase* base = nullptr;        ///< nullptr: the tree is coded from the root
   const ReferenceMeans* reference = nullptr;  ///< of a frame that is predicted, without a base
 };
 

@@ -113,15 +113,16 @@ void level_means(const TransformLevel& level, std::size_t begin, std::size_t end
 
 namespace {
 
-inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means, ConstLanes reference,
-                          std::size_t lanes, Corrections& out) {
+inline void predict_lanes(const NodePrediction& plan, Lanes values, Lanes means,
+                          ConstLanes reference, std::size_t lanes, Corrections& out) {
   for (std::size_t i = 0; i < plan.children; ++i) {
     const NodePrediction::Child& child = plan.child[i];
     std::int32_t* sum = out[i].data();
     subtract_own(sum, means.row(plan.slot), child.others, lanes);
     for (std::size_t t = 0; t < child.terms; ++t) {
       const NodePrediction::Term& term = child.term[t];
-      const std::int32_t* from = term.root_q30 == NodePrediction::Term::kSlot ? means.row(term.index)
+      const std::int32_t* from = term.root_q30 == NodePrediction::Term::kSlot
+                                     ? means.row(term.index)
                                  : term.root_q30 > 0 ? values.row(term.index)
                                                      : reference.row(term.index);
       accumulate(sum, from, term, lanes);

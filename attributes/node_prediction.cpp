@@ -38,8 +38,7 @@ void add_reference(const TransformLevel& level, std::size_t index, bool half,
   if (terms.empty()) return;
   if (half) {
     child.others = 0;
-    for (std::uint32_t t = 0; t < child.terms; ++t)
-      child.others += child.term[t].weight /= 2;
+    for (std::uint32_t t = 0; t < child.terms; ++t) child.others += child.term[t].weight /= 2;
   } else {
     child.terms = 0;
     child.others = 0;
@@ -57,7 +56,6 @@ void add_reference(const TransformLevel& level, std::size_t index, bool half,
 SLF_MULTIVERSION_ALL
 void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
                NodePrediction& plan) {
-  const bool from_reference = given >= kFromReference;
   const std::uint32_t mode = given == kFromReference ? std::uint32_t{kSharp} : given & 3;
   const OctreeLevel& nodes = level.nodes;
   const std::uint8_t* const occupancy = nodes.occupancy.data();
@@ -111,7 +109,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
       others += term->weight;
     }
     child->others = others;
-    if (from_reference) add_reference(level, index, given != kFromReference, *child);
+    if (given >= kFromReference) add_reference(level, index, given != kFromReference, *child);
   }
   plan.slot = slot[n];
   plan.children = static_cast<std::uint32_t>(child - plan.child.data());

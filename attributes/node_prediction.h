@@ -10,7 +10,8 @@
 namespace slf {
 
 /// cu_prediction. kFromReference: by what the reference has there; added to another it is half of
-/// that, and half of the other. Else weights fall with the square of the distance, or with its fourth power.
+/// that, and half of the other. Else weights fall with the square of the distance, or with its
+/// fourth power.
 enum PredictionMode : std::uint8_t {
   kUnpredicted = 0,
   kWide = 1,         ///< square: smooth planes
@@ -41,7 +42,8 @@ struct NodePrediction {
   std::array<Child, 8> child;
 };
 
-/// Weights and places, for all planes. Node n branches; mode 1 .. 7, from 4 on of a level with a reference.
+/// Weights and places, for all planes. Node n branches; mode 1 .. 7, from 4 on of a level with a
+/// reference.
 void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t mode,
                NodePrediction& plan);
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <memory>
 
+#include "attributes/kept_means.h"
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_arithmetic.h"
@@ -151,8 +152,7 @@ std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<
   return bad;
 }
 
-/// Merges whose rows are asked for before they are needed: a node or two.
-constexpr std::size_t kMergesAhead = 8;
+constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for: a node or two
 
 /// Spec 8.7.6. merges: of the level. Node by node, not run by run: a level does not fit the cache.
 std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
@@ -174,8 +174,8 @@ std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> m
         level_means(level, means_begin, level.means_end[n],
                     {range.values.first + run.begin, range.values.stride},
                     {means.first + run.begin, means.stride}, run.end - run.begin);
-      bad |= inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means,
-                          reference);
+      bad |=
+          inverse_node(level, n, merges.subspan(merge, children - 1), run, range, means, reference);
     }
     means_begin = level.means_end[n];
     merge += children - 1;
@@ -222,21 +222,7 @@ std::vector<Run> clip(std::span<const Run> runs, std::size_t begin, std::size_t 
   return clipped;
 }
 
-/// Means of the nodes that begin at these rows, of planes begin .. end - 1.
-void keep_means(std::span<const std::int32_t> values, std::span<const std::uint32_t> rows,
-                std::span<const NodePlace> places, std::size_t planes, std::size_t begin,
-                std::size_t end, std::vector<std::int32_t>& means) {
-  for (std::size_t n = 0; n < places.size(); ++n)
-    node_means(&values[rows[n] * planes + begin], places[n].weight, &means[n * planes + begin],
-               end - begin);
-}
-
 }  // namespace
-
-std::int32_t predicted_root(std::int32_t mean, std::uint32_t weight) {
-  return static_cast<std::int32_t>(
-      rounded<19>(std::int64_t{mean} * roots_of(small_roots(), weight).root_q19));
-}
 
 Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> steps,
                           std::span<std::int32_t> values, int threads,
@@ -264,12 +250,9 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
   const Steps table(steps);
   used = std::min(used, steps.size());
   bool good = cells > 0 || dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
-  const auto weight = static_cast<std::uint32_t>(levels.points());
   if (reference != nullptr) {
     levels.predict_from(reference->moved);
-    for (std::size_t j = 0; j < used; ++j)
-      values[j] = std::clamp(values[j] + predicted_root(reference->means[0][j], weight),
-                             -kPredictedLimit, kPredictedLimit);
+    predict_root(reference->means[0], levels.points(), values.first(used));
   }
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other
   std::size_t capacity = 0;
@@ -293,12 +276,10 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
       advise_huge_pages(means.get(), capacity * sizeof(std::int32_t));
     }
     good &= over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
-      const std::int32_t bad = inverse_level(level, merges, clip(runs, begin, end),
-                           Range(values, table, begin, end, nonzero),
-                           {means ? means.get() + std::min(begin, width) : nullptr, width},
-                           there == nullptr
-                               ? ConstLanes{nullptr, 0}
-                               : ConstLanes{there + begin, steps.size()});
+      const std::int32_t bad = inverse_level(
+          level, merges, clip(runs, begin, end), Range(values, table, begin, end, nonzero),
+          {means ? means.get() + std::min(begin, width) : nullptr, width},
+          there == nullptr ? ConstLanes{nullptr, 0} : ConstLanes{there + begin, steps.size()});
       if (kept != nullptr)
         keep_means(values, level.child_rows, level.child_places, steps.size(), begin, end,
                    (*kept)[static_cast<std::size_t>(l) + 1]);

@@ -40,17 +40,11 @@ Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> s
 /// @param planes  ascending, covering all
 /// @param reference  of a frame that is predicted, with as many planes; else nullptr
 /// @param kept    receives the means of all levels, where given: sized, zero
-Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& levels,
-                                    std::span<const PredictedPlanes> planes,
-                                    std::span<const std::uint32_t> steps,
-                                    std::span<std::int32_t> values, int threads,
-                                    std::span<const std::uint8_t> nonzero = {},
-                                    std::size_t used = kAllPlanes, std::size_t cells = 0,
-                                    const ReferenceMeans* reference = nullptr,
-                                    LevelMeans* kept = nullptr);
-
-/// What the reference says of row 0 of a frame of `weight` points: of its root. Spec 8.12.4.
-std::int32_t predicted_root(std::int32_t mean, std::uint32_t weight);
+Result<Done> raht_inverse_predicted(
+    const RahtTree& tree, TransformLevels& levels, std::span<const PredictedPlanes> planes,
+    std::span<const std::uint32_t> steps, std::span<std::int32_t> values, int threads,
+    std::span<const std::uint8_t> nonzero = {}, std::size_t used = kAllPlanes,
+    std::size_t cells = 0, const ReferenceMeans* reference = nullptr, LevelMeans* kept = nullptr);
 
 /// The means of a node of `weight` points, of the values raht_inverse leaves in its row; in place.
 void to_node_means(std::span<std::int32_t> row, std::uint32_t weight);

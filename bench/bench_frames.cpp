@@ -63,9 +63,9 @@ double squared_error(const LightField& given, const LightField& decoded) {
   std::sort(order.begin(), order.end());
   double sum = 0;
   for (std::size_t i = 0; i < order.size(); ++i)
-    sum += std::pow((given.components[3 * order[i].second] - decoded.components[3 * i]) /
-                        double{1 << kShift},
-                    2);
+    sum += std::pow(
+        (given.components[3 * order[i].second] - decoded.components[3 * i]) / double{1 << kShift},
+        2);
   return sum / static_cast<double>(order.size());
 }
 

@@ -43,7 +43,7 @@ Result<LightField> decode_units(const OpenStream& opened, const DecodeOptions& o
   request.reference = frame.reference;                                       // 8.12
   request.kept = frame.kept;
   if (frame.asked != nullptr) *frame.asked = request;
-  SLF_CHECK(check_limits(request, options));                          // 9
+  SLF_CHECK(check_limits(request, options));  // 9
   LightField field = empty_field(request);
   DecodeSeconds seconds;
   field.partial = !scene.stream.complete || request.missing || request.region;  // 8.9

@@ -78,7 +78,8 @@ class Model {
     if (shape_.texture) return texture();
     Bytes row = Bytes::both(kFlags) + contexts();
     if (shape_.ahead) row = row + Bytes::both(4 * planes_);
-    if (shape_.prediction || shape_.kept) row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
+    if (shape_.prediction || shape_.kept)
+      row = row + kLevels + Bytes{kUsualMeans, 1} * (4 * planes_);
     return row;
   }
 

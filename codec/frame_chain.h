@@ -26,7 +26,7 @@ class FrameChain {
   Result<LightField> decode_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                       const DecodeOptions& options, FrameState& kept);
 
-  std::optional<OpenStream> group_;      // the frame that others of its group go back to
+  std::optional<OpenStream> group_;  // the frame that others of its group go back to
   std::uint64_t group_offset_ = 0;
   std::optional<GroupRequest> request_;  // what it was asked for
   FrameState state_;

@@ -27,15 +27,14 @@ Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream)
   SLF_TRY(const auto frames, split_frames(stream));
   std::vector<FrameInfo> infos;
   for (const FrameUnits& f : frames)
-    infos.push_back({f.header.frame_number, f.header.frame_time, f.header.predicted(), f.offset,
-                     f.bytes});
+    infos.push_back(
+        {f.header.frame_number, f.header.frame_time, f.header.predicted(), f.offset, f.bytes});
   return infos;
 }
 
 Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
                                         const DecodeOptions& options) {
-  if (stream.size() > options.limits.max_stream_bytes)
-    return Error{Errc::kLimitExceeded, "stream"};
+  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   if (options.max_bytes > 0) return Error{Errc::kInvalidArgument, "max_bytes"};
   auto impl = std::make_unique<Impl>();
   impl->stream = stream;

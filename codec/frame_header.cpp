@@ -38,9 +38,9 @@ bool code_lattice(Coder& coder, const ReferenceCells& reference, int bits, Motio
   const auto& size = motion.lattice_size;
   std::size_t at = 0;
   std::array<std::int32_t, 3> point{};
-  const std::array<std::size_t, 3> stride = {1, static_cast<std::size_t>(size[0]),
-                                             static_cast<std::size_t>(size[0]) *
-                                                 static_cast<std::size_t>(size[1])};
+  const std::array<std::size_t, 3> stride = {
+      1, static_cast<std::size_t>(size[0]),
+      static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
   for (point[2] = 0; point[2] < size[2]; ++point[2])
     for (point[1] = 0; point[1] < size[1]; ++point[1])
       for (point[0] = 0; point[0] < size[0]; ++point[0], ++at) {

@@ -7,9 +7,9 @@
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/assemble.h"
+#include "codec/pack_frame.h"
 #include "codec/pack_parameters.h"
 #include "codec/scene_frame.h"
-#include "codec/pack_frame.h"
 #include "codec/sequence.h"
 #include "codec/sorted_field.h"
 #include "codec/texture_parameters.h"
@@ -76,7 +76,7 @@ Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field
   std::optional<std::vector<CellBox>> boxes;
   if (parameters.index) boxes = boxes_of(layout);
   if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.13
-  return assemble(set, units, boxes);                                                    // 7.1, 7.7
+  return assemble(set, units, boxes);                                                   // 7.1, 7.7
 }
 
 }  // namespace slf

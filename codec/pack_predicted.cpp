@@ -15,13 +15,13 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
   SequenceParameterSet set = group.set;
   set.predicted = true;
   const int bits = static_cast<int>(set.grid_bits());
-  SLF_TRY(SortedField sorted, sort_points(field));                                   // 6.2
-  SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));       // 7.3
+  SLF_TRY(SortedField sorted, sort_points(field));                              // 6.2
+  SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));  // 7.3
   // The vectors that are not coded are known after this; the length of the frame is not yet.
   write_frame_header(frame, &before.cells, bits);  // 7.13
   const FrameReference reference{before, {before.cells, frame.motion, bits}};
-  SliceCoding coding{set,           group.groups,   group.steps, parameters.digest, parameters.texture,
-                     parameters.rdo};
+  SliceCoding coding{
+      set, group.groups, group.steps, parameters.digest, parameters.texture, parameters.rdo};
   coding.reference = &reference;
   if (!group.transforms.empty())
     sorted.components =

@@ -37,8 +37,8 @@ struct Request : GroupRequest {
   bool whole = true;     ///< no levels, groups or layers are left out: digests are checked
   bool missing = false;  ///< some are that would be part of what was asked for
   std::optional<VoxelBox> region = {};           ///< of the whole grid
-  const FrameReference* reference = nullptr;  ///< of a frame that is predicted
-  FrameState* kept = nullptr;                 ///< receives what the next may be predicted from
+  const FrameReference* reference = nullptr;     ///< of a frame that is predicted
+  FrameState* kept = nullptr;                    ///< receives what the next may be predicted from
   std::shared_ptr<DecodeWatch> watch = nullptr;  ///< where the caller wants to know
 
   /// What was asked for is in the base alone: no unit of a slice is opened.
@@ -48,7 +48,8 @@ struct Request : GroupRequest {
   std::size_t planes() const { return 3 * coded.size(); }
   /// Weights, normals and frames predicted from this one need all points, whatever levels are kept.
   bool needs_points() const {
-    return !kept_levels_only() || kept != nullptr || planes() > 0 || (stream.set.sps_normal_bits > 0 && !base_alone());
+    return !kept_levels_only() || kept != nullptr || planes() > 0 ||
+           (stream.set.sps_normal_bits > 0 && !base_alone());
   }
   /// Is the unit needed? Never a digest, which is of the whole.
   bool wants(const UnitSlot& slot) const;

@@ -56,8 +56,7 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
   if (at >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * at};
   SLF_TRY(frame.unit, read_unit(stream, at));
   if (frame.unit.type != UnitType::kFrame) return wrong(frame.unit, "unit_type");
-  SLF_TRY(frame.header,
-          in_unit(frame.unit, parse_frame_header(frame.unit.payload, frame.vectors)));
+  SLF_TRY(frame.header, in_unit(frame.unit, parse_frame_header(frame.unit.payload, frame.vectors)));
   if (frame.header.predicted() == intra) return wrong(frame.unit, "frame_predicted_flag");
   const std::uint64_t end = frame.unit.offset + frame.unit.bytes + frame.header.frame_bytes;
   frame.bytes = std::min<std::uint64_t>(end, stream.size()) - frame.offset;

@@ -14,10 +14,10 @@ namespace slf {
 
 /// A frame in its stream.
 struct FrameUnits {
-  FrameHeader header;                          ///< its lattice is still to be read
-  std::span<const std::uint8_t> vectors;       ///< of the lattice
-  Unit unit;                                   ///< the frame unit; of one frame alone: none
-  std::uint64_t offset = 0, bytes = 0;         ///< of the frame, cut at the end of the stream
+  FrameHeader header;                     ///< its lattice is still to be read
+  std::span<const std::uint8_t> vectors;  ///< of the lattice
+  Unit unit;                              ///< the frame unit; of one frame alone: none
+  std::uint64_t offset = 0, bytes = 0;    ///< of the frame, cut at the end of the stream
 
   bool moves() const { return unit.bytes > 0; }
 };

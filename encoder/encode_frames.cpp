@@ -11,7 +11,7 @@
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
-#include "encoder/rate_control.h"
+#include "encoder/encode_to_target.h"
 #include "slf/frames.h"
 
 namespace slf {
@@ -55,8 +55,8 @@ class SharedGrid {
     if (points_ == 0) {
       const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
       bits_ = settings.grid_bits;
-      step_ = automatic ? choose_density(frame.capture, frame.cameras).voxel_size
-                        : settings.voxel_size;
+      step_ =
+          automatic ? choose_density(frame.capture, frame.cameras).voxel_size : settings.voxel_size;
       box_ = box;
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -109,8 +109,8 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
                                             chooses && !chosen));
   if (!frame.cameras.empty()) settings.fit = fit.chosen.settings;
   if (!chosen && settings.q == kAutomaticQ) {
-    SLF_TRY(const StepAndOrigin step, choose_step(settings, fit, cloud.grid, cloud.positions.size(),
-                                                  frame.cameras.size()));
+    SLF_TRY(const StepAndOrigin step,
+            choose_step(settings, fit, cloud.grid, cloud.positions.size(), frame.cameras.size()));
     settings.q = step.q;
   }
   LightField field = quantise_grid(cloud, std::move(fit), frame.capture.origin, frame.capture.up,

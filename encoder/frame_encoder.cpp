@@ -122,10 +122,11 @@ Result<std::vector<std::uint8_t>, InputError> FrameEncoder::add(const LightField
   DecodeOptions options;
   options.limits = DecodeLimits::none();
   options.threads = self.parameters.threads;
-  const auto decoded = coded ? self.chain.decode(bytes, *coded, options)
-                             : Result<LightField>(coded.error());
+  const auto decoded =
+      coded ? self.chain.decode(bytes, *coded, options) : Result<LightField>(coded.error());
   if (!decoded)
-    return InputError{Errc::kInvalidArgument, "frames: one does not decode: " + to_string(decoded.error())};
+    return InputError{Errc::kInvalidArgument,
+                      "frames: one does not decode: " + to_string(decoded.error())};
   self.before = colours_of(*decoded, self.parameters.threads);
   self.header = std::move(header);
   self.time = time;

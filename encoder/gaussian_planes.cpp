@@ -9,8 +9,8 @@
 #include "encoder/component_planes.h"
 #include "geometry/morton.h"
 #include "lightfield/symmetric3.h"
-#include "slf/view_map.h"
 #include "slf/parallel.h"
+#include "slf/view_map.h"
 
 namespace slf {
 namespace {

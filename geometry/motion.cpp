@@ -10,8 +10,7 @@ Displacement Motion::at(const std::array<std::int32_t, 3>& place, int bits) cons
   const std::int32_t centre = 1 << bits;
   for (std::size_t i = 0; i < 3; ++i) {
     std::int64_t product = std::int64_t{1} << (kMatrixBits - 4);
-    for (std::size_t j = 0; j < 3; ++j)
-      product += std::int64_t{matrix[i][j]} * (place[j] - centre);
+    for (std::size_t j = 0; j < 3; ++j) product += std::int64_t{matrix[i][j]} * (place[j] - centre);
     sum[i] = shift[i] + (product >> (kMatrixBits - 3));  // halves of a voxel are 8 sixteenths
   }
   if (lattice_log2 > 0) {
@@ -21,7 +20,8 @@ Displacement Motion::at(const std::array<std::int32_t, 3>& place, int bits) cons
       const std::int64_t from = place[i] - (std::int64_t{lattice_first[i]} << side);
       const std::int64_t last = (std::int64_t{lattice_size[i]} - 1) << side;
       const std::int64_t inside = std::clamp(from, std::int64_t{0}, last);
-      cell[i] = std::min(inside >> side, std::max(std::int64_t{lattice_size[i]} - 2, std::int64_t{0}));
+      cell[i] =
+          std::min(inside >> side, std::max(std::int64_t{lattice_size[i]} - 2, std::int64_t{0}));
       in[i] = inside - (cell[i] << side);
     }
     std::array<std::int64_t, 3> added{};

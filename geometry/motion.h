@@ -14,7 +14,7 @@ using Displacement = std::array<std::int32_t, 3>;
 
 /// An affine motion, and on a lattice what is added to it, linear between the lattice's points.
 struct Motion {
-  static constexpr int kMatrixBits = 16;         ///< fractional bits of the matrix
+  static constexpr int kMatrixBits = 16;                     ///< fractional bits of the matrix
   static constexpr std::int32_t kMostEntry = (1 << 17) - 1;  ///< of the matrix
   static constexpr std::int32_t kMostShift = (1 << 20) - 1;  ///< of a displacement's parts
 

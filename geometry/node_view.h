@@ -64,4 +64,10 @@ inline NodeView view_of(const OctreeLevel& nodes, std::size_t n, OccupancyHistor
   return view;
 }
 
+/// Which child an occupancy of one has; 8: there is none, 9: there are several.
+inline unsigned only_child(unsigned occupancy) {
+  if (occupancy == 0) return 8;
+  return std::has_single_bit(occupancy) ? static_cast<unsigned>(std::countr_zero(occupancy)) : 9;
+}
+
 }  // namespace slf

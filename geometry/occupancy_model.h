@@ -16,11 +16,12 @@
 #include "entropy/mixer.h"
 #include "geometry/node_view.h"
 #include "geometry/occupancy_history.h"
+#include "geometry/occupancy_node.h"
 #include "geometry/occupancy_rows.h"
 #include "geometry/occupancy_states.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
-#include "geometry/reference_view.h"
+#include "geometry/reference_contexts.h"
 
 namespace slf {
 
@@ -73,25 +74,7 @@ class OccupancyModel {
   }
 
  private:
-  /// What is known of a child before its node is coded, and where its contexts are.
-  struct Child {
-    unsigned occupied;  ///< number of cells around it, outside the node
-    unsigned corner;
-    std::uint64_t cells;  ///< hash of the cells around it outside the node
-    std::uint32_t group;  ///< of 8 contexts by those cells and all but its last 3 siblings
-    std::uint32_t in_reference;  ///< hashed context by the cells around it in the reference
-  };
-
-  /// What the decisions of one node have in common.
-  struct Node {
-    std::array<Child, 8> child;
-    std::uint32_t neighbours_class;
-    std::uint64_t columns;        // key of their hash
-    std::uint32_t columns_group;  // of the contexts of four children
-    std::uint32_t next_columns_group;
-    std::array<std::int16_t, 8> by_rows;  // what the rows say of each child
-  };
-
+  using Node = OccupancyNode;
   using States = OccupancyStates;
 
   /// Rows of table 8-3; the first of only children alone (8.4.6).
@@ -174,12 +157,6 @@ class OccupancyModel {
     return coded;
   }
 
-  /// Which child an occupancy of one has; 8: there is none, 9: there are several.
-  static unsigned only_child(unsigned occupancy) {
-    if (occupancy == 0) return 8;
-    return std::has_single_bit(occupancy) ? static_cast<unsigned>(std::countr_zero(occupancy)) : 9;
-  }
-
   /// Spec 8.4.7, table 8-5.
   SelectedRows rows_of(const NodeView& view, const OctreeLevel& nodes, std::size_t n,
                        std::vector<EightLanes>& table) {
@@ -224,7 +201,7 @@ class OccupancyModel {
     node.columns_group = group(kByColumns, node.columns, 0, 4);
     SLF_UNROLL_8
     for (unsigned c = 0; c < 8; ++c) {
-      Child& child = node.child[c];
+      OccupancyChild& child = node.child[c];
       const Surroundings around = surroundings(view.occupied, view.unknown, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
       child.corner = corner_of(view.neighbours, c);
@@ -232,9 +209,7 @@ class OccupancyModel {
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
       if constexpr (kPredicted) {
-        std::uint64_t h = (in_reference_.around(c) << 3 | c) * kFactorA;
-        h = (h ^ h >> 32) * kFactorA;
-        child.in_reference = static_cast<std::uint32_t>(h >> (64 - states_.hashed_bits));
+        child.in_reference = hashed_cells(in_reference_, c, states_.hashed_bits);
         prefetch(&states_.reference_cells[child.in_reference]);
       }
     }
@@ -270,7 +245,7 @@ class OccupancyModel {
   /// coded: the siblings before c. bit: the encoder's.
   template <bool kPredicted, class Coder>
   unsigned by_contexts(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit) {
-    const Child& child = node.child[c];
+    const OccupancyChild& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
     const unsigned occupied = child.occupied + static_cast<unsigned>(std::popcount(coded));
     // Groups by columns hold four children's contexts, those by cells the last three siblings'.
@@ -283,53 +258,27 @@ class OccupancyModel {
         &states_.hashed[kByCells][child.group + in_cells]};
     const SelectedContexts<3> contexts(selected);
     const std::int16_t by_rows = node.by_rows[c];
-    if constexpr (kPredicted)
-      return by_reference(c, coder, node, coded, bit, contexts);
-    const EightLanes fifth(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows});
-    const Mixed<3> mixed(
-        contexts.inputs().saturating_plus(fifth),
-        {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
-         &states_.by_density[States::ByDensity::index(level_, occupied)],
-         &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))]});
-    bit = by_branch(coder.bit(mixed.p1(), bit));
-    mixed.update(bit, states_.rate);
+    EightLanes* const by_siblings =
+        &states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)];
+    EightLanes* const by_density = &states_.by_density[States::ByDensity::index(level_, occupied)];
+    EightLanes* const by_sum =
+        &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))];
+    if constexpr (kPredicted) {
+      const ReferenceContexts there =
+          select_reference(states_, in_reference_, c, coded, child.in_reference);
+      const Mixed<4> mixed(contexts.inputs().saturating_plus(there.lanes(by_rows)),
+                           {by_siblings, by_density, by_sum, &there.weights});
+      bit = by_branch(coder.bit(mixed.p1(), bit));
+      mixed.update(bit, states_.rate);
+      there.update(bit);
+    } else {
+      const EightLanes fifth(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows});
+      const Mixed<3> mixed(contexts.inputs().saturating_plus(fifth),
+                           {by_siblings, by_density, by_sum});
+      bit = by_branch(coder.bit(mixed.p1(), bit));
+      mixed.update(bit, states_.rate);
+    }
     contexts.update(bit);
-    return bit;
-  }
-
-  /// The same with what the reference says.
-  template <class Coder>
-  unsigned by_reference(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit,
-                        const SelectedContexts<3>& contexts) {
-    const unsigned siblings = 1u << c | coded;
-    const unsigned occupied = node.child[c].occupied + static_cast<unsigned>(std::popcount(coded));
-    const std::int16_t by_rows = node.by_rows[c];
-    const unsigned there = in_reference_.children >> c & 1u;
-    const unsigned density = in_reference_.density(c);
-    const unsigned wrong = std::min(
-        static_cast<unsigned>(std::popcount((in_reference_.children ^ coded) & ((1u << c) - 1))), 2u);
-    const unsigned count = static_cast<unsigned>(
-        std::popcount(in_reference_.around(c) & kAllAround));
-    ContextBit& faces = states_.reference_faces[States::ReferenceFaces::index(
-        there, density, count / 2, in_reference_.agreement, wrong)];
-    ContextBit& by_siblings = states_.reference_siblings[States::ReferenceSiblings::index(
-        in_reference_.children, siblings)];
-    ContextBit& cells = states_.reference_cells[node.child[c].in_reference];
-    const EightLanes others(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows, faces.logistic(),
-                                                        by_siblings.logistic(), cells.logistic()});
-    const Mixed<4> mixed(
-        contexts.inputs().saturating_plus(others),
-        {&states_.by_siblings[States::BySiblings::index(node.neighbours_class, siblings)],
-         &states_.by_density[States::ByDensity::index(level_, occupied)],
-         &states_.by_rows[States::ByRows::index(std::clamp((by_rows + 1024) >> 7, 0, 15))],
-         &states_.by_reference[States::ByReference::index(there, density, in_reference_.agreement,
-                                                          wrong)]});
-    bit = by_branch(coder.bit(mixed.p1(), bit));
-    mixed.update(bit, states_.rate);
-    contexts.update(bit);
-    faces.update(bit);
-    by_siblings.update(bit);
-    cells.update(bit);
     return bit;
   }
 

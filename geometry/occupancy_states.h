@@ -38,9 +38,9 @@ struct OccupancyStates {
                                  kRows = kHashedRows + (1u << kHashedRowBits);
 
   // What a predicted frame adds. Spec table 8-6.
-  using ReferenceFaces = ContextShape<2, 17, 14, 5, 3>;    // cell, its faces; agreement; siblings'
-  using ReferenceSiblings = ContextShape<256, 256>;    // children of the node; siblings
-  using ByReference = ContextShape<2, 17, 5, 3>;       // cell; cells around, in halves; as above
+  using ReferenceFaces = ContextShape<2, 17, 14, 5, 3>;  // cell, its faces; agreement; siblings'
+  using ReferenceSiblings = ContextShape<256, 256>;      // children of the node; siblings
+  using ByReference = ContextShape<2, 17, 5, 3>;         // cell; cells around, in halves; as above
   static constexpr std::uint32_t kReferenceRows = kRows, kPredictedRows = kRows + 64 + 256;
 
   static constexpr int kMostHashedBits = 18;

@@ -12,8 +12,7 @@ constexpr std::int32_t kMostCell = (1 << 21) - 1;
 
 /// Cells 0 .. 3 along an axis, of two bricks that follow one another there, from `offset` on.
 /// stride: bits from a cell to the next along the axis; kept: [offset] cells of the first brick
-Window shifted(Window low, Window high, int offset, int stride,
-               const std::array<Window, 4>& kept) {
+Window shifted(Window low, Window high, int offset, int stride, const std::array<Window, 4>& kept) {
   if (offset == 0) return low;
   const Window from_low = kept[static_cast<std::size_t>(offset)];
   return (low >> (offset * stride) & from_low) | (high << ((4 - offset) * stride) & ~from_low);
@@ -83,8 +82,7 @@ Window ReferenceLevel::window(const Voxel& first) const {
     for (int dy = 0; dy < 2; ++dy)
       along_y[static_cast<std::size_t>(dy)] =
           shifted(cells(0, dy, dz), cells(1, dy, dz), offset[0], 1, kKept[0]);
-    along_z[static_cast<std::size_t>(dz)] =
-        shifted(along_y[0], along_y[1], offset[1], 4, kKept[1]);
+    along_z[static_cast<std::size_t>(dz)] = shifted(along_y[0], along_y[1], offset[1], 4, kKept[1]);
   }
   return shifted(along_z[0], along_z[1], offset[2], 16, kKept[2]);
 }

@@ -20,16 +20,15 @@ struct MovedReference {
   /// Of what is at the centre of a node of `level`, in sixteenths of a voxel.
   Displacement at(const Voxel& node, int level) const {
     const int below = bits - level;
-    return motion.at({(2 * node[0] + 1) << below, (2 * node[1] + 1) << below,
-                      (2 * node[2] + 1) << below},
-                     bits);
+    return motion.at(
+        {(2 * node[0] + 1) << below, (2 * node[1] + 1) << below, (2 * node[2] + 1) << below}, bits);
   }
 };
 
 struct ReferenceView {
-  Window cells = 0;         ///< that the window around the node shows there
-  unsigned children = 0;    ///< of the node, as an occupancy
-  unsigned agreement = 4;   ///< of what is known around the node: 0: all .. 3: little; 4: nothing is
+  Window cells = 0;        ///< that the window around the node shows there
+  unsigned children = 0;   ///< of the node, as an occupancy
+  unsigned agreement = 4;  ///< of what is known around the node: 0: all .. 3: little; 4: nothing is
 
   /// The 3 x 3 x 3 cells around a child.
   Window around(unsigned child) const {

@@ -18,7 +18,8 @@ struct OwnedUnit {
   UnitType type;
   Bytes payload;
 };
-using Frame = std::vector<OwnedUnit>;  // of an intra frame, which has a signature, the first is its sequence
+using Frame =
+    std::vector<OwnedUnit>;  // of an intra frame, which has a signature, the first is its sequence
 
 std::vector<LightField> small_fields(int frames) {
   std::vector<LightField> fields;
@@ -154,7 +155,8 @@ TEST(Spec_7_13_Hazards, EveryFlippedByteIsNoticed) {
 }
 
 /// The CRCs of the units of every frame, however it says where the next is.
-Bytes with_sound_crcs(const std::vector<Bytes>& frames, std::size_t frame, std::size_t at, int bit) {
+Bytes with_sound_crcs(const std::vector<Bytes>& frames, std::size_t frame, std::size_t at,
+                      int bit) {
   std::vector<Bytes> damaged = frames;
   Bytes& bytes = damaged[frame];
   bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1 << bit);
@@ -204,7 +206,8 @@ TEST(Spec_7_13_Order, PredictedFirstIsRefused) {
   const auto f = small_frames();
   const auto predict = [](FrameHeader& h) { h.frame_predicted_flag = 1; };
   const auto intra = [](FrameHeader& h) { h.frame_predicted_flag = 0; };
-  expect_error(joined_units(split(f[0]), predict), Errc::kOutOfRange, "frame_predicted_flag", "frame");
+  expect_error(joined_units(split(f[0]), predict), Errc::kOutOfRange, "frame_predicted_flag",
+               "frame");
   const Bytes second = joined_units(split(f[1]), intra);
   expect_error(joined({f[0], second}), Errc::kOutOfRange, "frame_predicted_flag", "frame");
 }
@@ -408,8 +411,10 @@ Bytes with_lattice(const std::array<std::int32_t, 3>& size, const Bytes& vectors
 }
 
 TEST(Spec_7_13_Lattice, OfMoreThanItsMostPointsIsRefused) {
-  expect_error(with_lattice({1 << 18, 0, 0}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1", "frame");
-  expect_error(with_lattice({63, 63, 64}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1", "frame");
+  expect_error(with_lattice({1 << 18, 0, 0}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
+               "frame");
+  expect_error(with_lattice({63, 63, 64}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
+               "frame");
 }
 
 TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
@@ -422,7 +427,8 @@ TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
 }
 
 TEST(Spec_7_13_Lattice, CodewordThatGoesOnIsRefused) {
-  expect_error(with_lattice({0, 0, 0}, Bytes(40, 0x55)), Errc::kOutOfRange, "frame_vectors", "frame");
+  expect_error(with_lattice({0, 0, 0}, Bytes(40, 0x55)), Errc::kOutOfRange, "frame_vectors",
+               "frame");
 }
 
 TEST(Spec_7_13_Hazards, WhatTakesOneLightFieldSaysSo) {
@@ -439,7 +445,8 @@ TEST(Spec_9_Frames, AreHeldToLimitsWithWhatIsKept) {
   const Bytes stream = joined(small_frames());
   DecodeOptions options;
   for (const auto& change : std::vector<std::function<void(DecodeLimits&)>>{
-           [](DecodeLimits& l) { l.max_points = 10; }, [](DecodeLimits& l) { l.max_memory = 1 << 20; },
+           [](DecodeLimits& l) { l.max_points = 10; },
+           [](DecodeLimits& l) { l.max_memory = 1 << 20; },
            [](DecodeLimits& l) { l.max_work = 1000; }}) {
     options.limits = {};
     change(options.limits);

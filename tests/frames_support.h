@@ -49,7 +49,8 @@ inline LightField frame_of(Moves how, int frame, int functions = kFrameFunctions
   for (const Voxel& v : sphere_cloud(5))
     if (v[2] < 24 && (how != Moves::kAppears || (v[0] + frame) % 4 != 0))
       first.push_back({v[0] + 16, v[1] + 16, v[2] + 16});
-  if (how == Moves::kChance) first = random_cloud(600, kFrameBits, static_cast<std::uint32_t>(frame) + 9);
+  if (how == Moves::kChance)
+    first = random_cloud(600, kFrameBits, static_cast<std::uint32_t>(frame) + 9);
   const auto components = smooth_components(first, functions, 1000, 7);
   std::map<std::uint64_t, std::size_t> at;
   for (std::size_t i = 0; i < first.size(); ++i) at[morton(moved(first[i], how, frame))] = i;

@@ -1,4 +1,5 @@
-// Frames in time: what is decoded is what was coded, from any frame on, at any size. Spec 7.13, 8.12.
+// Frames in time: what is decoded is what was coded, from any frame on, at any size.
+// Spec 7.13, 8.12.
 #include <cstdlib>
 #include <limits>
 
@@ -210,7 +211,8 @@ TEST(Spec_8_12_Frames, OfGeometryAlone) {
   const auto fields = fields_of(Moves::kBend, 3, 0);
   const Bytes stream = joined(coded_frames(fields, frame_parameters(1, 0)));
   FrameDecoder decoder = opened(stream);
-  for (std::size_t t = 0; t < 3; ++t) EXPECT_EQ(decoded_frame(decoder, t).positions, fields[t].positions);
+  for (std::size_t t = 0; t < 3; ++t)
+    EXPECT_EQ(decoded_frame(decoder, t).positions, fields[t].positions);
   for (int levels = 1; levels < kFrameBits; ++levels) {
     DecodeOptions options;
     options.levels = levels;

@@ -17,7 +17,8 @@ std::vector<std::array<std::int32_t, 3>> some_places(std::int32_t least, std::in
   for (int i = 0; i < 2000; ++i) {
     auto& place = places.emplace_back();
     for (auto& p : place)
-      p = least + static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(most - least + 1));
+      p = least +
+          static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(most - least + 1));
   }
   return places;
 }
@@ -33,9 +34,8 @@ Motion lattice_of(int log2, const std::array<std::int32_t, 3>& first,
   for (std::int32_t z = 0; z < size[2]; ++z)
     for (std::int32_t y = 0; y < size[1]; ++y)
       for (std::int32_t x = 0; x < size[0]; ++x)
-        m.lattice.push_back(of(std::array<std::int32_t, 3>{(first[0] + x) << log2,
-                                                           (first[1] + y) << log2,
-                                                           (first[2] + z) << log2}));
+        m.lattice.push_back(of(std::array<std::int32_t, 3>{
+            (first[0] + x) << log2, (first[1] + y) << log2, (first[2] + z) << log2}));
   return m;
 }
 
@@ -52,8 +52,8 @@ TEST(Spec_8_12_1_Motion, AffineIsExactAtIntegers) {
   for (const auto& p : some_places(0, 2 << kBits)) {
     // Halves of a voxel from the centre: 8 sixteenths each.
     const std::int32_t x = p[0] - (1 << kBits), y = p[1] - (1 << kBits), z = p[2] - (1 << kBits);
-    EXPECT_EQ(m.at(p, kBits), (Displacement{33 + 8 * x - 8 * y, -700 + 4 * x + 8 * z,
-                                            5 + 2 * y - 8 * z}));
+    EXPECT_EQ(m.at(p, kBits),
+              (Displacement{33 + 8 * x - 8 * y, -700 + 4 * x + 8 * z, 5 + 2 * y - 8 * z}));
   }
 }
 
@@ -73,7 +73,8 @@ TEST(Spec_8_12_1_Motion, LatticeOfALinearFieldIsTheAffineWithinItsEnds) {
     const std::int32_t steps = 128 >> log2;
     const Motion m = lattice_of(log2, {0, 0, 0}, {steps + 1, steps + 1, steps + 1}, linear);
     for (const auto& p : some_places(0, 256))
-      EXPECT_EQ(m.at(p, kBits), (Displacement{8 * p[0] - 16 * p[1] + 48, 8 * p[2], -8 * p[0] - 64}));
+      EXPECT_EQ(m.at(p, kBits),
+                (Displacement{8 * p[0] - 16 * p[1] + 48, 8 * p[2], -8 * p[0] - 64}));
   }
 }
 
@@ -96,15 +97,18 @@ TEST(Spec_8_12_1_Motion, LatticeIsThatOfItsEndsBeyondThem) {
 }
 
 TEST(Spec_8_12_1_Motion, LatticeOfOnePointIsThatPointEverywhere) {
-  Motion m = lattice_of(8, {0, 3, 1}, {1, 1, 1}, [](const auto&) { return Displacement{4, -8, 12}; });
+  Motion m = lattice_of(8, {0, 3, 1}, {1, 1, 1}, [](const auto&) {
+    return Displacement{4, -8, 12};
+  });
   m.shift = {1, 1, 1};
   for (const auto& p : some_places(-50, 300)) EXPECT_EQ(m.at(p, kBits), (Displacement{5, -7, 13}));
 }
 
 TEST(Spec_8_12_1_Motion, GreatestIsClampedWithoutOverflow) {
   const std::int32_t v = 4 << 16, first = (1 << 18) - 1;
-  Motion m = lattice_of(8, {first, first, first}, {64, 64, 64},
-                        [&](const auto&) { return Displacement{v, v, -v}; });
+  Motion m = lattice_of(8, {first, first, first}, {64, 64, 64}, [&](const auto&) {
+    return Displacement{v, v, -v};
+  });
   for (auto& row : m.matrix) row.fill(Motion::kMostEntry);
   m.matrix[2].fill(-Motion::kMostEntry);
   m.shift = {Motion::kMostShift, Motion::kMostShift, -Motion::kMostShift};

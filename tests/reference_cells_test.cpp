@@ -37,8 +37,8 @@ std::vector<Voxel> places(const std::vector<Voxel>& voxels, int below, int level
   std::vector<Voxel> all;
   for (int i = 0; i < 3000; ++i) {
     const Voxel& v = voxels[random() % voxels.size()];
-    all.push_back({(v[0] >> below) + any(-5, 8), (v[1] >> below) + any(-5, 8),
-                   (v[2] >> below) + any(-5, 8)});
+    all.push_back(
+        {(v[0] >> below) + any(-5, 8), (v[1] >> below) + any(-5, 8), (v[2] >> below) + any(-5, 8)});
     const std::int32_t size = (1 << level) + 20;
     all.push_back({any(-10, size), any(-10, size), any(-10, size)});
   }
@@ -75,7 +75,8 @@ TEST_P(ReferenceCellsTest, WindowsAndPlacesAreThoseOfBruteForceAtEveryLevel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Clouds, ReferenceCellsTest, testing::ValuesIn(test::clouds_of_every_shape()),
+INSTANTIATE_TEST_SUITE_P(Clouds, ReferenceCellsTest,
+                         testing::ValuesIn(test::clouds_of_every_shape()),
                          [](const auto& cloud) { return cloud.param.name; });
 
 TEST(Spec_8_12_2_ReferenceCells, OfNoFrameAreNone) { EXPECT_EQ(ReferenceCells().levels(), -1); }

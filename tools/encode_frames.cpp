@@ -16,8 +16,11 @@ namespace slf::tools {
 namespace {
 
 nlohmann::ordered_json frame_json(const EncodedFrame& f, std::uint32_t number) {
-  return {{"number", number},   {"predicted", f.predicted}, {"points", f.points},
-          {"bytes", f.bytes},   {"seconds", f.seconds}};
+  return {{"number", number},
+          {"predicted", f.predicted},
+          {"points", f.points},
+          {"bytes", f.bytes},
+          {"seconds", f.seconds}};
 }
 
 Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
@@ -122,9 +125,9 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
     stream.insert(stream.end(), bytes.begin(), bytes.end());
     return Result<Done, InputError>(Done{});
   };
-  auto encoded =
-      encode_frames(inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings,
-                    {frames.group, frames.rate}, take, line.callback());
+  auto encoded = encode_frames(
+      inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings,
+      {frames.group, frames.rate}, take, line.callback());
   line.clear();
   if (!encoded && loader.failure()) return *loader.failure();
   SLF_TRY(const EncodedFrames all, from(given.capture, std::move(encoded)));

@@ -42,7 +42,8 @@ Failure failure_of(const InputError& error, const std::string& file) {
 
 Failure failure_of(const Error& error, const std::string& file) {
   if (std::string_view(error.element) == kOneLightField)
-    return {exit_code_of(error.code), file + ": " + kOneLightField + ": this takes one light field"};
+    return {exit_code_of(error.code),
+            file + ": " + kOneLightField + ": this takes one light field"};
   return {exit_code_of(error.code), file + ": " + cause_of(error.code) + " (" + where(error) + ")"};
 }
 

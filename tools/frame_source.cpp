@@ -20,8 +20,9 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
   const std::size_t count = source->decoder->frames().size(),
                     frame = static_cast<std::size_t>(part.frame);
   if (frame >= count)
-    return Failure{kUsage, name + ": frame " + std::to_string(frame) + " is asked for, but it has " +
-                               std::to_string(count) + ", from 0 on"};
+    return Failure{kUsage, name + ": frame " + std::to_string(frame) +
+                               " is asked for, but it has " + std::to_string(count) +
+                               ", from 0 on"};
   Stopwatch watch;
   SLF_TRY(LightField field, from(name, source->decoder->decode(frame)));
   return DecodedFile{std::move(field), source->stream.bytes.size(), watch.lap(),
@@ -43,6 +44,29 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
     SLF_CHECK(run());
   }
   return Done{};
+}
+
+nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
+  auto list = nlohmann::ordered_json::array();
+  for (const FrameInfo& f : frames)
+    list.push_back({{"number", f.number},
+                    {"time", f.time},
+                    {"predicted", f.predicted},
+                    {"offset", f.offset},
+                    {"bytes", f.bytes}});
+  return list;
+}
+
+std::string frames_text(const std::vector<FrameInfo>& frames) {
+  if (frames.size() < 2) return {};
+  std::uint64_t predicted = 0, bytes = 0;
+  for (const FrameInfo& f : frames) {
+    predicted += f.predicted;
+    bytes += f.predicted ? f.bytes : 0;
+  }
+  return text("  frames        %s in %.3f s, %s of them predicted in %s bytes; the first:\n",
+              grouped(frames.size()).c_str(), frames.back().time - frames.front().time,
+              grouped(predicted).c_str(), grouped(bytes).c_str());
 }
 
 }  // namespace slf::tools

@@ -4,6 +4,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "slf/frames.h"
 #include "tools/stream_input.h"
@@ -25,5 +28,9 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
 /// @param output  whose %d becomes the frame's number
 Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
                        const std::function<Outcome()>& run);
+
+/// Of a light field that moves: all else that `slf info` tells is of its first frame.
+nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames);
+std::string frames_text(const std::vector<FrameInfo>& frames);
 
 }  // namespace slf::tools

@@ -36,11 +36,11 @@ struct PartOptions {
   int groups = 0;
   int layers = 0;
   std::uint64_t max_bytes = 0;
-  std::vector<double> region;  ///< two corners in world units, or nothing
-  int frame = -1;              ///< place among the frames; -1: the first, and only
-  std::string frames;          ///< "A:B": several of them, one after the other
+  std::vector<double> region;           ///< two corners in world units, or nothing
+  int frame = -1;                       ///< place among the frames; -1: the first, and only
+  std::string frames;                   ///< "A:B": several of them, one after the other
   std::shared_ptr<FrameSource> source;  ///< where they come from, so that each is decoded once
-  bool means_only = false;     ///< what is not needed for them is left out; no option of its own
+  bool means_only = false;  ///< what is not needed for them is left out; no option of its own
 };
 void add_part(CLI::App& verb, PartOptions& options);
 /// --frame, of verbs that show one.

@@ -118,7 +118,8 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
   SLF_CHECK(check_whole(file, info, given, common));
   SLF_TRY(const std::size_t frames, count_frames(file, bytes, info));
   if (frames > 1)
-    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) + " the first is taken",
+    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) +
+             " the first is taken",
          common.quiet);
   return StreamFile{std::move(bytes), std::move(info), frames};
 }

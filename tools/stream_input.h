@@ -22,8 +22,8 @@ void add_limits(CLI::App& verb, LimitOptions& options);
 /// A stream whose headers were read and, by --strict, found whole.
 struct StreamFile {
   std::vector<std::uint8_t> bytes;
-  StreamInfo info;          ///< of the first frame
-  std::size_t frames = 1;   ///< warned of where there are several
+  StreamInfo info;         ///< of the first frame
+  std::size_t frames = 1;  ///< warned of where there are several
 };
 
 /// Warns of what is missing, unless quiet. "-" is standard input.

@@ -179,8 +179,7 @@ Outcome run_html(const HtmlOptions& given) {
   }
   const std::string name = input_name(given.input);
   SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
-  if (input.frames > 1)
-    return failure_of(Error{Errc::kUnsupported, kOneLightField}, name);
+  if (input.frames > 1) return failure_of(Error{Errc::kUnsupported, kOneLightField}, name);
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);

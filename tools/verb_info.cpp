@@ -2,8 +2,8 @@
 #include <map>
 #include <memory>
 
-#include "slf/frames.h"
 #include "tools/describe.h"
+#include "tools/frame_source.h"
 #include "tools/info_syntax.h"
 #include "tools/stream_input.h"
 #include "tools/text.h"
@@ -97,30 +97,6 @@ std::string cost_text(const DecodeCost& cost) {
   return text("  decoding      takes %s MiB of memory, %s at most; %s steps at most\n",
               grouped(cost.memory >> 20).c_str(), grouped(cost.memory_most >> 20).c_str(),
               grouped(cost.work).c_str());
-}
-
-/// Of a light field that moves: all else that is told is of its first frame.
-nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
-  auto list = nlohmann::ordered_json::array();
-  for (const FrameInfo& f : frames)
-    list.push_back({{"number", f.number},
-                    {"time", f.time},
-                    {"predicted", f.predicted},
-                    {"offset", f.offset},
-                    {"bytes", f.bytes}});
-  return list;
-}
-
-std::string frames_text(const std::vector<FrameInfo>& frames) {
-  if (frames.size() < 2) return {};
-  std::uint64_t predicted = 0, bytes = 0;
-  for (const FrameInfo& f : frames) {
-    predicted += f.predicted;
-    bytes += f.predicted ? f.bytes : 0;
-  }
-  return text("  frames        %s in %.3f s, %s of them predicted in %s bytes; the first:\n",
-              grouped(frames.size()).c_str(), frames.back().time - frames.front().time,
-              grouped(predicted).c_str(), grouped(bytes).c_str());
 }
 
 nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
@@ -238,7 +214,8 @@ std::string slices_text(const StreamInfo& info) {
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t all_bytes,
                       const std::vector<FrameInfo>& frames, bool units, const DecodeCost& cost) {
   const std::uint64_t bytes = frames.front().bytes;
-  std::string out = printable(input_name(file)) + ": " + grouped(all_bytes) + " bytes, .slf version " +
+  std::string out = printable(input_name(file)) + ": " + grouped(all_bytes) +
+                    " bytes, .slf version " +
                     text("%d.%d, profile %d, level %d", info.version_major, info.version_minor,
                          info.profile, info.level) +
                     (info.complete ? "\n" : ", CUT SHORT (no end unit)\n");

@@ -32,7 +32,8 @@ struct FrameInfo {
 /// field that does not move is one frame.
 /// @return what is there of them: the last may be cut short. Bytes behind it are the beginning of
 ///         one that was cut off, or is damaged in its first units' lengths
-/// @errors kNotSlf, kTruncated: no frame begins. Those of a frame unit; kOutOfRange also: numbers or
+/// @errors kNotSlf, kTruncated: no frame begins. Those of a frame unit; kOutOfRange also: numbers
+/// or
 ///         times that do not ascend, a predicted frame first. O(frames)
 Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream);
 
@@ -87,8 +88,8 @@ class FrameEncoder {
 
 /// How a list of frames becomes a stream.
 struct FrameSettings {
-  int group = 16;     ///< frames from one that is not predicted to the next
-  double rate = 30;   ///< frames a second
+  int group = 16;    ///< frames from one that is not predicted to the next
+  double rate = 30;  ///< frames a second
 };
 
 /// What one frame is made of, loaded when it is its turn.
@@ -117,7 +118,8 @@ struct EncodedFrames {
 
 /// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the
 /// first frame chose. Points are as given: nothing is mended, trained or made up.
-/// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be coded
+/// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be
+/// coded
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
 ///         textures); those of load, take, encode() and FrameEncoder
 /// One frame is in memory at a time, and what is left of the one before. The same bytes for any

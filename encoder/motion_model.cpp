@@ -1,0 +1,131 @@
+#include "encoder/motion_model.h"
+
+#include <Eigen/Cholesky>
+
+namespace slf {
+namespace {
+
+/// Of the lattice: what a difference of its neighbours costs, in points that are as far away.
+constexpr double kStiffness = 2;
+constexpr int kSolverRounds = 60;
+
+}  // namespace
+
+void MotionModel::begin_lattice(const CoarseFrame& points, int log2) {
+  log2_ = log2;
+  side_ = std::ldexp(1.0, log2);
+  Place low = points.centres[0], high = low;
+  for (const Place& p : points.centres) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (int i = 0; i < 3; ++i) {
+    first_[static_cast<std::size_t>(i)] = static_cast<int>(std::floor(low[i] / side_));
+    size_[static_cast<std::size_t>(i)] =
+        static_cast<int>(std::floor(high[i] / side_)) + 2 - first_[static_cast<std::size_t>(i)];
+  }
+  lattice_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+                      static_cast<std::size_t>(size_[2]),
+                  Place::Zero());
+}
+
+void MotionModel::fit_affine(const std::vector<Match>& matches) {
+  Eigen::Matrix<double, 12, 12> normal = Eigen::Matrix<double, 12, 12>::Zero();
+  Eigen::Matrix<double, 12, 1> right = Eigen::Matrix<double, 12, 1>::Zero();
+  double scale = 0, total = 0;
+  for (const Match& m : matches) {
+    Eigen::Vector4d at;
+    at << m.place - centre_, 1;
+    for (int a = 0; a < 4; ++a) {
+      right.segment<3>(3 * a) += at[a] * m.wanted;
+      for (int b = 0; b < 4; ++b) normal.block<3, 3>(3 * a, 3 * b) += at[a] * at[b] * m.weight;
+    }
+    scale += m.weight.trace() * at.head<3>().squaredNorm();
+    total += m.weight.trace();
+  }
+  if (!(total > 0)) return;
+  for (int k = 0; k < 12; ++k) {  // what nothing tells of stays as it is
+    const double stay = 1e-6 * (k < 9 ? scale : total) + 1e-9;
+    normal(k, k) += stay;
+    right[k] += stay * (k < 9 ? matrix_(k % 3, k / 3) : shift_[k - 9]);
+  }
+  const Eigen::Matrix<double, 12, 1> x = normal.ldlt().solve(right);
+  for (int k = 0; k < 9; ++k) matrix_(k % 3, k / 3) = x[k];
+  shift_ = x.tail<3>();
+}
+
+void MotionModel::fit_lattice(const std::vector<Match>& matches) {
+  using Field = std::vector<Place>;
+  const auto apply = [&](const Field& x) {
+    Field y(x.size(), Place::Zero());
+    for (const Match& m : matches) {
+      Place d = Place::Zero();
+      for_corners(m.place, [&](std::size_t k, double w) { d += w * x[k]; });
+      d = m.weight * d;
+      for_corners(m.place, [&](std::size_t k, double w) { y[k] += w * d; });
+    }
+    add_stiffness(x, y);
+    return y;
+  };
+  const auto dot = [](const Field& a, const Field& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+    return sum;
+  };
+  Field rest(lattice_.size(), Place::Zero());
+  for (const Match& m : matches) {
+    const Place d = m.wanted - m.weight * affine(m.place);
+    for_corners(m.place, [&](std::size_t k, double w) { rest[k] += w * d; });
+  }
+  const Field of_now = apply(lattice_);
+  for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= of_now[k];
+  Field way = rest;
+  const double first = dot(rest, rest);
+  double size = first;
+  for (int round = 0; round < kSolverRounds && size > 1e-8 * first; ++round) {
+    const Field there = apply(way);
+    const double by = size / dot(way, there);
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+      lattice_[k] += by * way[k];
+      rest[k] -= by * there[k];
+    }
+    const double now = dot(rest, rest);
+    for (std::size_t k = 0; k < rest.size(); ++k) way[k] = rest[k] + now / size * way[k];
+    size = now;
+  }
+}
+
+Motion MotionModel::rounded() const {
+  Motion m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      m.matrix[i][j] = static_cast<std::int32_t>(
+          std::clamp<long>(std::lround(matrix_(static_cast<int>(i), static_cast<int>(j)) *
+                                       (1 << Motion::kMatrixBits)),
+                           -Motion::kMostEntry, Motion::kMostEntry));
+    m.shift[i] = static_cast<std::int32_t>(std::lround(16 * shift_[static_cast<int>(i)]));
+  }
+  if (side_ == 0) return m;
+  m.lattice_log2 = log2_;
+  m.lattice_first = {first_[0], first_[1], first_[2]};
+  m.lattice_size = {size_[0], size_[1], size_[2]};
+  for (const Place& v : lattice_)
+    m.lattice.push_back({static_cast<std::int32_t>(4 * std::lround(4 * v[0])),
+                         static_cast<std::int32_t>(4 * std::lround(4 * v[1])),
+                         static_cast<std::int32_t>(4 * std::lround(4 * v[2]))});
+  return m;
+}
+
+void MotionModel::add_stiffness(const std::vector<Place>& x, std::vector<Place>& y) const {
+  const std::array<int, 3> stride = {1, size_[0], size_[0] * size_[1]};
+  for (int k = 0; k < static_cast<int>(x.size()); ++k) {
+    const auto here = static_cast<std::size_t>(k);
+    y[here] += 1e-2 * kStiffness * x[here];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (k / stride[axis] % size_[axis] + 1 >= size_[axis]) continue;
+      const auto other = static_cast<std::size_t>(k + stride[axis]);
+      const Place pull = kStiffness * (x[here] - x[other]);
+      y[here] += pull;
+      y[other] -= pull;
+    }
+  }
+}
+
+}  // namespace slf

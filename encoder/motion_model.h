@@ -1,0 +1,71 @@
+// A motion that is looked for: an affine one, and a lattice. Informative.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "encoder/matched_frame.h"
+#include "geometry/motion.h"
+
+namespace slf {
+
+/// What is looked for: displacements in voxels.
+class MotionModel {
+ public:
+  explicit MotionModel(int bits) : centre_(Place::Constant(std::ldexp(0.5, bits))) {}
+
+  Place affine(const Place& p) const { return matrix_ * (p - centre_) + shift_; }
+  Place at(const Place& p) const {
+    Place d = affine(p);
+    if (side_ > 0) for_corners(p, [&](std::size_t i, double w) { d += w * lattice_[i]; });
+    return d;
+  }
+
+  /// A lattice over all places of `points`.
+  void begin_lattice(const CoarseFrame& points, int log2);
+
+  template <class Step>
+  void for_corners(const Place& p, const Step& step) const {
+    std::array<int, 3> cell{};
+    std::array<double, 3> in{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double at = p[static_cast<int>(i)] / side_ - first_[i];
+      cell[i] = std::clamp(static_cast<int>(std::floor(at)), 0, std::max(size_[i] - 2, 0));
+      in[i] = std::clamp(at - cell[i], 0.0, 1.0);
+    }
+    for (int c = 0; c < 8; ++c) {
+      double w = 1;
+      std::size_t index = 0;
+      for (std::size_t i = 3; i-- > 0;) {
+        const int upper = c >> i & 1;
+        w *= upper ? in[i] : 1 - in[i];
+        index = index * static_cast<std::size_t>(size_[i]) +
+                static_cast<std::size_t>(std::min(cell[i] + upper, size_[i] - 1));
+      }
+      if (w > 0) step(index, w);
+    }
+  }
+
+  /// Least squares of what matches ask for.
+  void fit_affine(const std::vector<Match>& matches);
+
+  /// The same of the lattice, beside the affine part: conjugate gradients.
+  void fit_lattice(const std::vector<Match>& matches);
+
+  Motion rounded() const;
+
+ private:
+  /// Neighbours on the lattice are alike, and small.
+  void add_stiffness(const std::vector<Place>& x, std::vector<Place>& y) const;
+
+  Place centre_, shift_ = Place::Zero();
+  Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
+  int log2_ = 0;
+  double side_ = 0;
+  std::array<int, 3> first_{}, size_{};
+  std::vector<Place> lattice_;
+};
+
+}  // namespace slf
