@@ -66,7 +66,6 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
   const NodePlace* const child_places = level.child_places.data();
   const std::uint32_t directions = nodes.around[n].directions;
   const std::uint32_t* const beside = nodes.neighbours.data() + nodes.around[n].first;
-  const bool wide = mode == kWide;
   const SmallRoots& roots = small_roots();
   const NodePlace own = places[n];
   NodePrediction::Child* child = plan.child.data();
@@ -78,8 +77,8 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
     child->share_q30 = static_cast<std::int32_t>((std::uint64_t{place.weight} << 30) / own.weight);
     const std::int32_t root = roots_of(roots, place.weight).root_q19;
     child->root_q19 = mode == kSharpDamped ? root - (root >> 2) : root;
-    std::uint32_t sum = closeness(place, own, wide);
     NodePrediction::Term* term = child->term.data();
+    std::uint32_t sum = closeness(place, own, mode == kWide);
     for (std::uint32_t out = kOutward[c] & directions; out != 0; out &= out - 1, ++term) {
       const auto d = static_cast<std::uint32_t>(std::countr_zero(out));
       const std::uint32_t m = beside[std::popcount(directions & ((1u << d) - 1))];
@@ -96,7 +95,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
         term->index = child_rows[at];
         term->root_q30 = roots_of(roots, from->weight).reciprocal_q30;
       }
-      const std::uint32_t close = closeness(place, *from, wide);
+      const std::uint32_t close = closeness(place, *from, mode == kWide);
       term->weight = static_cast<std::int32_t>(close);
       sum += close;
     }
