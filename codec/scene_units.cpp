@@ -161,10 +161,10 @@ Result<SceneUnits> collect_units(const Units& units, const SequenceParameterSet&
 Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
                                std::uint64_t max_bytes) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
-  SLF_TRY(const FrameUnits first, first_frame(stream));  // 7.12
+  SLF_TRY(const FrameUnits first, first_frame(stream));  // 7.13
   const auto bytes = stream.first(static_cast<std::size_t>(first.bytes));
   SLF_TRY(Units units, split_units(bytes, max_bytes));            // 7.1
-  SLF_CHECK(check_frame_bytes(first, units));                     // 7.12
+  SLF_CHECK(check_frame_bytes(first, units));                     // 7.13
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
   SLF_CHECK(check_frame(units, set));                             // 7.13
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6

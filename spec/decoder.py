@@ -175,6 +175,10 @@ def split_frames(data):
     position, before = 0, None
     while position < len(data):
         intra, at = data[position:position + 8] == SIGNATURE, position
+        if before:                          # not even the beginning of a frame?
+            like = SIGNATURE[:len(data) - position]
+            require(data[position] != SIGNATURE[0] or data[position:position + 8] == like, "signature")
+            require(data[position] in (SIGNATURE[0], FRAME), "unit_type")
         if intra:
             sequence = unit_at(data, position + 8)
             at = sequence[1] if sequence else len(data)
@@ -521,7 +525,6 @@ class Frame:
         if not self.lattice_log2:
             return
         level = len(cells) - 1 - self.lattice_log2
-        require(level < 0 or cells[level], "frame_predicted_flag")
         decoder, self.vectors = ArithmeticDecoder(self.codeword), {}
         nonzero, magnitudes = [Contexts(3) for _ in range(3)], [MagnitudeContexts() for _ in range(3)]
         for z, y, x in itertools.product(*map(range, self.size[::-1])):
@@ -1727,7 +1730,7 @@ class Moved:
 
     def __init__(self, reference, frame, grid_bits):
         """8.12.1: the motion of a frame."""
-        require(reference and reference.cells, "frame_predicted_flag")
+        require(reference and reference.cells and reference.cells[-1], "frame_predicted_flag")
         self.reference, self.frame, self.grid_bits = reference, frame, grid_bits
         frame.read_vectors(reference.cells)
 
@@ -2471,6 +2474,9 @@ def light_fields(data):
             require(sequence.base_levels == 0, "sps_base_levels")
             with_vectors = not sequence.functions or sequence.coder is VectorCoder and max(sequence.layers) == 1
             require(with_vectors, "sps_coefficient_coder")
+        if frame and units[-1][0] == END:
+            behind = sum(size for _, _, size in units[2 - frame.predicted:])
+            require(frame.bytes == behind, "frame_bytes")
         light_field.read(units)
         yield units, light_field
         reference = Reference(light_field) if frame else None
