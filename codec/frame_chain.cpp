@@ -19,15 +19,6 @@ bool lacks_cells(const FrameState& reference, int bits) {
   return reference.cells.levels() != bits;
 }
 
-/// Spec 7.12: what predicted frames are not made for.
-Result<Done> check_group(const SequenceParameterSet& set) {
-  if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
-  if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");
-  if (!set.has_vectors() || set.num_layers() > 1)
-    return of_sequence(Errc::kOutOfRange, "sps_coefficient_coder");
-  return Done{};
-}
-
 }  // namespace
 
 Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream,
@@ -39,9 +30,6 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
   if (!opened) return moved(opened.error(), frame.offset);
   group_ = *std::move(opened);
   group_offset_ = frame.offset;
-  if (frame.moves())
-    if (const auto good = check_group(group_->scene.stream.set); !good)
-      return moved(good.error(), frame.offset);
   request_.emplace();
   FrameContext context;
   if (frame.moves()) context.kept = &kept;

@@ -112,6 +112,15 @@ class Collector {
   bool in_slices_ = false;
 };
 
+/// Spec 7.13: what predicted frames are not made for.
+Result<Done> check_frames(const SequenceParameterSet& set) {
+  if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
+  if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");
+  if (!set.has_vectors() || set.num_layers() > 1)
+    return of_sequence(Errc::kOutOfRange, "sps_coefficient_coder");
+  return Done{};
+}
+
 }  // namespace
 
 Result<SequenceParameterSet> find_sequence(const Units& units) {
@@ -163,6 +172,7 @@ Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const Decod
   SLF_TRY(Units units, split_units(bytes, max_bytes));            // 7.1
   SLF_CHECK(check_frame_bytes(first, units));                     // 7.12
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
+  if (first.moves()) SLF_CHECK(check_frames(set));                // 7.13
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
   SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7
   return OpenStream{std::move(units), std::move(scene)};

@@ -75,7 +75,7 @@ void add_clamps(std::vector<Case>& cases) {
                                  {"8.7.4", "8.8.2"}, packed_bare(greatest, with_steps(1, 1))));
 }
 
-const UnitType kUnknown[] = {static_cast<UnitType>(0), static_cast<UnitType>(11),
+const UnitType kUnknown[] = {static_cast<UnitType>(0), static_cast<UnitType>(12),
                              static_cast<UnitType>(13), static_cast<UnitType>(16),
                              static_cast<UnitType>(255)};
 

@@ -34,6 +34,7 @@ struct PartOptions {
   int layers = 0;
   std::uint64_t max_bytes = 0;
   std::vector<double> region;  ///< two corners in world units, or nothing
+  std::uint32_t frame = 0;
   bool means_only = false;     ///< what is not needed for them is left out; no option of its own
 };
 void add_part(CLI::App& verb, PartOptions& options);

@@ -46,6 +46,13 @@ Result<std::size_t, Failure> count_frames(const std::string& file,
   return frames.size();
 }
 
+Result<LightField> decode_frame(const StreamFile& stream, std::size_t frame,
+                                const DecodeOptions& options) {
+  if (frame == 0) return decode(stream.bytes, options);
+  SLF_TRY(FrameDecoder decoder, FrameDecoder::open(stream.bytes, options));
+  return decoder.decode(frame);
+}
+
 std::string mebibytes(std::uint64_t bytes) { return grouped((bytes + (1 << 20) - 1) >> 20); }
 
 }  // namespace
@@ -117,7 +124,7 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
   SLF_CHECK(check_whole(file, info, given, common));
   SLF_TRY(const std::size_t frames, count_frames(file, bytes, info));
   if (frames > 1)
-    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) + " the first is taken",
+    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) + " one is taken, the first unless --frame says which",
          common.quiet);
   return StreamFile{std::move(bytes), std::move(info), frames};
 }
@@ -177,7 +184,7 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
   SLF_TRY(StreamFile stream, read_stream(file, given, common));
   const DecodeOptions options = decode_options(stream.info, part, given, common);
   Stopwatch watch;
-  auto field = decode(stream.bytes, options);
+  auto field = decode_frame(stream, part.frame, options);
   if (!field) return decode_failure(file, field.error(), stream, options);
   DecodedFile decoded{*std::move(field), stream.bytes.size(), watch.lap(), stream.info.metadata};
   if (is_plenoptic(decoded.metadata)) decoded.stream = std::move(stream.bytes);
