@@ -31,7 +31,9 @@ class Collector {
   }
 
   Result<Done> add(const Unit& unit) {
+    ++units_;
     if (is_head(unit.type)) return add_head(unit);
+    if (unit.type == UnitType::kFrame) return check_frame(unit);
     if (unit.type == UnitType::kEnd) return check_end(unit);
     return has_ids(unit.type) ? add_part(unit) : Done{};  // others stand anywhere
   }
@@ -49,6 +51,12 @@ class Collector {
   }
 
   bool head_is_whole() const { return heads_ == head_.size(); }
+
+  /// That of a predicted frame, which the sequence of another stands before, was looked at there.
+  Result<Done> check_frame(const Unit& unit) const {
+    if (!set_.predicted && units_ != 2) return at(unit, "unit_type");
+    return Done{};
+  }
 
   Result<Done> add_head(const Unit& unit) {
     if (head_is_whole()) return at(unit, "unit_type");
@@ -100,14 +108,12 @@ class Collector {
   const SequenceParameterSet& set_;
   std::span<const UnitSlot> head_, base_, slice_;
   std::size_t heads_ = 0;  // units of the head so far
+  std::size_t units_ = 0;  // of all
   bool in_slices_ = false;
 };
 
-/// Spec 7.13: a frame unit is the second unit, and the sequence one that frames have.
-Result<Done> check_frame(const Units& units, const SequenceParameterSet& set) {
-  for (std::size_t i = 0; i < units.units.size(); ++i)
-    if (i != 1 && units.units[i].type == UnitType::kFrame) return at(units.units[i], "unit_type");
-  if (units.units.size() < 2 || units.units[1].type != UnitType::kFrame) return Done{};
+/// Spec 7.13: what predicted frames are not made for.
+Result<Done> check_frames(const SequenceParameterSet& set) {
   if (set.sps_profile != 0) return of_sequence(Errc::kOutOfRange, "sps_profile");
   if (set.sps_base_levels != 0) return of_sequence(Errc::kOutOfRange, "sps_base_levels");
   if (!set.has_vectors() || set.num_layers() > 1)
@@ -166,7 +172,7 @@ Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const Decod
   SLF_TRY(Units units, split_units(bytes, max_bytes));            // 7.1
   SLF_CHECK(check_frame_bytes(first, units));                     // 7.13
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
-  SLF_CHECK(check_frame(units, set));                             // 7.13
+  if (first.moves()) SLF_CHECK(check_frames(set));                // 7.13
   SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
   SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7
   return OpenStream{std::move(units), std::move(scene)};

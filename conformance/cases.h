@@ -26,6 +26,7 @@ struct Case {
   std::vector<std::uint8_t> stream{};    ///< not empty: this one, whatever the field
   std::vector<DecodeOptions> decodes{};  ///< to pin as well
   std::vector<int> layers{};             ///< reduced decodes to pin as well
+  std::size_t frames = 1;                ///< of the stream: each decode is pinned of all of them
 };
 
 /// A light field and how it is coded, decoded whole.
@@ -59,6 +60,7 @@ std::vector<Case> transform_cases();  ///< among them: matrices that no encoder 
 std::vector<Case> layer_cases();      ///< among them
 std::vector<Case> attribute_cases();  ///< among them
 std::vector<Case> texture_cases();    ///< among them: planes as pictures
+std::vector<Case> frame_cases();      ///< among them: light fields that move
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -66,6 +68,7 @@ struct RefusedCase {
   std::string id, purpose;
   std::vector<std::string> clauses;
   std::vector<std::uint8_t> stream;
+  std::optional<std::size_t> frame{};  ///< which cannot be decoded
 };
 std::vector<RefusedCase> refused_cases();
 std::vector<RefusedCase> refused_scenes();      ///< among them
@@ -74,5 +77,8 @@ std::vector<RefusedCase> refused_layers();      ///< among them
 std::vector<RefusedCase> refused_apart();       ///< among them
 std::vector<RefusedCase> refused_textures();    ///< among them
 std::vector<RefusedCase> refused_transforms();  ///< among them
+std::vector<RefusedCase> refused_first_frames();  ///< among them
+/// Streams of frames of which those before one may be decoded, and that one is refused.
+std::vector<RefusedCase> refused_frames();
 
 }  // namespace slf::conformance

@@ -14,6 +14,7 @@
 #include "bitstream/units.h"
 #include "conformance/cases.h"
 #include "slf/decoder.h"
+#include "slf/frames.h"
 #include "slf/given_planes.h"
 #include "slf/truncate.h"
 
@@ -65,8 +66,11 @@ std::string region_text(const VoxelBox& box) {
   return text + "]";
 }
 
-std::string expectation(const LightField& field, const DecodeOptions& options) {
-  std::string text = "    {\"levels\": " + std::to_string(options.levels) +
+/// frame: of a stream of several
+std::string expectation(const LightField& field, const DecodeOptions& options,
+                        std::optional<std::size_t> frame) {
+  std::string text = (frame ? "    {\"frame\": " + std::to_string(*frame) + ", " : "    {") +
+                     "\"levels\": " + std::to_string(options.levels) +
                      ", \"groups\": " + std::to_string(options.groups) +
                      (options.layers > 0 ? ", \"layers\": " + std::to_string(options.layers) : "") +
                      (options.region ? region_text(*options.region) : "") +
@@ -170,6 +174,13 @@ std::optional<std::vector<std::uint8_t>> stream_of(const Case& c) {
   return c.truncated ? *truncate(stream, *c.truncated) : stream;
 }
 
+Result<LightField> decode_frame(std::span<const std::uint8_t> stream, std::size_t frame,
+                                const DecodeOptions& options = {}) {
+  if (frame == 0) return decode(stream, options);
+  SLF_TRY(FrameDecoder decoder, FrameDecoder::open(stream, options));
+  return decoder.decode(frame);
+}
+
 bool write_case(const fs::path& root, const Case& c) {
   const auto made = stream_of(c);
   if (!made) return leave_out("streams", c.id, true);
@@ -194,13 +205,16 @@ bool write_case(const fs::path& root, const Case& c) {
     add(0, 0, {}, layers);
     for (const int levels : c.levels) add(levels, 0, {}, layers);
   }
-  for (std::size_t i = 0; i < decodes.size(); ++i) {
-    const auto field = decode(stream, decodes[i]);
+  for (std::size_t i = 0; i < decodes.size() * c.frames; ++i) {
+    const DecodeOptions& options = decodes[i / c.frames];
+    const auto field = decode_frame(stream, i % c.frames, options);
     if (!field) {
       std::fprintf(stderr, "%s: %s\n", c.id.c_str(), to_string(field.error()).c_str());
       return false;
     }
-    text += (i ? ",\n" : "") + expectation(*field, decodes[i]);
+    text += (i ? ",\n" : "") +
+            expectation(*field, options,
+                        c.frames > 1 ? std::optional(i % c.frames) : std::nullopt);
   }
   text +=
       "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 "
@@ -222,21 +236,23 @@ void tell_other_refusal(const fs::path& before, const std::string& text) {
 }
 
 bool write_refused(const fs::path& root, const RefusedCase& c) {
-  if (c.stream.empty()) return leave_out("refused", c.id, true);
-  const auto field = decode(c.stream);
+  const char* const part = c.frame ? "refused_frames" : "refused";
+  if (c.stream.empty()) return leave_out(part, c.id, true);
+  const auto field = decode_frame(c.stream, c.frame.value_or(0));
   const auto info = read_info(c.stream);  // what decode() does not look at
-  if (field && info) {
+  if (field && (info || c.frame)) {
     std::fprintf(stderr, "%s: was not refused\n", c.id.c_str());
     return false;
   }
   const Error& error = field ? info.error() : field.error();
+  const std::string frame = c.frame ? "\"frame\": " + std::to_string(*c.frame) + ", " : "";
   const std::string text = description(c.id, c.clauses, c.purpose, c.stream) +
-                           "  \"refuse\": {\"by\": " + quoted(field ? "info" : "decode") +
+                           "  \"refuse\": {" + frame + "\"by\": " + quoted(field ? "info" : "decode") +
                            ", \"code\": " + quoted(to_string(error.code)) +
                            ", \"element\": " + quoted(error.element) +
                            ", \"unit\": " + quoted(error.unit) + "}\n}\n";
-  tell_other_refusal(root / "refused" / c.id / "case.json", text);
-  write(root / "refused" / c.id, c.stream, text);
+  tell_other_refusal(root / part / c.id / "case.json", text);
+  write(root / part / c.id, c.stream, text);
   return true;
 }
 
@@ -254,6 +270,8 @@ int main(int argc, char** argv) {
   for (const auto& c : slf::conformance::valid_cases())
     good = slf::conformance::write_case(directory, c) && good;
   for (const auto& c : slf::conformance::refused_cases())
+    good = slf::conformance::write_refused(directory, c) && good;
+  for (const auto& c : slf::conformance::refused_frames())
     good = slf::conformance::write_refused(directory, c) && good;
   return good ? 0 : 1;
 }

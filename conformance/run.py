@@ -3,12 +3,13 @@
 
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]
 
-The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--layers N", "--region=X0,Y0,Z0,X1,Y1,Z1",
+The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--layers N", "--frame N", "--region=X0,Y0,Z0,X1,Y1,Z1",
 "--planes" or nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
 (int32 [P, K, 3]), where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
 {out}: an object with points, partial and the keys and values of "header" in meaning.json, others beside them; numbers to 1e-6 of
 themselves. It must exit with 0 on streams/, and with another code,
-not by a signal and not after the time limit, on refused/. With --messages the names of the refused syntax
+not by a signal and not after the time limit, on refused/ and, for the frame that it is given, on refused_frames/. Of a stream of several
+frames "--frame N" asks for the one at place N, from 0 on, and for whatever else the options say of it; without it for the first. With --messages the names of the refused syntax
 element and of its unit must be in what it prints. With --radiance "CMD {in} {out} {point} {x} {y} {z}" a command that prints, as the last three
 numbers, R, G, B of a point towards (x, y, z), from the stream or from what the decoder left in {out}: within 1/16 (spec 6.7).
 Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
@@ -102,7 +103,7 @@ def check_stream(folder, decoder, timeout, meaning, radiance):
     problems = []
     for expect in case["expect"]:
         out = pathlib.Path(tempfile.mkdtemp())
-        options = [w for name in ("levels", "groups", "layers") if expect.get(name) for w in ("--" + name, str(expect[name]))]
+        options = [w for name in ("levels", "groups", "layers", "frame") if expect.get(name) for w in ("--" + name, str(expect[name]))]
         options += ["--region=" + ",".join(map(str, expect["region"]))] if "region" in expect else []
         options += ["--planes"] if "planes_sha256" in expect else []
         where = " ".join(options) or "whole"
@@ -143,7 +144,8 @@ def check_refused(folder, decoder, info, messages, timeout):
         return None
     out = pathlib.Path(tempfile.mkdtemp())
     try:
-        done = run(command, {"in": str(folder / case["stream"]["file"]), "out": str(out), "options": []}, timeout)
+        options = ["--frame", str(refuse["frame"])] if "frame" in refuse else []
+        done = run(command, {"in": str(folder / case["stream"]["file"]), "out": str(out), "options": options}, timeout)
         printed = done.stderr.decode(errors="replace")
         if done.returncode == 0:
             return ["was decoded without an error"]
@@ -193,7 +195,9 @@ def main():
     report, meaning = [], None
     if not arguments.without_header:
         meaning = json.loads((arguments.suite / "meaning.json").read_text(encoding="utf-8"))
-    for part in ("streams", "refused"):
+    for part in ("streams", "refused", "refused_frames"):
+        if not (arguments.suite / part).is_dir():
+            continue
         for folder in sorted(p for p in (arguments.suite / part).iterdir() if p.is_dir()):
             if arguments.only and f"{part}/{folder.name}" not in arguments.only:
                 continue

@@ -12,21 +12,40 @@
 
 namespace slf::fuzz {
 
-std::vector<std::uint8_t> with_sound_crcs(std::span<const std::uint8_t> input) {
-  std::vector<std::uint8_t> stream(input.begin(), input.end());
-  std::size_t at = 8;
+namespace {
+
+/// Of units from `at` on, up to bytes that are none.
+/// @param signatures  some units stand behind another signature
+void mend_crcs(std::vector<std::uint8_t>& stream, std::size_t at, bool signatures) {
   while (at + 6 <= stream.size()) {
+    if (signatures && stream[at] == 0x8B) {
+      at += 8;
+      continue;
+    }
     std::size_t length = 0, p = at + 1;
     for (int shift = 0; p < stream.size() && shift < 42; shift += 7) {
       length |= std::size_t{stream[p] & 0x7Fu} << shift;
       if (!(stream[p++] & 0x80)) break;
     }
-    if (stream.size() - p < 4 || length > stream.size() - p - 4) return stream;
+    if (stream.size() - p < 4 || length > stream.size() - p - 4) return;
     const std::uint32_t crc = crc32(std::span(stream).subspan(at, p + length - at));
     for (std::size_t i = 0; i < 4; ++i)
       stream[p + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
     at = p + length + 4;
   }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> with_sound_crcs(std::span<const std::uint8_t> input) {
+  std::vector<std::uint8_t> stream(input.begin(), input.end());
+  mend_crcs(stream, 8, false);
+  return stream;
+}
+
+std::vector<std::uint8_t> with_sound_crcs_of_frames(std::span<const std::uint8_t> input) {
+  std::vector<std::uint8_t> stream(input.begin(), input.end());
+  mend_crcs(stream, 8, true);
   return stream;
 }
 

@@ -17,6 +17,9 @@ namespace slf::fuzz {
 /// The stream with every CRC right, so that the fuzzer reaches the parsers behind them.
 std::vector<std::uint8_t> with_sound_crcs(std::span<const std::uint8_t> stream);
 
+/// The same of a stream of frames, of which some begin with a signature.
+std::vector<std::uint8_t> with_sound_crcs_of_frames(std::span<const std::uint8_t> stream);
+
 /// Limits within which an input takes a fraction of a second.
 DecodeLimits small_limits();
 

@@ -187,9 +187,11 @@ def scene(program):
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode render truncate hevc npy ply obj glb image cameras colmap splats igc part plan".split()}
+            "decode frames render truncate hevc npy ply obj glb image cameras colmap splats igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
+        if name.startswith("frames-"):
+            made["frames"][name] = stream
         made["truncate"][name] = b"\x03\x01" + stream
         if hevc(stream):
             made["hevc"][name] = hevc(stream)

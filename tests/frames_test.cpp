@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "codec/frame_chain.h"
-#include "slf/decoder.h"
 #include "tests/frames_support.h"
 
 namespace slf::frames_test {
@@ -146,8 +145,7 @@ TEST(Spec_7_13_Frames, AreListedByGroups) {
 
 TEST(Spec_7_13_Frames, FirstIsWhatADecoderOfOneLightFieldHas) {
   const auto frames = coded_frames(fields_of(Moves::kShift, 3), frame_parameters(12));
-  FrameDecoder decoder = opened(frames[0]);
-  const LightField first = decoded_frame(decoder, 0);
+  const LightField first = *opened(frames[0]).decode(0);
   for (const Bytes& stream : {frames[0], joined(frames)}) {
     const auto field = decode(stream);
     ASSERT_TRUE(field) << to_string(field.error());

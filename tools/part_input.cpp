@@ -55,7 +55,7 @@ bool is_regular(const std::string& file) {
 std::optional<DecodedFile> decode_part_alone(const std::string& file, const PartOptions& part,
                                              const LimitOptions& given,
                                              const CommonOptions& common) {
-  if (!asks_for_part(part) || !is_regular(file)) return std::nullopt;
+  if (!asks_for_part(part) || part.frame > 0 || !is_regular(file)) return std::nullopt;
   FileReader reader(file);
   const auto bytes = reader.bytes();
   if (!bytes) return std::nullopt;

@@ -1,0 +1,42 @@
+// Streams of frames, coded by motions that are given, and changed.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "codec/frame_chain.h"
+#include "codec/pack_frame.h"
+#include "conformance/edit_units.h"
+
+namespace slf::conformance {
+
+/// Codes frames one after the other: integers alone, so the same for every compiler.
+class FrameWriter {
+ public:
+  explicit FrameWriter(const CodingParameters& parameters);
+  /// A frame that is not predicted.
+  void add(const LightField& field);
+  /// One that is, with this motion.
+  void add(const LightField& field, const Motion& motion);
+
+  const std::vector<Bytes>& frames() const { return frames_; }
+  Bytes stream() const;
+
+ private:
+  void append(Bytes bytes);
+
+  CodingParameters parameters_;
+  GroupCoding group_;
+  FrameChain chain_;
+  std::vector<Bytes> frames_;
+};
+
+Bytes joined(const std::vector<Bytes>& frames);
+
+/// A frame, its units changed; counts and frame_bytes are then sound.
+/// header: changes the frame unit after that
+Bytes edited_frame(const Bytes& frame, const std::function<void(std::vector<EditableUnit>&)>& edit,
+                   const std::function<void(FrameHeader&)>& header = {});
+
+}  // namespace slf::conformance
