@@ -15,17 +15,15 @@ Error moved(Error error, std::uint64_t offset) {
 }
 
 /// The reference has no points, or not all of its geometry.
-bool lacks_cells(const FrameState& reference, int bits) {
-  return reference.cells.levels() != bits;
-}
+bool lacks_cells(const FrameState& reference, int bits) { return reference.cells.levels() != bits; }
 
 }  // namespace
 
 Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream,
                                             const FrameUnits& frame, const DecodeOptions& options,
                                             FrameState& kept) {
-  const auto bytes = stream.subspan(static_cast<std::size_t>(frame.offset),
-                                    static_cast<std::size_t>(frame.bytes));
+  const auto bytes =
+      stream.subspan(static_cast<std::size_t>(frame.offset), static_cast<std::size_t>(frame.bytes));
   auto opened = open_stream(bytes, options.limits);
   if (!opened) return moved(opened.error(), frame.offset);
   group_ = *std::move(opened);

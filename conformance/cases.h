@@ -71,12 +71,12 @@ struct RefusedCase {
   std::optional<std::size_t> frame{};  ///< which cannot be decoded
 };
 std::vector<RefusedCase> refused_cases();
-std::vector<RefusedCase> refused_scenes();      ///< among them
-std::vector<RefusedCase> refused_units();       ///< among them
-std::vector<RefusedCase> refused_layers();      ///< among them
-std::vector<RefusedCase> refused_apart();       ///< among them
-std::vector<RefusedCase> refused_textures();    ///< among them
-std::vector<RefusedCase> refused_transforms();  ///< among them
+std::vector<RefusedCase> refused_scenes();        ///< among them
+std::vector<RefusedCase> refused_units();         ///< among them
+std::vector<RefusedCase> refused_layers();        ///< among them
+std::vector<RefusedCase> refused_apart();         ///< among them
+std::vector<RefusedCase> refused_textures();      ///< among them
+std::vector<RefusedCase> refused_transforms();    ///< among them
 std::vector<RefusedCase> refused_first_frames();  ///< among them
 /// Streams of frames of which those before one may be decoded, and that one is refused.
 std::vector<RefusedCase> refused_frames();

@@ -170,7 +170,8 @@ void add_kinds(std::vector<Case>& cases) {
   FrameWriter normals(frame_parameters(1));
   normals.add(with_codes(still(1)));
   normals.add(with_codes(frame_field(turned, 1)), turn());
-  cases.push_back(frame_case("frames-normals", "normals, which are not predicted", normals, {"8.12"}));
+  cases.push_back(
+      frame_case("frames-normals", "normals, which are not predicted", normals, {"8.12"}));
 
   CodingParameters p;
   p.geometry_level_ends = {3, 5};

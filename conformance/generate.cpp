@@ -213,8 +213,7 @@ bool write_case(const fs::path& root, const Case& c) {
       return false;
     }
     text += (i ? ",\n" : "") +
-            expectation(*field, options,
-                        c.frames > 1 ? std::optional(i % c.frames) : std::nullopt);
+            expectation(*field, options, c.frames > 1 ? std::optional(i % c.frames) : std::nullopt);
   }
   text +=
       "\n  ],\n  \"digest_of\": \"positions: int32 little-endian x, y, z; components: int32 "
@@ -246,8 +245,8 @@ bool write_refused(const fs::path& root, const RefusedCase& c) {
   }
   const Error& error = field ? info.error() : field.error();
   const std::string frame = c.frame ? "\"frame\": " + std::to_string(*c.frame) + ", " : "";
-  const std::string text = description(c.id, c.clauses, c.purpose, c.stream) +
-                           "  \"refuse\": {" + frame + "\"by\": " + quoted(field ? "info" : "decode") +
+  const std::string text = description(c.id, c.clauses, c.purpose, c.stream) + "  \"refuse\": {" +
+                           frame + "\"by\": " + quoted(field ? "info" : "decode") +
                            ", \"code\": " + quoted(to_string(error.code)) +
                            ", \"element\": " + quoted(error.element) +
                            ", \"unit\": " + quoted(error.unit) + "}\n}\n";

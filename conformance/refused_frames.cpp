@@ -38,9 +38,8 @@ class Refused {
   void add_order() {
     add("frames-number-skipped", "a frame is missing", joined({f_[0], f_[2]}));
     add("frames-number-twice", "a frame stands twice", joined({f_[0], f_[1], f_[1]}));
-    add("frames-time", "a time that is not later", with(nothing, [](FrameHeader& h) {
-          h.frame_time = 0;
-        }));
+    add("frames-time", "a time that is not later",
+        with(nothing, [](FrameHeader& h) { h.frame_time = 0; }));
     add("frames-intra-without-signature", "no frame that is not predicted begins so",
         with(nothing, [](FrameHeader& h) { h.frame_predicted_flag = 0; }));
     add("frames-bytes-shorter", "a length that ends within the frame",
@@ -63,8 +62,9 @@ class Refused {
     put("frames-frame-unit-twice", "two frame units", UnitType::kFrame, 1);
     add("frames-end-count", "an end unit that counts one more",
         raw([](auto& units) { units.back().payload = end_payload(units.size()); }));
-    add("frames-behind-end", "a unit behind the end unit",
-        with([](auto& units) { units.push_back({UnitType::kFiller, {}}); }));
+    add("frames-behind-end", "a unit behind the end unit", with([](auto& units) {
+          units.push_back({UnitType::kFiller, {}});
+        }));
     add("frames-digest", "a predicted frame that is not what its digest says",
         with([](auto& units) { first_of(units, UnitType::kDigest).payload.back() ^= 1; }));
   }

@@ -68,7 +68,7 @@ static struct file load(const char* name) {
 
 /* A sum over all integers of a field, so that they are all read. */
 static uint64_t sum_of(const slf_field* field, const char* name) {
-  slf_shape shape = {sizeof(slf_shape), 0, 0, 0, 0, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0};
+  slf_shape shape = {sizeof(slf_shape), 0, 0, 0, 0, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0};
   uint64_t sum = 0, i;
   int32_t* values;
   expect(slf_get_shape(field, &shape, NULL) == SLF_OK, "no shape", name);

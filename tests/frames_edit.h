@@ -39,7 +39,9 @@ inline CodingParameters small_parameters() {
 }
 
 /// Two groups of three and two frames.
-inline std::vector<Bytes> small_frames() { return coded_frames(small_fields(5), small_parameters(), 3); }
+inline std::vector<Bytes> small_frames() {
+  return coded_frames(small_fields(5), small_parameters(), 3);
+}
 
 inline DecodeOptions small_limits() {
   DecodeOptions options;

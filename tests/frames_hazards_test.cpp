@@ -83,7 +83,8 @@ TEST(Spec_7_13_Order, PredictedFirstIsRefused) {
   const auto f = small_frames();
   const auto predict = [](FrameHeader& h) { h.frame_predicted_flag = 1; };
   const auto intra = [](FrameHeader& h) { h.frame_predicted_flag = 0; };
-  expect_error(joined_units(split(f[0]), predict), Errc::kOutOfRange, "frame_predicted_flag", "frame");
+  expect_error(joined_units(split(f[0]), predict), Errc::kOutOfRange, "frame_predicted_flag",
+               "frame");
   const Bytes second = joined_units(split(f[1]), intra);
   expect_error(joined({f[0], second}), Errc::kOutOfRange, "frame_predicted_flag", "frame");
 }

@@ -140,8 +140,10 @@ Bytes with_lattice(const std::array<std::int32_t, 3>& size, const Bytes& vectors
 }
 
 TEST(Spec_7_13_Lattice, OfMoreThanItsMostPointsIsRefused) {
-  expect_error(with_lattice({1 << 18, 0, 0}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1", "frame");
-  expect_error(with_lattice({63, 63, 64}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1", "frame");
+  expect_error(with_lattice({1 << 18, 0, 0}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
+               "frame");
+  expect_error(with_lattice({63, 63, 64}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
+               "frame");
 }
 
 TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
@@ -154,7 +156,8 @@ TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
 }
 
 TEST(Spec_7_13_Lattice, CodewordThatGoesOnIsRefused) {
-  expect_error(with_lattice({0, 0, 0}, Bytes(40, 0x55)), Errc::kOutOfRange, "frame_vectors", "frame");
+  expect_error(with_lattice({0, 0, 0}, Bytes(40, 0x55)), Errc::kOutOfRange, "frame_vectors",
+               "frame");
 }
 
 TEST(Spec_7_13_Hazards, WhatTakesOneLightFieldSaysSo) {
@@ -171,7 +174,8 @@ TEST(Spec_9_Frames, AreHeldToLimitsWithWhatIsKept) {
   const Bytes stream = joined(small_frames());
   DecodeOptions options;
   for (const auto& change : std::vector<std::function<void(DecodeLimits&)>>{
-           [](DecodeLimits& l) { l.max_points = 10; }, [](DecodeLimits& l) { l.max_memory = 1 << 20; },
+           [](DecodeLimits& l) { l.max_points = 10; },
+           [](DecodeLimits& l) { l.max_memory = 1 << 20; },
            [](DecodeLimits& l) { l.max_work = 1000; }}) {
     options.limits = {};
     change(options.limits);

@@ -104,10 +104,6 @@ void add_part(CLI::App& verb, PartOptions& options) {
       ->delimiter(',')
       ->expected(6)
       ->check(range(-1e300, 1e300));
-  verb.add_option("--frame", options.frame,
-                  "Of a file of several frames the one at this place, from 0 on")
-      ->capture_default_str()
-      ->check(whole_range(0, std::int64_t{1} << 31));
 }
 
 void add_frame(CLI::App& verb, PartOptions& options) {
