@@ -97,6 +97,7 @@ Error of_sequence(Errc code, const char* element) {
 }
 
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
+  if (offset >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * offset};
   SLF_TRY(const Unit unit, find_unit(stream, offset));
   const auto bytes = stream.subspan(offset, static_cast<std::size_t>(unit.bytes));
   const auto checked = bytes.first(bytes.size() - kCrcBytes);

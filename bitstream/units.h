@@ -59,7 +59,8 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
 /// Spec 7.10  end_unit( ): no unit was lost.
 Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before);
 
-/// The unit whose first byte is stream[offset]; offset < stream.size(). Its CRC-32 is checked.
+/// The unit whose first byte is stream[offset]. Its CRC-32 is checked.
+/// @errors kTruncated: the stream ends before it or within it; those of split_units
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset);
 
 /// Of a unit as a whole: of its first byte.

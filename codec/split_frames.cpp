@@ -47,13 +47,10 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
   SLF_CHECK(check_first_byte(stream.subspan(at), at));
   const bool intra = begins_intra(stream.subspan(at));
   if (intra) {
-    if (at + kSignature.size() >= stream.size())
-      return Error{Errc::kTruncated, "unit_type", 8 * stream.size()};
     SLF_TRY(const Unit sequence, read_unit(stream, at + kSignature.size()));
     if (sequence.type != UnitType::kSequence) return wrong(sequence, "unit_type");
     at = static_cast<std::size_t>(sequence.offset + sequence.bytes);
   }
-  if (at >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * at};
   SLF_TRY(frame.unit, read_unit(stream, at));
   if (frame.unit.type != UnitType::kFrame) return wrong(frame.unit, "unit_type");
   SLF_TRY(frame.header, in_unit(frame.unit, parse_frame_header(frame.unit.payload, frame.vectors)));

@@ -1,0 +1,54 @@
+// A stream of several frames and the verbs: none loses frames without a word.
+#include "cli_support.h"
+#include "tests/frames_support.h"
+
+namespace slf::cli_frames_test {
+namespace {
+
+class CliFramesTest : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    fields_ = test::fields_of(test::Moves::kAppears, 3, 1);
+    for (LightField& field : fields_) {
+      field.header.has_basis = true;
+      field.header.basis.id = BasisId::kHarmonics;
+      field.header.basis.degree = 0;
+    }
+    const test::Bytes bytes = test::joined(test::coded_frames(fields_, test::frame_parameters(8, 1)));
+    write("x.slf", {bytes.begin(), bytes.end()});
+  }
+  std::vector<LightField> fields_;
+};
+
+TEST_F(CliFramesTest, InfoTellsHowMany) {
+  const Ran ran = slf("info x.slf --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("a stream of several frames: of 3"), std::string::npos);
+  EXPECT_TRUE(parsed(ran.out).contains("frames"));
+  EXPECT_EQ(slf("info x.slf --syntax --quiet").code, 0);
+}
+
+TEST_F(CliFramesTest, DecodeTakesTheFirstOrTheOneAskedFor) {
+  for (const std::size_t frame : {0u, 1u, 2u}) {
+    const std::string option = frame > 0 ? " --frame " + std::to_string(frame) : "";
+    const Ran ran = slf("decode x.slf -o x.ply --json --quiet" + option);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(parsed(ran.out)["points"], fields_[frame].num_points());
+  }
+  EXPECT_NE(slf("decode x.slf -o y.ply --frame 3").code, 0);
+  EXPECT_FALSE(exists("y.ply"));
+}
+
+TEST_F(CliFramesTest, VerbsOfOneLightFieldRefuseByName) {
+  for (const char* verb : {"truncate x.slf -o y.slf --levels 2", "html x.slf -o y.html"}) {
+    const Ran ran = slf(std::string(verb) + " --quiet");
+    if (ran.err.find("one_file.html") != std::string::npos) continue;  // built without the page
+    expect_failure(ran, 6, "x.slf", "a stream of several frames");
+  }
+  EXPECT_FALSE(exists("y.slf"));
+  EXPECT_FALSE(exists("y.html"));
+}
+
+}  // namespace
+}  // namespace slf::cli_frames_test
