@@ -24,8 +24,7 @@ class CliFramesTest : public CliTest {
 TEST_F(CliFramesTest, InfoTellsHowMany) {
   const Ran ran = slf("info x.slf --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_NE(ran.err.find("a stream of several frames: of 3"), std::string::npos);
-  EXPECT_TRUE(parsed(ran.out).contains("frames"));
+  EXPECT_EQ(parsed(ran.out)["frames"].size(), 3u);
   EXPECT_EQ(slf("info x.slf --syntax --quiet").code, 0);
 }
 

@@ -117,10 +117,6 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
   SLF_TRY(StreamInfo info, from(input_name(file), read_info(bytes, given.limits)));
   SLF_CHECK(check_whole(file, info, given, common));
   SLF_TRY(const std::size_t frames, count_frames(file, bytes, info));
-  if (frames > 1)
-    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(frames) +
-             " the first is taken",
-         common.quiet);
   return StreamFile{std::move(bytes), std::move(info), frames};
 }
 
@@ -178,6 +174,10 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
   if (part.frame >= 0) return decode_frame(file, part, given, common);
   if (auto decoded = decode_part_alone(file, part, given, common)) return *std::move(decoded);
   SLF_TRY(StreamFile stream, read_stream(file, given, common));
+  if (stream.frames > 1)
+    warn(input_name(file) + ": " + kOneLightField + ": of " + grouped(stream.frames) +
+             " the first is taken",
+         common.quiet);
   const DecodeOptions options = decode_options(stream.info, part, given, common);
   Stopwatch watch;
   auto field = decode(stream.bytes, options);

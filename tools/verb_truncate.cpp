@@ -53,7 +53,6 @@ void add_truncate(CLI::App& program, Run& run) {
       ->type_name("FILE")
       ->required();
   add_part(*verb, o->part);
-  verb->remove_option(verb->get_option("--frame"));
   verb->get_option("--levels")->description("Octree levels to keep; 0 is all");
   verb->get_option("--groups")->description("Plane groups to keep; 0 is all");
   verb->get_option("--layers")->description("Quality layers to keep; 0 is all");
