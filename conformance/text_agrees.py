@@ -46,16 +46,17 @@ def check(folder):
         return name, []  # nothing that a decoder looks at
     data = (folder / case['stream']['file']).read_bytes()
     try:
-        units = decoder.read_units(data)
-        sequence = decoder.Sequence(units[0][1])
-        light_field = decoder.LightField(sequence)
-        light_field.read(units)
+        frames = []
+        for _, light_field in decoder.light_fields(data):
+            frames.append(light_field)
+            if 'refuse' in case:
+                sequence = light_field.sequence
+                decoder.given_out(sequence, light_field, decoder.Wanted(sequence, 0, 0, 0), None)
         if 'refuse' in case:
-            decoder.given_out(sequence, light_field, decoder.Wanted(sequence, 0, 0, 0), None)
             return name, ['is not refused']
         return name, [f'{expect["levels"]} levels, {expect["groups"]} groups, {expect.get("layers", 0)} layers: {problem}'
-                      for expect in case['expect']
-                      for problem in differences(sequence, light_field, expect)]
+                      for expect in case['expect'] for light_field in [frames[expect.get('frame', 0)]]
+                      for problem in differences(light_field.sequence, light_field, expect)]
     except decoder.Refused as problem:
         wanted = case.get('refuse', {}).get('element')
         return name, [] if str(problem).split(' (')[0] == wanted else [f'is refused: {problem}']
@@ -66,7 +67,7 @@ def main():
     parser.add_argument('--part', type=int, nargs=2, default=(0, 1), metavar=('I', 'N'))
     parser.add_argument('name', nargs='*')
     given = parser.parse_args()
-    folders = [f for part in ('streams', 'refused') for f in sorted((HERE / part).iterdir())
+    folders = [f for part in ('streams', 'refused', 'refused_frames') for f in sorted((HERE / part).iterdir())
                if (f / 'case.json').exists() and f.name != 'draco' and (not given.name or f.name in given.name)]
     folders = folders[given.part[0]::given.part[1]]
     failed = 0

@@ -2461,7 +2461,7 @@ def given_out(sequence, light_field, wanted, region):
 def light_fields(data):
     """7.13, 8.12: of every frame, in order, its units and light field; of a stream that does not move those of the stream."""
     sequence = reference = None
-    for frame, own in split_frames(data):
+    for frame, own in list(split_frames(data)):
         units = read_units(own, bool(frame and frame.predicted))
         if frame and frame.predicted:
             require(not {INDEX, METADATA} & {unit_type for unit_type, _, _ in units}, "unit_type (predicted frame)")

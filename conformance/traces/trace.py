@@ -133,7 +133,7 @@ class Trace:
         vectors = [f"{r}: {part.coders[group].quantised[r]}" for r in rows if r in part.coders[group].quantised]
         self.say(f"  vectors that are not 0: {self.few(vectors)}")
 
-    def level_inverted(self, _result, values, tree, _bits, level, modes):
+    def level_inverted(self, _result, values, tree, _bits, level, modes, *_):
         self.say(f"  after level {level}, cu_prediction {sorted(set(modes))}: " + self.few(
             f"{r}: {values[r].tolist()[:9]}" for r in range(len(values))))
 
