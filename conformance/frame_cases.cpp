@@ -271,8 +271,7 @@ void add_transform(std::vector<Case>& cases) {
     for (EditableUnit& unit : units) {
       if (unit.type != UnitType::kCoefficients) continue;
       const auto header = read_part_unit({unit.type, unit.payload, 0, 0}, before)->header;
-      const ColumnRange columns =
-          columns_of_group(transform.inverse, plane_groups(set), header.group);
+      const auto columns = columns_of_group(transform.inverse, plane_groups(set), header.group);
       set_matrix(unit, before, set, columns.empty() ? Bytes{} : write_columns(transform, columns));
     }
     units.insert(units.begin() + 2,
