@@ -6,6 +6,7 @@
 #include "codec/decode_cost.h"
 #include "codec/decode_units.h"
 #include "codec/request.h"
+#include "codec/split_frames.h"
 
 namespace slf {
 namespace {
@@ -101,7 +102,12 @@ Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
 Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t stream_bytes,
                            const DecodeOptions& options) {
   const bool is_all = head.size() == stream_bytes;
-  SLF_TRY(const Units units, split_units(head, is_all ? options.max_bytes : 0));
+  std::span<const std::uint8_t> frame = head;
+  if (is_all) {
+    SLF_TRY(const FrameUnits first, first_frame(head));  // 7.13
+    frame = head.first(static_cast<std::size_t>(first.bytes));
+  }
+  SLF_TRY(const Units units, split_units(frame, is_all ? options.max_bytes : 0));
   ReadPlan plan;
   SLF_TRY(plan.set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, plan.set));

@@ -116,7 +116,7 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
   LightField field = quantise_grid(cloud, std::move(fit), frame.capture.origin, frame.capture.up,
                                    settings, chosen ? chosen->shift : std::vector<int>{});
   if (!chosen) {
-    chosen.emplace(settings, field.header.shift, coding_parameters(field, settings));
+    chosen = ChosenForAll{settings, field.header.shift, coding_parameters(field, settings)};
     chosen->settings.search = FitSearch::none();
     chosen->settings.check_cameras = false;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/surface_points.h"
 #include "encoder/encode_splats.h"
 #include "slf/decoder.h"
 #include "slf/gaussian_renderer.h"

@@ -99,7 +99,7 @@ TEST(Spec_F_Places, LieInAUnitOfTheTypeThatIsNamed) {
   }
   EXPECT_EQ(named, (std::set<std::string>{"sequence", "slices", "geometry", "normals",
                                           "coefficients", "refinement", "index", "metadata",
-                                          "digest", "transform", "end"}));
+                                          "digest", "transform", "frame", "end"}));
 }
 
 /// The same error for who reads headers alone, where these show it.

@@ -9,6 +9,7 @@
 
 #include "slf/jpeg.h"
 #include "tools/interrupt.h"
+#include "tools/text.h"
 
 namespace slf::tools {
 namespace {

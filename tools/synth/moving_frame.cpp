@@ -70,7 +70,9 @@ MovingFrame::MovingFrame(const MovingScene& scene, int frame, int threads) : sce
 bool MovingFrame::radiance(const Ray& ray, Colour& light, double& transmittance) const {
   const auto hit = tree_.nearest(ray);
   if (!hit) return false;
-  const auto& [number, corners] = places_[hit->triangle];
+  const Place& place = places_[hit->triangle];
+  const std::uint32_t number = place.part;
+  const std::array<std::uint32_t, 3>& corners = place.corners;
   const MovingPart& part = scene_.parts[number];
   const PointCloud& rest = part.rest.vertices;
   const auto position = [&](std::size_t k) { return doubles_of(rest.positions[corners[k]]); };

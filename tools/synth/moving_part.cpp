@@ -159,7 +159,9 @@ Mesh grid_mesh(std::uint32_t around, std::uint32_t along,
 Mesh capsule_mesh(const Capsule& capsule) {
   const Vec3 axis = capsule.b - capsule.a;
   const Vec3 up = length(axis) > 1e-9 ? normalised(axis) : Vec3{0, 0, 1};
-  const auto [x, y] = across(up);
+  const auto sides = across(up);
+  const auto& x = std::get<0>(sides);
+  const auto& y = std::get<1>(sides);
   return grid_mesh(48, 33, [&](double around, double along) {
     // Rows go over one end, then the other: the straight side is between the two middle ones.
     const double row = along * 33;
