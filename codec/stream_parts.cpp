@@ -11,9 +11,11 @@
 namespace slf {
 namespace {
 
-/// The whole units among the first bytes of a stream.
+/// The whole units among the first bytes of a stream, of its first frame.
 Result<Units> units_of_beginning(std::span<const std::uint8_t> begin) {
-  return split_units(begin, std::max<std::size_t>(begin.size(), 1) - 1);
+  SLF_TRY(const FrameUnits first, first_frame(begin));  // 7.13
+  const auto frame = begin.first(static_cast<std::size_t>(first.bytes));
+  return split_units(frame, std::max<std::size_t>(frame.size(), 1) - 1);
 }
 
 /// The stream ends inside a unit that the index lists.

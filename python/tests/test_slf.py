@@ -241,7 +241,7 @@ class DamageTest(unittest.TestCase):
         checked = 0
         for case in sorted(CONFORMANCE.glob('streams/*/case.json')):
             for expect in json.loads(case.read_text(encoding='utf-8'))['expect']:
-                if 'region' in expect or 'max_bytes' in expect:
+                if 'region' in expect or 'max_bytes' in expect or expect.get('frame'):
                     continue
                 try:
                     field = slf.read(case.parent / 'stream.slf', levels=expect['levels'],
