@@ -180,12 +180,17 @@ def split_frames(data):
             require(data[position] != SIGNATURE[0] or data[position:position + 8] == like, "signature")
             require(data[position] in (SIGNATURE[0], FRAME), "unit_type")
         if intra:
-            sequence = unit_at(data, position + 8)
+            try:
+                sequence = unit_at(data, position + 8)
+            except Refused:
+                if before:
+                    raise
+                sequence = None             # whoever reads the units of the one frame says why
             at = sequence[1] if sequence else len(data)
-        found = unit_at(data, at)
         if before is None and (not intra or at >= len(data) or data[at] != FRAME):
             yield None, data
             return
+        found = unit_at(data, at)
         if found is None and before:
             return                          # the stream ends in it
         require(found, "unit_payload (truncated)")
