@@ -55,7 +55,7 @@ LightField field_of(const FrameInput& input) {
   return field;
 }
 
-/// Of the brightness; points in the same order.
+/// The mean of brightness, grey levels squared. Decoded points come in Morton order.
 double squared_error(const LightField& given, const LightField& decoded) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < given.num_points(); ++i)

@@ -10,7 +10,7 @@
 
 namespace slf {
 
-/// Of the end unit. Spec 7.10
+/// The payload of the end unit. Spec 7.10
 std::vector<std::uint8_t> end_payload(std::size_t units_before);
 
 /// Signature, sequence, index, the units, end.

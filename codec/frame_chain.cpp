@@ -43,7 +43,7 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
   SequenceParameterSet set = group_->scene.stream.set;
   set.predicted = true;
   SLF_TRY(const Units own, predicted_units(stream, frame));
-  Units units;  // behind those of the group_
+  Units units;  // behind sequence and transforms of the group
   for (const Unit& unit : group_->units.units)
     if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
       units.units.push_back(unit);

@@ -17,7 +17,7 @@ class FrameChain {
   /// @errors as slf::decode. Behind it comes a frame that is not predicted
   Result<LightField> decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                             const DecodeOptions& options);
-  /// Of the frame that was decoded last.
+  /// What the frame that was decoded last leaves.
   const FrameState& state() const { return state_; }
 
  private:

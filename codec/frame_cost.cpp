@@ -8,14 +8,14 @@
 namespace slf {
 namespace {
 
-/// Of a node: its code, and bricks, each in one of four places of a table; usual are a tenth of the
-/// nodes.
+/// Bytes of a node: its code, and its brick, which takes one of four places of a table. A brick has
+/// ten nodes usually, one at the worst.
 constexpr double kUsualNode = 8 + 4 * 32 / 10, kMostNode = 8 + 4 * 32;
 constexpr double kUsualNodes = 1.5;   // of a point, at all levels
 constexpr double kTerms = 4 + 8 * 8;  // ReferenceTerms, of a node of one level
 constexpr double kLatticePoint = 12;
 
-/// Of an octree of so many points, at all levels.
+/// Nodes that an octree of so many points has at most, at all levels.
 double most_nodes(std::uint64_t levels, double points) {
   double nodes = 0, full = 1;
   for (std::uint64_t level = 0; level <= levels; ++level, full *= 8)

@@ -23,13 +23,21 @@ struct FrameDecoder::Impl {
   }
 };
 
-Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream) {
-  SLF_TRY(const auto frames, split_frames(stream));
+namespace {
+
+std::vector<FrameInfo> infos_of(const std::vector<FrameUnits>& frames) {
   std::vector<FrameInfo> infos;
   for (const FrameUnits& f : frames)
     infos.push_back(
         {f.header.frame_number, f.header.frame_time, f.header.predicted(), f.offset, f.bytes});
   return infos;
+}
+
+}  // namespace
+
+Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream) {
+  SLF_TRY(const auto frames, split_frames(stream));
+  return infos_of(frames);
 }
 
 Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
@@ -40,7 +48,7 @@ Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
   impl->stream = stream;
   impl->options = options;
   SLF_TRY(impl->frames, split_frames(stream));
-  SLF_TRY(impl->infos, list_frames(stream));
+  impl->infos = infos_of(impl->frames);
   return FrameDecoder(std::move(impl));
 }
 

@@ -20,7 +20,7 @@ struct FrameState {
   std::vector<std::optional<OccupancyStates>> octree;
   std::vector<std::optional<CoefficientStates>> coefficients;
 
-  /// Of memory. of_coefficients: of the states of a group
+  /// Bytes of memory. of_coefficients: what the states of a group take
   std::uint64_t bytes(std::uint64_t of_coefficients) const {
     std::uint64_t sum = cells.bytes();
     for (const auto& level : means) sum += level.size() * sizeof(std::int32_t);

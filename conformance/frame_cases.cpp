@@ -64,7 +64,7 @@ Motion turn() {
 
 Voxel bent(const Voxel& v) { return {v[0] + (v[2] - 16) * (v[2] - 16) / 16, v[1], v[2]}; }
 
-/// Of quarters of a voxel.
+/// A lattice whose vectors are of quarters of a voxel.
 Motion lattice_motion(int log2, const std::array<std::int32_t, 3>& first,
                       const std::array<std::int32_t, 3>& size) {
   Motion motion;

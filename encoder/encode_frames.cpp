@@ -9,7 +9,6 @@
 #include "capture/voxelise.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
-#include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "slf/frames.h"

@@ -78,7 +78,7 @@ Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits
   affine.lattice_log2 = 0;
   affine.lattice_first = affine.lattice_size = {};
   affine.lattice.clear();
-  // What is simpler has to be worse by more than it saves.
+  // A motion with more to code is taken where it foretells this much better.
   constexpr double kAffineCost = 1.002, kLatticeCost = 1.02;
   const double none = mismatch(now, before, index, {}, bits),
                by_affine = kAffineCost * mismatch(now, before, index, affine, bits),

@@ -17,9 +17,9 @@ struct FramePoints {
 };
 
 /// Where the points of `now` were in `before`: an affine motion, and a lattice where that is not
-/// all. Coarse to fine, the nearest in place and colour. Displacements of up to a sixteenth of the
+/// all. Coarse to fine, the nearest in place and colour. Displacements of up to an eighth of the
 /// grid are found.
-/// The same for any thread count. O(points), some 50 neighbours each of 20,000 of them.
+/// The same for any thread count. O(points), 125 cells around each of 20,000 of them.
 Motion find_motion(const FramePoints& now, const FramePoints& before, int bits);
 
 /// The same, or its affine part, or none: what foretells places and colours best. Informative.

@@ -5,7 +5,8 @@
 namespace slf {
 namespace {
 
-/// Of the lattice: what a difference of its neighbours costs, in points that are as far away.
+/// How stiff the lattice is: a difference of neighbours costs as much as two points that miss by
+/// it.
 constexpr double kStiffness = 2;
 constexpr int kSolverRounds = 60;
 

@@ -11,7 +11,7 @@
 
 namespace slf {
 
-/// What is looked for: displacements in voxels.
+/// Displacements, in voxels, as a function of the place.
 class MotionModel {
  public:
   explicit MotionModel(int bits) : centre_(Place::Constant(std::ldexp(0.5, bits))) {}

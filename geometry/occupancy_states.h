@@ -71,7 +71,7 @@ struct OccupancyStates {
   static constexpr int hashed_bits_of(std::uint64_t points) {
     return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);
   }
-  /// Of what states hold more once a frame was predicted, at most.
+  /// Bytes that states take more once a frame was predicted, at most.
   static constexpr std::size_t kReferenceBytes =
       sizeof(ContextBit) * (ReferenceFaces::kCount + ReferenceSiblings::kCount +
                             (std::size_t{1} << kMostHashedBits)) +

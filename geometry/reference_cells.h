@@ -54,7 +54,7 @@ class ReferenceCells {
   bool empty() const { return levels_.empty(); }
   /// Are the nodes of the level known?
   bool has(int level) const { return level < static_cast<int>(levels_.size()); }
-  /// Of the grid; -1: none are known.
+  /// How many levels the grid has; -1: no cell is known.
   int levels() const { return static_cast<int>(levels_.size()) - 1; }
   std::uint64_t bytes() const;  ///< of memory
 

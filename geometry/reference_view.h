@@ -17,7 +17,7 @@ struct MovedReference {
   const Motion& motion;
   int bits;  ///< of the grid
 
-  /// Of what is at the centre of a node of `level`, in sixteenths of a voxel.
+  /// How far away was what is at the centre of a node of `level`, in sixteenths of a voxel.
   Displacement at(const Voxel& node, int level) const {
     const int below = bits - level;
     return motion.at(

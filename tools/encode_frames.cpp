@@ -71,7 +71,7 @@ class FrameLoader {
     loaded_ = true;
     return LoadedFrame{std::move(input->capture), std::move(input->cameras)};
   }
-  /// Of the program, with its exit code.
+  /// Why a frame could not be loaded, with the exit code.
   const std::optional<Failure>& failure() const { return failure_; }
 
  private:

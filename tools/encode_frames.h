@@ -11,7 +11,6 @@ struct FrameOptions {
   std::string range;  ///< A:B of the numbers in the names
   int group = 16;
   double rate = 30;
-  bool given = false;
 };
 void add_frames(CLI::App& verb, FrameOptions& options);
 

@@ -29,7 +29,7 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
 Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
                        const std::function<Outcome()>& run);
 
-/// Of a light field that moves: all else that `slf info` tells is of its first frame.
+/// The frames of a light field that moves. What else `slf info` tells is about the first.
 nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames);
 std::string frames_text(const std::vector<FrameInfo>& frames);
 

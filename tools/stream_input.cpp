@@ -38,7 +38,7 @@ std::string missing(const StreamInfo& info) {
   return what + "; what is missing counts as zero, and no digest is checked";
 }
 
-/// Of the frames that begin with a frame unit; 1 where nothing moves.
+/// How many frames a stream has; 1 where nothing moves.
 Result<std::size_t, Failure> count_frames(const std::string& file,
                                           std::span<const std::uint8_t> bytes,
                                           const StreamInfo& info) {

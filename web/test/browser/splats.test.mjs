@@ -4,7 +4,7 @@ import { after, before, test } from 'node:test';
 import { existsSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { launch, makeSplats, newPage, pictureOf, psnr, readPng, rendered, serve, settled, skip, slf, threePictureOf, web } from './support.mjs';
+import { launch, loseContext, makeSplats, newPage, pictureOf, psnr, readPng, rendered, serve, settled, skip, slf, threePictureOf, web } from './support.mjs';
 
 const LEAST = 35; // dB, of every view
 const MOST_BESIDE_FILE = 220_000; // bytes of a page
@@ -159,17 +159,7 @@ test('the element shows splats', { skip: skip || lacksMarkup }, async (t) => {
 test('after a lost context the picture is that of before', { skip }, async () => {
   const page = await opened(),
     { data } = await pictureOf(page, splats.views[1], splats.size);
-  await page.evaluate(async () => {
-    const lost = window.viewer.stage.gl.getExtension('WEBGL_lose_context'),
-      canvas = document.getElementById('stage');
-    const once = (type) => new Promise((done) => canvas.addEventListener(type, done, { once: true }));
-    const [gone, back] = [once('webglcontextlost'), once('webglcontextrestored')];
-    lost.loseContext();
-    await gone;
-    await new Promise((done) => setTimeout(done, 200)); // the event is over: now it may come back
-    lost.restoreContext();
-    await back;
-  });
+  await loseContext(page);
   await page.waitForFunction(() => document.getElementById('status').textContent === 'The graphics context is back.');
   assert.deepEqual((await pictureOf(page, splats.views[1], splats.size)).data, data);
   await page.close();

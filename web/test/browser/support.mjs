@@ -252,3 +252,18 @@ export function psnr(a, b) {
   for (let i = 0; i < a.data.length; ++i) sum += (a.data[i] - b.data[i]) ** 2;
   return 10 * Math.log10((255 ** 2 * a.data.length) / sum);
 }
+
+/** Takes the graphics context of the viewer's canvas away, and gives it back. */
+export async function loseContext(page) {
+  await page.evaluate(async () => {
+    const { gl } = window.viewer.stage,
+      lost = gl.getExtension('WEBGL_lose_context');
+    const once = (type) => new Promise((done) => gl.canvas.addEventListener(type, done, { once: true }));
+    const [gone, back] = [once('webglcontextlost'), once('webglcontextrestored')];
+    lost.loseContext();
+    await gone;
+    await new Promise((done) => setTimeout(done, 200)); // the event is over: now it may come back
+    lost.restoreContext();
+    await back;
+  });
+}

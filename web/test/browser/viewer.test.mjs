@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { pictureOf, psnr, settled, skip, slf } from './support.mjs';
+import { loseContext, pictureOf, psnr, settled, skip, slf } from './support.mjs';
 import { slide, viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
@@ -199,17 +199,7 @@ test('high density and a new size give pictures of that many pixels', { skip }, 
 test('a lost context comes back with the same picture', { skip }, async () => {
   const page = await here.opened('src=/files/can.slf&background=808080');
   const picture = await pictureOf(page, here.can.views[1], here.can.size);
-  await page.evaluate(async () => {
-    const { stage } = window.viewer,
-      lost = stage.gl.getExtension('WEBGL_lose_context');
-    const once = (type) => new Promise((done) => stage.canvas.addEventListener(type, done, { once: true }));
-    const [gone, back] = [once('webglcontextlost'), once('webglcontextrestored')];
-    lost.loseContext();
-    await gone;
-    await new Promise((done) => setTimeout(done, 200)); // the event is over: now it may come back
-    lost.restoreContext();
-    await back;
-  });
+  await loseContext(page);
   await page.waitForFunction(() => document.getElementById('status').textContent === 'The graphics context is back.');
   assert.deepEqual((await pictureOf(page, here.can.views[1], here.can.size)).data, picture.data);
   await page.close();
