@@ -19,7 +19,7 @@ mkdir "$sources"
 together() {  # FILES FOLDER...
   for folder in "${@:2}"; do
     ls $folder/*.cpp | grep -v -e parallel_serial -e left_out -e av1_ | sed 's/.*/#include "&"/' |
-      split -l "$1" --additional-suffix=.cpp - "$sources/${folder}_"
+      split -l "$1" --additional-suffix=.cpp - "$sources/${folder//\//_}_"
   done
 }
 together 12 base bitstream geometry attributes codec lightfield texture video

@@ -7,7 +7,8 @@ import pathlib
 import re
 import sys
 
-# From what knows nothing to what knows all. `slf` is include/slf, the public headers.
+# From what knows nothing to what knows all: each folder of code, by its path, knows those named and itself. A folder
+# within another is a room of its own. `slf` is include/slf, the public headers.
 LAYERS = {
     'slf': [],
     'base': ['slf'],
@@ -25,15 +26,16 @@ LAYERS = {
     'refine': ['slf', 'base', 'capture', 'lightfield', 'render', 'fit', 'measure'],
     'train': ['slf', 'base', 'capture', 'render', 'fit', 'measure'],
     'codec': ['slf', 'base', 'bitstream', 'entropy', 'geometry', 'attributes', 'texture', 'lightfield'],
-    'encoder': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit', 'measure',
-                'refine', 'train', 'codec'],
+    'encoder': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit',
+                'measure', 'refine', 'train', 'codec'],
     'scene': ['slf', 'base', 'bitstream', 'geometry', 'attributes', 'capture', 'lightfield', 'render', 'fit', 'codec',
               'encoder'],
     'igc': ['slf', 'base', 'bitstream', 'video', 'capture', 'lightfield', 'render', 'fit', 'encoder'],
     'plenoptic': ['slf', 'base', 'bitstream', 'entropy', 'capture', 'lightfield', 'fit', 'codec', 'encoder'],
     'exchange': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'render'],
     'capi': ['slf', 'base', 'bitstream', 'lightfield', 'render', 'codec'],
-    'tools': ['slf'],
+    'tools/synth': ['slf'],
+    'tools': ['slf', 'tools/synth'],
     'python': ['slf'],
     'examples': ['slf'],
 }
@@ -42,26 +44,39 @@ LAYERS = {
 NOT_CODE = {'bench', 'build', 'cmake', 'conformance', 'docs', 'fuzz', 'include', 'spec', 'tests', 'web'}  # or tests of it
 
 
+def folders_of_code(root):
+    """Folders with files of C++, but for what is no code of ours, as paths from the root."""
+    for top in sorted(root.iterdir()):
+        if top.is_dir() and top.name not in NOT_CODE and not top.name.startswith(('build', '.')):
+            for folder in sorted({file.parent for kind in ('h', 'cpp') for file in top.glob(f'**/*.{kind}')}):
+                yield folder.relative_to(root).as_posix()
+
+
 def unknown_folders(root):
-    for folder in sorted(root.iterdir()):
-        known = folder.name in LAYERS or folder.name in NOT_CODE or folder.name.startswith(('build', '.'))
-        if folder.is_dir() and not known and [*folder.glob('**/*.cpp')]:
-            yield f'{folder.name}: not in LAYERS'
+    for folder in folders_of_code(root):
+        if folder not in LAYERS:
+            yield f'{folder}: not in LAYERS'
 
 
 def wrong_includes(root):
     for folder, below in LAYERS.items():
-        place = root / 'include/slf' if folder == 'slf' else root / folder
-        for file in sorted([*place.glob('**/*.h'), *place.glob('**/*.cpp')]):
+        place = root / ('include/slf' if folder == 'slf' else folder)
+        for file in sorted([*place.glob('*.h'), *place.glob('*.cpp')]):
             for number, line in enumerate(file.read_text(encoding='utf-8').splitlines(), 1):
-                included = re.match(r'#include "(\w+)/', line)
-                if included and included[1] in LAYERS and included[1] not in [*below, folder]:
+                included = re.match(r'#include "(?:([\w/]+)/)?\w+\.\w+"', line)
+                if included and included[1] and included[1] not in [*below, folder]:
                     yield f'{file.relative_to(root)}:{number}: {folder} must not include {included[1]}'
+
+
+def missing_folders(root):
+    for folder in LAYERS:
+        if not (root / ('include/slf' if folder == 'slf' else folder)).is_dir():
+            yield f'{folder}: in LAYERS, but not in the tree'
 
 
 def main():
     root = pathlib.Path(sys.argv[1])
-    wrong = [*unknown_folders(root), *wrong_includes(root)]
+    wrong = [*missing_folders(root), *unknown_folders(root), *wrong_includes(root)]
     print('\n'.join(wrong))
     sys.exit(1 if wrong else 0)
 
