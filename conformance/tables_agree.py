@@ -177,14 +177,14 @@ def check_errors():
     """Elements that errors of streams name are in the text; those of H.265 alone need not be."""
     damage = "NotSlf|Truncated|Checksum|OutOfRange|Reserved|Unsupported"
     named = set()
-    for folder in ("bitstream", "entropy", "geometry", "attributes", "texture", "video", "codec"):
+    for folder in ("bitstream", "entropy", "geometry", "attributes", "texture", "attributes/video", "codec"):
         for path in sorted((ROOT / folder).glob("*.*")):
             if path.name.startswith("av1_") or path.suffix not in (".h", ".cpp"):  # pictures of .igc files
                 continue
             source = code(path.relative_to(ROOT))
             found = re.findall(rf'Errc::k(?:{damage}),\s*"(\w+)"|(?:finish|trailing_bits|align_and_rest)\("(\w+)"', source)
             names = {name for pair in found for name in pair if name}
-            named |= {name for name in names if folder != "video" or name.startswith("hevc_")}
+            named |= {name for name in names if folder != "attributes/video" or name.startswith("hevc_")}
     text = section("## 7 Syntax", "## 8 Decoding") + section("## Annex F", "## Annex G")
     agree("names of errors", sorted(named), sorted(name for name in named if re.search(rf"\b{name}\b", text)))
 

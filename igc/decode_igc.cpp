@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "attributes/video/av1_codec.h"
+#include "attributes/video/hevc_decoder.h"
 #include "base/error_words.h"
 #include "base/stopwatch.h"
 #include "capture/nearest.h"
@@ -15,8 +17,6 @@
 #include "slf/decoder.h"
 #include "slf/igc.h"
 #include "slf/parallel.h"
-#include "video/av1_codec.h"
-#include "video/hevc_decoder.h"
 
 namespace slf {
 namespace {

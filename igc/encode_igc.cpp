@@ -3,6 +3,8 @@
 #include <charconv>
 #include <optional>
 
+#include "attributes/video/av1_codec.h"
+#include "attributes/video/hevc_encoder.h"
 #include "base/stopwatch.h"
 #include "encoder/choose_surface.h"
 #include "encoder/encode_metadata.h"
@@ -12,8 +14,6 @@
 #include "igc/igc_parameters.h"
 #include "igc/ycbcr.h"
 #include "slf/igc.h"
-#include "video/av1_codec.h"
-#include "video/hevc_encoder.h"
 
 namespace slf {
 namespace {

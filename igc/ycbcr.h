@@ -1,9 +1,9 @@
 // Photographs as video codecs take them: BT.709 YCbCr, 8 bit, full range.
 #pragma once
 
+#include "attributes/video/picture.h"
 #include "slf/capture.h"
 #include "slf/igc.h"
-#include "video/picture.h"
 
 namespace slf {
 

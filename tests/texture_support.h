@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "attributes/video/hevc_decoder.h"
+#include "attributes/video/hevc_encoder.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "tests/field_support.h"
-#include "video/hevc_decoder.h"
-#include "video/hevc_encoder.h"
 
 #define SKIP_WITHOUT_HEVC() \
   if (const char* lacking = slf::test::lacks()) GTEST_SKIP() << lacking

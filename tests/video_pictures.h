@@ -6,9 +6,9 @@
 #include <ostream>
 #include <vector>
 
+#include "attributes/video/hevc_encoder.h"
+#include "attributes/video/picture.h"
 #include "tests/video_support.h"
-#include "video/hevc_encoder.h"
-#include "video/picture.h"
 
 namespace slf::test {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "attributes/video/hevc_decoder.h"
 #include "base/error_place.h"
 #include "texture/texture_header.h"
-#include "video/hevc_decoder.h"
 
 namespace slf {
 

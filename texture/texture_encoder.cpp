@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "attributes/video/hevc_encoder.h"
 #include "texture/padding.h"
 #include "texture/texture_header.h"
-#include "video/hevc_encoder.h"
 
 namespace slf {
 namespace {

@@ -56,7 +56,8 @@ struct IgcEncoded {
 /// @errors kInvalidArgument: a setting out of range, no cameras. kInvalidInput: an image of another
 ///         size (names it). kUnsupported: x265 or libaom was left out of this build. Those of
 ///         voxelise, load_image and pack.
-/// The video codec runs on one thread. HEVC in low delay: see video/hevc_encoder.h for what x265's
+/// The video codec runs on one thread. HEVC in low delay: see attributes/video/hevc_encoder.h for
+/// what x265's
 /// slower presets do not promise.
 Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<const int> cameras,
                                           const IgcSettings& settings,

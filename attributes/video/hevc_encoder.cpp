@@ -1,4 +1,4 @@
-#include "video/hevc_encoder.h"
+#include "attributes/video/hevc_encoder.h"
 
 #if SLF_WITH_X265
 #include <x265.h>

@@ -1,4 +1,4 @@
-#include "video/picture.h"
+#include "attributes/video/picture.h"
 
 #include <algorithm>
 #include <string>

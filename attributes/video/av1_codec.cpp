@@ -1,4 +1,4 @@
-#include "video/av1_codec.h"
+#include "attributes/video/av1_codec.h"
 
 #if SLF_WITH_AV1
 #include <aom/aom_decoder.h>

@@ -5,9 +5,9 @@
 #include <functional>
 #include <span>
 
+#include "attributes/video/hevc_stream.h"
+#include "attributes/video/picture.h"
 #include "slf/error.h"
-#include "video/hevc_stream.h"
-#include "video/picture.h"
 
 namespace slf {
 

@@ -1,4 +1,4 @@
-#include "video/hevc_decoder.h"
+#include "attributes/video/hevc_decoder.h"
 
 #if SLF_WITH_HEVC
 #include <libde265/de265.h>

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "attributes/video/picture.h"
 #include "slf/error.h"
-#include "video/picture.h"
 
 namespace slf {
 

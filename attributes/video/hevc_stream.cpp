@@ -1,4 +1,4 @@
-#include "video/hevc_stream.h"
+#include "attributes/video/hevc_stream.h"
 
 #include <algorithm>
 #include <array>

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "attributes/video/picture.h"
 #include "slf/error.h"
-#include "video/picture.h"
 
 namespace slf {
 
