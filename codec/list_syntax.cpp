@@ -1,13 +1,13 @@
 // slf info --syntax: the same descriptions that parse the headers, with every element noted.
 #include "slf/syntax_listing.h"
 
+#include "attributes/texture/texture_header.h"
 #include "base/shortest.h"
 #include "bitstream/index.h"
 #include "bitstream/transform_header.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
 #include "codec/split_frames.h"
-#include "texture/texture_header.h"
 
 namespace slf {
 namespace {

@@ -1,9 +1,9 @@
 // Components of a slice whose planes are pictures. Spec 8.11.
 #include <optional>
 
+#include "attributes/texture/texture_decoder.h"
 #include "codec/slice_decoder.h"
 #include "slf/parallel.h"
-#include "texture/texture_decoder.h"
 
 namespace slf {
 namespace {

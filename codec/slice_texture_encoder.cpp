@@ -1,11 +1,11 @@
 // Coefficient units of a slice whose planes are pictures. Mirror of slice_texture_decoder.cpp.
 #include <optional>
 
+#include "attributes/texture/atlas.h"
+#include "attributes/texture/texture_decoder.h"
+#include "attributes/texture/texture_encoder.h"
 #include "codec/slice_encoder.h"
 #include "slf/parallel.h"
-#include "texture/atlas.h"
-#include "texture/texture_decoder.h"
-#include "texture/texture_encoder.h"
 
 namespace slf {
 namespace {

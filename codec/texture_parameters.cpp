@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "texture/atlas.h"
+#include "attributes/texture/atlas.h"
 
 namespace slf {
 namespace {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "attributes/texture/texture_header.h"
 #include "bitstream/bit_writer.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/scene_units.h"
@@ -9,7 +10,6 @@
 #include "conformance/edit_units.h"
 #include "conformance/fields.h"
 #include "conformance/hevc_edit.h"
-#include "texture/texture_header.h"
 
 namespace slf::conformance {
 namespace {

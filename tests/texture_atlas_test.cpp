@@ -1,12 +1,12 @@
 // Where the points of a slice stand in its pictures. Spec 8.11.
-#include "texture/atlas.h"
+#include "attributes/texture/atlas.h"
 
 #include <gtest/gtest.h>
 
+#include "attributes/texture/box_packing.h"
+#include "attributes/texture/charts.h"
+#include "attributes/texture/padding.h"
 #include "tests/field_support.h"
-#include "texture/box_packing.h"
-#include "texture/charts.h"
-#include "texture/padding.h"
 
 namespace slf::texture_atlas_test {
 namespace {

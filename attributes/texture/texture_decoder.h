@@ -6,8 +6,8 @@
 #include <functional>
 #include <span>
 
+#include "attributes/texture/atlas.h"
 #include "slf/error.h"
-#include "texture/atlas.h"
 
 namespace slf {
 

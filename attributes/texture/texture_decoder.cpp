@@ -1,10 +1,10 @@
-#include "texture/texture_decoder.h"
+#include "attributes/texture/texture_decoder.h"
 
 #include <vector>
 
+#include "attributes/texture/texture_header.h"
 #include "attributes/video/hevc_decoder.h"
 #include "base/error_place.h"
-#include "texture/texture_header.h"
 
 namespace slf {
 

@@ -1,4 +1,4 @@
-// Mirror of texture/texture_decoder.h.
+// Mirror of attributes/texture/texture_decoder.h.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "attributes/texture/atlas.h"
 #include "slf/encoder.h"
-#include "texture/atlas.h"
 
 namespace slf {
 

@@ -1,14 +1,14 @@
-#include "texture/atlas.h"
+#include "attributes/texture/atlas.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 
 #include "attributes/raht_tree.h"
+#include "attributes/texture/block_axes.h"
+#include "attributes/texture/box_packing.h"
+#include "attributes/texture/charts.h"
 #include "geometry/morton.h"
-#include "texture/block_axes.h"
-#include "texture/box_packing.h"
-#include "texture/charts.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "texture/padding.h"
+#include "attributes/texture/padding.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "texture/charts.h"
+#include "attributes/texture/charts.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "texture/box_packing.h"
+#include "attributes/texture/box_packing.h"
 
 #include <algorithm>
 #include <cstddef>

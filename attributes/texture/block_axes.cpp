@@ -1,4 +1,4 @@
-#include "texture/block_axes.h"
+#include "attributes/texture/block_axes.h"
 
 #include <algorithm>
 #include <bit>

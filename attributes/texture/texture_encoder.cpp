@@ -1,10 +1,10 @@
-#include "texture/texture_encoder.h"
+#include "attributes/texture/texture_encoder.h"
 
 #include <algorithm>
 
+#include "attributes/texture/padding.h"
+#include "attributes/texture/texture_header.h"
 #include "attributes/video/hevc_encoder.h"
-#include "texture/padding.h"
-#include "texture/texture_header.h"
 
 namespace slf {
 namespace {
