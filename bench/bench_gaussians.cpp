@@ -8,8 +8,8 @@
 #include <random>
 
 #include "base/stopwatch.h"
-#include "render/gaussian_cloud.h"
-#include "render/gaussian_tiles.h"
+#include "lightfield/render/gaussian_cloud.h"
+#include "lightfield/render/gaussian_tiles.h"
 #include "slf/gaussian_renderer.h"
 
 namespace {

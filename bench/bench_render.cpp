@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "render/render_splats.h"
-#include "render/splat_weights.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/render_splats.h"
+#include "lightfield/render/splat_weights.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/capture.h"
 #include "slf/decoder.h"
 #include "slf/render.h"

@@ -8,7 +8,7 @@
 #include "capi/memory.h"
 #include "lightfield/function_weights.h"
 #include "lightfield/gaussian_values.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/decoder.h"
 #include "slf/gaussians.h"
 #include "slf/slf.h"

@@ -8,7 +8,7 @@
 #include "capi/handles.h"
 #include "capi/sized.h"
 #include "lightfield/frame.h"
-#include "render/reference_kernel.h"
+#include "lightfield/render/reference_kernel.h"
 #include "slf/view_map.h"
 
 namespace slf::capi {

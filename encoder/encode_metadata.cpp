@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "render/reference_kernel.h"
+#include "lightfield/render/reference_kernel.h"
 
 namespace slf {
 namespace {

@@ -7,7 +7,7 @@
 #include "exchange/splat_directions.h"
 #include "exchange/visible_sides.h"
 #include "lightfield/harmonics.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/parallel.h"
 #include "slf/splats.h"
 

@@ -8,7 +8,7 @@
 #include "fit/held_out_pictures.h"
 #include "fit/picture_system.h"
 #include "fit/picture_views.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 
 namespace slf {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "capture/object_mask.h"
 #include "fit/observe_camera.h"
-#include "render/splat_weights.h"
+#include "lightfield/render/splat_weights.h"
 #include "slf/parallel.h"
 
 namespace slf {

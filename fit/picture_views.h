@@ -8,7 +8,7 @@
 
 #include "fit/direction_kernel.h"
 #include "fit/observe_points.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/fit.h"

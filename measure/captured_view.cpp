@@ -8,7 +8,7 @@
 #include "capture/object_mask.h"
 #include "capture/spacing.h"
 #include "fit/observe_camera.h"
-#include "render/render_splats.h"
+#include "lightfield/render/render_splats.h"
 
 namespace slf {
 namespace {

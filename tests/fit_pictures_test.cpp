@@ -10,8 +10,8 @@
 
 #include "fit/direction_kernel.h"
 #include "lightfield/frame.h"
-#include "render/splat_weights.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/splat_weights.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/view_map.h"
 #include "tests/field_support.h"
 

@@ -1,5 +1,5 @@
 // What a view of a whole light field has to show.
-#include "render/framed_ball.h"
+#include "lightfield/render/framed_ball.h"
 
 #include <gtest/gtest.h>
 

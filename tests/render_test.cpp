@@ -11,7 +11,7 @@
 
 #include "geometry/morton.h"
 #include "lightfield/octahedral.h"
-#include "render/render_surfels.h"
+#include "lightfield/render/render_surfels.h"
 #include "tests/render_support.h"
 
 namespace slf::render_test {

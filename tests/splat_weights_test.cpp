@@ -1,5 +1,5 @@
 // What every point is worth in every pixel: what the renderer draws with. Spec annex E.
-#include "render/splat_weights.h"
+#include "lightfield/render/splat_weights.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/render.h"
 #include "tests/render_support.h"
 

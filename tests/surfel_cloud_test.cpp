@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "geometry/morton.h"
-#include "render/render_surfels.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/render_surfels.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "tests/render_support.h"
 
 namespace slf::surfel_cloud_test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/reference_kernel.h"
+#include "lightfield/render/reference_kernel.h"
 #include "train/tile_pixels.h"
 
 namespace slf {

@@ -1,4 +1,4 @@
-// Pixels of a tile, eight at a time, as render/lanes.h has them.
+// Pixels of a tile, eight at a time, as lightfield/render/lanes.h has them.
 #pragma once
 
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "render/gaussian_cloud.h"
-#include "render/lanes.h"
+#include "lightfield/render/gaussian_cloud.h"
+#include "lightfield/render/lanes.h"
 #include "train/draw_surfels.h"
 
 namespace slf {

@@ -2,7 +2,7 @@
 
 const LEAST_ALPHA = 1 / 255; // below which a splat does not show: spec E.6
 const NEAREST = 0.2, // depth before which nothing is drawn, world units,
-  NEAREST_SHARE = 0.02; // or a share of the radius of a smaller scene, as render/gaussian_cloud.cpp has it
+  NEAREST_SHARE = 0.02; // or a share of the radius of a smaller scene, as lightfield/render/gaussian_cloud.cpp has it
 
 const STANDS_FOR = 0.3; // variance of a splat that stands for many, of the area of the surface that it stands for
 

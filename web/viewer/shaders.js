@@ -1,5 +1,5 @@
 // GLSL of the reference reconstruction, spec annex E. Lengths are voxels, colours 0 .. 1, images have
-// their first row at the bottom, as WebGL has it. The constants are those of render/reference_kernel.h.
+// their first row at the bottom, as WebGL has it. The constants are those of lightfield/render/reference_kernel.h.
 
 export const HEAD = `#version 300 es
 precision highp float;

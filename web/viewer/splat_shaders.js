@@ -1,5 +1,5 @@
 // GLSL of Gaussian splats, spec annex E.6. Lengths are voxels, colours 0 .. 1 and more, images have their first row at
-// the bottom. The constants are those of render/gaussian_cloud.h.
+// the bottom. The constants are those of lightfield/render/gaussian_cloud.h.
 import { HEAD, TRANSFERS } from './shaders.js';
 
 export const SPLAT_VERTEX = `${HEAD}

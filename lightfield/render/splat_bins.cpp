@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/splat_band.h"
+#include "lightfield/render/splat_band.h"
 
 namespace slf {
 

@@ -1,10 +1,10 @@
-#include "render/splat_weights.h"
+#include "lightfield/render/splat_weights.h"
 
 #include <cstddef>
 #include <limits>
 #include <utility>
 
-#include "render/splat_band.h"
+#include "lightfield/render/splat_band.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -1,4 +1,4 @@
-#include "render/framed_ball.h"
+#include "lightfield/render/framed_ball.h"
 
 #include <algorithm>
 #include <array>

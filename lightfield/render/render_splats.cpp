@@ -1,4 +1,4 @@
-#include "render/render_splats.h"
+#include "lightfield/render/render_splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "base/monitor.h"
 #include "base/vec3.h"
-#include "render/reference_kernel.h"
-#include "render/splat_band.h"
+#include "lightfield/render/reference_kernel.h"
+#include "lightfield/render/splat_band.h"
 #include "slf/parallel.h"
 
 namespace slf {

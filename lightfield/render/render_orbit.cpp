@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/vec3.h"
-#include "render/orbit_camera.h"
+#include "lightfield/render/orbit_camera.h"
 #include "slf/render.h"
 
 namespace slf {

@@ -1,9 +1,9 @@
 #include "slf/gaussian_renderer.h"
 
-#include "render/empty_rendering.h"
-#include "render/gaussian_cloud.h"
-#include "render/gaussian_tiles.h"
-#include "render/orbit_camera.h"
+#include "lightfield/render/empty_rendering.h"
+#include "lightfield/render/gaussian_cloud.h"
+#include "lightfield/render/gaussian_tiles.h"
+#include "lightfield/render/orbit_camera.h"
 #include "slf/parallel.h"
 
 namespace slf {

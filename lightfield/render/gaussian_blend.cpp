@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/multiversion.h"
-#include "render/gaussian_tiles.h"
-#include "render/lanes.h"
+#include "lightfield/render/gaussian_tiles.h"
+#include "lightfield/render/lanes.h"
 
 namespace slf {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/render_splats.h"
+#include "lightfield/render/render_splats.h"
 
 namespace slf {
 

@@ -1,7 +1,7 @@
 // The splats of a cloud's discs in a camera.
 #include <algorithm>
 
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -1,4 +1,4 @@
-#include "render/render_surfels.h"
+#include "lightfield/render/render_surfels.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "base/vec3.h"
 #include "geometry/morton.h"
-#include "render/reference_kernel.h"
+#include "lightfield/render/reference_kernel.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -1,9 +1,9 @@
-#include "render/surfel_cloud.h"
+#include "lightfield/render/surfel_cloud.h"
 
 #include <algorithm>
 
 #include "lightfield/octahedral.h"
-#include "render/render_surfels.h"
+#include "lightfield/render/render_surfels.h"
 
 namespace slf {
 namespace {

@@ -1,11 +1,11 @@
-#include "render/splat_band.h"
+#include "lightfield/render/splat_band.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/multiversion.h"
-#include "render/reference_kernel.h"
+#include "lightfield/render/reference_kernel.h"
 
 namespace slf {
 namespace {

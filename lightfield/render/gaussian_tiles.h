@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/gaussian_cloud.h"
+#include "lightfield/render/gaussian_cloud.h"
 #include "slf/render.h"
 
 namespace slf {

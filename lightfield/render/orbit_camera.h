@@ -1,7 +1,7 @@
 // Cameras on a circle around what has to be shown.
 #pragma once
 
-#include "render/framed_ball.h"
+#include "lightfield/render/framed_ball.h"
 #include "slf/capture.h"
 
 namespace slf {

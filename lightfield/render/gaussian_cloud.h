@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/framed_ball.h"
+#include "lightfield/render/framed_ball.h"
 #include "slf/capture.h"
 #include "slf/gaussians.h"
 

@@ -1,4 +1,4 @@
-#include "render/gaussian_tiles.h"
+#include "lightfield/render/gaussian_tiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "base/multiversion.h"
 #include "base/vec3.h"
 #include "lightfield/harmonics.h"
-#include "render/gaussian_cloud.h"
+#include "lightfield/render/gaussian_cloud.h"
 #include "slf/parallel.h"
 
 namespace slf {

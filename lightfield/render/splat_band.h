@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "render/lanes.h"
-#include "render/render_splats.h"
+#include "lightfield/render/lanes.h"
+#include "lightfield/render/render_splats.h"
 
 namespace slf {
 

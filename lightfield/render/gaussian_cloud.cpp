@@ -1,4 +1,4 @@
-#include "render/gaussian_cloud.h"
+#include "lightfield/render/gaussian_cloud.h"
 
 #include <algorithm>
 #include <cmath>

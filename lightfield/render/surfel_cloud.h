@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/render_splats.h"
+#include "lightfield/render/render_splats.h"
 #include "slf/capture.h"
 #include "slf/types.h"
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "lightfield/colour.h"
-#include "render/empty_rendering.h"
-#include "render/render_splats.h"
-#include "render/surfel_cloud.h"
+#include "lightfield/render/empty_rendering.h"
+#include "lightfield/render/render_splats.h"
+#include "lightfield/render/surfel_cloud.h"
 
 namespace slf {
 namespace {
