@@ -4,9 +4,9 @@
 
 #include <cstring>
 
-#include "exchange/turn_gaussians.h"
 #include "gaussian_support.h"
 #include "lightfield/harmonics.h"
+#include "lightfield/splats/turn_gaussians.h"
 #include "splats_support.h"
 
 namespace slf::gaussian_files_test {

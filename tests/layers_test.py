@@ -33,7 +33,7 @@ LAYERS = {
     'igc': ['slf', 'base', 'bitstream', 'attributes/video', 'capture', 'lightfield', 'lightfield/render', 'fit',
             'encoder'],
     'plenoptic': ['slf', 'base', 'bitstream', 'entropy', 'capture', 'lightfield', 'fit', 'codec', 'encoder'],
-    'exchange': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'lightfield/render'],
+    'lightfield/splats': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'lightfield/render'],
     'capi': ['slf', 'base', 'bitstream', 'lightfield', 'lightfield/render', 'codec'],
     'tools/synth': ['slf'],
     'tools': ['slf', 'tools/synth'],

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "exchange/splat_axes.h"
+#include "lightfield/splats/splat_axes.h"
 #include "slf/capture.h"
 #include "splats_support.h"
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "exchange/splat_axes.h"
-#include "exchange/splat_writers.h"
+#include "lightfield/splats/splat_axes.h"
+#include "lightfield/splats/splat_writers.h"
 
 namespace slf {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "exchange/splat_axes.h"
-#include "exchange/splat_directions.h"
 #include "lightfield/harmonics.h"
+#include "lightfield/splats/splat_axes.h"
+#include "lightfield/splats/splat_directions.h"
 #include "slf/parallel.h"
 #include "slf/splats.h"
 

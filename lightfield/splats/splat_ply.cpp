@@ -2,7 +2,7 @@
 // logit, quaternions w first, harmonics channel by channel.
 #include <string>
 
-#include "exchange/splat_writers.h"
+#include "lightfield/splats/splat_writers.h"
 
 namespace slf {
 namespace {

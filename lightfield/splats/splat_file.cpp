@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "exchange/splat_writers.h"
-#include "exchange/turn_gaussians.h"
+#include "lightfield/splats/splat_writers.h"
+#include "lightfield/splats/turn_gaussians.h"
 #include "slf/gaussian_files.h"
 
 namespace slf {

@@ -1,4 +1,4 @@
-#include "exchange/splat_directions.h"
+#include "lightfield/splats/splat_directions.h"
 
 #include <cmath>
 #include <numbers>

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "exchange/gaussian_readers.h"
-#include "exchange/half_float.h"
+#include "lightfield/splats/gaussian_readers.h"
+#include "lightfield/splats/half_float.h"
 
 namespace slf {
 namespace {

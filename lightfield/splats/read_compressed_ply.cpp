@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "exchange/gaussian_readers.h"
-#include "exchange/ply_rows.h"
+#include "lightfield/splats/gaussian_readers.h"
+#include "lightfield/splats/ply_rows.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "exchange/visible_sides.h"
+#include "lightfield/splats/visible_sides.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bitstream/deflate.h"
-#include "exchange/splat_writers.h"
+#include "lightfield/splats/splat_writers.h"
 
 namespace slf {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "exchange/splat_writers.h"
 #include "lightfield/colour.h"
+#include "lightfield/splats/splat_writers.h"
 
 namespace slf {
 namespace {

@@ -8,8 +8,8 @@
 #include "capture/glb_accessor.h"
 #include "capture/gltf_transform.h"
 #include "capture/json_numbers.h"
-#include "exchange/gaussian_readers.h"
-#include "exchange/turn_gaussians.h"
+#include "lightfield/splats/gaussian_readers.h"
+#include "lightfield/splats/turn_gaussians.h"
 
 namespace slf {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "exchange/gaussian_collector.h"
-#include "exchange/splat_axes.h"
+#include "lightfield/splats/gaussian_collector.h"
+#include "lightfield/splats/splat_axes.h"
 #include "slf/gaussians.h"
 #include "slf/splats.h"
 

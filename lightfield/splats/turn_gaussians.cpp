@@ -1,12 +1,12 @@
-#include "exchange/turn_gaussians.h"
+#include "lightfield/splats/turn_gaussians.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/quaternion.h"
 #include "base/vec3.h"
-#include "exchange/splat_directions.h"
 #include "lightfield/harmonics.h"
+#include "lightfield/splats/splat_directions.h"
 
 namespace slf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "exchange/splat_axes.h"
+#include "lightfield/splats/splat_axes.h"
 #include "slf/gaussians.h"
 
 namespace slf {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "exchange/splat_axes.h"
-#include "exchange/splat_directions.h"
-#include "exchange/visible_sides.h"
 #include "lightfield/harmonics.h"
 #include "lightfield/render/surfel_cloud.h"
+#include "lightfield/splats/splat_axes.h"
+#include "lightfield/splats/splat_directions.h"
+#include "lightfield/splats/visible_sides.h"
 #include "slf/parallel.h"
 #include "slf/splats.h"
 

@@ -1,4 +1,4 @@
-#include "exchange/gaussian_collector.h"
+#include "lightfield/splats/gaussian_collector.h"
 
 namespace slf {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exchange/splat_rows.h"
+#include "lightfield/splats/splat_rows.h"
 #include "slf/splats.h"
 
 namespace slf {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "exchange/gaussian_collector.h"
+#include "lightfield/splats/gaussian_collector.h"
 
 namespace slf {
 

@@ -1,4 +1,4 @@
-#include "exchange/splat_axes.h"
+#include "lightfield/splats/splat_axes.h"
 
 #include <cmath>
 

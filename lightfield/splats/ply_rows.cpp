@@ -1,4 +1,4 @@
-#include "exchange/ply_rows.h"
+#include "lightfield/splats/ply_rows.h"
 
 #include <algorithm>
 #include <bit>

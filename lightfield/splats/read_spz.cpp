@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bitstream/deflate.h"
-#include "exchange/gaussian_readers.h"
-#include "exchange/half_float.h"
+#include "lightfield/splats/gaussian_readers.h"
+#include "lightfield/splats/half_float.h"
 
 namespace slf {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "capture/input_file.h"
-#include "exchange/gaussian_readers.h"
+#include "lightfield/splats/gaussian_readers.h"
 #include "slf/capture.h"
 
 namespace slf {

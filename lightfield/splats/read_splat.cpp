@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "exchange/gaussian_readers.h"
+#include "lightfield/splats/gaussian_readers.h"
 
 namespace slf {
 namespace {
