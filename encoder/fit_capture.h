@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "fit/held_out_pictures.h"
-#include "fit/observe_points.h"
+#include "encoder/fit/held_out_pictures.h"
+#include "encoder/fit/observe_points.h"
 #include "slf/encoder.h"
 
 namespace slf {

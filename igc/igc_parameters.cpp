@@ -8,8 +8,8 @@
 
 #include "bitstream/deflate.h"
 #include "bitstream/inflate.h"
+#include "encoder/fit/environment.h"
 #include "encoder/fit_capture.h"
-#include "fit/environment.h"
 
 namespace slf {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "capture/object_mask.h"
 #include "capture/spacing.h"
-#include "fit/observe_camera.h"
+#include "encoder/fit/observe_camera.h"
 #include "lightfield/render/render_splats.h"
 
 namespace slf {

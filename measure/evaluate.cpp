@@ -6,7 +6,7 @@
 
 #include "base/error_sum.h"
 #include "capture/nearest.h"
-#include "fit/observe_camera.h"
+#include "encoder/fit/observe_camera.h"
 #include "lightfield/colour.h"
 #include "measure/captured_view.h"
 #include "measure/evaluate_images.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fit/observe_camera.h"
+#include "encoder/fit/observe_camera.h"
 #include "lightfield/frame.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"

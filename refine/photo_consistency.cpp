@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/observe_camera.h"
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_camera.h"
+#include "encoder/fit/observe_depth.h"
 #include "refine/patches.h"
 #include "slf/parallel.h"
 

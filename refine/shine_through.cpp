@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "fit/observe_camera.h"
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_camera.h"
+#include "encoder/fit/observe_depth.h"
 #include "slf/parallel.h"
 
 namespace slf {

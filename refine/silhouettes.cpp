@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "capture/object_mask.h"
-#include "fit/observe_camera.h"
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_camera.h"
+#include "encoder/fit/observe_depth.h"
 #include "measure/picture_background.h"
 #include "slf/parallel.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_depth.h"
 #include "scene/region.h"
 #include "slf/capture.h"
 #include "slf/scene.h"

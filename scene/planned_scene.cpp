@@ -12,8 +12,8 @@
 #include "codec/transform_units.h"
 #include "codec/use_transforms.h"
 #include "encoder/coding_parameters.h"
+#include "encoder/fit/fit_settings.h"
 #include "encoder/fit_capture.h"
-#include "fit/fit_settings.h"
 #include "scene/work_directory.h"
 
 namespace slf {

@@ -31,7 +31,7 @@ SceneCost cost_of(const ScenePlan& plan) {
   if (!plan.cameras.empty()) {
     bytes += points * kObservation * std::min(kViews, double(cost.cameras)) +
              points / kBlockPoints * 4 * functions * functions;  // blocks' sums
-    if (plan.fit.pictures.rounds > 0) bytes += double{3 << 28};  // fit/picture_views.cpp
+    if (plan.fit.pictures.rounds > 0) bytes += double{3 << 28};  // encoder/fit/picture_views.cpp
   }
   cost.memory = static_cast<std::uint64_t>(bytes);
   cost.planning = plan.planning_bytes;

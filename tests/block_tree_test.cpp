@@ -1,5 +1,5 @@
 // Blocks of points, and what is between them.
-#include "fit/block_tree.h"
+#include "encoder/fit/block_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is reflected: its model, how it is found, and what it is worth between cameras.
-#include "fit/environment.h"
+#include "encoder/fit/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "fit/camera_folds.h"
-#include "fit/environment_fit.h"
-#include "fit/environment_projection.h"
+#include "encoder/fit/camera_folds.h"
+#include "encoder/fit/environment_fit.h"
+#include "encoder/fit/environment_projection.h"
 #include "lightfield/frame.h"
 #include "lightfield/harmonics.h"
 #include "slf/fit.h"

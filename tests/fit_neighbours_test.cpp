@@ -1,4 +1,4 @@
-#include "fit/fit_neighbours.h"
+#include "encoder/fit/fit_neighbours.h"
 
 #include <gtest/gtest.h>
 

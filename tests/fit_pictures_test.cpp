@@ -1,6 +1,6 @@
-// The fit to pictures against a dense solve of its definition (fit/picture_system.h).
+// The fit to pictures against a dense solve of its definition (encoder/fit/picture_system.h).
 #define EIGEN_MPL2_ONLY
-#include "fit/fit_pictures.h"
+#include "encoder/fit/fit_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "fit/direction_kernel.h"
+#include "encoder/fit/direction_kernel.h"
 #include "lightfield/frame.h"
 #include "lightfield/render/splat_weights.h"
 #include "lightfield/render/surfel_cloud.h"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "encoder/fit/camera_folds.h"
+#include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"
-#include "fit/camera_folds.h"
-#include "fit/environment_fit.h"
 #include "lightfield/frame.h"
 #include "slf/encoder.h"
 #include "slf/fit.h"

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/fit_neighbours.h"
+#include "encoder/fit/fit_neighbours.h"
 #include "slf/view_map.h"
 #include "tests/random_sightings.h"
 

@@ -1,12 +1,12 @@
 // The sums of products that the fit is made of, against loops of doubles.
-#include "fit/lane_products.h"
+#include "encoder/fit/lane_products.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "fit/fit_cholesky.h"
+#include "encoder/fit/fit_cholesky.h"
 
 namespace slf::lane_products_test {
 namespace {

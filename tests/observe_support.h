@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "fit/observe_camera.h"
+#include "encoder/fit/observe_camera.h"
 
 namespace slf::test {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_depth.h"
 #include "refine/refine_geometry.h"
 #include "tools/synth/rings.h"
 #include "tools/synth/sample_points.h"

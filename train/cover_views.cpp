@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_depth.h"
 #include "slf/parallel.h"
 
 namespace slf {

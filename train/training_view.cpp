@@ -6,7 +6,7 @@
 
 #include "capture/object_mask.h"
 #include "capture/quantile.h"
-#include "fit/observe_depth.h"
+#include "encoder/fit/observe_depth.h"
 #include "measure/picture_background.h"
 #include "slf/parallel.h"
 

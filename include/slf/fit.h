@@ -89,7 +89,7 @@ struct EnvironmentSettings {
 };
 
 /// The fit to pictures, after that to points: coefficients move until the renderer's pictures look
-/// like the photographs (fit/fit_pictures.h). In units of squared grey levels per pixel.
+/// like the photographs (encoder/fit/fit_pictures.h). In units of squared grey levels per pixel.
 struct PictureFitSettings {
   int rounds = 0;  ///< 0 .. 20, each with the trust that what it starts from gives; 0: none
   int steps = 8;   ///< 1 .. 100 of conjugate gradients, in a round

@@ -1,0 +1,38 @@
+// What the environment tells of the points of the hierarchical fit.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "encoder/fit/direction_rows.h"
+#include "encoder/fit/environment.h"
+#include "encoder/fit/environment_fit.h"
+#include "slf/fit.h"
+
+namespace slf {
+
+/// Thread-safe. Without light it tells nothing.
+class EnvironmentPrior {
+ public:
+  /// @param light, points  kept by reference; points may be empty without light
+  EnvironmentPrior(const std::optional<Environment>& light, const MirrorPoints& points,
+                   FrameId frame)
+      : light_(light), points_(points), frame_(frame) {}
+
+  /// What point p reflects along a direction in its frame.
+  std::array<float, 3> operator()(std::size_t p, const std::array<float, 2>& direction) const;
+
+  /// [observations][3] what it tells along each; empty without light.
+  std::vector<float> along(const Observations& seen, int threads) const;
+
+  /// [P][K][3] its part of the view maps, of functions of mean square 1. Only with light.
+  std::vector<float> projected(const Observations& seen, const DirectionRows& basis,
+                               int threads) const;
+
+ private:
+  const std::optional<Environment>& light_;
+  const MirrorPoints& points_;
+  FrameId frame_;
+};
+
+}  // namespace slf

@@ -1,0 +1,24 @@
+// An environment in the functions of a basis, per point.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "encoder/fit/direction_rows.h"
+#include "encoder/fit/environment.h"
+#include "slf/types.h"
+
+namespace slf {
+
+/// The combination of functions nearest to what a point reflects of the environment, over all
+/// directions: those in front of the surface count ten times those behind it, which no camera
+/// can see, with a penalty that keeps it from growing there.
+/// @param positions  [P] in the object's box
+/// @param normals    [P] outward, unit
+/// @return [P][K][3], of the functions scaled to mean square 1
+std::vector<float> project_environment(const Environment& environment,
+                                       std::span<const Vec3> positions,
+                                       std::span<const std::array<float, 3>> normals, FrameId frame,
+                                       const DirectionRows& basis, int threads);
+
+}  // namespace slf

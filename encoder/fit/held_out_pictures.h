@@ -1,0 +1,67 @@
+// Pictures of input cameras that a fit has not used: what a coder's losses are weighed against.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "encoder/fit/fit_pictures.h"
+#include "encoder/fit/picture_system.h"
+
+namespace slf {
+
+/// Some of the points, with a fit of them that has not used some of the input cameras, and the
+/// pixels of these cameras' photographs that nothing but those points shows.
+class HeldOutPictures {
+ public:
+  /// What a picture fit has when it is done.
+  struct Input {
+    const PictureFitInput& of;
+    const FitSettings& settings;
+    const PictureViews& views;   ///< [cameras]; those that are empty are neither used nor held out
+    std::span<const Vec3> eyes;  ///< [cameras]
+    std::span<const int> fold;   ///< [cameras] camera_folds
+    double pull;                 ///< PictureFit::pull
+  };
+
+  /// Holds a fold out, as the pull of a picture fit and the settings of a fit are searched: whole
+  /// groups of neighbours, so the error is that of views between what was photographed.
+  /// @return the points may be none, where no camera or no pixel can be held out: see cameras(),
+  ///         pixels()
+  /// @errors those of fit_view_maps
+  /// The same for any thread count. A fit of a sixth of the points.
+  static Result<std::shared_ptr<const HeldOutPictures>, InputError> of(const Input& input);
+
+  std::size_t cameras() const { return cameras_; }  ///< that are held out; 0: too few for that
+  std::size_t pixels() const { return pixels_; }    ///< of their photographs
+  const std::vector<Voxel>& positions() const { return positions_; }        ///< Morton order
+  const std::vector<float>& coefficients() const { return coefficients_; }  ///< [points][K][3]
+  double seconds() const { return seconds_; }                               ///< that the fit took
+
+  /// Of the held-out pictures, over pixels and channels, colours clamped to 0 .. 255.
+  double mean_squared_error(std::span<const float> coefficients) const;
+
+  HeldOutPictures(const HeldOutPictures&) = delete;
+  HeldOutPictures& operator=(const HeldOutPictures&) = delete;
+
+ private:
+  HeldOutPictures() = default;
+  Result<Done, InputError> fit(const Input& input, std::span<const std::uint32_t> points,
+                               const std::vector<bool>& held_out);
+
+  Grid grid_;
+  std::vector<Voxel> positions_;
+  std::vector<float> coefficients_;
+  PictureViews views_;                     // those that are held out; the others are empty
+  std::unique_ptr<PictureSystem> system_;  // of the members above
+  std::size_t cameras_ = 0, pixels_ = 0;
+  double seconds_ = 0;
+};
+
+/// Indices of about so many points: whole cells, spread evenly, that are as large as so few allow.
+/// @param positions     Morton order
+/// @param spacing_log2  between points, voxels
+std::vector<std::uint32_t> spread_cells(std::span<const Voxel> positions, int spacing_log2,
+                                        std::size_t about);
+
+}  // namespace slf

@@ -1,0 +1,208 @@
+#include "encoder/fit/picture_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "capture/object_mask.h"
+#include "encoder/fit/observe_camera.h"
+#include "lightfield/render/splat_weights.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr float kCovered = 0.99f;  // a pixel of less is part background, which no point can explain
+constexpr double kSlanted = 0.2;   // cosine of a surface that is seen along itself
+constexpr std::uint8_t kClipped = 250;  // such a sample may have been any brighter
+constexpr std::array<float, 3> kNoGain{1, 1, 1};
+constexpr double kMemory = 3.0 * (1u << 30), kMemoryOfPart = 0.75 * (1u << 30);
+constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
+constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, directions
+constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+constexpr double kSeen = 0.5;  // share of the points that a camera sees, at most
+
+/// Of the rectangle about a part of a scene in its picture.
+double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
+  constexpr std::size_t kEvery = 16;
+  double left = camera.width, right = 0, top = camera.height, bottom = 0;
+  for (std::size_t p = 0; p < cloud.size(); p += kEvery) {
+    const auto at = camera.project(cloud.centres[p]);
+    if (!at) continue;
+    left = std::min(left, std::max((*at)[0], 0.0));
+    right = std::max(right, std::min((*at)[0], double(camera.width)));
+    top = std::min(top, std::max((*at)[1], 0.0));
+    bottom = std::max(bottom, std::min((*at)[1], double(camera.height)));
+  }
+  return std::max(right - left, 0.0) * std::max(bottom - top, 0.0);
+}
+
+/// Every so many-th camera fits into memory.
+std::size_t stride_of(const Capture& capture, std::span<const int> cameras,
+                      const SurfelCloud& cloud, bool part) {
+  double bytes = 0;
+  for (const int c : cameras) {
+    const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
+    const double all = double{1} * camera.width * camera.height;
+    const double pixels = part ? pixels_of_part(camera, cloud) : all;
+    bytes += kBytesPerPixel * pixels +
+             kBytesPerRay * kSeen * (part ? pixels / all : 1) * static_cast<double>(cloud.size());
+  }
+  return static_cast<std::size_t>(
+      std::max(1.0, std::ceil(bytes / (part ? kMemoryOfPart : kMemory))));
+}
+
+/// [pixels] is what a picture shows there hidden by something that is not in it?
+Result<std::vector<bool>, InputError> hidden_pixels(const SplatWeights& splatted,
+                                                    const Camera& camera, int camera_index,
+                                                    const DepthOfCamera& hidden_by) {
+  std::vector<bool> hidden(splatted.coverage.size(), false);
+  if (!hidden_by) return hidden;
+  SLF_TRY(const DepthBuffer depth, hidden_by(camera_index));
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    if (splatted.coverage[i] < kCovered) continue;
+    const std::size_t width = static_cast<std::size_t>(camera.width);
+    const std::array<double, 2> at = {static_cast<double>(i % width) + 0.5,
+                                      static_cast<double>(i / width) + 0.5};
+    hidden[i] = depth.hides(at, double{splatted.depth[i]}, kSlanted);
+  }
+  return hidden;
+}
+
+Result<PictureView, InputError> picture_view(const Capture& capture, int camera_index,
+                                             const std::array<float, 3>& gain,
+                                             const SurfelCloud& cloud,
+                                             const std::array<float, 256>& transfer,
+                                             const DepthOfCamera& hidden_by) {
+  const Camera& camera = capture.cameras[static_cast<std::size_t>(camera_index)];
+  SLF_TRY(const Image image, load_image(capture, camera_index));
+  const SplatWeights splatted =
+      splat_weights(project_surfels(cloud, camera, 1), camera.width, camera.height, 1);
+  SLF_TRY(const auto hidden, hidden_pixels(splatted, camera, camera_index, hidden_by));
+  PictureView view;
+  view.first.push_back(0);
+  std::vector<std::uint32_t> local_of(cloud.size(), kUnseen);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
+    const std::uint8_t* sample = &image.data[channels * i];
+    if (splatted.coverage[i] < kCovered || (channels == 4 && !shows_object(sample[3]))) continue;
+    if (hidden[i]) continue;
+    if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
+    for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {
+      view.local.push_back(splatted.point[j]);
+      view.weight.push_back(splatted.weight[j]);
+      local_of[splatted.point[j]] = 0;
+    }
+    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
+    Colour4 colour{};
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = gain[c] * transfer[sample[c]];
+    view.photograph.push_back(colour);
+  }
+  for (std::uint32_t p = 0; p < local_of.size(); ++p) {
+    if (local_of[p] == kUnseen) continue;
+    local_of[p] = static_cast<std::uint32_t>(view.points.size());
+    view.points.push_back(p);
+  }
+  for (std::uint32_t& p : view.local) p = local_of[p];
+  view.trust.assign(view.pixels(), 1.0f);
+  return view;
+}
+
+/// The pixels of a view that show nothing but points that have a place.
+PictureView view_of_points(const PictureView& from, const std::vector<std::uint32_t>& place) {
+  PictureView view;
+  view.first.push_back(0);
+  std::vector<std::uint32_t> local_of(from.points.size(), kUnseen);
+  for (std::size_t i = 0; i < from.pixels(); ++i) {
+    const std::span all(from.local);
+    const auto shown = all.subspan(from.first[i], from.first[i + 1] - from.first[i]);
+    if (std::any_of(shown.begin(), shown.end(),
+                    [&](std::uint32_t l) { return place[from.points[l]] == kUnseen; }))
+      continue;
+    for (const std::uint32_t l : shown) local_of[l] = 0;
+    view.local.insert(view.local.end(), shown.begin(), shown.end());
+    view.weight.insert(view.weight.end(), from.weight.begin() + from.first[i],
+                       from.weight.begin() + from.first[i + 1]);
+    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
+    view.photograph.push_back(from.photograph[i]);
+  }
+  for (std::size_t l = 0; l < local_of.size(); ++l) {
+    if (local_of[l] == kUnseen) continue;
+    local_of[l] = static_cast<std::uint32_t>(view.points.size());
+    view.points.push_back(place[from.points[l]]);
+  }
+  for (std::uint32_t& l : view.local) l = local_of[l];
+  view.trust.assign(view.pixels(), 1.0f);
+  return view;
+}
+
+/// Rays by point, cameras ascending within a point; tells the views.
+Rays connect(std::vector<PictureView>& views, std::size_t points) {
+  Rays rays;
+  rays.first.assign(points + 1, 0);
+  for (const PictureView& view : views)
+    for (const std::uint32_t p : view.points) ++rays.first[p + 1];
+  for (std::size_t p = 0; p < points; ++p) rays.first[p + 1] += rays.first[p];
+  rays.view.resize(static_cast<std::size_t>(rays.first[points]));
+  std::vector<std::uint64_t> next(rays.first.begin(), rays.first.end() - 1);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const std::uint32_t p : views[v].points) {
+      rays.view[static_cast<std::size_t>(next[p])] = static_cast<std::uint32_t>(v);
+      views[v].ray.push_back(next[p]++);
+    }
+  return rays;
+}
+
+}  // namespace
+
+Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
+                                               std::span<const std::array<float, 3>> gains,
+                                               const SurfelCloud& cloud, Transfer transfer,
+                                               const DepthOfCamera& hidden_by, int threads,
+                                               const Progress& progress) {
+  PictureViews pictures;
+  pictures.views.resize(cameras.size());
+  std::vector<std::optional<InputError>> failures(cameras.size());
+  const auto table = transfer_table(transfer);
+  const std::size_t stride = stride_of(capture, cameras, cloud, hidden_by != nullptr);
+  parallel_ranges(
+      cameras.size(), 1, threads,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          if (v % stride != 0) continue;
+          auto view = picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud,
+                                   table, hidden_by);
+          if (view) {
+            pictures.views[v] = std::move(*view);
+          } else {
+            failures[v] = view.error();
+          }
+        }
+      },
+      [&](std::size_t done) {
+        if (progress) progress("pictures", double(done) / double(cameras.size()));
+      });
+  for (const auto& failure : failures)
+    if (failure) return *failure;
+  for (PictureView& view : pictures.views)
+    if (view.first.empty()) view.first.push_back(0);
+  pictures.rays = connect(pictures.views, cloud.size());
+  return pictures;
+}
+
+PictureViews views_of_points(const PictureViews& of, std::span<const std::uint32_t> points,
+                             std::size_t count, const std::vector<bool>& wanted) {
+  std::vector<std::uint32_t> place(count, kUnseen);
+  for (std::size_t i = 0; i < points.size(); ++i) place[points[i]] = static_cast<std::uint32_t>(i);
+  PictureViews part;
+  part.views.resize(of.views.size());
+  for (std::size_t v = 0; v < of.views.size(); ++v) {
+    part.views[v].first.push_back(0);
+    if (wanted[v]) part.views[v] = view_of_points(of.views[v], place);
+  }
+  part.rays = connect(part.views, points.size());
+  return part;
+}
+
+}  // namespace slf
