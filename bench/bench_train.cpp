@@ -10,7 +10,7 @@
 
 #include "base/stopwatch.h"
 #include "capture/spacing.h"
-#include "measure/captured_view.h"
+#include "encoder/measure/captured_view.h"
 #include "slf/capture.h"
 #include "slf/gaussian_files.h"
 #include "train/draw_surfels.h"

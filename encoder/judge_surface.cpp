@@ -6,7 +6,7 @@
 #include "base/error_sum.h"
 #include "capture/object_mask.h"
 #include "encoder/fit_capture.h"
-#include "measure/picture_background.h"
+#include "encoder/measure/picture_background.h"
 #include "slf/parallel.h"
 #include "slf/render.h"
 

@@ -9,7 +9,7 @@
 #include "capture/object_mask.h"
 #include "encoder/fit/observe_camera.h"
 #include "encoder/fit/observe_depth.h"
-#include "measure/picture_background.h"
+#include "encoder/measure/picture_background.h"
 #include "slf/parallel.h"
 
 namespace slf {

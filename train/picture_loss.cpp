@@ -11,7 +11,7 @@
 namespace slf {
 namespace {
 
-// As measure/ssim.cpp has them, of values 0 .. 1.
+// As encoder/measure/ssim.cpp has them, of values 0 .. 1.
 constexpr int kRadius = 5;
 constexpr double kSigma = 1.5;
 constexpr float kC1 = 0.01f * 0.01f, kC2 = 0.03f * 0.03f;

@@ -7,7 +7,7 @@
 #include "capture/object_mask.h"
 #include "capture/quantile.h"
 #include "encoder/fit/observe_depth.h"
-#include "measure/picture_background.h"
+#include "encoder/measure/picture_background.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -37,8 +37,8 @@ struct PointQuality {
 /// Rendered against photograph, over the same pixels of each.
 struct PictureQuality {
   double psnr = 0;     ///< dB, pooled over pixels and channels
-  double ssim = 0;     ///< of luma; mean over pixels (measure/ssim.h)
-  double ms_ssim = 0;  ///< of luma; mean over pictures (measure/ssim.h)
+  double ssim = 0;     ///< of luma; mean over pixels (encoder/measure/ssim.h)
+  double ms_ssim = 0;  ///< of luma; mean over pictures (encoder/measure/ssim.h)
 };
 
 /// A part of the pixels at which both show the object. Shares are of all of those.

@@ -1,4 +1,4 @@
-#include "measure/ssim.h"
+#include "encoder/measure/ssim.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "measure/captured_view.h"
+#include "encoder/measure/captured_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "measure/evaluate_images.h"
+#include "encoder/measure/evaluate_images.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 
 #include "base/error_sum.h"
 #include "capture/quantile.h"
-#include "measure/picture_background.h"
-#include "measure/ssim.h"
+#include "encoder/measure/picture_background.h"
+#include "encoder/measure/ssim.h"
 #include "slf/parallel.h"
 
 namespace slf {

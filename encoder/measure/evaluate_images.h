@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "measure/captured_view.h"
+#include "encoder/measure/captured_view.h"
 #include "slf/evaluate.h"
 
 namespace slf {

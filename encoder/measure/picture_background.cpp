@@ -1,4 +1,4 @@
-#include "measure/picture_background.h"
+#include "encoder/measure/picture_background.h"
 
 #include <algorithm>
 #include <cstddef>
