@@ -7,8 +7,8 @@
 #include "encoder/encode_splats.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
-#include "refine/held_out.h"
-#include "refine/refine_geometry.h"
+#include "encoder/refine/held_out.h"
+#include "encoder/refine/refine_geometry.h"
 #include "train/train_geometry.h"
 
 namespace slf {

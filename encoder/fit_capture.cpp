@@ -9,10 +9,10 @@
 #include "encoder/component_planes.h"
 #include "encoder/fit/fit_pictures.h"
 #include "encoder/fit/fit_settings.h"
+#include "encoder/refine/refine_geometry.h"
 #include "geometry/surface_normals.h"
 #include "geometry/weight_classes.h"
 #include "lightfield/octahedral.h"
-#include "refine/refine_geometry.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "refine/offset_field.h"
+#include "encoder/refine/offset_field.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "encoder/fit/observe_depth.h"
-#include "refine/refine_geometry.h"
+#include "encoder/refine/refine_geometry.h"
 #include "tools/synth/rings.h"
 #include "tools/synth/sample_points.h"
 #include "tools/synth/scene.h"

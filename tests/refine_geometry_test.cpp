@@ -1,4 +1,4 @@
-#include "refine/refine_geometry.h"
+#include "encoder/refine/refine_geometry.h"
 
 #include <gtest/gtest.h>
 

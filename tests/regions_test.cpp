@@ -1,4 +1,4 @@
-#include "refine/regions.h"
+#include "encoder/refine/regions.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "capture/spacing.h"
-#include "refine/shine_through.h"
+#include "encoder/refine/shine_through.h"
 #include "tests/sphere_points.h"
 
 namespace slf::regions_test {

@@ -1,4 +1,4 @@
-#include "refine/mending_job.h"
+#include "encoder/refine/mending_job.h"
 
 #include <algorithm>
 #include <cmath>

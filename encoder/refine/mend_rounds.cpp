@@ -1,10 +1,10 @@
-#include "refine/mend_rounds.h"
+#include "encoder/refine/mend_rounds.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "refine/offset_field.h"
-#include "refine/photo_consistency.h"
+#include "encoder/refine/offset_field.h"
+#include "encoder/refine/photo_consistency.h"
 
 namespace slf {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "refine/mending_job.h"
+#include "encoder/refine/mending_job.h"
 
 namespace slf {
 

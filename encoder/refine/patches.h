@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "refine/photo_views.h"
+#include "encoder/refine/photo_views.h"
 
 namespace slf {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "capture/surface_points.h"
-#include "refine/held_out.h"
-#include "refine/offset_field.h"
+#include "encoder/refine/held_out.h"
+#include "encoder/refine/offset_field.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 

@@ -1,4 +1,4 @@
-#include "refine/photo_views.h"
+#include "encoder/refine/photo_views.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
-#include "refine/judge_mended.h"
+#include "encoder/refine/judge_mended.h"
 
 #include <algorithm>
 
-#include "refine/regions.h"
-#include "refine/shine_through.h"
+#include "encoder/refine/regions.h"
+#include "encoder/refine/shine_through.h"
 
 namespace slf {
 namespace {

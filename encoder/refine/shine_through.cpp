@@ -1,4 +1,4 @@
-#include "refine/shine_through.h"
+#include "encoder/refine/shine_through.h"
 
 #include <algorithm>
 #include <array>

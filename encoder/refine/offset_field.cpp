@@ -1,4 +1,4 @@
-#include "refine/offset_field.h"
+#include "encoder/refine/offset_field.h"
 
 #include <algorithm>
 #include <cmath>

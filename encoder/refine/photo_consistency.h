@@ -1,7 +1,7 @@
 // What every offset along a point's normal costs: how little the photographs agree there.
 #pragma once
 
-#include "refine/photo_views.h"
+#include "encoder/refine/photo_views.h"
 
 namespace slf {
 

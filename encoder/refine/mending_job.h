@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "capture/resample.h"
-#include "refine/held_out.h"
-#include "refine/photo_views.h"
-#include "refine/refine_geometry.h"
-#include "refine/silhouettes.h"
+#include "encoder/refine/held_out.h"
+#include "encoder/refine/photo_views.h"
+#include "encoder/refine/refine_geometry.h"
+#include "encoder/refine/silhouettes.h"
 
 namespace slf {
 

@@ -1,4 +1,4 @@
-#include "refine/refine_geometry.h"
+#include "encoder/refine/refine_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include "capture/quantile.h"
 #include "capture/spacing.h"
-#include "refine/judge_mended.h"
-#include "refine/mend_rounds.h"
-#include "refine/photo_consistency.h"
+#include "encoder/refine/judge_mended.h"
+#include "encoder/refine/mend_rounds.h"
+#include "encoder/refine/photo_consistency.h"
 
 namespace slf {
 namespace {

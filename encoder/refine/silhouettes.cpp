@@ -1,4 +1,4 @@
-#include "refine/silhouettes.h"
+#include "encoder/refine/silhouettes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "refine/patches.h"
+#include "encoder/refine/patches.h"
 
 #include <cmath>
 

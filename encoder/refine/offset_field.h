@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "refine/photo_consistency.h"
+#include "encoder/refine/photo_consistency.h"
 
 namespace slf {
 

@@ -1,4 +1,4 @@
-#include "refine/photo_consistency.h"
+#include "encoder/refine/photo_consistency.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "encoder/fit/observe_camera.h"
 #include "encoder/fit/observe_depth.h"
-#include "refine/patches.h"
+#include "encoder/refine/patches.h"
 #include "slf/parallel.h"
 
 namespace slf {

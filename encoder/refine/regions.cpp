@@ -1,4 +1,4 @@
-#include "refine/regions.h"
+#include "encoder/refine/regions.h"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "refine/held_out.h"
-#include "refine/mending_job.h"
+#include "encoder/refine/held_out.h"
+#include "encoder/refine/mending_job.h"
 
 namespace slf {
 

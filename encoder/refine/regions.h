@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "refine/held_out.h"
+#include "encoder/refine/held_out.h"
 
 namespace slf {
 

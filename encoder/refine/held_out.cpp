@@ -1,4 +1,4 @@
-#include "refine/held_out.h"
+#include "encoder/refine/held_out.h"
 
 #include <array>
 #include <cmath>
