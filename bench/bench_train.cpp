@@ -11,12 +11,12 @@
 #include "base/stopwatch.h"
 #include "capture/spacing.h"
 #include "encoder/measure/captured_view.h"
+#include "encoder/train/draw_surfels.h"
+#include "encoder/train/fuse_surfels.h"
+#include "encoder/train/train_gaussians.h"
+#include "encoder/train/train_surfels.h"
 #include "slf/capture.h"
 #include "slf/gaussian_files.h"
-#include "train/draw_surfels.h"
-#include "train/fuse_surfels.h"
-#include "train/train_gaussians.h"
-#include "train/train_surfels.h"
 
 namespace {
 

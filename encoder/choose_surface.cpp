@@ -9,7 +9,7 @@
 #include "encoder/judge_surface.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/refine/refine_geometry.h"
-#include "train/train_geometry.h"
+#include "encoder/train/train_geometry.h"
 
 namespace slf {
 namespace {

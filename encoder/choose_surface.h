@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "encoder/train/starting_points.h"
 #include "slf/encoder.h"
-#include "train/starting_points.h"
 
 namespace slf {
 

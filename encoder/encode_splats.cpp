@@ -8,9 +8,9 @@
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/judge_surface.h"
+#include "encoder/train/train_gaussians.h"
 #include "slf/encode_gaussians.h"
 #include "slf/gaussian_renderer.h"
-#include "train/train_gaussians.h"
 
 namespace slf {
 namespace {

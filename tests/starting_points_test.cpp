@@ -1,5 +1,5 @@
 // Where training starts when a capture has no points.
-#include "train/starting_points.h"
+#include "encoder/train/starting_points.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include "capture/mesh_sampling.h"
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
+#include "encoder/train/object_outline.h"
 #include "slf/encoder.h"
 #include "traced_scene.h"
-#include "train/object_outline.h"
 
 namespace slf::starting_points_test {
 namespace {

@@ -1,5 +1,5 @@
 // Surfaces that photographs train, from points that are far off, few, or wrong.
-#include "train/train_geometry.h"
+#include "encoder/train/train_geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,14 @@
 #include "capture/nearest.h"
 #include "capture/surface_points.h"
 #include "encoder/choose_surface.h"
+#include "encoder/train/distance_blocks.h"
+#include "encoder/train/grow_surfels.h"
+#include "encoder/train/train_gaussians.h"
 #include "slf/decoder.h"
 #include "slf/evaluate.h"
 #include "slf/gaussian_renderer.h"
 #include "tools/synth/synth.h"
 #include "traced_scene.h"
-#include "train/distance_blocks.h"
-#include "train/grow_surfels.h"
-#include "train/train_gaussians.h"
 
 namespace slf::train_geometry_test {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "encoder/train/draw_surfels.h"
+#include "encoder/train/picture_loss.h"
+#include "encoder/train/train_gaussians.h"
 #include "slf/gaussian_renderer.h"
-#include "train/draw_surfels.h"
-#include "train/picture_loss.h"
-#include "train/train_gaussians.h"
 
 namespace slf::train_gradients_test {
 namespace {

@@ -1,0 +1,91 @@
+#include "encoder/train/grow_surfels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace slf {
+namespace {
+
+constexpr float kApart = 0.3f;  // radii: of the centres of the two from the middle
+constexpr float kLonger = 0.62f, kShorter = 0.9f;  // of the radius before
+
+/// Without those that show nothing.
+void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
+           TrainedSurfels& surfels) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    const bool idle = surfels[i].opacity() < settings.least_opacity ||
+                      (settings.all_seen && !(use.drawn[i] > 0)) ||
+                      !std::isfinite(surfels[i].value[TrainedSurfel::kPosition]);
+    if (idle) continue;
+    surfels[kept] = surfels[i];
+    state.mean[kept] = state.mean[i];
+    state.square[kept] = state.square[i];
+    use.pull[kept++] = use.pull[i];
+  }
+  surfels.resize(kept);
+  state.resize(kept);
+  use.pull.resize(kept);
+}
+
+/// Two for one: it, and the one that is returned.
+TrainedSurfel split(TrainedSurfel& surfel) {
+  const SurfelAxes axes = axes_of(surfel);
+  const std::size_t longer = surfel.radius(1) > surfel.radius(0);
+  const Float3& axis = longer ? axes.second : axes.first;
+  const float step = kApart * surfel.radius(longer);
+  surfel.value[TrainedSurfel::kLogRadius + longer] += std::log(kLonger);
+  surfel.value[TrainedSurfel::kLogRadius + 1 - longer] += std::log(kShorter);
+  TrainedSurfel other = surfel;
+  for (std::size_t a = 0; a < 3; ++a) {
+    surfel.value[TrainedSurfel::kPosition + a] += step * axis[a];
+    other.value[TrainedSurfel::kPosition + a] -= step * axis[a];
+  }
+  return other;
+}
+
+}  // namespace
+
+void SurfelUse::resize(std::size_t surfels) {
+  drawn.resize(surfels, 0);
+  pull.resize(surfels, 0);
+}
+
+void SurfelUse::clear() {
+  std::fill(drawn.begin(), drawn.end(), 0.0f);
+  std::fill(pull.begin(), pull.end(), 0.0f);
+}
+
+void SurfelUse::add(const SurfelTiles& tiles, const std::vector<ProjectedGradient>& gradients) {
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    drawn[tiles.projected[i].surfel] += gradients[i].drawn;
+    pull[tiles.projected[i].surfel] += gradients[i].pull;
+  }
+}
+
+void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,
+                  TrainedSurfels& surfels) {
+  prune(settings, use, state, surfels);
+  const std::size_t room = settings.most > surfels.size() ? settings.most - surfels.size() : 0;
+  std::size_t count = std::min(room, std::size_t(settings.share * double(surfels.size())));
+  std::vector<std::uint32_t> order;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    if (use.pull[i] > 0 && std::max(surfels[i].radius(0), surfels[i].radius(1)) > settings.smallest)
+      order.push_back(std::uint32_t(i));
+  count = std::min(count, order.size());
+  const auto end = order.begin() + std::ptrdiff_t(count);
+  std::partial_sort(order.begin(), end, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return use.pull[a] != use.pull[b] ? use.pull[a] > use.pull[b] : a < b;
+  });
+  order.resize(count);
+  for (const std::uint32_t i : order) {
+    surfels.push_back(split(surfels[i]));
+    state.mean[i] = state.square[i] = {};
+  }
+  state.resize(surfels.size());
+  use.resize(surfels.size());
+  use.clear();
+}
+
+}  // namespace slf

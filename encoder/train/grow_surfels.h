@@ -1,0 +1,34 @@
+// Where surfels are too few they split; what nothing shows goes.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "encoder/train/adam.h"
+#include "encoder/train/draw_surfels.h"
+
+namespace slf {
+
+/// What pictures said of each surfel since it was last asked.
+struct SurfelUse {
+  std::vector<float> drawn, pull;  ///< [surfels] sums of ProjectedGradient's
+
+  void resize(std::size_t surfels);
+  void add(const SurfelTiles& tiles, const std::vector<ProjectedGradient>& gradients);
+  void clear();
+};
+
+struct GrowSettings {
+  std::size_t most = 0;  ///< surfels
+  double share = 0.1;    ///< of the surfels: at most so many are added
+  float least_opacity = 0.02f;
+  float smallest = 0;     ///< world radius: no smaller ones split
+  bool all_seen = false;  ///< every photograph was drawn since: what was not drawn goes
+};
+
+/// Splits across the longer axis those with the greatest pull, so that the two draw about what the
+/// one did; removes those that show nothing. Use is empty after.
+void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,
+                  TrainedSurfels& surfels);
+
+}  // namespace slf

@@ -1,0 +1,80 @@
+#include "encoder/train/train_gaussians.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "encoder/train/outlines.h"
+#include "encoder/train/tile_pixels.h"
+#include "encoder/train/train_surfels.h"
+#include "encoder/train/training_start.h"
+#include "slf/parallel.h"
+
+namespace slf {
+namespace {
+
+constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
+constexpr std::size_t kJudgedPerRange = 64;
+
+}  // namespace
+
+Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
+                                     int threads, TrainedSurfels& surfels) {
+  SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, threads));
+  if (!are_outlined(outlines, cameras.size())) return Done{};
+  std::vector<std::uint8_t> inside(surfels.size());
+  parallel_ranges(
+      surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const float* v = surfels[i].value.data() + TrainedSurfel::kLogRadius;
+          const double deviation = std::exp((v[0] + v[1]) / 2 - std::log(kGaussianReach) / 2);
+          const auto at = surfels[i].position();
+          inside[i] = in_hull(outlines, {at[0], at[1], at[2]}, deviation);
+        }
+      });
+  TrainedSurfels kept;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    if (inside[i]) kept.push_back(surfels[i]);
+  surfels = std::move(kept);
+  return Done{};
+}
+
+Gaussians gaussians_of(const TrainedSurfels& surfels) {
+  const float reach = std::log(kGaussianReach) / 2;
+  Gaussians out;
+  out.degree = 2;
+  for (const TrainedSurfel& surfel : surfels) {
+    const float* v = surfel.value.data();
+    out.positions.push_back(surfel.position());
+    const float first = v[TrainedSurfel::kLogRadius] - reach,
+                second = v[TrainedSurfel::kLogRadius + 1] - reach;
+    out.log_deviations.push_back({first, second, std::min(first, second) + std::log(kThickness)});
+    const float* turn = v + TrainedSurfel::kTurn;
+    const float length =
+        std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+    out.rotations.push_back(
+        {turn[0] / length, turn[1] / length, turn[2] / length, turn[3] / length});
+    out.logits.push_back(v[TrainedSurfel::kOpacity]);
+    const float* colour = v + TrainedSurfel::kColour;
+    out.harmonics.insert(out.harmonics.end(), colour, colour + 3 * kTrainedFunctions);
+  }
+  return out;
+}
+
+Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
+                                              const TrainGeometrySettings& settings,
+                                              const Progress& progress) {
+  SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
+  if (start.views.empty()) return Gaussians{};
+  for (TrainingView& view : start.views) view.camera.gaussian = true;
+  TrainSettings& training = start.settings;
+  training.spread = training.together = training.decided = 0;
+  if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
+  TrainedSurfels surfels = first_surfels(start, settings);
+  train_surfels(start.views, training, surfels);
+  SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));
+  Gaussians out = gaussians_of(surfels);
+  out.up = capture.up;
+  return out;
+}
+
+}  // namespace slf

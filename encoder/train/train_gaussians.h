@@ -1,0 +1,32 @@
+// From photographs to Gaussian splats.
+#pragma once
+
+#include <span>
+
+#include "encoder/train/train_geometry.h"
+#include "encoder/train/trained_surfel.h"
+#include "slf/gaussians.h"
+
+namespace slf {
+
+/// Surfels that are drawn as Gaussians while they are trained, flat ones as splats: drawn by
+/// GaussianRenderer they are what photographs were compared with. Nothing pulls them to a surface,
+/// and half as many as a surface has say more at equal bytes (the dino, 8,000 at Q 14: 66 kB
+/// 30.8 dB; 4,000 at Q 7: 48 kB 31.0 dB).
+/// @param settings  grid and voxel size have no meaning
+/// @errors those of load_image. Empty where no surfels are left.
+/// The same for any thread count. Time and memory: train_geometry's without fusing.
+Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
+                                              const TrainGeometrySettings& settings,
+                                              const Progress& progress = {});
+
+/// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
+/// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
+/// @errors those of load_image
+Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
+                                     int threads, TrainedSurfels& surfels);
+
+/// Surfels that were trained as Gaussians.
+Gaussians gaussians_of(const TrainedSurfels& surfels);
+
+}  // namespace slf

@@ -1,0 +1,92 @@
+#include "encoder/train/train_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "capture/density.h"
+#include "capture/spacing.h"
+#include "encoder/train/fuse_surfels.h"
+#include "encoder/train/train_surfels.h"
+#include "encoder/train/training_start.h"
+
+namespace slf {
+namespace {
+
+constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
+constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/pictures/trained.md
+constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the photographs
+constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
+constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface
+constexpr std::size_t kMostFused = 1'000'000;               // points, about
+
+/// Largest side of the box of most surfels: some may be anywhere.
+/// @param outside  share of them at either end of an axis
+double extent_of(const TrainedSurfels& surfels, double outside) {
+  double extent = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::vector<float> values;
+    for (const TrainedSurfel& surfel : surfels) values.push_back(surfel.position()[a]);
+    const auto share = std::ptrdiff_t(outside * double(values.size()));
+    std::nth_element(values.begin(), values.begin() + share, values.end());
+    const float low = values[std::size_t(share)];
+    std::nth_element(values.begin(), values.end() - 1 - share, values.end());
+    extent = std::max(extent, double(*(values.end() - 1 - share)) - double(low));
+  }
+  return extent;
+}
+
+double lattice_step(const TrainGeometrySettings& settings, const TrainedSurfels& surfels,
+                    double pixel) {
+  if (settings.voxel_size > 0) return settings.voxel_size;
+  if (settings.grid_bits > 0)
+    return 1.02 * extent_of(surfels, kFewOutside) / (std::pow(2.0, settings.grid_bits) - 1);
+  return std::max(kPixelsPerVoxel * pixel,
+                  extent_of(surfels, kManyOutside) / std::sqrt(double(kMostFused)));
+}
+
+double sharpest_pixel(const Capture& capture, std::span<const int> cameras,
+                      const TrainedSurfels& surfels) {
+  std::vector<Float3> positions;
+  for (const TrainedSurfel& surfel : surfels) positions.push_back(surfel.position());
+  return pixel_on_surface(capture, cameras, positions, {});
+}
+
+}  // namespace
+
+std::string training_obstacle(const Capture& capture, std::span<const int> cameras) {
+  if (cameras.size() < kLeastCameras) return "too few cameras";
+  if (capture.cloud.positions.size() < kLeastPoints) return "too few points";
+  return {};
+}
+
+Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
+                                                   std::span<const int> cameras,
+                                                   const TrainGeometrySettings& settings,
+                                                   TrainedSurfels trained,
+                                                   const Progress& progress) {
+  TrainedGeometry out;
+  SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
+  if (start.views.empty()) return out;
+  const std::vector<TrainingView>& views = start.views;
+  if (!trained.empty()) start.settings.from = kTrainedBefore;
+  TrainedSurfels& surfels = out.surfels;
+  surfels = !trained.empty() ? std::move(trained) : first_surfels(start, settings);
+  train_surfels(views, start.settings, surfels);
+  if (surfels.size() < kLeastPoints) return out;
+  Lattice lattice;
+  out.pixel = sharpest_pixel(capture, cameras, surfels);
+  lattice.step = lattice_step(settings, surfels, out.pixel);
+  if (!(lattice.step > 0) || !std::isfinite(lattice.step)) return out;
+  FuseSettings fusing;
+  fusing.threads = settings.threads;
+  SurfacePoints fused = fuse_surfels(surfels, views, lattice, fusing);
+  if (fused.size() < kLeastFused) return out;
+  out.cloud.positions = std::move(fused.positions);
+  out.cloud.normals = std::move(fused.normals);
+  out.voxel_size = lattice.step;
+  return out;
+}
+
+}  // namespace slf
