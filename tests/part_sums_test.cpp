@@ -1,5 +1,5 @@
 // The unit that parts of a scene have for being merged.
-#include "scene/part_sums.h"
+#include "encoder/parts/part_sums.h"
 
 #include <gtest/gtest.h>
 

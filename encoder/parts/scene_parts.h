@@ -10,7 +10,7 @@
 
 #include "bitstream/metadata.h"
 #include "codec/coded_unit.h"
-#include "scene/encode_slice.h"
+#include "encoder/parts/encode_slice.h"
 #include "slf/scene.h"
 
 namespace slf {

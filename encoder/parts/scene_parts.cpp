@@ -1,4 +1,4 @@
-#include "scene/scene_parts.h"
+#include "encoder/parts/scene_parts.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "codec/request.h"
 #include "codec/sequence.h"
 #include "codec/split_frames.h"
-#include "scene/part_sums.h"
+#include "encoder/parts/part_sums.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/scene_cameras.h"
+#include "encoder/parts/scene_cameras.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/point_store.h"
+#include "encoder/parts/point_store.h"
 
 #include <unistd.h>
 

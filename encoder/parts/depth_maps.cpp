@@ -1,11 +1,11 @@
-#include "scene/depth_maps.h"
+#include "encoder/parts/depth_maps.h"
 
 #include <cstring>
 
 #include "base/hexadecimal.h"
 #include "base/sha256.h"
-#include "scene/scene_cameras.h"
-#include "scene/work_directory.h"
+#include "encoder/parts/scene_cameras.h"
+#include "encoder/parts/work_directory.h"
 
 namespace slf {
 

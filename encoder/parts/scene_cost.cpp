@@ -1,7 +1,7 @@
 // What the work on a scene takes, and whether there is as much.
 #include <algorithm>
 
-#include "scene/planned_scene.h"
+#include "encoder/parts/planned_scene.h"
 
 namespace slf {
 namespace {

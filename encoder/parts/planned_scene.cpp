@@ -1,4 +1,4 @@
-#include "scene/planned_scene.h"
+#include "encoder/parts/planned_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include "encoder/coding_parameters.h"
 #include "encoder/fit/fit_settings.h"
 #include "encoder/fit_capture.h"
-#include "scene/work_directory.h"
+#include "encoder/parts/work_directory.h"
 
 namespace slf {
 namespace {

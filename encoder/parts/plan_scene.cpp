@@ -18,13 +18,13 @@
 #include "encoder/encode_metadata.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"
+#include "encoder/parts/depth_maps.h"
+#include "encoder/parts/encode_slice.h"
+#include "encoder/parts/planned_scene.h"
+#include "encoder/parts/scene_cameras.h"
+#include "encoder/parts/scene_points.h"
+#include "encoder/parts/work_directory.h"
 #include "geometry/weight_classes.h"
-#include "scene/depth_maps.h"
-#include "scene/encode_slice.h"
-#include "scene/planned_scene.h"
-#include "scene/scene_cameras.h"
-#include "scene/scene_points.h"
-#include "scene/work_directory.h"
 
 namespace slf {
 namespace {

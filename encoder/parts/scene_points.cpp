@@ -1,4 +1,4 @@
-#include "scene/scene_points.h"
+#include "encoder/parts/scene_points.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "scene/part_sums.h"
+#include "encoder/parts/part_sums.h"
 
 #include "bitstream/bit_reader.h"
 #include "bitstream/bit_writer.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "encoder/fit/observe_depth.h"
-#include "scene/region.h"
+#include "encoder/parts/region.h"
 #include "slf/capture.h"
 #include "slf/scene.h"
 

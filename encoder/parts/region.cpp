@@ -1,4 +1,4 @@
-#include "scene/region.h"
+#include "encoder/parts/region.h"
 
 #include <algorithm>
 #include <cmath>

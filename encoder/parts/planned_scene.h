@@ -7,7 +7,7 @@
 
 #include "attributes/forward_transform.h"
 #include "codec/coded_unit.h"
-#include "scene/region.h"
+#include "encoder/parts/region.h"
 #include "slf/scene.h"
 
 namespace slf {

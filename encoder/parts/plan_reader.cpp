@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "capture/json.h"
-#include "scene/planned_scene.h"
+#include "encoder/parts/planned_scene.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/encode_slice.h"
+#include "encoder/parts/encode_slice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include "codec/use_transforms.h"
 #include "encoder/component_planes.h"
 #include "encoder/fit_capture.h"
+#include "encoder/parts/scene_cameras.h"
 #include "lightfield/octahedral.h"
-#include "scene/scene_cameras.h"
 #include "slf/camera_trust.h"
 
 namespace slf {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "codec/scene_layout.h"
-#include "scene/point_store.h"
+#include "encoder/parts/point_store.h"
 #include "slf/capture.h"
 
 namespace slf {

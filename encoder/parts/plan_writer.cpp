@@ -2,7 +2,7 @@
 #include <array>
 #include <charconv>
 
-#include "scene/planned_scene.h"
+#include "encoder/parts/planned_scene.h"
 
 namespace slf {
 namespace {

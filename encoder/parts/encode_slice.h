@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "codec/coded_unit.h"
-#include "scene/depth_maps.h"
-#include "scene/planned_scene.h"
+#include "encoder/parts/depth_maps.h"
+#include "encoder/parts/planned_scene.h"
 
 namespace slf {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "scene/point_store.h"
+#include "encoder/parts/point_store.h"
 #include "slf/encoder.h"
 
 namespace slf {

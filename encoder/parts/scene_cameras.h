@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/region.h"
+#include "encoder/parts/region.h"
 #include "slf/capture.h"
 #include "slf/scene.h"
 

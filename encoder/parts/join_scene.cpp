@@ -10,9 +10,9 @@
 #include "codec/base_encoder.h"
 #include "codec/decode_cost.h"
 #include "codec/scene_frame.h"
+#include "encoder/parts/part_sums.h"
+#include "encoder/parts/scene_parts.h"
 #include "geometry/weight_classes.h"
-#include "scene/part_sums.h"
-#include "scene/scene_parts.h"
 
 namespace slf {
 namespace {
