@@ -1,7 +1,7 @@
 // Plenoptic clouds: what is read of a PLY, and what comes back of a file.
 #include <gmock/gmock.h>
 
-#include "plenoptic/corrections.h"
+#include "encoder/plenoptic/corrections.h"
 #include "plenoptic_support.h"
 #include "slf/decoder.h"
 

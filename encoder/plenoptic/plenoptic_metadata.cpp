@@ -1,4 +1,4 @@
-#include "plenoptic/plenoptic_metadata.h"
+#include "encoder/plenoptic/plenoptic_metadata.h"
 
 #include <charconv>
 #include <cmath>

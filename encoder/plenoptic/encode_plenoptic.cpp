@@ -7,9 +7,9 @@
 #include "base/stopwatch.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
-#include "plenoptic/corrections.h"
-#include "plenoptic/plenoptic_planes.h"
-#include "plenoptic/plenoptic_view_maps.h"
+#include "encoder/plenoptic/corrections.h"
+#include "encoder/plenoptic/plenoptic_planes.h"
+#include "encoder/plenoptic/plenoptic_view_maps.h"
 #include "slf/decoder.h"
 
 namespace slf {

@@ -1,4 +1,4 @@
-#include "plenoptic/plenoptic_planes.h"
+#include "encoder/plenoptic/plenoptic_planes.h"
 
 #include <algorithm>
 #include <bit>

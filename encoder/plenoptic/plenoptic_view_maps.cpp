@@ -1,4 +1,4 @@
-#include "plenoptic/plenoptic_view_maps.h"
+#include "encoder/plenoptic/plenoptic_view_maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "encoder/fit_capture.h"
-#include "plenoptic/plenoptic_metadata.h"
+#include "encoder/plenoptic/plenoptic_metadata.h"
 #include "slf/plenoptic.h"
 
 namespace slf {

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "base/error_words.h"
-#include "plenoptic/corrections.h"
-#include "plenoptic/plenoptic_planes.h"
-#include "plenoptic/plenoptic_view_maps.h"
+#include "encoder/plenoptic/corrections.h"
+#include "encoder/plenoptic/plenoptic_planes.h"
+#include "encoder/plenoptic/plenoptic_view_maps.h"
 
 namespace slf {
 namespace {

@@ -1,7 +1,7 @@
 // Views as functions without a meaning: the way of planes.
 #pragma once
 
-#include "plenoptic/plenoptic_metadata.h"
+#include "encoder/plenoptic/plenoptic_metadata.h"
 #include "slf/plenoptic.h"
 
 namespace slf {

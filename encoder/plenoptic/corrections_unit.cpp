@@ -4,7 +4,7 @@
 #include "bitstream/index.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/assemble.h"
-#include "plenoptic/corrections.h"
+#include "encoder/plenoptic/corrections.h"
 
 namespace slf {
 namespace {

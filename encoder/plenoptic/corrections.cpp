@@ -1,4 +1,4 @@
-#include "plenoptic/corrections.h"
+#include "encoder/plenoptic/corrections.h"
 
 #include <algorithm>
 #include <array>
