@@ -1,5 +1,5 @@
 // From a capture to an integer light field: the encoder's steps before coding. The decoder of
-// image-plus-geometry files (igc/) runs the same ones on what it decoded.
+// image-plus-geometry files (tools/rd/igc/) runs the same ones on what it decoded.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Image-plus-geometry files, with the calibration that the seeds were made with: cameras named
 // images/N.png, of 32 x 32 pixels.
 #include "fuzz/fuzz.h"
-#include "slf/igc.h"
+#include "tools/rd/igc/igc.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The adapter of AV1: what goes in comes out, and nothing hostile gets through.
-#include "attributes/video/av1_codec.h"
+#include "tools/rd/igc/av1_codec.h"
 
 #include "tests/video_pictures.h"
 

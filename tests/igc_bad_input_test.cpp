@@ -1,6 +1,6 @@
 // Image-plus-geometry files that are damaged or do not fit, and captures that cannot be coded.
-#include "igc/igc_file.h"
 #include "tests/igc_support.h"
+#include "tools/rd/igc/igc_file.h"
 
 namespace slf::igc_bad_input_test {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "slf/decoder.h"
 #include "slf/evaluate.h"
-#include "slf/igc.h"
 #include "slf/view_map.h"
 #include "tests/video_support.h"
+#include "tools/rd/igc/igc.h"
 #include "tools/synth/synth.h"
 
 namespace slf::test {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "igc/camera_walk.h"
 #include "tests/igc_support.h"
+#include "tools/rd/igc/camera_walk.h"
 
 namespace slf::igc_test {
 namespace {

@@ -1,11 +1,11 @@
 // Video codec adapters: what goes in comes out, and nothing hostile gets through.
 #include <thread>
 
-#include "attributes/video/av1_codec.h"
 #include "attributes/video/hevc_decoder.h"
 #include "attributes/video/hevc_encoder.h"
 #include "attributes/video/hevc_stream.h"
 #include "tests/video_pictures.h"
+#include "tools/rd/igc/av1_codec.h"
 
 #ifndef SLF_WITH_X265
 #define SLF_WITH_X265 0

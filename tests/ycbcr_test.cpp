@@ -1,5 +1,5 @@
 // Colours of photographs as video has them, and back.
-#include "igc/ycbcr.h"
+#include "tools/rd/igc/ycbcr.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "slf/igc.h"
 #include "slf/types.h"
+#include "tools/rd/igc/igc.h"
 
 namespace slf::tools {
 

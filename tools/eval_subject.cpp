@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "slf/gaussian_renderer.h"
-#include "slf/igc.h"
 #include "slf/parallel.h"
 #include "tools/choices.h"
 #include "tools/describe.h"
 #include "tools/progress.h"
+#include "tools/rd/igc/igc.h"
 #include "tools/splat_input.h"
 #include "tools/text.h"
 

@@ -2,13 +2,13 @@
 #include <array>
 #include <memory>
 
-#include "slf/igc.h"
 #include "tools/capture_input.h"
 #include "tools/choices.h"
 #include "tools/describe.h"
 #include "tools/encode_options.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/rd/igc/igc.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 

@@ -1,4 +1,4 @@
-#include "attributes/video/av1_codec.h"
+#include "tools/rd/igc/av1_codec.h"
 
 #if SLF_WITH_AV1
 #include <aom/aom_decoder.h>

@@ -1,4 +1,4 @@
-#include "igc/ycbcr.h"
+#include "tools/rd/igc/ycbcr.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,19 +1,19 @@
-// Photographs and points to an IGC file. Mirrors igc/decode_igc.cpp.
+// Photographs and points to an IGC file. Mirrors tools/rd/igc/decode_igc.cpp.
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "attributes/video/av1_codec.h"
 #include "attributes/video/hevc_encoder.h"
 #include "base/stopwatch.h"
 #include "encoder/choose_surface.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
-#include "igc/camera_walk.h"
-#include "igc/igc_file.h"
-#include "igc/igc_parameters.h"
-#include "igc/ycbcr.h"
-#include "slf/igc.h"
+#include "tools/rd/igc/av1_codec.h"
+#include "tools/rd/igc/camera_walk.h"
+#include "tools/rd/igc/igc.h"
+#include "tools/rd/igc/igc_file.h"
+#include "tools/rd/igc/igc_parameters.h"
+#include "tools/rd/igc/ycbcr.h"
 
 namespace slf {
 namespace {

@@ -1,4 +1,4 @@
-#include "igc/camera_walk.h"
+#include "tools/rd/igc/camera_walk.h"
 
 #include <algorithm>
 #include <array>

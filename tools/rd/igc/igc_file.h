@@ -17,7 +17,7 @@ inline constexpr std::array<std::uint8_t, 8> kIgcSignature = {0x8B, 'I',  'G',  
 inline constexpr std::size_t kIgcSectionBytes = 12;
 
 struct IgcSections {
-  std::span<const std::uint8_t> parameters;  ///< igc/igc_parameters.h
+  std::span<const std::uint8_t> parameters;  ///< tools/rd/igc/igc_parameters.h
   std::span<const std::uint8_t> geometry;    ///< an .slf stream without functions
   std::span<const std::uint8_t> images;      ///< of the video codec
 };

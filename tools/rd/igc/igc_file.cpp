@@ -1,4 +1,4 @@
-#include "igc/igc_file.h"
+#include "tools/rd/igc/igc_file.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "igc/igc_parameters.h"
+#include "tools/rd/igc/igc_parameters.h"
 
 #include <algorithm>
 #include <charconv>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slf/igc.h"
+#include "tools/rd/igc/igc.h"
 
 namespace slf {
 

@@ -1,22 +1,22 @@
 // An IGC file to a light field: the decoder does what the encoder of .slf does. Mirrors
-// igc/encode_igc.cpp.
+// tools/rd/igc/encode_igc.cpp.
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "attributes/video/av1_codec.h"
 #include "attributes/video/hevc_decoder.h"
 #include "base/error_words.h"
 #include "base/stopwatch.h"
 #include "capture/nearest.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
-#include "igc/igc_file.h"
-#include "igc/igc_parameters.h"
-#include "igc/ycbcr.h"
 #include "slf/decoder.h"
-#include "slf/igc.h"
 #include "slf/parallel.h"
+#include "tools/rd/igc/av1_codec.h"
+#include "tools/rd/igc/igc.h"
+#include "tools/rd/igc/igc_file.h"
+#include "tools/rd/igc/igc_parameters.h"
+#include "tools/rd/igc/ycbcr.h"
 
 namespace slf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "attributes/video/picture.h"
 #include "slf/capture.h"
-#include "slf/igc.h"
+#include "tools/rd/igc/igc.h"
 
 namespace slf {
 
