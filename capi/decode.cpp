@@ -5,7 +5,7 @@
 #include "capi/failure.h"
 #include "capi/handles.h"
 #include "capi/sized.h"
-#include "codec/stream_parts.h"
+#include "codec/stream/stream_parts.h"
 
 namespace slf::capi {
 namespace {

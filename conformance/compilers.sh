@@ -22,7 +22,7 @@ together() {  # FILES FOLDER...
       split -l "$1" --additional-suffix=.cpp - "$sources/${folder//\//_}_"
   done
 }
-together 12 base bitstream geometry attributes codec lightfield attributes/texture attributes/video
+together 12 base bitstream geometry attributes codec codec/decoder codec/encoder codec/stream lightfield attributes/texture attributes/video
 together 1 conformance  # its files use the same short names
 [[ $# -gt 0 ]] || set -- "g++ -O0" "g++ -O3" "clang++ -O0" "clang++ -O3"
 for build in "$@"; do

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "codec/assemble.h"
+#include "codec/encoder/assemble.h"
 
 namespace slf::conformance {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "codec/frame_chain.h"
-#include "codec/pack_frame.h"
+#include "codec/decoder/frame_chain.h"
+#include "codec/encoder/pack_frame.h"
 #include "conformance/edit_units.h"
 
 namespace slf::conformance {

@@ -1,5 +1,5 @@
 // Light fields that move: every kind of motion, of reference and of group. Spec 7.13, 8.12.
-#include "codec/derive_transforms.h"
+#include "codec/encoder/derive_transforms.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
 #include "codec/transform_units.h"

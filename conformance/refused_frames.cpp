@@ -1,5 +1,5 @@
 // Frames to be refused: their order, their units, their motion and what they are predicted from.
-#include "codec/assemble.h"
+#include "codec/encoder/assemble.h"
 #include "conformance/cases.h"
 #include "conformance/edit_frames.h"
 #include "conformance/fields.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bitstream/index.h"
-#include "codec/coded_unit.h"
+#include "codec/encoder/coded_unit.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"

@@ -177,7 +177,8 @@ def check_errors():
     """Elements that errors of streams name are in the text; those of H.265 alone need not be."""
     damage = "NotSlf|Truncated|Checksum|OutOfRange|Reserved|Unsupported"
     named = set()
-    for folder in ("bitstream", "entropy", "geometry", "attributes", "attributes/texture", "attributes/video", "codec"):
+    for folder in ("bitstream", "entropy", "geometry", "attributes", "attributes/texture", "attributes/video", "codec", "codec/decoder",
+                   "codec/encoder", "codec/stream"):
         for path in sorted((ROOT / folder).glob("*.*")):
             if path.suffix not in (".h", ".cpp"):
                 continue

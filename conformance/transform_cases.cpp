@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bitstream/bit_writer.h"
-#include "codec/derive_transforms.h"
+#include "codec/encoder/derive_transforms.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
 #include "codec/transform_units.h"

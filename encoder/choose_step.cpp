@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "base/stopwatch.h"
-#include "codec/quantise_field.h"
+#include "codec/encoder/quantise_field.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/component_planes.h"
 #include "encoder/encode_to_target.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/texture_parameters.h"
+#include "codec/encoder/texture_parameters.h"
 #include "encoder/component_planes.h"
 
 namespace slf {

@@ -1,4 +1,5 @@
-// The encoder's main path: photographs and points to bytes. The last step is codec/pack.cpp.
+// The encoder's main path: photographs and points to bytes. The last step is
+// codec/encoder/pack.cpp.
 #include <optional>
 #include <utility>
 

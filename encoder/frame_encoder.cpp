@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "codec/frame_chain.h"
-#include "codec/pack_frame.h"
-#include "codec/pack_parameters.h"
+#include "codec/decoder/frame_chain.h"
+#include "codec/encoder/pack_frame.h"
+#include "codec/encoder/pack_parameters.h"
 #include "encoder/find_motion.h"
 #include "geometry/morton.h"
 #include "slf/frames.h"

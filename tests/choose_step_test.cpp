@@ -1,7 +1,7 @@
 // A step that is not given: what it costs, where it cannot be chosen, and what it leaves alone.
 #include "encoder/choose_step.h"
 
-#include "codec/quantise_field.h"
+#include "codec/encoder/quantise_field.h"
 #include "slf/given_planes.h"
 #include "tests/end_to_end.h"
 #include "tests/field_support.h"

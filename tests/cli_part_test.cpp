@@ -2,7 +2,7 @@
 #include <array>
 
 #include "cli_support.h"
-#include "codec/assemble.h"
+#include "codec/encoder/assemble.h"
 #include "codec/scene_units.h"
 #include "conformance/edit_units.h"
 #include "slf/decoder.h"

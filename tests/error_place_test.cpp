@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bitstream/units.h"
-#include "codec/stream_parts.h"
+#include "codec/stream/stream_parts.h"
 #include "slf/syntax_listing.h"
 
 namespace slf::error_place_test {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "bitstream/parameter_sets.h"
-#include "codec/assemble.h"
+#include "codec/encoder/assemble.h"
 #include "codec/frame_header.h"
 #include "slf/decoder.h"
 #include "tests/frames_support.h"

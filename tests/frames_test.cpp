@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "codec/frame_chain.h"
+#include "codec/decoder/frame_chain.h"
 #include "tests/frames_support.h"
 
 namespace slf::frames_test {

@@ -1,5 +1,5 @@
 // Which step of which slice a thread takes next: spec 8.2 leaves the order free, memory does not.
-#include "codec/slice_schedule.h"
+#include "codec/decoder/slice_schedule.h"
 
 #include <gtest/gtest.h>
 

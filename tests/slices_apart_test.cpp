@@ -1,10 +1,10 @@
 // Slices that are coded knowing their own points alone, and added to the base.
 // Spec 7.3, 8.1, 8.8.3.
 #include "bitstream/index.h"
-#include "codec/pack_parameters.h"
+#include "codec/encoder/pack_parameters.h"
+#include "codec/encoder/slice_encoder.h"
 #include "codec/scene_units.h"
 #include "codec/sequence.h"
-#include "codec/slice_encoder.h"
 #include "geometry/morton.h"
 #include "tests/scene_support.h"
 

@@ -6,8 +6,8 @@
 
 #include "attributes/quantiser.h"
 #include "base/release.h"
-#include "codec/slice_encoder.h"
-#include "codec/use_transforms.h"
+#include "codec/encoder/slice_encoder.h"
+#include "codec/encoder/use_transforms.h"
 #include "encoder/component_planes.h"
 #include "encoder/fit_capture.h"
 #include "encoder/parts/scene_cameras.h"

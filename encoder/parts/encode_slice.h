@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/coded_unit.h"
+#include "codec/encoder/coded_unit.h"
 #include "encoder/parts/depth_maps.h"
 #include "encoder/parts/planned_scene.h"
 

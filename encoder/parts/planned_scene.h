@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "attributes/forward_transform.h"
-#include "codec/coded_unit.h"
+#include "codec/encoder/coded_unit.h"
 #include "encoder/parts/region.h"
 #include "slf/scene.h"
 

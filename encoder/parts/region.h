@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/scene_layout.h"
+#include "codec/encoder/scene_layout.h"
 #include "encoder/parts/point_store.h"
 #include "slf/capture.h"
 

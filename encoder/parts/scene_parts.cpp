@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/error_words.h"
-#include "codec/base_encoder.h"
-#include "codec/request.h"
+#include "codec/decoder/request.h"
+#include "codec/encoder/base_encoder.h"
 #include "codec/sequence.h"
 #include "codec/split_frames.h"
 #include "encoder/parts/part_sums.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bitstream/metadata.h"
-#include "codec/coded_unit.h"
+#include "codec/encoder/coded_unit.h"
 #include "encoder/parts/encode_slice.h"
 #include "slf/scene.h"
 

@@ -3,7 +3,7 @@
 
 #include "bitstream/index.h"
 #include "bitstream/parameter_sets.h"
-#include "codec/assemble.h"
+#include "codec/encoder/assemble.h"
 #include "encoder/plenoptic/corrections.h"
 
 namespace slf {

@@ -1,0 +1,77 @@
+#include "codec/decoder/frame_chain.h"
+
+#include <string_view>
+#include <utility>
+
+#include "codec/decoder/decode_units.h"
+
+namespace slf {
+namespace {
+
+/// Offsets of an intra frame count from its own first byte.
+Error moved(Error error, std::uint64_t offset) {
+  if (has_place(error)) error.bit_offset += 8 * offset;
+  return error;
+}
+
+/// The reference has no points, or not all of its geometry.
+bool lacks_cells(const FrameState& reference, int bits) { return reference.cells.levels() != bits; }
+
+}  // namespace
+
+Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream,
+                                            const FrameUnits& frame, const DecodeOptions& options,
+                                            FrameState& kept) {
+  const auto bytes =
+      stream.subspan(static_cast<std::size_t>(frame.offset), static_cast<std::size_t>(frame.bytes));
+  auto opened = open_stream(bytes, options.limits);
+  if (!opened) return moved(opened.error(), frame.offset);
+  group_ = *std::move(opened);
+  group_offset_ = frame.offset;
+  request_.emplace();
+  FrameContext context;
+  if (frame.moves()) context.kept = &kept;
+  context.asked = &*request_;
+  auto field = decode_units(*group_, options, context);
+  if (!field) return moved(field.error(), frame.offset);
+  return field;
+}
+
+Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> stream,
+                                                const FrameUnits& frame,
+                                                const DecodeOptions& options, FrameState& kept) {
+  SequenceParameterSet set = group_->scene.stream.set;
+  set.predicted = true;
+  SLF_TRY(const Units own, predicted_units(stream, frame));
+  Units units;  // behind sequence and transforms of the group
+  for (const Unit& unit : group_->units.units)
+    if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
+      units.units.push_back(unit);
+  units.units.insert(units.units.end(), own.units.begin(), own.units.end());
+  units.complete = own.complete;
+  SLF_TRY(SceneUnits scene, collect_units(units, set));
+  scene.stream.bytes = frame.bytes;
+  Motion motion = frame.header.motion;
+  const int bits = scene.stream.grid_bits();
+  if (lacks_cells(state_, bits))
+    return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
+  SLF_CHECK(in_unit(frame.unit, read_lattice(frame.vectors, state_.cells, bits, motion)));
+  const FrameReference reference{state_, {state_.cells, motion, bits}};
+  auto field = decode_units({std::move(units), std::move(scene)}, options,
+                            {&reference, &kept, &*request_, nullptr});
+  const bool of_group = !field && std::string_view(field.error().unit) == "sequence";
+  if (of_group) return moved(field.error(), group_offset_);
+  return field;
+}
+
+Result<LightField> FrameChain::decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                                      const DecodeOptions& options) {
+  FrameState kept;
+  if (!frame.header.predicted()) state_ = {};  // its memory
+  auto field = frame.header.predicted() ? decode_predicted(stream, frame, options, kept)
+                                        : decode_intra(stream, frame, options, kept);
+  state_ = field ? std::move(kept) : FrameState{};
+  return field;
+}
+
+}  // namespace slf

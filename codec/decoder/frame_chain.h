@@ -1,0 +1,35 @@
+// Frames one after the other, each from the state that the one before has left. Spec 8.12.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "codec/decoder/request.h"
+#include "codec/frame_state.h"
+#include "codec/split_frames.h"
+#include "slf/decoder.h"
+
+namespace slf {
+
+class FrameChain {
+ public:
+  /// @param frame  the next, or one that is not predicted
+  /// @errors as slf::decode. Behind it comes a frame that is not predicted
+  Result<LightField> decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                            const DecodeOptions& options);
+  /// What the frame that was decoded last leaves.
+  const FrameState& state() const { return state_; }
+
+ private:
+  Result<LightField> decode_intra(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                                  const DecodeOptions& options, FrameState& kept);
+  Result<LightField> decode_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                                      const DecodeOptions& options, FrameState& kept);
+
+  std::optional<OpenStream> group_;  // the frame that others of its group go back to
+  std::uint64_t group_offset_ = 0;
+  std::optional<GroupRequest> request_;  // what it was asked for
+  FrameState state_;
+};
+
+}  // namespace slf

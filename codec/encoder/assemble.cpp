@@ -1,0 +1,47 @@
+#include "codec/encoder/assemble.h"
+
+#include <algorithm>
+
+namespace slf {
+namespace {
+
+Index index_of(std::span<const CodedUnit> units, std::span<const std::uint8_t> end,
+               const std::vector<CellBox>& boxes) {
+  Index index{{}, boxes};
+  for (const CodedUnit& unit : units) {
+    index.entries.push_back({unit.type, unit_bytes(unit.payload.size()), unit.ids});
+    index.entries.back().ids.cu_prediction.clear();
+  }
+  index.entries.push_back({UnitType::kEnd, unit_bytes(end.size()), {}});
+  return index;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> end_payload(std::size_t units_before) {
+  BitWriter end;
+  end.ue(units_before);
+  return end.take();
+}
+
+std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
+                                   std::span<const CodedUnit> units,
+                                   const std::optional<std::vector<CellBox>>& boxes) {
+  const auto end = end_payload(units.size() + (boxes ? 2 : 1));
+  std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
+  append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set));
+  if (boxes) append_unit(stream, UnitType::kIndex, write_index(index_of(units, end, *boxes), set));
+  for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
+  append_unit(stream, UnitType::kEnd, end);
+  return stream;
+}
+
+void append_slices(std::vector<std::vector<CodedUnit>> of_slice, std::vector<CodedUnit>& units) {
+  std::size_t most = 0;
+  for (const auto& slice : of_slice) most = std::max(most, slice.size());
+  for (std::size_t place = 0; place < most; ++place)
+    for (auto& slice : of_slice)
+      if (place < slice.size()) units.push_back(std::move(slice[place]));
+}
+
+}  // namespace slf

@@ -1,0 +1,27 @@
+// Units to a stream. Spec 7.1, 7.7, 7.10.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/index.h"
+#include "codec/encoder/coded_unit.h"
+
+namespace slf {
+
+/// The payload of the end unit. Spec 7.10
+std::vector<std::uint8_t> end_payload(std::size_t units_before);
+
+/// Signature, sequence, index, the units, end.
+/// @param boxes  of the index, [slices] or none; nullopt: no index
+std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
+                                   std::span<const CodedUnit> units,
+                                   const std::optional<std::vector<CellBox>>& boxes);
+
+/// Spec 7.1: units of slices in the order of the layout, each of all slices, behind `units`: a
+/// beginning is the whole scene, coarse first.
+/// @param of_slice  [slices] their units; none of a slice that is missing
+void append_slices(std::vector<std::vector<CodedUnit>> of_slice, std::vector<CodedUnit>& units);
+
+}  // namespace slf

@@ -1,0 +1,39 @@
+// A frame of several, from integers to bytes. Mirrors codec/decoder/frame_decoder.cpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "attributes/forward_transform.h"
+#include "codec/encoder/coded_unit.h"
+#include "codec/frame_header.h"
+#include "slf/encoder.h"
+
+namespace slf {
+
+/// What the frames of a group have in common.
+struct GroupCoding {
+  SequenceParameterSet set;
+  PlaneGroups groups;
+  std::vector<std::uint32_t> steps;
+  std::vector<ForwardTransform> transforms;
+  std::vector<std::uint16_t> coded;  ///< [R] where there are transforms
+};
+
+/// pack(), of a frame that is not predicted where one is given.
+/// @param frame  its length is filled in
+/// @param group  receives what predicted frames go on from
+Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field,
+                                                         const CodingParameters& parameters,
+                                                         FrameHeader* frame, GroupCoding* group);
+
+/// A frame that is predicted.
+/// @param frame  its length is filled in, its motion becomes what a decoder has
+/// @errors those of pack()
+Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& field,
+                                                             const CodingParameters& parameters,
+                                                             const GroupCoding& group,
+                                                             const FrameState& before,
+                                                             FrameHeader& frame);
+
+}  // namespace slf

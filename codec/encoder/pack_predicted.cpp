@@ -1,0 +1,42 @@
+#include <utility>
+
+#include "codec/encoder/assemble.h"
+#include "codec/encoder/pack_frame.h"
+#include "codec/encoder/sorted_field.h"
+#include "codec/encoder/use_transforms.h"
+
+namespace slf {
+
+Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& field,
+                                                             const CodingParameters& parameters,
+                                                             const GroupCoding& group,
+                                                             const FrameState& before,
+                                                             FrameHeader& frame) {
+  SequenceParameterSet set = group.set;
+  set.predicted = true;
+  const int bits = static_cast<int>(set.grid_bits());
+  SLF_TRY(SortedField sorted, sort_points(field));                              // 6.2
+  SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));  // 7.3
+  // The vectors that are not coded are known after this; the length of the frame is not yet.
+  write_frame_header(frame, &before.cells, bits);  // 7.13
+  const FrameReference reference{before, {before.cells, frame.motion, bits}};
+  SliceCoding coding{
+      set, group.groups, group.steps, parameters.digest, parameters.texture, parameters.rdo};
+  coding.reference = &reference;
+  if (!group.transforms.empty())
+    sorted.components =
+        find_components(group.transforms, group.coded, static_cast<std::size_t>(field.num_planes()),
+                        sorted.components, parameters.threads);  // 8.7.5
+  std::vector<std::uint8_t> rest;
+  append_unit(rest, UnitType::kSlices, write_slice_table(layout.table, set));
+  SLF_TRY(const auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
+  for (const CodedUnit& unit : parts) append_unit(rest, unit.type, unit.payload);
+  append_unit(rest, UnitType::kEnd, end_payload(parts.size() + 2));
+  frame.frame_bytes = static_cast<std::uint32_t>(rest.size());
+  std::vector<std::uint8_t> bytes;
+  append_unit(bytes, UnitType::kFrame, write_frame_header(frame, &before.cells, bits));
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return bytes;
+}
+
+}  // namespace slf
