@@ -39,7 +39,7 @@ LAYERS = {
     'encoder/plenoptic': ['slf', 'base', 'bitstream', 'entropy', 'capture', 'lightfield', 'encoder/fit',
                           'codec/encoder', 'encoder'],
     'lightfield/splats': ['slf', 'base', 'bitstream', 'capture', 'lightfield', 'lightfield/render'],
-    'capi': ['slf', 'base', 'bitstream', 'lightfield', 'lightfield/render', 'codec/stream'],
+    'bindings/c': ['slf', 'base', 'bitstream', 'lightfield', 'lightfield/render', 'codec/stream'],
     'tools/synth': ['slf'],
     'tools/rd/igc': ['slf', 'base', 'bitstream', 'attributes/video', 'capture', 'lightfield', 'lightfield/render',
                      'encoder/fit', 'encoder'],

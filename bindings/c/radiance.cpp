@@ -4,9 +4,9 @@
 #include <cstring>
 #include <vector>
 
-#include "capi/failure.h"
-#include "capi/handles.h"
-#include "capi/sized.h"
+#include "bindings/c/failure.h"
+#include "bindings/c/handles.h"
+#include "bindings/c/sized.h"
 #include "lightfield/frame.h"
 #include "lightfield/render/reference_kernel.h"
 #include "slf/view_map.h"

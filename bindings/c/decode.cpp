@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "capi/failure.h"
-#include "capi/handles.h"
-#include "capi/sized.h"
+#include "bindings/c/failure.h"
+#include "bindings/c/handles.h"
+#include "bindings/c/sized.h"
 #include "codec/stream/stream_parts.h"
 
 namespace slf::capi {

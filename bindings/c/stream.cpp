@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <string>
 
+#include "bindings/c/failure.h"
+#include "bindings/c/handles.h"
+#include "bindings/c/sized.h"
 #include "bitstream/parameter_sets.h"
-#include "capi/failure.h"
-#include "capi/handles.h"
-#include "capi/sized.h"
 #include "codec/stream/stream_parts.h"
 
 namespace slf::capi {

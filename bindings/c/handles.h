@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/monitor.h"
-#include "capi/memory.h"
+#include "bindings/c/memory.h"
 #include "lightfield/function_weights.h"
 #include "lightfield/gaussian_values.h"
 #include "lightfield/render/surfel_cloud.h"

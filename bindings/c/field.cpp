@@ -3,9 +3,9 @@
 #include <array>
 #include <cstring>
 
-#include "capi/failure.h"
-#include "capi/handles.h"
-#include "capi/sized.h"
+#include "bindings/c/failure.h"
+#include "bindings/c/handles.h"
+#include "bindings/c/sized.h"
 #include "lightfield/frame.h"
 #include "lightfield/view_planes.h"
 

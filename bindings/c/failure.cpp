@@ -1,11 +1,11 @@
-#include "capi/failure.h"
+#include "bindings/c/failure.h"
 
 #include <array>
 #include <cstddef>
 #include <cstring>
 
-#include "capi/sized.h"
-#include "capi/text.h"
+#include "bindings/c/sized.h"
+#include "bindings/c/text.h"
 
 namespace slf::capi {
 namespace {
