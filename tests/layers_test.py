@@ -44,7 +44,7 @@ LAYERS = {
     'tools/rd/igc': ['slf', 'base', 'bitstream', 'attributes/video', 'capture', 'lightfield', 'lightfield/render',
                      'encoder/fit', 'encoder'],
     'tools': ['slf', 'tools/synth', 'tools/rd/igc'],
-    'python': ['slf'],
+    'bindings/python': ['slf'],
     'examples': ['slf'],
 }
 

@@ -20,7 +20,7 @@ if [[ "${1:-}" == web || "${1:-}" == lab ]]; then
 fi
 if [[ "${1:-}" == lab ]]; then
   packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib
-    pybind11-dev python3-venv mypy doxygen dpkg-dev man-db  # python/, packages, reference, man pages
+    pybind11-dev python3-venv mypy doxygen dpkg-dev man-db  # bindings/python/, packages, reference, man pages
     chromium)  # web/test/browser
 fi
 

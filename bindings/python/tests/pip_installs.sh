@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # `pip install .` of what a build compiled, in a fresh environment, without a network; then the package
 # reads a stream. 77 and a line where venv or pip is not there.
-#   python/tests/pip_installs.sh PYTHON SOURCE_DIR BUILD_DIR
+#   bindings/python/tests/pip_installs.sh PYTHON SOURCE_DIR BUILD_DIR
 set -euo pipefail
 python=$1 source=$2 build=$3
 

@@ -14,7 +14,7 @@ import sys
 import sysconfig
 import zipfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
 
 
