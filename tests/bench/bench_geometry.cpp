@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <map>
 
-#include "bench/stopwatch.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
+#include "tests/bench/stopwatch.h"
 
 namespace {
 

@@ -14,9 +14,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "bench/stopwatch.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
+#include "tests/bench/stopwatch.h"
 
 namespace {
 

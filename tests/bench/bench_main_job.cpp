@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bench/stopwatch.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "slf/evaluate.h"
 #include "slf/render.h"
+#include "tests/bench/stopwatch.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """One 8-bit colour per point against the RAHT of G-PCC's reference software.
 
-    bench/bench_colours.py SLF CLOUD.ply...      clouds named as in TMC13 below
+    tests/bench/bench_colours.py SLF CLOUD.ply...      clouds named as in TMC13 below
 
 Opponent planes (orthonormal, 16ths of a grey level) through `slf pack`; bytes are those of the coefficient
 units, as TMC13's are of its attribute; PSNR is of the colours rounded back to 8 bits. BD-rate (PCHIP) of
@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tools" / "rd"))
+sys.path.insert(0, str(Path(__file__).parent.parent.parent / "tools" / "rd"))
 from bd import bd_rate  # noqa: E402
 
 TMC13 = {  # bytes, Y-PSNR, RGB-PSNR

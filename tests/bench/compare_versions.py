@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two builds of slf, in turns: bytes, user seconds, peak memory; of the same integers, or of captures.
 
-    bench/compare_versions.py OLD_SLF NEW_SLF [--runs 3] [--cloud FILE.ply ...]
+    tests/bench/compare_versions.py OLD_SLF NEW_SLF [--runs 3] [--cloud FILE.ply ...]
         [--planes POSITIONS.npy COMPONENTS.npy STEP NAME ...] [--large BITS]
         [--capture DIR ... [--bits 8 9] [--q 8 16 32]]
 
