@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ('attributes base bindings bitstream capture codec conformance docs encoder entropy examples fuzz geometry '
+FOLDERS = ('attributes base bindings bitstream capture codec conformance docs encoder entropy examples geometry '
            'include lightfield spec tests tools web').split()
 ENDINGS = {'.cpp', '.h', '.c', '.py', '.sh', '.js', '.mjs', '.html', '.md'}
 NOT_OURS = {'build', 'node_modules', 'streams', 'refused'}

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <vector>
 
-#include "fuzz/fuzz.h"
 #include "slf/decoder.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 

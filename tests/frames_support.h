@@ -10,9 +10,9 @@
 #include <string>
 
 #include "codec/split_frames.h"
-#include "fuzz/fuzz.h"
 #include "slf/frames.h"
 #include "tests/field_support.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace slf::test {
 

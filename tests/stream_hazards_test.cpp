@@ -4,10 +4,10 @@
 
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
-#include "fuzz/fuzz.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "tests/field_support.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace slf::stream_hazards_test {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Seeds of the fuzz targets: small files of every format, OUT/TARGET/NAME.
 
-    fuzz/make_seeds.py OUT [--slf build/bin/slf]
+    tests/fuzz/make_seeds.py OUT [--slf build/bin/slf]
 
 Streams are conformance streams below 4 kB, and refused ones; the rest is written here, byte by byte.
 With --slf there are .igc files, plans and parts of scenes too.
@@ -15,7 +15,7 @@ import subprocess
 import tempfile
 import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MARK = b"\xff\xfe\xff"  # between the files of one input
 MOST_BYTES = 4096
 

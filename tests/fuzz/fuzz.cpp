@@ -1,4 +1,4 @@
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

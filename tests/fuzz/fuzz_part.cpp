@@ -1,6 +1,6 @@
 // Parts of a scene: one alone, and two files as parts of one.
-#include "fuzz/fuzz.h"
 #include "slf/scene.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<slf::PartStream> parts;

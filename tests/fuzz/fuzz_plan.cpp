@@ -1,8 +1,8 @@
 // Plans of scenes: what is read is written as it was read.
 #include <cstdlib>
 
-#include "fuzz/fuzz.h"
 #include "slf/scene.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slf::fuzz::MemoryFile file({data, size});

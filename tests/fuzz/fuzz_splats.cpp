@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "bitstream/deflate.h"
-#include "fuzz/fuzz.h"
 #include "slf/gaussian_files.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 

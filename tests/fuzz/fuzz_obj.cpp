@@ -1,6 +1,6 @@
 // OBJ meshes.
 #include "capture/mesh_formats.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (auto mesh = slf::parse_obj("fuzz.obj", {data, size}))

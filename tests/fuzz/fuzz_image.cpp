@@ -1,6 +1,6 @@
 // Photographs: PNG (its CRCs are not checked while fuzzing where libpng is built so) and JPEG.
 #include "capture/image_formats.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slf::Bytes file(data, size);

@@ -1,6 +1,6 @@
 // A light field that decodes can be drawn, whatever is in it.
-#include "fuzz/fuzz.h"
 #include "slf/render.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   slf::DecodeOptions options;

@@ -1,6 +1,6 @@
 // An HEVC stream of the pictures that a texture has. The first byte is their number and depth.
 #include "attributes/video/hevc_decoder.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;

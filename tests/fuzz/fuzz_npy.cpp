@@ -1,5 +1,5 @@
 // Arrays as slf pack reads them.
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 #include "tools/npy.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

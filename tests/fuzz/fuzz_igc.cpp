@@ -1,6 +1,6 @@
 // Image-plus-geometry files, with the calibration that the seeds were made with: cameras named
 // images/N.png, of 32 x 32 pixels.
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 #include "tools/rd/igc/igc.h"
 
 namespace {

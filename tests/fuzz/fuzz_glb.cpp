@@ -1,6 +1,6 @@
 // GLB meshes. Lengths of the file and of its first chunk are made right.
 #include "capture/mesh_formats.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 

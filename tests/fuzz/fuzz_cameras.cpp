@@ -1,7 +1,7 @@
 // Descriptions of cameras: transforms.json and cameras.json, each as the other too, and the split
 // files of a directory.
 #include "capture/importer.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const slf::fuzz::Directory directory;

@@ -1,8 +1,8 @@
 // What truncate makes of a stream that decodes, decodes.
 #include <cstdlib>
 
-#include "fuzz/fuzz.h"
 #include "slf/truncate.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;

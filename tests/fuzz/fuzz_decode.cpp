@@ -1,6 +1,6 @@
 // Any bytes are an error or a light field; what the headers say it takes is never less than a
 // decode of fewer levels or groups needs.
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto stream = slf::fuzz::with_sound_crcs({data, size});

@@ -1,6 +1,6 @@
 // COLMAP models, as text and as binary: cameras, images, points.
 #include "capture/importer.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const slf::fuzz::Directory directory;

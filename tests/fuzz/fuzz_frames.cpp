@@ -1,6 +1,6 @@
 // Any bytes are an error or frames, each an error or a light field; fewer levels too.
-#include "fuzz/fuzz.h"
 #include "slf/frames.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 

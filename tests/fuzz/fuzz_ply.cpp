@@ -1,6 +1,6 @@
 // PLY clouds and meshes.
 #include "capture/ply_reader.h"
-#include "fuzz/fuzz.h"
+#include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slf::fuzz::MemoryFile file({data, size});
