@@ -5,7 +5,7 @@
     meaning.py --write    writes it
 
 Headers are what the text decoder, spec/decoder.py, reads. Colours are evaluated in double precision from the definitions of
-clause 6 by examples/radiance.py, from the integers of the text decoder: a decoder has to come within 1/16 of a grey level (6.7).
+clause 6 by docs/examples/radiance.py, from the integers of the text decoder: a decoder has to come within 1/16 of a grey level (6.7).
 Needs numpy. Exit code: 0, 1: not current.
 """
 import json
@@ -16,7 +16,7 @@ import tempfile
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "spec"), str(HERE.parent / "examples")]
+sys.path[:0] = [str(HERE.parent / "spec"), str(HERE.parent / "docs/examples")]
 import decoder  # noqa: E402
 import radiance  # noqa: E402
 

@@ -7,8 +7,8 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ('attributes base bindings bitstream capture codec conformance docs encoder entropy examples geometry '
-           'include lightfield spec tests tools web').split()
+FOLDERS = ('attributes base bindings bitstream capture codec conformance docs encoder entropy geometry include '
+           'lightfield spec tests tools web').split()
 ENDINGS = {'.cpp', '.h', '.c', '.py', '.sh', '.js', '.mjs', '.html', '.md'}
 NOT_OURS = {'build', 'node_modules', 'streams', 'refused'}
 NUMBER = r'\d+(?:\.\d+)*'

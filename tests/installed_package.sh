@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the build to a directory of its own, builds examples/ against it through
+# Installs the build to a directory of its own, builds docs/examples/ against it through
 # find_package(slf), and runs them: the colours of decode_points (node fetches) and of radiance.py
 # (the plain sum, in numpy) agree.
 #   installed_package.sh CMAKE BUILD SOURCE CXX
@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 "$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
-"$cmake" -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$work/prefix" \
+"$cmake" -S "$source/docs/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$work/prefix" \
   -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_BUILD_TYPE=Release
 "$cmake" --build "$work/examples"
 
@@ -28,7 +28,7 @@ done
 [[ $python != none ]] || { echo "no numpy: radiance.py is not compared"; exit 0; }
 for query in "0 1 0 0" "7 -1 2 0.5" "100 0.3 -0.4 -2" "500 0 0 1"; do
   a=$(examples/decode_points example.slf $query)
-  b=$("$python" "$source/examples/radiance.py" dump $query)
+  b=$("$python" "$source/docs/examples/radiance.py" dump $query)
   echo "$query: $a | $b"
   # World positions are the same; colours to the tolerance of the radiance point, 1/256, and print.
   "$python" - $a $b <<'EOF'

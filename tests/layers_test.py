@@ -45,7 +45,7 @@ LAYERS = {
                      'encoder/fit', 'encoder'],
     'tools': ['slf', 'tools/synth', 'tools/rd/igc'],
     'bindings/python': ['slf'],
-    'examples': ['slf'],
+    'docs/examples': ['slf'],
 }
 
 

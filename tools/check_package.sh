@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the Debian packages of a build, installs them into an empty root with dpkg, and there: runs the
 # program, reads its man pages, completes a command line, builds a C and a C++ program with
-# pkg-config and examples/ with find_package; then removes them and looks that nothing is left.
+# pkg-config and docs/examples/ with find_package; then removes them and looks that nothing is left.
 #   check_package.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -83,11 +83,11 @@ cc -std=c99 use.c -o use_c $(pkg-config --cflags --libs slf)
 ./use_c tiny.slf
 
 say "a C++ program by pkg-config"
-c++ -std=c++20 "$source/examples/decode_points.cpp" -o use_cxx $(pkg-config --cflags --libs slf-cxx)
+c++ -std=c++20 "$source/docs/examples/decode_points.cpp" -o use_cxx $(pkg-config --cflags --libs slf-cxx)
 ./use_cxx tiny.slf >/dev/null
 
-say "examples/ by find_package"
-cmake -S "$source/examples" -B examples -DCMAKE_PREFIX_PATH="$root/usr" >/dev/null
+say "docs/examples/ by find_package"
+cmake -S "$source/docs/examples" -B examples -DCMAKE_PREFIX_PATH="$root/usr" >/dev/null
 cmake --build examples >/dev/null
 examples/decode_points tiny.slf >/dev/null
 

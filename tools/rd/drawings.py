@@ -10,7 +10,7 @@ from collect import size
 from pictures import result
 from plot import bytes_text, note_empty, save, title
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs/examples"))
 from radiance import wavelet  # noqa: E402  (spec 6.3, written plainly)
 
 

@@ -22,7 +22,7 @@ from scipy.spatial import cKDTree
 
 import options as opt
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs/examples"))
 from radiance import wavelet  # noqa: E402  (spec 6.3)
 
 GEOMETRY = ("--mode=0 --trisoupNodeSizeLog2=0 --mergeDuplicatedPoints=0 --neighbourAvailBoundaryLog2=8 "
