@@ -49,7 +49,7 @@ LAYERS = {
 }
 
 
-NOT_CODE = {'build', 'cmake', 'conformance', 'docs', 'include', 'spec', 'tests', 'web'}  # or tests of it
+NOT_CODE = {'build', 'conformance', 'docs', 'include', 'spec', 'tests', 'web'}  # or tests of it
 
 
 def folders_of_code(root):

@@ -17,15 +17,15 @@ if(TARGET slf_program)
   install(TARGETS slf_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endif()
 
-configure_package_config_file(cmake/slfConfig.cmake.in ${PROJECT_BINARY_DIR}/slfConfig.cmake
+configure_package_config_file(tools/cmake/slfConfig.cmake.in ${PROJECT_BINARY_DIR}/slfConfig.cmake
                               INSTALL_DESTINATION ${SLF_CMAKE_DIR})
 # Before 1.0 every minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slfConfig.cmake ${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
         DESTINATION ${SLF_CMAKE_DIR} COMPONENT dev)
-include(cmake/slf_pkg_config.cmake)
-include(cmake/slf_manual.cmake)
+include(tools/cmake/slf_pkg_config.cmake)
+include(tools/cmake/slf_manual.cmake)
 if(PROJECT_IS_TOP_LEVEL)
-  include(cmake/slf_debian.cmake)
+  include(tools/cmake/slf_debian.cmake)
 endif()
