@@ -11,12 +11,12 @@ DATA, NORMATIVE, FLOATING = PLAIN, BASE, SLICES[1]
 WIDTH, HEIGHT, GAP = 118, 40, 20
 
 # (words of a box, kind), left to right; what a box is made of stands below it.
-ENCODE = [("capture", DATA, ""), ("mend, voxelise", FLOATING, "refine, capture"), ("observe", FLOATING, "fit"),
-          ("fit view maps", FLOATING, "fit"), ("integers", DATA, "LightField"),
-          ("pack", NORMATIVE, "codec"), ("bytes", DATA, ".slf")]
+ENCODE = [("capture", DATA, ""), ("mend, voxelise", FLOATING, "encoder/refine, capture"), ("observe", FLOATING, "encoder/fit"),
+          ("fit view maps", FLOATING, "encoder/fit"), ("integers", DATA, "LightField"),
+          ("pack", NORMATIVE, "codec/encoder"), ("bytes", DATA, ".slf")]
 DECODE = [("bytes", DATA, ".slf"), ("units", NORMATIVE, "bitstream"), ("geometry", NORMATIVE, "geometry, entropy"),
           ("components", NORMATIVE, "attributes, entropy"), ("integers", DATA, "LightField"),
-          ("view maps", FLOATING, "lightfield"), ("pictures", DATA, "render")]
+          ("view maps", FLOATING, "lightfield"), ("pictures", DATA, "lightfield/render")]
 
 
 def path(figure, y, name, boxes):
