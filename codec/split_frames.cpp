@@ -5,11 +5,6 @@
 namespace slf {
 namespace {
 
-bool begins_intra(std::span<const std::uint8_t> rest) {
-  return rest.size() >= kSignature.size() &&
-         std::equal(kSignature.begin(), kSignature.end(), rest.begin());
-}
-
 /// What no frame begins with, cut short or not.
 Result<Done> check_first_byte(std::span<const std::uint8_t> rest, std::size_t at) {
   const auto type = static_cast<UnitType>(rest[0]);
@@ -29,7 +24,13 @@ Error wrong(const Unit& unit, const char* element) {
   return of_unit(unit.type, unit.offset, Errc::kOutOfRange, element);
 }
 
-/// Does a frame unit follow the sequence unit?
+}  // namespace
+
+bool begins_intra(std::span<const std::uint8_t> rest) {
+  return rest.size() >= kSignature.size() &&
+         std::equal(kSignature.begin(), kSignature.end(), rest.begin());
+}
+
 bool moves(std::span<const std::uint8_t> stream) {
   if (!begins_intra(stream)) return false;
   const auto sequence = read_unit(stream, kSignature.size());
@@ -38,8 +39,6 @@ bool moves(std::span<const std::uint8_t> stream) {
   return next < stream.size() &&
          stream[static_cast<std::size_t>(next)] == static_cast<std::uint8_t>(UnitType::kFrame);
 }
-
-}  // namespace
 
 Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t at) {
   FrameUnits frame;
@@ -55,8 +54,7 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
   if (frame.unit.type != UnitType::kFrame) return wrong(frame.unit, "unit_type");
   SLF_TRY(frame.header, in_unit(frame.unit, parse_frame_header(frame.unit.payload, frame.vectors)));
   if (frame.header.predicted() == intra) return wrong(frame.unit, "frame_predicted_flag");
-  const std::uint64_t end = frame.unit.offset + frame.unit.bytes + frame.header.frame_bytes;
-  frame.bytes = std::min<std::uint64_t>(end, stream.size()) - frame.offset;
+  frame.bytes = std::min<std::uint64_t>(frame.end(), stream.size()) - frame.offset;
   return frame;
 }
 
@@ -94,8 +92,7 @@ Result<FrameUnits> first_frame(std::span<const std::uint8_t> stream) {
 }
 
 Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units) {
-  const std::uint64_t end = frame.unit.offset + frame.unit.bytes + frame.header.frame_bytes;
-  if (frame.moves() && units.complete && end != frame.offset + frame.bytes)
+  if (frame.moves() && units.complete && frame.end() != frame.offset + frame.bytes)
     return wrong(frame.unit, "frame_bytes");
   return Done{};
 }

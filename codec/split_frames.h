@@ -20,7 +20,14 @@ struct FrameUnits {
   std::uint64_t offset = 0, bytes = 0;    ///< of the frame, cut at the end of the stream
 
   bool moves() const { return unit.bytes > 0; }
+  /// Where it ends, as its frame unit says; the stream may end before.
+  std::uint64_t end() const { return unit.offset + unit.bytes + header.frame_bytes; }
 };
+
+bool begins_intra(std::span<const std::uint8_t> rest);
+
+/// Does a frame unit follow the sequence unit?
+bool moves(std::span<const std::uint8_t> stream);
 
 /// The frame that begins at `at`. Of an intra frame the frame unit follows the sequence unit.
 Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t at);

@@ -8,7 +8,7 @@
 namespace slf {
 namespace {
 
-/// Offsets of an intra frame count from its own first byte.
+/// Offsets of an intra frame count from its own first byte, others from that of the bytes given.
 Error moved(Error error, std::uint64_t offset) {
   if (has_place(error)) error.bit_offset += 8 * offset;
   return error;
@@ -24,26 +24,21 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
                                             FrameState& kept) {
   const auto bytes =
       stream.subspan(static_cast<std::size_t>(frame.offset), static_cast<std::size_t>(frame.bytes));
-  auto opened = open_stream(bytes, options.limits);
-  if (!opened) return moved(opened.error(), frame.offset);
-  group_ = *std::move(opened);
-  group_offset_ = frame.offset;
+  SLF_TRY(group_, open_stream(bytes, options.limits));
   request_.emplace();
   FrameContext context;
   if (frame.moves()) context.kept = &kept;
   context.asked = &*request_;
-  auto field = decode_units(*group_, options, context);
-  if (!field) return moved(field.error(), frame.offset);
-  return field;
+  return decode_units(*group_, options, context);
 }
 
-Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> stream,
-                                                const FrameUnits& frame,
-                                                const DecodeOptions& options, FrameState& kept) {
+/// Sequence and transforms of the group, then units of its own.
+Result<OpenStream> FrameChain::open_predicted(std::span<const std::uint8_t> stream,
+                                              const FrameUnits& frame) const {
   SequenceParameterSet set = group_->scene.stream.set;
   set.predicted = true;
   SLF_TRY(const Units own, predicted_units(stream, frame));
-  Units units;  // behind sequence and transforms of the group
+  Units units;
   for (const Unit& unit : group_->units.units)
     if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
       units.units.push_back(unit);
@@ -51,27 +46,38 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
   units.complete = own.complete;
   SLF_TRY(SceneUnits scene, collect_units(units, set));
   scene.stream.bytes = frame.bytes;
+  return OpenStream{std::move(units), std::move(scene)};
+}
+
+Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> stream,
+                                                const FrameUnits& frame,
+                                                const DecodeOptions& options, FrameState& kept) {
+  SLF_TRY(OpenStream opened, open_predicted(stream, frame));
   Motion motion = frame.header.motion;
-  const int bits = scene.stream.grid_bits();
+  const int bits = opened.scene.stream.grid_bits();
   if (lacks_cells(state_, bits))
     return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
   SLF_CHECK(in_unit(frame.unit, read_lattice(frame.vectors, state_.cells, bits, motion)));
   const FrameReference reference{state_, {state_.cells, motion, bits}};
-  auto field = decode_units({std::move(units), std::move(scene)}, options,
-                            {&reference, &kept, &*request_, nullptr});
-  const bool of_group = !field && std::string_view(field.error().unit) == "sequence";
-  if (of_group) return moved(field.error(), group_offset_);
+  auto field = decode_units(opened, options, {&reference, &kept, &*request_, nullptr});
+  error_is_of_group_ = !field && std::string_view(field.error().unit) == "sequence";
   return field;
 }
 
 Result<LightField> FrameChain::decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
-                                      const DecodeOptions& options) {
+                                      const DecodeOptions& options, std::uint64_t begins) {
   FrameState kept;
-  if (!frame.header.predicted()) state_ = {};  // its memory
-  auto field = frame.header.predicted() ? decode_predicted(stream, frame, options, kept)
-                                        : decode_intra(stream, frame, options, kept);
+  const bool predicted = frame.header.predicted();
+  error_is_of_group_ = !predicted;
+  if (!predicted) {
+    state_ = {};  // its memory
+    group_offset_ = begins + frame.offset;
+  }
+  auto field = predicted ? decode_predicted(stream, frame, options, kept)
+                         : decode_intra(stream, frame, options, kept);
   state_ = field ? std::move(kept) : FrameState{};
-  return field;
+  if (field) return field;
+  return moved(field.error(), error_is_of_group_ ? group_offset_ : begins);
 }
 
 }  // namespace slf

@@ -13,10 +13,12 @@ namespace slf {
 
 class FrameChain {
  public:
-  /// @param frame  the next, or one that is not predicted
+  /// @param stream  bytes that `frame` is in. Those of an intra frame stay until its group is done
+  /// @param frame   the next, or one that is not predicted
+  /// @param begins  where the stream that errors are of has the first of these bytes
   /// @errors as slf::decode. Behind it comes a frame that is not predicted
   Result<LightField> decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,
-                            const DecodeOptions& options);
+                            const DecodeOptions& options, std::uint64_t begins = 0);
   /// What the frame that was decoded last leaves.
   const FrameState& state() const { return state_; }
 
@@ -25,9 +27,12 @@ class FrameChain {
                                   const DecodeOptions& options, FrameState& kept);
   Result<LightField> decode_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                       const DecodeOptions& options, FrameState& kept);
+  Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream,
+                                    const FrameUnits& frame) const;
 
-  std::optional<OpenStream> group_;  // the frame that others of its group go back to
-  std::uint64_t group_offset_ = 0;
+  std::optional<OpenStream> group_;      // the frame that others of its group go back to
+  std::uint64_t group_offset_ = 0;       // of its first byte in the stream that errors are of
+  bool error_is_of_group_ = false;       // counts from there, not from the bytes given
   std::optional<GroupRequest> request_;  // what it was asked for
   FrameState state_;
 };
