@@ -10,6 +10,7 @@
 #include "lightfield/gaussian_values.h"
 #include "lightfield/render/surfel_cloud.h"
 #include "slf/decoder.h"
+#include "slf/frame_reader.h"
 #include "slf/gaussians.h"
 #include "slf/slf.h"
 
@@ -44,6 +45,12 @@ struct slf_stream {
   slf::StreamInfo info = {};
 
   bool in_memory() const { return head.size() == size; }
+};
+
+struct slf_frames {
+  slf::capi::Allocator allocator;
+  slf::FrameReader reader;
+  int threads = 1;
 };
 
 struct slf_field {

@@ -4,6 +4,7 @@
 
 #include "bindings/c/failure.h"
 #include "bindings/c/handles.h"
+#include "bindings/c/options.h"
 #include "bindings/c/sized.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/stream/stream_parts.h"
@@ -109,11 +110,6 @@ slf_code open(const slf_allocator* given, slf_stream** out, slf_error* error, co
     Allocator::destroy(stream);
   }
   return code;
-}
-
-bool is_usable(const slf_allocator* allocator) {
-  return allocator == nullptr ||
-         (allocator->allocate != nullptr) == (allocator->deallocate != nullptr);
 }
 
 }  // namespace

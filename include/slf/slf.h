@@ -45,7 +45,7 @@ extern "C" {
 /* Of this header. Minor: functions, codes and members of sized structs were added; major: a program
  * has to be changed. Before 1 every minor version may do that. */
 #define SLF_API_VERSION_MAJOR 0
-#define SLF_API_VERSION_MINOR 2
+#define SLF_API_VERSION_MINOR 3
 
 /* Of the library that is linked: SLF_API_VERSION_MAJOR << 16 | SLF_API_VERSION_MINOR. */
 SLF_API uint32_t slf_api_version(void);
@@ -246,6 +246,80 @@ typedef struct slf_field slf_field;
 SLF_API slf_code slf_decode(const slf_stream* stream, const slf_options* options, slf_field** field,
                             slf_error* error);
 SLF_API void slf_release_field(slf_field* field);
+
+/* ---- frames ---- */
+
+/* A light field that moves is a stream of frames (spec 7.13), which slf_open shows the first of.
+ * Here their bytes are pushed as they come, and frames are pulled:
+ *
+ *     slf_open_frames(NULL, NULL, &frames, &error);
+ *     while ((size = read(file, bytes, sizeof bytes)) > 0) {
+ *       slf_frames_push(frames, bytes, size, &error);
+ *       for (; place < slf_frames_count(frames); ++place)
+ *         if (slf_frames_decode(frames, place, &field, &error) == SLF_OK) show(field);
+ *     }
+ *     slf_frames_finish(frames, &error);  // and what is left of them
+ *
+ * A place is that of a frame in the list, from 0. One thread at a time may use an slf_frames; the
+ * fields that it gives are as any others, and outlive it. */
+typedef struct slf_frames slf_frames;
+
+typedef struct slf_frame {
+  uint32_t size;   /* sizeof(slf_frame) */
+  uint32_t number; /* ascending */
+  double time;     /* seconds, ascending */
+  uint64_t offset; /* of its first byte in the stream */
+  uint64_t bytes;
+  uint32_t predicted; /* 1: from the frame before it */
+  uint32_t lost;      /* 1: no frame could be read here, and slf_frames_decode says why; it stands
+                         for one or several, its number is that of the last of them */
+} slf_frame;
+
+/* options: of every frame; NULL: all of it with the default limits. They are copied, `user` stays
+ * the caller's. max_bytes has to be 0; max_stream_bytes limits what is held at a time; a region is
+ * cut from frames decoded whole. allocator: of the handle and of those of fields, as in slf_open.
+ * Errors: SLF_INVALID_ARGUMENT, SLF_OUT_OF_MEMORY. */
+SLF_API slf_code slf_open_frames(const slf_options* options, const slf_allocator* allocator,
+                                 slf_frames** frames, slf_error* error);
+/* Fields decoded from it stay. */
+SLF_API void slf_release_frames(slf_frames* frames);
+
+/* Copies the bytes that follow those of the call before. O(size), and none is decoded.
+ * Errors: SLF_NOT_SLF, those of the first frame's headers, for good; SLF_LIMIT_EXCEEDED: nothing
+ * was taken, and can be after slf_frames_drop_before; SLF_INVALID_ARGUMENT after the end. */
+SLF_API slf_code slf_frames_push(slf_frames* frames, const void* bytes, size_t size,
+                                 slf_error* error);
+/* The stream ends here. Lists a last frame that was cut short, and the one frame of a light field
+ * that does not move. Errors: SLF_NOT_SLF, SLF_TRUNCATED: no frame began. */
+SLF_API slf_code slf_frames_finish(slf_frames* frames, slf_error* error);
+
+/* Frames that have arrived whole, dropped ones too. NULL: 0. O(1). */
+SLF_API size_t slf_frames_count(const slf_frames* frames);
+/* Memory that bytes of the stream take. NULL: 0. O(1). */
+SLF_API uint64_t slf_frames_held_bytes(const slf_frames* frames);
+/* Errors: SLF_INVALID_ARGUMENT "place". O(1). */
+SLF_API slf_code slf_frames_get(const slf_frames* frames, size_t place, slf_frame* frame,
+                                slf_error* error);
+/* The bytes of a frame, until they are dropped; those of one that is not predicted are what
+ * slf_open takes: headers, metadata, slf_preflight. Errors: SLF_READ_FAILED: they were dropped.
+ * O(1). */
+SLF_API slf_code slf_frames_get_bytes(const slf_frames* frames, size_t place, const void** bytes,
+                                      size_t* size, slf_error* error);
+
+/* Decodes any frame of the list. A predicted one costs the decode of those before it, back to one
+ * that is not or to the one decoded last: in order each frame is decoded once.
+ * Errors: as slf_decode; those of a frame that it is predicted from: frames that follow in its
+ * group fail as well, those from the next one on that is not predicted do not. SLF_READ_FAILED:
+ * bytes of its group were dropped. O(points * components) a frame. */
+SLF_API slf_code slf_frames_decode(slf_frames* frames, size_t place, slf_field** field,
+                                   slf_error* error);
+
+/* Drops the bytes of groups before that of `place`: a group is a frame that is not predicted and
+ * those that go back to it. */
+SLF_API slf_code slf_frames_drop_before(slf_frames* frames, size_t place, slf_error* error);
+/* The bytes pushed next are those from slf_frame.offset of `place` on, which is a frame that is not
+ * predicted. All that is held is dropped. Errors: SLF_INVALID_ARGUMENT "place". */
+SLF_API slf_code slf_frames_seek(slf_frames* frames, size_t place, slf_error* error);
 
 /* ---- fields ---- */
 
