@@ -200,8 +200,54 @@ export class SlfDecoder {
   info(bytes: Bytes): SlfInfo;
   preflight(bytes: Bytes, options?: SlfOptions): SlfEstimate;
   decode(bytes: Bytes, options?: SlfOptions): SlfField;
+  /** Frames of a light field that moves, whose bytes are pushed as they come. Options are those of every frame; maxBytes has to be 0. */
+  frames(options?: SlfOptions): SlfFrames;
   /** Lets go of memory that is kept for the next decode: it would be after five seconds. */
   trim(): void;
+}
+
+/** A frame of a stream (spec 7.13). */
+export interface SlfFrame {
+  /** From 0, in the list of frames that have arrived. */
+  place: number;
+  /** As the file has it, ascending. */
+  number: number;
+  /** Seconds, ascending. */
+  time: number;
+  /** From the frame before it. */
+  predicted: boolean;
+  /** No frame could be read here, decode() says why. It stands for one or several. */
+  lost: boolean;
+  /** Of its first byte in the stream. */
+  offset: number;
+  bytes: number;
+}
+
+/** A reader of frames. Its memory is WebAssembly's until release(). Damage costs a group: the next frame that is not predicted is sound. */
+export class SlfFrames {
+  private constructor();
+  /** Those that have arrived whole; they stay when their bytes are dropped. */
+  readonly list: readonly SlfFrame[];
+  /** Memory that bytes of the stream take. */
+  readonly heldBytes: number;
+  /** finish() was called. */
+  readonly ended: boolean;
+  /** Copies the bytes that follow those of the call before. NOT_SLF and errors of the first frame's headers are for good. */
+  push(bytes: Bytes): void;
+  /** No bytes follow: a frame that was cut short is listed, and the one of a light field that does not move. */
+  finish(): void;
+  /** Whether the bytes of a frame are here. */
+  holds(place: number): boolean;
+  /** The frame that the group of this one begins with. */
+  groupOf(place: number): number;
+  /** Headers of the group of a frame. */
+  info(place?: number): SlfInfo;
+  /** In order each frame is decoded once; elsewhere from the beginning of its group. READ_FAILED where bytes were dropped. */
+  decode(place: number): SlfField;
+  dropBefore(place: number): void;
+  /** The bytes pushed next are those from `offset` of a frame on that is not predicted. All that is held is dropped. */
+  seek(place: number): void;
+  release(): void;
 }
 
 export interface SlfOpenOptions {
@@ -229,6 +275,46 @@ export class SlfStream {
   read(options?: SlfOptions, reading?: SlfReading): Promise<void>;
   decode(options?: SlfOptions, reading?: SlfReading): Promise<SlfField>;
 }
+
+/** An address, a file, or bytes. */
+export type SlfFrameSource = string | URL | Blob | Bytes;
+
+export interface SlfFramesOptions extends SlfOpenOptions, SlfOptions {
+  /** Bytes of the stream beyond which groups that are behind are dropped; they are fetched again, by ranges [2^28]. */
+  keepBytes?: number;
+}
+
+/** A frame, and its light field or what is wrong with it. */
+export type SlfPlayed<Field> = SlfFrame & ({ field: Field; error: null } | { field: null; error: SlfError });
+
+/** Frames of a source, read as far as they are asked for. From slf_frame_stream.js. */
+export class SlfFrameStream {
+  private constructor();
+  /** Resolves when the first frame is here. */
+  static open(source: SlfFrameSource, options?: SlfFramesOptions & {
+    decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch;
+  }): Promise<SlfFrameStream>;
+  readonly list: readonly SlfFrame[];
+  /** The list is complete. */
+  readonly ended: boolean;
+  readonly heldBytes: number;
+  /** Bytes that have come, those that came again too. */
+  readonly received: number;
+  info(place?: number): SlfInfo;
+  /** Reads until a frame is here, with its group. false: the stream ends before it. */
+  arrive(place: number): Promise<boolean>;
+  /** To be released. */
+  decode(place: number): Promise<SlfField>;
+  /** Frames from a place on, in order. A field lives until the next frame is asked for. */
+  play(place?: number): AsyncGenerator<SlfPlayed<SlfField>, void>;
+  [Symbol.asyncIterator](): AsyncGenerator<SlfPlayed<SlfField>, void>;
+  close(): Promise<void>;
+}
+
+/** The frames of a source in order; leaving the loop ends the download. From slf_frame_stream.js. */
+export function frames(source: SlfFrameSource, options?: SlfFramesOptions & {
+  decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch;
+}): AsyncGenerator<SlfPlayed<SlfField>, void>;
 
 export interface SlfReading {
   /** Bytes so far, and all of this call. */
@@ -269,6 +355,15 @@ export class SlfWorker {
     decode(options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & SlfReading): Promise<SlfPlainField>;
     close(): Promise<void>;
   }>;
+  /** A stream of several frames; frame() gives null behind the last. */
+  openFrames(source: SlfFrameSource, options?: Omit<SlfFramesOptions, 'onProgress'>): Promise<{
+    info: SlfInfo;
+    frame(place: number, wanted?: SlfWanted): Promise<SlfPlayed<SlfPlainField> | null>;
+    close(): Promise<void>;
+  }>;
+  /** Its frames in order; the next is decoded meanwhile. */
+  frames(source: SlfFrameSource, options?: Omit<SlfFramesOptions, 'onProgress'>, wanted?: SlfWanted):
+    AsyncGenerator<SlfPlayed<SlfPlainField>, void>;
   /** ABORTED for every call that waits, and for every later one. */
   terminate(): void;
 }

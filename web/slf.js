@@ -7,6 +7,7 @@
 //
 // Types and documentation: slf.d.ts.
 import { SlfField } from './slf_field.js';
+import { SlfFrames } from './slf_frames.js';
 import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
 import { Instance, compile } from './slf_instance.js';
 
@@ -56,6 +57,9 @@ export class SlfDecoder {
     const instance = this.take();
     return this.#field(instance, () => this.openParts(instance, size, readAt), options);
   }
+
+  /** A reader of a stream of several frames, whose bytes are pushed as they come. */
+  frames(options) { return new SlfFrames(this.take(), options, (used) => this.give(used)); }
 
   /** Calls use(instance, stream) with a stream that is read in parts. */
   withParts(size, readAt, use) {
@@ -147,4 +151,4 @@ export class SlfDecoder {
 
 export { SlfError } from './slf_error.js';
 export { decoderModule } from './slf_instance.js';
-export { SlfField, readInfo, preflight, setOptions };
+export { SlfField, SlfFrames, readInfo, preflight, setOptions };

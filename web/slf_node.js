@@ -6,3 +6,4 @@ files.read = readFile;
 
 export * from './slf.js';
 export { SlfStream } from './slf_stream.js';
+export { SlfFrameStream, frames } from './slf_frame_stream.js';

@@ -14,7 +14,7 @@ function contentRange(response) {
 }
 
 /** One request at a time: its body, cut off where it stalls or where the caller says so. */
-class Request {
+export class Request {
   #timer; #abort = new AbortController(); #stalled = false; #options; #forward;
 
   constructor(options) {
@@ -27,16 +27,7 @@ class Request {
 
   async run(url, headers, use) {
     try {
-      this.#wait();
-      const { fetch: get, headers: own, credentials } = this.#options;
-      const ask = () => get(url, { headers: { ...own, ...headers }, credentials, signal: this.#abort.signal });
-      // Once more where nothing came: a connection that was kept may have been closed by the server.
-      const response = await ask().catch((error) => {
-        if (this.#abort.signal.aborted) throw error;
-        return ask();
-      });
-      if (!response.ok) throw network(`${response.status} ${response.statusText} for ${url}`.trim());
-      return await use(response);
+      return await use(await this.#ask(url, headers));
     } catch (error) {
       this.#abort.abort();
       throw this.#explain(error, url);
@@ -44,6 +35,48 @@ class Request {
       clearTimeout(this.#timer);
       this.#options.signal?.removeEventListener('abort', this.#forward);
     }
+  }
+
+  /**
+   * Pieces of a body as they come; who takes them may wait in between.
+   * @param {number} offset  of the first byte that is wanted
+   */
+  async *pieces(url, offset = 0) {
+    try {
+      const response = await this.#ask(url, offset > 0 ? { Range: `bytes=${offset}-` } : {});
+      let behind = response.status === 206 ? 0 : offset; // a server without ranges sends what is before, too
+      const range = contentRange(response);
+      if (response.status === 206 && range !== null && range.begin !== offset)
+        throw network(`the server gave another part of ${url}`);
+      const reader = response.body.getReader();
+      for (;;) {
+        this.#wait();
+        const { done, value } = await reader.read();
+        clearTimeout(this.#timer);
+        if (done) return;
+        if (behind < value.byteLength) yield value.subarray(behind);
+        behind = Math.max(0, behind - value.byteLength);
+      }
+    } catch (error) {
+      throw this.#explain(error, url);
+    } finally {
+      clearTimeout(this.#timer);
+      this.#abort.abort();
+      this.#options.signal?.removeEventListener('abort', this.#forward);
+    }
+  }
+
+  async #ask(url, headers) {
+    this.#wait();
+    const { fetch: get, headers: own, credentials } = this.#options;
+    const ask = () => get(url, { headers: { ...own, ...headers }, credentials, signal: this.#abort.signal });
+    // Once more where nothing came: a connection that was kept may have been closed by the server.
+    const response = await ask().catch((error) => {
+      if (this.#abort.signal.aborted) throw error;
+      return ask();
+    });
+    if (!response.ok) throw network(`${response.status} ${response.statusText} for ${url}`.trim());
+    return response;
   }
 
   /** All of a body, at most `most` bytes; `expected` of them where that is known. */

@@ -7,6 +7,15 @@ import { startWorker } from './start_worker.js';
 
 const ownWorker = () => new Worker(new URL('./slf_worker_service.js', import.meta.url), { type: 'module' });
 
+/** That a worker, which may be of another place, finds. */
+function addressOf(url) {
+  try {
+    return new URL(url, globalThis.location?.href).href;
+  } catch (cause) {
+    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${url} is no address`, { cause });
+  }
+}
+
 export class SlfWorker {
   #worker; #next = 0; #waiting = new Map(); #ended = null;
 
@@ -37,13 +46,7 @@ export class SlfWorker {
   }
 
   async open(url, { signal, stallMs, headers, credentials } = {}) {
-    let address;
-    try {
-      address = new URL(url, globalThis.location?.href).href;
-    } catch (cause) {
-      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${url} is no address`, { cause });
-    }
-    const id = this.#next;
+    const address = addressOf(url), id = this.#next;
     const opened = await this.#call('open', { url: address, options: { stallMs, headers, credentials } }, { signal });
     return {
       ...opened,
@@ -51,6 +54,40 @@ export class SlfWorker {
         this.#call('decodeStream', { stream: id, options, wanted }, { onRead, signal: stop }),
       close: () => this.#call('close', { stream: id }),
     };
+  }
+
+  /** A stream of several frames. source: an address, a Blob or bytes; options: as of SlfFrameStream.open but fetch. */
+  async openFrames(source, { signal, ...options } = {}) {
+    const id = this.#next;
+    const from = typeof source === 'string' || source instanceof URL ? addressOf(source) : source;
+    const { info } = await this.#call('openFrames', { source: from, options }, { signal });
+    return {
+      info,
+      frame: async (place, { signal: stop, ...wanted } = {}) => {
+        const frame = await this.#call('frame', { stream: id, place, wanted }, { signal: stop });
+        return frame?.error ? { ...frame, error: new SlfError(frame.error.code, frame.error.message, frame.error) } : frame;
+      },
+      close: () => this.#call('close', { stream: id }),
+    };
+  }
+
+  /** The frames of a source in order, as SlfFrameStream.play() has them; the next is decoded meanwhile. */
+  async *frames(source, options = {}, wanted = {}) {
+    const { signal } = options, stream = await this.openFrames(source, options);
+    const ask = (place) => {
+      const asked = stream.frame(place, { ...wanted, signal });
+      asked.catch(() => {}); // said when it is its turn
+      return asked;
+    };
+    try {
+      let next = ask(0);
+      for (let frame = await next; frame !== null; frame = await next) {
+        next = ask(frame.place + 1);
+        yield frame;
+      }
+    } finally {
+      if (this.#ended === null) await stream.close();
+    }
   }
 
   terminate() {

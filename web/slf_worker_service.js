@@ -1,5 +1,6 @@
 // What the worker of SlfWorker (slf_worker.js) runs: a decoder, and streams by their number.
 import { SlfDecoder, SlfError } from './slf.js';
+import { SlfFrameStream } from './slf_frame_stream.js';
 import { SlfStream } from './slf_stream.js';
 
 const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'frame', 'transfer', 'up', 'rightHanded',
@@ -20,6 +21,13 @@ const READERS = {
 };
 
 function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
+
+/** An error as data. */
+function plainError(error) {
+  const { message, element, unit, bitOffset } = error;
+  const code = error instanceof SlfError ? error.code : 'INTERNAL'; // a DOMException's code is a number
+  return { code, message, element, unit, bitOffset };
+}
 
 /** A field as data, with the arrays that were asked for, and what of it can be handed over. */
 function plainField(field, { arrays = Object.keys(READERS), functionTable } = {}) {
@@ -63,10 +71,35 @@ class Service {
     return plainField(field, wanted);
   }
 
-  async close({ stream }) { this.#streams.delete(stream); }
+  async openFrames({ id, source, options }) {
+    const stream = await SlfFrameStream.open(source, { ...options, decoder: this.#decoder, signal: this.#signal(id) });
+    this.#streams.set(id, stream);
+    return { plain: { info: stream.info() }, buffers: [] };
+  }
+
+  /** What is wrong with a frame is a part of the answer: those behind it may be sound. */
+  async frame({ stream, place, wanted }) {
+    const source = this.#streams.get(stream);
+    if (source === undefined) throw invalid('the stream was closed');
+    if (!(await source.arrive(place))) return { plain: null, buffers: [] };
+    const about = { ...source.list[place], field: null, error: null };
+    try {
+      const { plain, buffers } = plainField(await source.decode(place), wanted);
+      return { plain: { ...about, field: plain }, buffers };
+    } catch (error) {
+      if (!(error instanceof SlfError) || ['ABORTED', 'NETWORK'].includes(error.code)) throw error;
+      return { plain: { ...about, error: plainError(error) }, buffers: [] };
+    }
+  }
+
+  async close({ stream }) { this.#forget(stream); }
   abort(id) {
     this.#aborts.get(id)?.abort();
-    this.#streams.delete(id); // of an open() whose answer crossed this
+    this.#forget(id); // of an open() whose answer crossed this
+  }
+  #forget(id) {
+    this.#streams.get(id)?.close?.();
+    this.#streams.delete(id);
   }
   done(id) { this.#aborts.delete(id); }
 
@@ -85,9 +118,7 @@ function serve(scope) {
       const answer = await service[data.call](data);
       scope.postMessage({ id: data.id, result: answer?.plain }, answer?.buffers ?? []);
     } catch (error) {
-      const { message, element, unit, bitOffset } = error;
-      const code = error instanceof SlfError ? error.code : 'INTERNAL'; // a DOMException's code is a number
-      scope.postMessage({ id: data.id, error: { code, message, element, unit, bitOffset } });
+      scope.postMessage({ id: data.id, error: plainError(error) });
     } finally {
       service.done(data.id);
     }

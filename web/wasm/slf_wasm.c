@@ -138,6 +138,56 @@ slf_field* EXPORT(slfw_decode)(const slf_stream* stream) {
 }
 void EXPORT(slfw_release_field)(slf_field* field) { slf_release_field(field); }
 
+/* Streams of frames. Options are those set before. */
+slf_frames* EXPORT(slfw_frames_open)(void) {
+  slf_frames* frames = NULL;
+  slf_open_frames(&options, NULL, &frames, error());
+  return frames;
+}
+void EXPORT(slfw_frames_release)(slf_frames* frames) { slf_release_frames(frames); }
+int EXPORT(slfw_frames_push)(slf_frames* frames, const void* bytes, size_t size) {
+  return slf_frames_push(frames, bytes, size, error());
+}
+int EXPORT(slfw_frames_finish)(slf_frames* frames) { return slf_frames_finish(frames, error()); }
+uint32_t EXPORT(slfw_frames_count)(const slf_frames* frames) {
+  return (uint32_t)slf_frames_count(frames);
+}
+double EXPORT(slfw_frames_held)(const slf_frames* frames) {
+  return (double)slf_frames_held_bytes(frames);
+}
+
+/* number, time, offset, bytes, predicted, lost, whether its bytes are held */
+int EXPORT(slfw_frame)(const slf_frames* frames, uint32_t place) {
+  slf_frame f = {sizeof f};
+  const slf_code code = slf_frames_get(frames, place, &f, error());
+  const void* bytes = NULL;
+  size_t size = 0;
+  slf_frames_get_bytes(frames, place, &bytes, &size, NULL);
+  const double all[] = {f.number, f.time, (double)f.offset, (double)f.bytes,
+                        f.predicted, f.lost, bytes != NULL};
+  for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
+  return code;
+}
+
+/* The headers of a frame that is not predicted. */
+slf_stream* EXPORT(slfw_frame_headers)(const slf_frames* frames, uint32_t place) {
+  const void* bytes = NULL;
+  size_t size = 0;
+  if (slf_frames_get_bytes(frames, place, &bytes, &size, error()) != SLF_OK) return NULL;
+  return slfw_open(bytes, size);
+}
+slf_field* EXPORT(slfw_frame_decode)(slf_frames* frames, uint32_t place) {
+  slf_field* field = NULL;
+  slf_frames_decode(frames, place, &field, error());
+  return field;
+}
+int EXPORT(slfw_frames_drop_before)(slf_frames* frames, uint32_t place) {
+  return slf_frames_drop_before(frames, place, error());
+}
+int EXPORT(slfw_frames_seek)(slf_frames* frames, uint32_t place) {
+  return slf_frames_seek(frames, place, error());
+}
+
 /* R, P, levels, partial, origin[3], step, W, frame, transfer, has normals, gamma min, max, has
  * splats */
 int EXPORT(slfw_shape)(const slf_field* field) {

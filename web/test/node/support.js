@@ -78,7 +78,8 @@ export async function serve(files) {
   const server = createServer((request, response) => {
     const url = new URL(request.url, 'http://localhost');
     const bytes = files[url.pathname.slice(1)];
-    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
+    const range = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? '');
+    if (range && range[2] === '') range[2] = String(bytes.length - 1);
     const count = requests.filter((one) => one.url === request.url).length;
     requests.push({ url: request.url, range: range && [Number(range[1]), Number(range[2]) + 1] });
     const manner = count >= Number(url.searchParams.get('after') ?? 0) ? url.searchParams.get('manner') : 'ranges';

@@ -1,6 +1,7 @@
 // Compiled and not run: what the documentation shows, and what must not compile.
 import { Box3, PerspectiveCamera, Raycaster, Scene, WebGLRenderer } from 'three';
 import { SlfDecoder, SlfError } from 'slf-decoder';
+import { SlfFrameStream, frames } from 'slf-decoder/frames';
 import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js';
 import { SurfaceLightField, type LightFieldIntersection } from 'slf-decoder/viewer/surface_light_field.js';
 import { Viewer } from 'slf-decoder/viewer/viewer.js';
@@ -33,6 +34,19 @@ export async function decoded(bytes: Uint8Array) {
   } catch (error) {
     return error instanceof SlfError ? error.code : undefined;
   }
+}
+
+export async function played(url: string, canvas: { show(points: Float32Array): void }) {
+  const times: number[] = [];
+  for await (const frame of frames(url, { levels: 8, keepBytes: 1e8 })) {
+    if (frame.error) continue;
+    canvas.show(frame.field.weights());
+    times.push(frame.time);
+    // @ts-expect-error a frame's time is read alone, and a number
+    frame.time.slice();
+  }
+  const stream = await SlfFrameStream.open(new Blob());
+  return [times, stream.list.length, (await stream.decode(0)).points];
 }
 
 export async function viewer() {
