@@ -1,8 +1,9 @@
 // Hot loops over integers, compiled for AVX2 as well where there is; the result is the same.
 #pragma once
 
-// clang 14 has no target_clones; a sanitizer's run-time is not ready when the choice is made.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+// clang 14 has no target_clones; a sanitizer's run-time is not ready when the choice is made; the
+// loader of ELF alone makes it.
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define SLF_MULTIVERSION __attribute__((target_clones("arch=x86-64-v3", "default")))
 // With what the function calls.

@@ -59,7 +59,7 @@ class BitReader {
     return failed_ ? std::span<const std::uint8_t>{} : bytes_.subspan(pos_ / 8);
   }
 
-  void skip_all() { pos_ = bytes_.size() * 8; }
+  void skip_all() { pos_ = bits(); }
 
   /// Of what begins at bit `begin`, or at the next one to read.
   std::uint64_t fail(Errc code, const char* element, std::uint64_t begin) {
@@ -72,9 +72,12 @@ class BitReader {
   bool ok() const { return !failed_; }
   const Error& error() const { return error_; }
   std::uint64_t bit_position() const { return pos_; }
-  std::uint64_t bits_left() const { return bytes_.size() * 8 - pos_; }
+  std::uint64_t bits_left() const { return bits() - pos_; }
 
  private:
+  /// In 64 bits: a size of 32 bits cannot count the bits of 512 MiB.
+  std::uint64_t bits() const { return std::uint64_t{bytes_.size()} * 8; }
+
   std::span<const std::uint8_t> bytes_;
   std::uint64_t pos_ = 0;  // bits consumed
   bool failed_ = false;
