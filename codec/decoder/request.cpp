@@ -139,16 +139,22 @@ bool wants_unit(const Request& request, const std::vector<std::uint8_t>& chosen,
   return ids.of_base() || (ids.slice_id < chosen.size() && chosen[ids.slice_id]);
 }
 
-SequenceParameterSet cut_sequence(const Request& request, const std::vector<std::uint8_t>& chosen) {
+SequenceParameterSet cut_sequence(const Request& request, const std::vector<std::uint8_t>& chosen,
+                                  const std::vector<std::uint8_t>& present) {
   SequenceParameterSet set = request.stream.set;
   const bool all_groups = request.groups.size() == set.num_groups(),
-             all_layers = request.layers == static_cast<int>(set.num_layers()),
-             all_slices = std::find(chosen.begin(), chosen.end(), false) == chosen.end();
+             all_layers = request.layers == static_cast<int>(set.num_layers());
+  bool left_out = false, cells_stand_for_some = false;
+  for (std::size_t s = 0; s < chosen.size(); ++s) {
+    left_out = left_out || !chosen[s];
+    cells_stand_for_some = cells_stand_for_some || (chosen[s] && !present[s]);
+  }
   set.sps_cut_flag = 1;
   set.sps_cut_levels = static_cast<std::uint32_t>(request.levels);
   set.sps_cut_groups = all_groups ? 0 : static_cast<std::uint32_t>(request.groups.size());
   set.sps_cut_layers = all_layers ? 0 : static_cast<std::uint32_t>(request.layers);
-  set.sps_cut_slices_flag = set.sps_cut_slices_flag || !all_slices;
+  set.sps_cut_slices_flag =
+      set.sps_cut_slices_flag || (left_out && (!cells_stand_for_some || request.base_alone()));
   return set;
 }
 

@@ -128,7 +128,11 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
   SLF_CHECK(choose_units(index, unit->offset + unit->bytes,
                          {head.size(), stream_bytes - head.size()}, request, chosen,
                          options.max_bytes, plan));
-  plan.set = cut_sequence(request, chosen);
+  std::vector<std::uint8_t> present(chosen.size(), false);
+  for (const ReadPlan::Wanted& wanted : plan.units)
+    if (wanted.entry.type == UnitType::kGeometry && wanted.entry.ids.slice_id < present.size())
+      present[wanted.entry.ids.slice_id] = true;
+  plan.set = cut_sequence(request, chosen, present);
   return plan;
 }
 

@@ -76,7 +76,9 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
   SLF_TRY(const auto index, find_index(units, scene.stream.set));
   std::optional<std::vector<CellBox>> boxes;
   if (index) boxes = index->boxes;
-  return assemble_within(cut_sequence(request, chosen), kept, boxes, options.max_bytes);
+  std::vector<std::uint8_t> present;
+  for (const PartUnits& slice : scene.slices) present.push_back(!slice.empty());
+  return assemble_within(cut_sequence(request, chosen, present), kept, boxes, options.max_bytes);
 }
 
 }  // namespace slf
