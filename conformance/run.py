@@ -14,7 +14,7 @@ element and of its unit must be in what it prints. With --radiance "CMD {in} {ou
 numbers, R, G, B of a point towards (x, y, z), from the stream or from what the decoder left in {out}: within 1/16 (spec 6.7).
 Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
 """
-import argparse, hashlib, json, math, pathlib, re, shlex, shutil, struct, subprocess, sys, tempfile
+import argparse, concurrent.futures, hashlib, json, math, pathlib, re, shlex, shutil, struct, subprocess, sys, tempfile
 import xml.etree.ElementTree as xml
 
 GREY_LEVELS = 1 / 16                        # of a colour, spec 6.7
@@ -178,6 +178,23 @@ def write_junit(path, report):
     xml.ElementTree(suite).write(path, encoding="utf-8", xml_declaration=True)
 
 
+def check(folder, arguments, meaning):
+    """What is wrong with the decoder in a case; None where it is skipped."""
+    case = f"{folder.parent.name}/{folder.name}"
+    if case in arguments.skip:
+        return None
+    if folder.parent.name != "streams":
+        return check_refused(folder, arguments.decoder, arguments.info, arguments.messages, arguments.timeout)
+    radiance = None if case in arguments.without_colours else arguments.radiance
+    return check_stream(folder, arguments.decoder, arguments.timeout, meaning, radiance)
+
+
+def digests_of(suite, report):
+    """How many digests the streams have that passed: so many were compared."""
+    passed = [suite / entry["case"] / "case.json" for entry in report if entry["verdict"] == "passed" and entry["case"].startswith("streams/")]
+    return sum(key.endswith("_sha256") for file in passed for expect in json.loads(file.read_text(encoding="utf-8"))["expect"] for key in expect)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--decoder", required=True)
@@ -189,33 +206,28 @@ def main():
     parser.add_argument("--json", action="store_true", help="a report on standard output")
     parser.add_argument("--junit", metavar="FILE", help="a report for continuous integration")
     parser.add_argument("--radiance", metavar="CMD", help="prints the colour of a point; without it colours are not compared")
+    parser.add_argument("--without-colours", action="append", default=[], metavar="CASE", help="no --radiance there; repeatable")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="cases at a time [1]")
     parser.add_argument("--without-header", action="store_true", help="the decoder leaves no light_field.json")
     parser.add_argument("--only", action="append", default=[], metavar="CASE", help="these cases alone; repeatable")
     arguments = parser.parse_args()
     report, meaning = [], None
     if not arguments.without_header:
         meaning = json.loads((arguments.suite / "meaning.json").read_text(encoding="utf-8"))
-    for part in ("streams", "refused", "refused_frames"):
-        if not (arguments.suite / part).is_dir():
-            continue
-        for folder in sorted(p for p in (arguments.suite / part).iterdir() if p.is_dir()):
-            if arguments.only and f"{part}/{folder.name}" not in arguments.only:
-                continue
-            if f"{part}/{folder.name}" in arguments.skip:
-                problems = None
-            elif part == "streams":
-                problems = check_stream(folder, arguments.decoder, arguments.timeout, meaning, arguments.radiance)
-            else:
-                problems = check_refused(folder, arguments.decoder, arguments.info, arguments.messages, arguments.timeout)
+    folders = [f for part in ("streams", "refused", "refused_frames") for f in sorted((arguments.suite / part).glob("*/"))
+               if not arguments.only or f"{part}/{f.name}" in arguments.only]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for folder, problems in zip(folders, pool.map(lambda folder: check(folder, arguments, meaning), folders)):
+            case = f"{folder.parent.name}/{folder.name}"
             verdict = "skipped" if problems is None else "failed" if problems else "passed"
-            report.append({"case": f"{part}/{folder.name}", "verdict": verdict, "problems": problems or []})
+            report.append({"case": case, "verdict": verdict, "problems": problems or []})
             for problem in problems or []:
-                print(f"{part}/{folder.name}: {problem}", file=sys.stderr)
+                print(f"{case}: {problem}", file=sys.stderr)
     count = {v: sum(r["verdict"] == v for r in report) for v in ("passed", "failed", "skipped")}
     if arguments.junit:
         write_junit(arguments.junit, report)
     if arguments.json:
-        print(json.dumps({"cases": report, **count}, indent=1))
+        print(json.dumps({"cases": report, "digests": digests_of(arguments.suite, report), **count}, indent=1))
     else:
         print(f"conformance: {count['passed']} passed, {count['failed']} failed, {count['skipped']} skipped")
     return 1 if count["failed"] or not report or not count["passed"] else 0

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building needs; with the argument `web` also those that
 # web/build_wasm.sh and its tests need, with `lab` these and those of all tests and of the RD
-# laboratory (tools/rd). Quick when all are there; safe to repeat. As root, or through
-# sudo.
+# laboratory (tools/rd), with `machines` those of conformance/machines.sh (cross compilers, qemu, wine), with `s390x` those
+# of its one machine that every change is tried on.
+# Quick when all are there; safe to repeat. As root, or through sudo.
 set -euo pipefail
 
 packages=(
@@ -22,6 +23,12 @@ if [[ "${1:-}" == lab ]]; then
   packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib
     pybind11-dev python3-venv mypy doxygen dpkg-dev man-db  # bindings/python/, packages, reference, man pages
     chromium)  # web/test/browser
+fi
+if [[ "${1:-}" == machines || "${1:-}" == s390x ]]; then
+  packages+=(g++-s390x-linux-gnu qemu-user-static)
+fi
+if [[ "${1:-}" == machines ]]; then
+  packages+=(g++-{aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64)
 fi
 
 missing=()
