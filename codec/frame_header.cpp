@@ -120,6 +120,17 @@ Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const Reference
   return decoder.finish("frame_vectors");
 }
 
+std::vector<std::uint8_t> frame_payload(FrameHeader header, std::span<const std::uint8_t> vectors) {
+  if (header.frame_lattice_flag != 0)
+    for (auto& size : header.motion.lattice_size) --size;
+  BitWriter out;
+  WriteSyntax write{out};
+  frame_unit(write, header);
+  std::vector<std::uint8_t> payload = out.take();
+  payload.insert(payload.end(), vectors.begin(), vectors.end());
+  return payload;
+}
+
 std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const ReferenceCells* reference,
                                              int bits) {
   Motion& motion = header.motion;
@@ -130,16 +141,8 @@ std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const Referenc
     RangeEncoder encoder;
     code_lattice(encoder, *reference, bits, motion);
     vectors = encoder.finish();
-    for (auto& size : motion.lattice_size) --size;
   }
-  BitWriter out;
-  WriteSyntax write{out};
-  frame_unit(write, header);
-  std::vector<std::uint8_t> payload = out.take();
-  payload.insert(payload.end(), vectors.begin(), vectors.end());
-  if (header.frame_lattice_flag != 0)
-    for (auto& size : motion.lattice_size) ++size;
-  return payload;
+  return frame_payload(header, vectors);
 }
 
 }  // namespace slf

@@ -68,6 +68,9 @@ Result<FrameHeader> parse_frame_header(std::span<const std::uint8_t> payload,
 Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const ReferenceCells& reference,
                           int bits, Motion& motion);
 
+/// The payload: the elements and the vectors as they were coded.
+std::vector<std::uint8_t> frame_payload(FrameHeader header, std::span<const std::uint8_t> vectors);
+
 /// The payload. Vectors that are not coded become zero in `header`.
 std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const ReferenceCells* reference,
                                              int bits);

@@ -15,7 +15,8 @@ class CliFramesTest : public CliTest {
       field.header.basis.id = BasisId::kHarmonics;
       field.header.basis.degree = 0;
     }
-    const test::Bytes bytes = test::joined(test::coded_frames(fields_, test::frame_parameters(8, 1)));
+    const test::Bytes bytes =
+        test::joined(test::coded_frames(fields_, test::frame_parameters(8, 1)));
     write("x.slf", {bytes.begin(), bytes.end()});
   }
   std::vector<LightField> fields_;
@@ -39,13 +40,25 @@ TEST_F(CliFramesTest, DecodeTakesTheFirstOrTheOneAskedFor) {
   EXPECT_FALSE(exists("y.ply"));
 }
 
-TEST_F(CliFramesTest, VerbsOfOneLightFieldRefuseByName) {
-  for (const char* verb : {"truncate x.slf -o y.slf --levels 2", "html x.slf -o y.html"}) {
-    const Ran ran = slf(std::string(verb) + " --quiet");
-    if (ran.err.find("one_file.html") != std::string::npos) continue;  // built without the page
-    expect_failure(ran, 6, "x.slf", "a stream of several frames");
+TEST_F(CliFramesTest, TruncateKeepsFramesThatWereAskedForAndThoseTheyNeed) {
+  const Ran ran = slf("truncate x.slf -o y.slf --frames 1:1 --levels 4 --json --quiet");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(parsed(slf("info y.slf --json").out)["frames"].size(), 2u);
+  for (const char* frame : {"0", "1"}) {
+    ASSERT_EQ(slf("decode x.slf -o x.ply --levels 4 --quiet --frame " + std::string(frame)).code,
+              0);
+    ASSERT_EQ(slf("decode y.slf -o y.ply --quiet --frame " + std::string(frame)).code, 0);
+    EXPECT_EQ(read("x.ply"), read("y.ply"));
   }
-  EXPECT_FALSE(exists("y.slf"));
+  expect_failure(slf("truncate x.slf -o z.slf --frames 1:3 --quiet"), 2, "x.slf", "it has 3");
+  expect_failure(slf("truncate x.slf -o z.slf --region 0,0,0,1,1,1 --quiet"), 2, "x.slf", "region");
+  EXPECT_FALSE(exists("z.slf"));
+}
+
+TEST_F(CliFramesTest, HtmlRefusesByName) {
+  const Ran ran = slf("html x.slf -o y.html --quiet");
+  if (ran.err.find("one_file.html") != std::string::npos) GTEST_SKIP() << "built without the page";
+  expect_failure(ran, 6, "x.slf", "a stream of several frames");
   EXPECT_FALSE(exists("y.html"));
 }
 

@@ -1,7 +1,6 @@
 // What frames are made of, and motions that are made to hurt. Spec 7.13.
 #include <chrono>
 
-#include "slf/truncate.h"
 #include "tests/frames_edit.h"
 
 namespace slf::frames_units_test {
@@ -158,16 +157,6 @@ TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
 TEST(Spec_7_13_Lattice, CodewordThatGoesOnIsRefused) {
   expect_error(with_lattice({0, 0, 0}, Bytes(40, 0x55)), Errc::kOutOfRange, "frame_vectors",
                "frame");
-}
-
-TEST(Spec_7_13_Hazards, WhatTakesOneLightFieldSaysSo) {
-  const auto frames = small_frames();
-  for (const Bytes& stream : {frames[0], joined(frames)}) {
-    const auto cut = truncate(stream, {});
-    ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().code, Errc::kUnsupported);
-    EXPECT_STREQ(cut.error().element, kOneLightField);
-  }
 }
 
 TEST(Spec_9_Frames, AreHeldToLimitsWithWhatIsKept) {

@@ -2,6 +2,8 @@
 #include <array>
 #include <memory>
 
+#include "slf/frame_inputs.h"
+#include "slf/frames.h"
 #include "slf/truncate.h"
 #include "tools/options.h"
 #include "tools/output.h"
@@ -19,22 +21,44 @@ struct TruncateOptions {
   CommonOptions common;
 };
 
+/// --frames, of a stream of several; all of it without.
+Result<std::vector<std::uint8_t>, Failure> cut(const TruncateOptions& given,
+                                               const StreamFile& stream,
+                                               const DecodeOptions& options) {
+  const std::string name = input_name(given.input);
+  FrameRange range{0, UINT32_MAX};
+  if (!given.part.frames.empty()) {
+    SLF_TRY(range, from("--frames", parse_frame_range(given.part.frames)));
+    if (range.last >= stream.frames)
+      return Failure{kUsage, name + ": frame " + std::to_string(range.last) +
+                                 " is asked for, but it has " + std::to_string(stream.frames) +
+                                 ", from 0 on"};
+  }
+  if (stream.frames > 1 && options.region)
+    return Failure{kUsage, name +
+                               ": a region of frames is not cut out: each is predicted from all "
+                               "of the one before (--region)"};
+  auto kept = stream.frames == 1 ? truncate(stream.bytes, options)
+                                 : truncate_frames(stream.bytes, range.first, range.last, options);
+  if (!kept) return decode_failure(given.input, kept.error(), stream, options);
+  return *std::move(kept);
+}
+
 Outcome run_truncate(const TruncateOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "truncate: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output, "truncate", std::array{".slf"}));
   SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
   const DecodeOptions options = decode_options(stream.info, given.part, given.limits, given.common);
-  const auto cut = truncate(stream.bytes, options);
-  if (!cut) return decode_failure(given.input, cut.error(), stream, options);
-  SLF_CHECK(save(given.output, cut->data(), cut->size()));
-  SLF_TRY(const StreamInfo left, from(output_name(given.output), read_info(*cut)));
+  SLF_TRY(const auto kept, cut(given, stream, options));
+  SLF_CHECK(save(given.output, kept.data(), kept.size()));
+  SLF_TRY(const StreamInfo left, from(output_name(given.output), read_info(kept)));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},
-                                        {"bytes", cut->size()},
+                                        {"bytes", kept.size()},
                                         {"partial", is_partial(left)}});
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s of %s bytes\n", grouped(cut->size()).c_str(),
+    std::fprintf(stderr, "%s of %s bytes\n", grouped(kept.size()).c_str(),
                  grouped(stream.bytes.size()).c_str());
   return Done{};
 }
@@ -61,6 +85,10 @@ void add_truncate(CLI::App& program, Run& run) {
   verb->get_option("--region")
       ->description(
           "Keep only slices that meet a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world units");
+  verb->add_option("--frames", o->part.frames,
+                   "Of a file of several frames those to keep, both included; so are those of the "
+                   "group before the first, which it is predicted from")
+      ->type_name("A:B");
   add_limits(*verb, o->limits);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);

@@ -19,6 +19,22 @@ bool lacks_cells(const FrameState& reference, int bits) { return reference.cells
 
 }  // namespace
 
+Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                                  const OpenStream& group) {
+  SequenceParameterSet set = group.scene.stream.set;
+  set.predicted = true;
+  SLF_TRY(const Units own, predicted_units(stream, frame));
+  Units units;  // behind sequence and transforms of the group
+  for (const Unit& unit : group.units.units)
+    if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
+      units.units.push_back(unit);
+  units.units.insert(units.units.end(), own.units.begin(), own.units.end());
+  units.complete = own.complete;
+  SLF_TRY(SceneUnits scene, collect_units(units, set));
+  scene.stream.bytes = frame.bytes;
+  return OpenStream{std::move(units), std::move(scene)};
+}
+
 Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream,
                                             const FrameUnits& frame, const DecodeOptions& options,
                                             FrameState& kept) {
@@ -32,27 +48,10 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
   return decode_units(*group_, options, context);
 }
 
-/// Sequence and transforms of the group, then units of its own.
-Result<OpenStream> FrameChain::open_predicted(std::span<const std::uint8_t> stream,
-                                              const FrameUnits& frame) const {
-  SequenceParameterSet set = group_->scene.stream.set;
-  set.predicted = true;
-  SLF_TRY(const Units own, predicted_units(stream, frame));
-  Units units;
-  for (const Unit& unit : group_->units.units)
-    if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
-      units.units.push_back(unit);
-  units.units.insert(units.units.end(), own.units.begin(), own.units.end());
-  units.complete = own.complete;
-  SLF_TRY(SceneUnits scene, collect_units(units, set));
-  scene.stream.bytes = frame.bytes;
-  return OpenStream{std::move(units), std::move(scene)};
-}
-
 Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> stream,
                                                 const FrameUnits& frame,
                                                 const DecodeOptions& options, FrameState& kept) {
-  SLF_TRY(OpenStream opened, open_predicted(stream, frame));
+  SLF_TRY(const OpenStream opened, open_predicted(stream, frame, *group_));
   Motion motion = frame.header.motion;
   const int bits = opened.scene.stream.grid_bits();
   if (lacks_cells(state_, bits))

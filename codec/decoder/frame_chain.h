@@ -11,6 +11,11 @@
 
 namespace slf {
 
+/// A predicted frame behind the sequence and the transforms of its group.
+/// @errors those of predicted_units and collect_units
+Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                                  const OpenStream& group);
+
 class FrameChain {
  public:
   /// @param stream  bytes that `frame` is in. Those of an intra frame stay until its group is done
@@ -27,8 +32,6 @@ class FrameChain {
                                   const DecodeOptions& options, FrameState& kept);
   Result<LightField> decode_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                       const DecodeOptions& options, FrameState& kept);
-  Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream,
-                                    const FrameUnits& frame) const;
 
   std::optional<OpenStream> group_;      // the frame that others of its group go back to
   std::uint64_t group_offset_ = 0;       // of its first byte in the stream that errors are of

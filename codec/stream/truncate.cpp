@@ -5,32 +5,12 @@
 #include "codec/decoder/decode_cost.h"
 #include "codec/encoder/assemble.h"
 #include "codec/scene_units.h"
-#include "codec/split_frames.h"
+#include "codec/stream/select_units.h"
+#include "slf/frames.h"
 #include "slf/truncate.h"
 
 namespace slf {
 namespace {
-
-/// Is this one of the units that assemble() writes anew?
-bool is_frame(UnitType type) {
-  return type == UnitType::kSequence || type == UnitType::kIndex || type == UnitType::kEnd;
-}
-
-/// Units in the order of the stream, those that are wanted.
-Result<std::vector<CodedUnit>> select(const Units& units, const Request& request,
-                                      const std::vector<std::uint8_t>& chosen) {
-  std::vector<CodedUnit> kept;
-  for (const Unit& unit : units.units) {
-    if (is_frame(unit.type)) continue;
-    SliceUnitHeader ids;
-    if (has_ids(unit.type)) {
-      SLF_TRY(ids, read_ids(unit, request.stream.set));
-      if (!wants_unit(request, chosen, unit.type, ids)) continue;
-    }
-    kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
-  }
-  return kept;
-}
 
 /// Only headers and the geometry of the base are decoded, and that only where a region asks for it.
 Result<std::vector<std::uint8_t>> choose_by_region(const SceneUnits& scene, const Request& request,
@@ -67,12 +47,13 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
                                            const DecodeOptions& options) {
   SLF_TRY(const OpenStream opened, open_stream(stream, options.limits));
   const auto& [units, scene] = opened;
-  SLF_CHECK(check_does_not_move(units));
+  if (units.first(UnitType::kFrame) != nullptr)
+    return truncate_frames(stream, 0, SIZE_MAX, options);
   SLF_CHECK(collect_metadata(units));
   SLF_TRY(const Request request, request_of(units, scene, options));
   SLF_CHECK(check_limits(request, options));
   SLF_TRY(const auto chosen, choose_by_region(scene, request, options));
-  SLF_TRY(const std::vector<CodedUnit> kept, select(units, request, chosen));
+  SLF_TRY(const std::vector<CodedUnit> kept, select_units(units, request, chosen));
   SLF_TRY(const auto index, find_index(units, scene.stream.set));
   std::optional<std::vector<CellBox>> boxes;
   if (index) boxes = index->boxes;

@@ -66,6 +66,17 @@ class FrameDecoder {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Leaves out frames, and in each of the others levels and groups that options do not ask for:
+/// truncate() of streams that move. Frames keep their numbers and times.
+/// @param first, last  places, both included; a last beyond the stream's is the stream's. Frames of
+///                     its group before the first are kept too: it is predicted from them
+/// @param options  as of truncate(); max_bytes: as many whole frames as fit
+/// @errors as truncate(); kInvalidArgument: region, which a frame that is predicted from another
+///         needs whole; no such frame; max_bytes without room for one. O(bytes)
+Result<std::vector<std::uint8_t>> truncate_frames(std::span<const std::uint8_t> stream,
+                                                  std::size_t first, std::size_t last,
+                                                  const DecodeOptions& options = {});
+
 /// Codes the frames of a stream, one after the other.
 class FrameEncoder {
  public:

@@ -17,6 +17,7 @@ namespace slf {
 /// @param options  max_bytes > 0: as many of the units that remain as fit into a file of so many
 ///                 bytes; they come coarse first. limits: of the decode of what is asked for,
 ///                 whatever max_bytes. threads: those of that decode. seconds: not used
+/// Each frame of a stream of several is cut (truncate_frames in slf/frames.h).
 /// Thread-safe. O(bytes); where a region is given, the geometry of the base is decoded.
 /// @errors those of headers as decode; kInvalidArgument also where max_bytes has no room for the
 ///         headers

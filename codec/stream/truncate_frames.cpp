@@ -1,0 +1,108 @@
+// Frames with less in them, and fewer of them. Spec 7.13, 8.9.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "codec/decoder/decode_cost.h"
+#include "codec/decoder/frame_chain.h"
+#include "codec/encoder/assemble.h"
+#include "codec/stream/select_units.h"
+#include "slf/frames.h"
+
+namespace slf {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Cuts the frames of a stream, which come in its order.
+class FrameCutter {
+ public:
+  FrameCutter(std::span<const std::uint8_t> stream, const DecodeOptions& options)
+      : stream_(stream), options_(options) {
+    options_.max_bytes = 0;
+  }
+
+  Result<Bytes> cut(const FrameUnits& frame) {
+    return frame.header.predicted() ? cut_predicted(frame) : cut_intra(frame);
+  }
+
+ private:
+  Result<Bytes> cut_intra(const FrameUnits& frame) {
+    SLF_TRY(group_, open_stream(bytes_of(frame), options_.limits));
+    SLF_TRY(const Request request, request_of(group_->units, group_->scene, options_));
+    SLF_CHECK(check_limits(request, options_));
+    asked_ = request;
+    if (request.whole) return copy_of(frame);
+    Bytes bytes(kSignature.begin(), kSignature.end());
+    append_unit(bytes, UnitType::kSequence,
+                write_sequence_parameter_set(cut_sequence(request, all_slices(request))));
+    SLF_CHECK(append_frame(frame, group_->units, request, bytes));
+    return bytes;
+  }
+
+  Result<Bytes> cut_predicted(const FrameUnits& frame) {
+    SLF_TRY(const OpenStream opened, open_predicted(stream_, frame, *group_));
+    SLF_TRY(const Request request, request_of(opened.units, opened.scene, options_, &asked_));
+    SLF_CHECK(check_limits(request, options_));
+    if (request.whole) return copy_of(frame);
+    SLF_TRY(const Units own, predicted_units(stream_, frame));
+    Bytes bytes;
+    SLF_CHECK(append_frame(frame, own, request, bytes));
+    return bytes;
+  }
+
+  std::span<const std::uint8_t> bytes_of(const FrameUnits& frame) const {
+    return stream_.subspan(static_cast<std::size_t>(frame.offset),
+                           static_cast<std::size_t>(frame.bytes));
+  }
+  Bytes copy_of(const FrameUnits& frame) const {
+    return {bytes_of(frame).begin(), bytes_of(frame).end()};
+  }
+
+  static std::vector<std::uint8_t> all_slices(const Request& request) {
+    return std::vector<std::uint8_t>(request.stream.table.slices.size(), true);
+  }
+
+  /// The frame unit and those behind it. A frame that was whole has an end unit again.
+  static Result<Done> append_frame(const FrameUnits& frame, const Units& own,
+                                   const Request& request, Bytes& bytes) {
+    SLF_TRY(const auto kept, select_units(own, request, all_slices(request)));
+    Bytes rest;
+    for (const CodedUnit& unit : kept) append_unit(rest, unit.type, unit.payload);
+    const std::size_t before = frame.header.predicted() ? 1 : 2;
+    if (own.complete) append_unit(rest, UnitType::kEnd, end_payload(before + kept.size()));
+    FrameHeader header = frame.header;
+    header.frame_bytes = static_cast<std::uint32_t>(rest.size());
+    append_unit(bytes, UnitType::kFrame, frame_payload(std::move(header), frame.vectors));
+    bytes.insert(bytes.end(), rest.begin(), rest.end());
+    return Done{};
+  }
+
+  std::span<const std::uint8_t> stream_;
+  DecodeOptions options_;
+  std::optional<OpenStream> group_;  // the intra frame before
+  GroupRequest asked_;               // of its group
+};
+
+}  // namespace
+
+Result<Bytes> truncate_frames(std::span<const std::uint8_t> stream, std::size_t first,
+                              std::size_t last, const DecodeOptions& options) {
+  if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
+  if (options.region) return Error{Errc::kInvalidArgument, "region"};
+  SLF_TRY(const std::vector<FrameUnits> frames, split_frames(stream));
+  if (first >= frames.size() || last < first) return Error{Errc::kInvalidArgument, "frame"};
+  last = std::min(last, frames.size() - 1);
+  while (frames[first].header.predicted()) --first;
+  FrameCutter cutter(stream, options);
+  Bytes kept;
+  for (std::size_t f = first; f <= last; ++f) {
+    SLF_TRY(const Bytes frame, cutter.cut(frames[f]));
+    if (options.max_bytes > 0 && kept.size() + frame.size() > options.max_bytes) break;
+    kept.insert(kept.end(), frame.begin(), frame.end());
+  }
+  if (kept.empty()) return Error{Errc::kInvalidArgument, "max_bytes"};
+  return kept;
+}
+
+}  // namespace slf
