@@ -34,8 +34,9 @@ class FrameCutter {
     asked_ = request;
     if (request.whole) return copy_of(frame);
     Bytes bytes(kSignature.begin(), kSignature.end());
+    const auto all = all_slices(request);
     append_unit(bytes, UnitType::kSequence,
-                write_sequence_parameter_set(cut_sequence(request, all_slices(request))));
+                write_sequence_parameter_set(cut_sequence(request, all, all)));
     SLF_CHECK(append_frame(frame, group_->units, request, bytes));
     return bytes;
   }
