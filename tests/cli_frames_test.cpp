@@ -55,11 +55,18 @@ TEST_F(CliFramesTest, TruncateKeepsFramesThatWereAskedForAndThoseTheyNeed) {
   EXPECT_FALSE(exists("z.slf"));
 }
 
-TEST_F(CliFramesTest, HtmlRefusesByName) {
-  const Ran ran = slf("html x.slf -o y.html --quiet");
+TEST_F(CliFramesTest, HtmlHoldsAllFramesAndHowTheyPlay) {
+  const Ran ran = slf("html x.slf -o y.html --quiet --no-poster --no-loop --speed 2 --paused");
   if (ran.err.find("one_file.html") != std::string::npos) GTEST_SKIP() << "built without the page";
-  expect_failure(ran, 6, "x.slf", "a stream of several frames");
-  EXPECT_FALSE(exists("y.html"));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string page = read("y.html");
+  EXPECT_NE(page.find(shell("base64 -w0 x.slf").out), std::string::npos);
+  for (const char* option : {"\"speed\":2.0", "\"loop\":false", "\"paused\":true"})
+    EXPECT_NE(page.find(option), std::string::npos) << option;
+  ASSERT_EQ(slf("html x.slf -o plain.html --quiet --no-poster").code, 0);
+  for (const char* option : {"\"speed\":", "\"loop\":", "\"paused\":"})
+    EXPECT_EQ(read("plain.html").find(option), std::string::npos) << option;
+  EXPECT_NE(slf("html x.slf -o z.html --quiet --speed 0").code, 0);
 }
 
 }  // namespace

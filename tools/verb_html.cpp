@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "slf/frames.h"
 #include "slf/gaussian_renderer.h"
 #include "slf/jpeg.h"
 #include "slf/render.h"
@@ -24,8 +23,8 @@ constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
 struct HtmlOptions {
   std::string input, output, title, camera, poster, background;
-  double azimuth = 30, elevation = 20, fov = 30, autorotate = 0;
-  bool no_poster = false;
+  double azimuth = 30, elevation = 20, fov = 30, autorotate = 0, speed = 1;
+  bool no_poster = false, no_loop = false, paused = false;
   LimitOptions limits;
   CommonOptions common;
 };
@@ -168,6 +167,9 @@ nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string&
   if (!given.background.empty()) options["background"] = given.background;
   if (given.autorotate != 0) options["autorotate"] = given.autorotate;
   if (camera) options["view"] = view_json(*camera);
+  if (given.speed != 1) options["speed"] = given.speed;
+  if (given.no_loop) options["loop"] = false;
+  if (given.paused) options["paused"] = true;
   return options;
 }
 
@@ -179,7 +181,6 @@ Outcome run_html(const HtmlOptions& given) {
   }
   const std::string name = input_name(given.input);
   SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
-  if (input.frames > 1) return failure_of(Error{Errc::kUnsupported, kOneLightField}, name);
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);
@@ -243,6 +244,11 @@ void add_html(CLI::App& program, Run& run) {
                    "Degrees a second until somebody takes hold; 0: still")
       ->capture_default_str()
       ->check(range(-90, 90));
+  verb->add_option("--speed", o->speed, "Of a light field that moves; 1: as the file has it")
+      ->capture_default_str()
+      ->check(range(1.0 / 16, 16));
+  verb->add_flag("--no-loop", o->no_loop, "What moves plays once");
+  verb->add_flag("--paused", o->paused, "What moves stands still until somebody plays it");
   verb->add_option("--background", o->background,
                    "RRGGBB; default: light by day and dark by night, as the reader's device has it")
       ->type_name("RRGGBB");

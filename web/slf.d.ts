@@ -303,6 +303,8 @@ export class SlfFrameStream {
   info(place?: number): SlfInfo;
   /** Reads until a frame is here, with its group. false: the stream ends before it. */
   arrive(place: number): Promise<boolean>;
+  /** Reads a piece of what comes. false: the list is complete, or half of keepBytes is held. */
+  readAhead(): Promise<boolean>;
   /** To be released. */
   decode(place: number): Promise<SlfField>;
   /** Frames from a place on, in order. A field lives until the next frame is asked for. */

@@ -3,7 +3,7 @@
 //     for await (const frame of frames('walk.slf')) show(frame.time, frame.field);
 import { SlfError, SlfDecoder } from './slf.js';
 import { bytesOf } from './slf_headers.js';
-import { Request } from './slf_stream.js';
+import { Request } from './slf_request.js';
 
 const KEPT_BYTES = 2 ** 28; // of a stream, beyond which groups that are behind are dropped
 
@@ -31,6 +31,7 @@ async function* piecesOfStream(stream) {
 
 export class SlfFrameStream {
   #frames; #from; #pieces; #keep; #signal; #turn = Promise.resolve();
+  #pending = null; // a promise of the piece that comes
   #coming = 0; // place of the frame that the pieces are about to bring
 
   /** Use SlfFrameStream.open(). */
@@ -79,6 +80,18 @@ export class SlfFrameStream {
     });
   }
 
+  /**
+   * Reads a piece of what comes, for frames that will be asked for.
+   * @returns {Promise<boolean>} false: the list is complete, or as much is held as may be
+   */
+  async readAhead() {
+    if (this.ended || this.heldBytes > this.#keep / 2) return false;
+    const piece = this.#next();
+    await piece.catch(() => {}); // said when it is taken; no decode waits meanwhile
+    await this.#inTurn(async () => { if (piece === this.#pending) await this.#take(); });
+    return true;
+  }
+
   /** Frames from a place on. What is wrong with one is its `error`; its field lives until the next is asked for. */
   async *play(place = 0) {
     for (; await this.arrive(place); ++place) {
@@ -100,8 +113,14 @@ export class SlfFrameStream {
   [Symbol.asyncIterator]() { return this.play(); }
 
   async close() {
-    this.#frames.release();
-    await this.#pieces.return();
+    await this.#inTurn(() => this.#frames.release());
+    this.#leave();
+  }
+
+  /** The download ends with the piece that is on its way. */
+  #leave() {
+    this.#pieces.return().catch(() => {});
+    this.#pending = null;
   }
 
   async #arrive(place) {
@@ -109,19 +128,28 @@ export class SlfFrameStream {
     await this.#goBack(place);
     while (!(place < frames.list.length && (frames.list[place].lost || frames.holds(place)))) {
       if (frames.ended) return false;
-      if (this.#signal?.aborted) throw new SlfError('ABORTED', 'ABORTED: by the caller', { cause: this.#signal.reason });
-      const { done, value } = await this.#pieces.next();
-      if (done) {
-        frames.finish();
-      } else {
-        this.received += value.byteLength;
-        frames.push(value);
-      }
-      while (this.#coming < frames.list.length && (frames.list[this.#coming].lost || frames.holds(this.#coming))) ++this.#coming;
+      await this.#take();
       this.#drop(place);
     }
     this.#drop(place);
     return true;
+  }
+
+  /** The piece that comes. */
+  #next() { return (this.#pending ??= this.#pieces.next()); }
+
+  async #take() {
+    const frames = this.#frames, known = () => this.#coming < frames.list.length;
+    if (this.#signal?.aborted) throw new SlfError('ABORTED', 'ABORTED: by the caller', { cause: this.#signal.reason });
+    const { done, value } = await this.#next();
+    this.#pending = null; // one that failed stays: there is nothing behind it
+    if (done) {
+      frames.finish();
+    } else {
+      this.received += value.byteLength;
+      frames.push(value);
+    }
+    while (known() && (frames.list[this.#coming].lost || frames.holds(this.#coming))) ++this.#coming;
   }
 
   /** To a group whose bytes were dropped: they come again. */
@@ -131,7 +159,7 @@ export class SlfFrameStream {
     const first = frames.groupOf(place);
     if (frames.list[first].lost || frames.holds(first) || this.#comesSoon(first)) return;
     frames.seek(first);
-    await this.#pieces.return();
+    this.#leave();
     this.#pieces = this.#from(frames.list[first].offset);
     this.#coming = first;
   }

@@ -2,20 +2,28 @@
 import { buffersOf, packField, ViewerError } from './packed_field.js';
 import { walkUnits } from './stream_units.js';
 
-/** Lets `port` (a worker's scope, or one end of a MessageChannel) hold a file and decode it. */
-export function answer(port, create) {
+/**
+ * Lets `port` (a worker's scope, or one end of a MessageChannel) hold a file and decode it.
+ * @param Frames  FrameSession, where files that move are decoded frame by frame
+ */
+export function answer(port, create, Frames = null) {
   const session = new DecodeSession(create);
-  port.onmessage = async ({ data }) => {
+  const frames = Frames && new Frames(() => session.loadDecoder(), (list) => port.postMessage({ list }));
+  const reply = async (id, task) => {
+    try {
+      const result = await task;
+      port.postMessage({ id, ...result }, result.packed ? buffersOf(result.packed) : []);
+    } catch (error) {
+      port.postMessage({ id, error: plainError(error), info: session.info });
+    }
+  };
+  port.onmessage = ({ data }) => {
     if (data.wasm) session.wasm = data.wasm;
     if (data.reset) session.reset();
     if (data.append) session.append(data.append);
-    if (!data.decode) return;
-    try {
-      const result = await session.decode(data.decode);
-      port.postMessage({ id: data.id, ...result }, result.packed ? buffersOf(result.packed) : []);
-    } catch (error) {
-      port.postMessage({ id: data.id, error: plainError(error), info: session.info });
-    }
+    if (data.decode) reply(data.id, session.decode(data.decode));
+    if (data.frames) reply(data.id, frames.open(data.frames));
+    if (data.frame !== undefined) reply(data.id, frames.decode(data.frame));
   };
 }
 
@@ -56,17 +64,12 @@ export class DecodeSession {
       bytes = bytes.subarray(0, units.pictures);
     }
     const decoder = await this.loadDecoder();
-    const info = (this.info = plainInfo(decoder.info(bytes)));
-    const part = {
-      levels: Math.min(levels, info.levels),
-      groups: Math.min(groups, info.groups),
-      layers: Math.min(layers, info.layers),
-    };
+    const info = (this.info = plainInfo(decoder.info(bytes))),
+      part = partOf(info, { levels, groups, layers });
     const { memoryBytes } = decoder.preflight(bytes, { ...part, maxMemory: Number.MAX_SAFE_INTEGER });
     if (memoryBytes > maxMemory)
       throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(memoryBytes / 2 ** 20)} MiB.`);
-    if (info.hasBasis === false)
-      throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
+    checkColours(info);
     const field = this.run(decoder, bytes, { ...part, maxMemory });
     try {
       return { packed: packField(field, tableSize, prefix > 0), info, end: bytes.length };
@@ -96,8 +99,20 @@ export class DecodeSession {
   }
 }
 
+/** What of a file is decoded: more than there is, is all. */
+export const partOf = (info, { levels, groups, layers }) => ({
+  levels: Math.min(levels, info.levels),
+  groups: Math.min(groups, info.groups),
+  layers: Math.min(layers, info.layers),
+});
+
+export function checkColours(info) {
+  if (info.hasBasis === false)
+    throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
+}
+
 /** That can be posted. */
-const plainInfo = (info) => JSON.parse(JSON.stringify(info));
+export const plainInfo = (info) => JSON.parse(JSON.stringify(info));
 
 const WORDS = {
   TRUNCATED: 'It ends before it should: perhaps it was not copied whole.',

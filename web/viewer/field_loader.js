@@ -2,7 +2,9 @@
 import { decoderModule } from '../slf.js';
 import { startWorker } from '../start_worker.js';
 import { plainError } from './decode_session.js';
+import { FrameSource } from './frame_source.js';
 import { ViewerError } from './packed_field.js';
+import { moves } from './stream_units.js';
 
 const MOST_BYTES = 2 ** 30;
 const FIRST_LOOK = 4096,
@@ -29,13 +31,16 @@ export class FieldLoader {
     this.turn = 0;
     this.arriving = new AbortController(); // of the file that is on its way
     this.whole = false; // all of it is with the worker
+    this.frames = null; // a FrameSource, of a light field that moves
+    this.moving = null; // its source
     this.stopped = null; // why the worker answers no more
   }
 
   /**
    * Loads and decodes; a load that is going on is given up.
    * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
-   * @param {object} on  progress(received, total or 0), field(packed, info, final)
+   * @param {object} on  progress(received, total or 0), field(packed, info, final); moving(frames): a FrameSource, of a
+   *   light field that moves, which without it is its first frame
    * @param {object} options  levels, groups, layers: as they are at each decode; signal; headers, credentials: of fetch
    * @returns {Promise<{packed, info, bytes, part}>} of the whole file; part: levels, groups, layers that were decoded
    * @throws {ViewerError}
@@ -43,7 +48,7 @@ export class FieldLoader {
   async load(source, on = {}, options = {}) {
     this.dispose();
     const turn = this.turn;
-    this.stopped = null;
+    this.stopped = this.frames = null;
     this.whole = false;
     const arriving = (this.arriving = new AbortController()),
       { signal } = arriving,
@@ -77,8 +82,12 @@ export class FieldLoader {
           looking = null;
         });
     };
+    let head = new Uint8Array(0),
+      moving = on.moving ? null : false;
     for await (const chunk of stream.chunks) {
       if (!current()) throw aborted();
+      if (moving === null) moving = moves((head = joined(head, chunk)));
+      if (moving) return this.receiveFrames(source, on, options, current);
       received += chunk.length;
       if (received > MOST_BYTES) throw new ViewerError('too-large', `This file has more than ${MOST_BYTES} bytes.`);
       this.worker.postMessage({ append: chunk });
@@ -101,12 +110,39 @@ export class FieldLoader {
     return { ...result, bytes: received, part };
   }
 
+  async receiveFrames(source, on, options, current) {
+    const { levels = 0, groups = 0, layers = 0 } = options,
+      part = { levels, groups, layers };
+    this.worker.postMessage({ reset: true });
+    this.moving = source;
+    const frames = await this.openFrames({ ...options, ...part });
+    const first = await frames.decode(0);
+    if (!current()) throw aborted();
+    on.moving(frames);
+    on.field?.(first.packed, first.info, true);
+    return { ...first, bytes: frames.ended ? frames.bytes : 0, part };
+  }
+
+  /** A light field that moves: the worker reads the file by itself, as far ahead as memory allows. */
+  async openFrames({ levels = 0, groups = 0, layers = 0, headers, credentials }) {
+    const frames = (this.frames = new FrameSource((message) => this.ask(message))),
+      { stallMs, maxMemory } = this;
+    await frames.open(this.moving, { levels, groups, layers, headers, credentials, stallMs, maxMemory });
+    return frames;
+  }
+
   /** Decodes what is loaded once more, with other levels, groups or layers. */
   async decode({ prefix = 0, levels = 0, groups = 0, layers = 0 } = {}) {
+    return this.ask({ decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
+  }
+
+  /** The worker's answer to a message. */
+  async ask(message) {
     if (this.stopped) throw this.stopped;
+    if (!this.worker) throw aborted();
     const id = this.next++;
     const answered = new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
-    this.worker.postMessage({ id, decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
+    this.worker.postMessage({ id, ...message });
     return answered;
   }
 
@@ -161,6 +197,7 @@ export class FieldLoader {
   }
 
   answered(data) {
+    if (data.list) return this.frames?.take(data.list);
     const own = this.waiting.get(data.id);
     if (!own) return;
     this.waiting.delete(data.id);
@@ -177,6 +214,13 @@ const ownWorker = () => new Worker(new URL('./decode_worker.js', import.meta.url
 const newWorker = () => startWorker(ownWorker, () => import('../made/decode_worker_text.js'));
 
 const aborted = () => new DOMException('Another file was opened.', 'AbortError');
+
+function joined(a, b) {
+  const both = new Uint8Array(a.length + b.length);
+  both.set(a);
+  both.set(b, a.length);
+  return both;
+}
 
 /** Chunks of a source, and how many bytes there will be; 0 where nobody says. exact: and no fewer. */
 async function openStream(source, request, stallMs) {

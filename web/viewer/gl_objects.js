@@ -52,14 +52,28 @@ export function image(gl, internal, width, height, format, type, data) {
   return texture;
 }
 
-export function layered(gl, internal, width, height, layers, format, type, data, filter) {
+export function layered(gl, internal, width, height, layers, filter) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
-  unpackPlainly(gl);
   gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, internal, width, height, layers);
-  gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, 0, width, height, layers, format, type, data);
   sample(gl, gl.TEXTURE_2D_ARRAY, filter);
   return texture;
+}
+
+/** Texels into the first rows of a texture. */
+export function putImage(gl, texture, width, height, format, type, data) {
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  unpackPlainly(gl);
+  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, height, format, type, data);
+}
+
+/** The same of each layer. */
+export function putLayers(gl, texture, width, height, layers, format, type, data) {
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
+  unpackPlainly(gl);
+  gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, 0, width, height, layers, format, type, data);
 }
 
 export function unpackPlainly(gl) {

@@ -1,6 +1,7 @@
 // A decoded light field as the texels that the pipeline uploads: no DOM, no WebGL, so that a worker
 // does it.
 
+import { packTable, packWeights } from './packed_functions.js';
 import { boxOfSplats, packSplats } from './packed_splats.js';
 
 const COLUMNS = 1024;
@@ -29,16 +30,16 @@ export class ViewerError extends Error {
  * @param field  of SlfDecoder.decode()
  * @param {number} tableSize  samples along a side of a face of the function table
  * @param {boolean} arriving  more of the file will come
+ * @param {FrameFunctions|null} shared  what frames of one light field have in common
  * @returns {PackedField} typed arrays that can be transferred, and plain numbers
  */
-export function packField(field, tableSize = 65, arriving = false) {
+export function packField(field, tableSize = 65, arriving = false, shared = null) {
   const points = field.points,
     columns = Math.min(COLUMNS, Math.max(1, points));
   const rows = Math.max(1, Math.ceil(points / columns)),
     texels = columns * rows;
   const ball = boundingBall(field);
-  const table = field.functionTable({ side: tableSize });
-  const unit = packWeights(field.weights(), points, field.functions, texels);
+  const unit = packWeights(field.weights(), points, field.functions, texels, shared);
   const own = field.hasSplats ? packSplats(field, ball, texels, arriving) : packPlaces(field, ball.centre, texels);
   const box = field.hasSplats ? boxOfSplats(own, points) : boxOfDiscs(own, points);
   const toWorld = (place) => place.map((v, k) => field.grid.origin[k] + field.grid.step * (ball.centre[k] + v));
@@ -49,7 +50,8 @@ export function packField(field, tableSize = 65, arriving = false) {
     components: field.components,
     layers: Math.ceil(field.functions / 4),
     weights: unit.texels,
-    functions: packTable(table, unit.scales),
+    functions: shared ? shared.packed(field, tableSize) : packTable(field.functionTable({ side: tableSize }), unit.scales),
+    moving: shared !== null,
     gamma: Array.from(field.gamma),
     linear: field.transfer === 'linear',
     up: field.up,
@@ -172,45 +174,4 @@ function packPlaces(field, centre, texels) {
     out.means[4 * p + 3] = 255;
   }
   return out;
-}
-
-/**
- * Weights as shares of the greatest of their function, 16 bit: within 1/100 grey level of the mean.
- * @returns texels [3 L][rows][columns][4 functions], and the greatest weight of every function
- */
-function packWeights(weights, points, components, texels) {
-  const scales = new Float32Array(components);
-  for (let i = 0, p = 0; p < points; ++p)
-    for (let r = 0; r < components; ++r)
-      for (let c = 0; c < 3; ++c, ++i) scales[r] = Math.max(scales[r], Math.abs(weights[i]));
-  const factors = scales.map((s) => (s > 0 ? 32767 / s : 0));
-  const out = new Int16Array(3 * Math.ceil(components / 4) * texels * 4);
-  for (let i = 0, p = 0; p < points; ++p)
-    for (let r = 0; r < components; ++r)
-      for (let c = 0; c < 3; ++c, ++i)
-        out[((3 * (r >> 2) + c) * texels + p) * 4 + (r & 3)] = Math.round(weights[i] * factors[r]);
-  return { texels: out, scales };
-}
-
-/**
- * Faces three beside two, a layer for four functions.
- * Functions times the greatest weight of each over 255: a sum with shares of
- * 1 / 32767 is 0 .. 1.
- */
-function packTable(table, scales) {
-  const n = table.side,
-    width = 3 * n,
-    height = 2 * n;
-  const out = new Float32Array(table.layers * width * height * 4);
-  let from = 0;
-  for (let layer = 0; layer < table.layers; ++layer)
-    for (let face = 0; face < 6; ++face)
-      for (let y = 0; y < n; ++y)
-        for (let x = 0; x < n; ++x) {
-          const column = (face % 3) * n + x,
-            row = Math.floor(face / 3) * n + y;
-          const to = ((layer * height + row) * width + column) * 4;
-          for (let i = 0; i < 4; ++i, ++from) out[to + i] = (table.data[from] * (scales[4 * layer + i] ?? 0)) / 255;
-        }
-  return { texels: out, width, height, layers: table.layers, faceSize: n };
 }

@@ -1,10 +1,11 @@
 // What pipelines of points share: the texels of a light field on the device, and the colours of its points from
 // a place.
-import { bind, image, layered, program, quadIndices, target, use } from './gl_objects.js';
+import { bind, image, layered, program, putImage, putLayers, quadIndices, target, use } from './gl_objects.js';
 import { COLOUR_FRAGMENT, SCREEN_VERTEX } from './shaders.js';
 import { ViewerError } from './packed_field.js';
 
 const QUADS = 1 << 16; // of one draw: an index buffer for all draws
+const SPARE = 1 / 8; // of the rows of a frame, for those of the frames behind it
 
 /**
  * @typedef {object} View  a camera with OpenCV axes (right, down, forward), as in cameras.json
@@ -14,7 +15,7 @@ const QUADS = 1 << 16; // of one draw: an index buffer for all draws
  * @property {number[]} eye  [3] world
  */
 
-/** Of a kind of points that says what its own texels are (ownTextures) and how they are drawn (drawPoints, resolve). */
+/** Of a kind of points that says what its own texels are (ownTexels) and how they are drawn (drawPoints, resolve). */
 export class PointPipeline {
   /**
    * @param {WebGL2RenderingContext} gl  whose state draw() and setField() change: see withState()
@@ -29,14 +30,14 @@ export class PointPipeline {
     for (const [name, shaders] of Object.entries(programs)) this.programs[name] = program(gl, ...shaders);
     this.nothing = gl.createVertexArray();
     this.quads = quadIndices(gl, QUADS);
-    this.field = null;
+    this.field = this.allocated = null;
     this.textures = {};
     this.sums = null;
     this.coloured = null;
     this.statistics = { discs: 0, colourFetches: 0 };
   }
 
-  /** Uploads a light field in place of the one before. O(P R). @throws {ViewerError} 'too-large' */
+  /** Uploads a light field in place of the one before: a frame into its textures, where it fits. O(P R). @throws {ViewerError} 'too-large' */
   setField(packed) {
     const { gl } = this;
     const side = gl.getParameter(gl.MAX_TEXTURE_SIZE),
@@ -46,22 +47,53 @@ export class PointPipeline {
         'too-large',
         `${packed.points} points with ${packed.components} components are more than this device's textures hold.`,
       );
-    this.clearField();
-    const { columns: w, rows: h } = packed,
-      f = packed.functions;
-    this.textures = {
-      places: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, packed.places),
-      ...this.ownTextures(packed),
-      means: image(gl, gl.RGBA8, w, h, gl.RGBA, gl.UNSIGNED_BYTE, packed.means),
-      weights: layered(gl, gl.RGBA16I, w, h, 3 * packed.layers, gl.RGBA_INTEGER, gl.SHORT, packed.weights, gl.NEAREST),
-      functions: layered(gl, gl.RGBA16F, f.width, f.height, f.layers, gl.RGBA, gl.FLOAT, f.texels, gl.LINEAR),
-      colours: image(gl, gl.RGBA16F, w, h, gl.RGBA, gl.HALF_FLOAT, null),
-    };
-    this.colourTarget = target(gl, [this.textures.colours], null);
+    const images = this.imagesOf(packed);
+    if (!this.holds(packed)) this.allocate(packed, images);
+    this.upload(packed, images);
     if (gl.getError() === gl.OUT_OF_MEMORY)
       throw new ViewerError('too-large', 'The graphics memory does not hold this light field.');
     this.field = summary(packed);
     this.coloured = null;
+  }
+
+  /** Of each texture [columns][rows]: internal format, format, type, texels. */
+  imagesOf(packed) {
+    const { gl } = this;
+    return {
+      places: [gl.RGBA32F, gl.RGBA, gl.FLOAT, packed.places],
+      means: [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, packed.means],
+      colours: [gl.RGBA16F, gl.RGBA, gl.HALF_FLOAT, null],
+      ...this.ownTexels(packed),
+    };
+  }
+
+  /** Whether a frame fits into the textures of the one before. */
+  holds({ columns, rows, layers, functions: f, moving }) {
+    const has = this.allocated;
+    return Boolean(moving && has && has.columns === columns && has.rows >= rows && has.layers === layers
+      && has.width === f.width && has.height === f.height && has.functionLayers === f.layers);
+  }
+
+  allocate({ columns, rows, layers, functions: f, moving }, images) {
+    const { gl } = this,
+      most = Math.min(gl.getParameter(gl.MAX_TEXTURE_SIZE), rows + (moving ? Math.ceil(SPARE * rows) : 0));
+    this.clearField();
+    for (const [name, [internal, format, type]] of Object.entries(images))
+      this.textures[name] = image(gl, internal, columns, most, format, type, null);
+    this.textures.weights = layered(gl, gl.RGBA16I, columns, most, 3 * layers, gl.NEAREST);
+    this.textures.functions = layered(gl, gl.RGBA16F, f.width, f.height, f.layers, gl.LINEAR);
+    this.colourTarget = target(gl, [this.textures.colours], null);
+    this.allocated = { columns, rows: most, layers, width: f.width, height: f.height, functionLayers: f.layers, uploaded: null };
+  }
+
+  upload({ columns, rows, layers, weights, functions: f, moving }, images) {
+    const { gl, textures: t } = this;
+    for (const [name, [, format, type, texels]] of Object.entries(images))
+      if (texels) putImage(gl, t[name], columns, rows, format, type, texels);
+    putLayers(gl, t.weights, columns, rows, 3 * layers, gl.RGBA_INTEGER, gl.SHORT, weights);
+    if (moving && this.allocated.uploaded === f.key) return;
+    putLayers(gl, t.functions, f.width, f.height, f.layers, gl.RGBA, gl.FLOAT, f.texels);
+    this.allocated.uploaded = f.key;
   }
 
   clearField() {
@@ -69,7 +101,7 @@ export class PointPipeline {
     for (const texture of Object.values(this.textures)) gl.deleteTexture(texture);
     if (this.colourTarget) gl.deleteFramebuffer(this.colourTarget);
     this.textures = {};
-    this.colourTarget = this.field = null;
+    this.colourTarget = this.field = this.allocated = null;
   }
 
   /**

@@ -18,14 +18,14 @@ export class Report {
   }
 
   describe() {
-    const { info, bytes, first, loaded, final } = this.viewer.facts,
+    const { info, bytes, final, frames } = this.viewer.facts,
       { field } = this.viewer.stage;
     const title = this.titleText(),
       t = (text) => this.page.t(text);
     this.page.at('title').textContent = title;
     if (this.page.whole) document.title = title ? `${title}: ${t('surface light field')}` : t('Surface light field');
     const size = bytes ? sizeText(bytes) : '';
-    this.page.at('subtitle').textContent = [t(`${this.page.grouped(field.points)} points`), size, final ? '' : t('coarse, more is arriving')]
+    this.page.at('subtitle').textContent = [t(`${this.page.grouped(field.points)} points`), frames > 1 && t(`${this.page.grouped(frames)} frames`), size, final ? '' : t('coarse, more is arriving')]
       .filter(Boolean)
       .join(' · ');
     this.page.slider('levels', 1, info.bits, this.viewer.options.levels || info.bits);

@@ -20,6 +20,14 @@ export interface SlfViewerEvents {
   viewchange: CustomEvent<undefined>;
   annotation: CustomEvent<{ index: number; title: string }>;
   noteserror: CustomEvent<ViewerError>;
+  play: CustomEvent<undefined>;
+  pause: CustomEvent<undefined>;
+  /** The last frame was shown, and there is no loop. */
+  ended: CustomEvent<undefined>;
+  /** frame: its place from 0; number as the file has it; seconds. */
+  framechange: CustomEvent<{ frame: number; number: number; time: number }>;
+  /** It is passed over. */
+  frameerror: CustomEvent<{ frame: number; number: number; error: ViewerError }>;
 }
 
 /** Attributes: viewer/README.md. */
@@ -37,8 +45,19 @@ export class SlfViewerElement extends HTMLElement {
   open(source: string | Blob | Uint8Array, name?: string): Promise<void>;
   /** The place of the object under a point of the window, in world units; null beside it. */
   pointAt(x: number, y: number): [number, number, number] | null;
-  /** A track of the notes, by name or number; stops the one that plays. */
+  /** What moves. With a track of the notes, by name or number, and where nothing moves: a tour; stops the one that plays. */
   play(track?: string | number): void;
+  pause(): void;
+  readonly paused: boolean;
+  /** Place of the frame that shows, from 0. Set: it shows as soon as it is decoded. */
+  frame: number;
+  /** Those that have arrived; 0 where nothing moves. */
+  readonly frames: number;
+  /** Seconds of the frames that have arrived. */
+  readonly duration: number;
+  loop: boolean;
+  /** 1: as the file has it; 1/16 to 16. */
+  speed: number;
   /** An annotation of the notes, by its number from 0. */
   show(annotation: number): void;
   reset(): void;

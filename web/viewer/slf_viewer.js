@@ -13,7 +13,7 @@ import { viewParameters } from './view_link.js';
 import { Turns } from './viewer_turns.js';
 import { wordsOf } from './words.js';
 
-const LIVE = ['background', 'exposure', 'mean', 'points', 'autorotate']; // that change what is shown at once
+const LIVE = ['background', 'exposure', 'mean', 'points', 'autorotate', 'loop', 'speed']; // that change what is shown at once
 const turns = new Turns();
 let sheet = null;
 
@@ -118,9 +118,59 @@ export class SlfViewerElement extends HTMLElement {
     return placeAt(stage, x - box.left, y - box.top);
   }
 
-  /** Plays a track of the notes, by name or number, or stops the one that plays. */
-  play(track = 0) {
-    this.viewer?.guide.play(track);
+  /** What moves; with a track, by name or number, and where nothing moves, a tour of the notes, or stops the one that plays. */
+  play(track) {
+    if (track === undefined && this.#playback?.moves) this.#playback.play();
+    else this.viewer?.guide.play(track ?? 0);
+  }
+
+  pause() {
+    this.#playback?.pause();
+  }
+
+  /** Whether what moves stands still. */
+  get paused() {
+    return !this.#playback?.player?.playing;
+  }
+
+  /** Place of the frame that shows, from 0; set, it shows as soon as it is decoded. */
+  get frame() {
+    return this.#playback?.player?.frame ?? 0;
+  }
+
+  set frame(place) {
+    this.#playback?.seek(Number(place));
+  }
+
+  /** Frames that have arrived; 0 where nothing moves. */
+  get frames() {
+    return this.#playback?.source?.list.length ?? 0;
+  }
+
+  /** Seconds of the frames that have arrived; 0 where nothing moves. */
+  get duration() {
+    return this.#playback?.player?.duration ?? 0;
+  }
+
+  get loop() {
+    return this.#options().loop;
+  }
+
+  set loop(on) {
+    this.setAttribute('loop', on ? '1' : '0');
+  }
+
+  /** 1: as the file has it. */
+  get speed() {
+    return this.#options().speed;
+  }
+
+  set speed(speed) {
+    this.setAttribute('speed', speed);
+  }
+
+  get #playback() {
+    return this.viewer?.playback;
   }
 
   /** Opens an annotation of the notes, by its number from 0. */
@@ -196,7 +246,9 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   #look(changed) {
-    const { viewer } = this, { background, exposure, mean, points, autorotate } = this.#options();
+    const { viewer } = this, { background, exposure, mean, points, autorotate, loop, speed } = this.#options();
+    if (changed === 'loop') return viewer.playback.setLoop(loop);
+    if (changed === 'speed') return viewer.playback.setSpeed(speed);
     Object.assign(viewer.options, { background, exposure, mean, points, autorotate });
     viewer.chosen = backgroundOf(this.getAttribute('background'));
     if (viewer.chosen) viewer.background = viewer.chosen;

@@ -1,6 +1,6 @@
 // Gaussian splats (spec annex E.6) in WebGL2: colours of splats, and the splats blended from the farthest to the
 // nearest.
-import { bind, image, sample, target, unpackPlainly, use } from './gl_objects.js';
+import { bind, image, putImage, sample, target, use } from './gl_objects.js';
 import { PointPipeline } from './point_pipeline.js';
 import { SCREEN_VERTEX } from './shaders.js';
 import { SplatOrder } from './splat_order.js';
@@ -12,21 +12,30 @@ export class SplatPipeline extends PointPipeline {
     this.sorting = null;
   }
 
-  ownTextures({ columns: w, rows: h, points, places, spreads, tilts, nearest }) {
+  ownTexels({ spreads, tilts }) {
     const { gl } = this;
-    this.sorting = new SplatOrder(places, points, nearest);
-    this.upload = new Uint32Array(w * h);
     return {
-      spreads: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, spreads),
-      tilts: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, tilts),
-      order: image(gl, gl.R32UI, w, h, gl.RED_INTEGER, gl.UNSIGNED_INT, null),
-      frames: image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)), // no direction is mirrored
+      spreads: [gl.RGBA32F, gl.RGBA, gl.FLOAT, spreads],
+      tilts: [gl.RGBA32F, gl.RGBA, gl.FLOAT, tilts],
+      order: [gl.R32UI, gl.RED_INTEGER, gl.UNSIGNED_INT, null],
     };
+  }
+
+  allocate(packed, images) {
+    super.allocate(packed, images);
+    const { gl } = this; // no direction is mirrored
+    this.textures.frames = image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  upload(packed, images) {
+    super.upload(packed, images);
+    this.sorting = new SplatOrder(packed.places, packed.points, packed.nearest);
+    this.ordered = new Uint32Array(packed.columns * packed.rows);
   }
 
   clearField() {
     super.clearField();
-    this.sorting = this.upload = null;
+    this.sorting = this.ordered = null;
   }
 
   get unsettled() {
@@ -58,14 +67,11 @@ export class SplatPipeline extends PointPipeline {
 
   /** The rows of the texture that have splats of the order in them. */
   putOrder() {
-    const { gl, field, upload, sorting } = this,
+    const { gl, field, ordered, sorting } = this,
       rows = Math.ceil(sorting.count / field.columns);
     if (rows === 0) return;
-    upload.set(sorting.order.subarray(0, sorting.count));
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, this.textures.order);
-    unpackPlainly(gl);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, field.columns, rows, gl.RED_INTEGER, gl.UNSIGNED_INT, upload);
+    ordered.set(sorting.order.subarray(0, sorting.count));
+    putImage(gl, this.textures.order, field.columns, rows, gl.RED_INTEGER, gl.UNSIGNED_INT, ordered);
   }
 
   /** As SurfelPipeline's; a pixel's depth is the mean of what its splats show. */

@@ -4,6 +4,7 @@
 const SIGNATURE = [0x8b, 0x53, 0x4c, 0x46, 0x0d, 0x0a, 0x1a, 0x0a];
 const GEOMETRY = 3,
   COEFFICIENTS = 5,
+  FRAME = 11,
   END = 15;
 
 /**
@@ -27,6 +28,19 @@ export function walkUnits(bytes) {
     result.complete = type === END;
   }
   return result;
+}
+
+/**
+ * Whether a stream is one of frames: a frame unit follows the sequence unit (7.13).
+ * @returns {boolean|null} null: too few bytes to tell
+ */
+export function moves(bytes) {
+  const at = SIGNATURE.length;
+  if (SIGNATURE.some((byte, i) => i < bytes.length && byte !== bytes[i])) return false;
+  const size = at < bytes.length ? payloadSize(bytes, at + 1) : null;
+  if (size === null) return bytes.length > at + 7 ? false : null;
+  const next = at + 1 + size.digits + size.bytes + 4;
+  return next < bytes.length ? bytes[next] === FRAME : null;
 }
 
 /** unit_length: seven bits a byte, least significant first; null where it is cut or too long. */

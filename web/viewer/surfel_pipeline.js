@@ -13,12 +13,9 @@ export class SurfelPipeline extends PointPipeline {
     });
   }
 
-  ownTextures({ columns: w, rows: h, discs, frames }) {
+  ownTexels({ discs, frames }) {
     const { gl } = this;
-    return {
-      discs: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, discs),
-      frames: image(gl, gl.RGBA32F, w, h, gl.RGBA, gl.FLOAT, frames),
-    };
+    return { discs: [gl.RGBA32F, gl.RGBA, gl.FLOAT, discs], frames: [gl.RGBA32F, gl.RGBA, gl.FLOAT, frames] };
   }
 
   drawPoints(view, eye, share) {

@@ -5,6 +5,7 @@ import { Controls } from './controls.js';
 import { Elements, download } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { Guide } from './guide.js';
+import { Playback } from './playback.js';
 import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
 import { Report } from './report.js';
 import { Stage } from './stage.js';
@@ -27,6 +28,7 @@ export class Viewer {
     this.report = new Report(this);
     this.comparison = new Comparison(this);
     this.guide = new Guide(this);
+    this.playback = new Playback(this);
     this.facts = {};
     this.chosen = this.options.background; // null: as the page and the hour have it
     this.background = this.chosen ?? (this.darkPage() ? 'slate' : 'paper');
@@ -74,6 +76,7 @@ export class Viewer {
     const own = (this.source = this.loading = { source, name });
     this.comparison.close();
     this.guide.close();
+    this.playback.close();
     this.controls.pose = null;
     this.touched = false;
     this.stage.clear();
@@ -84,12 +87,14 @@ export class Viewer {
       const on = {
         progress: (received, total) => this.report.arriving(received, total),
         field: (packed, info, final) => this.show(packed, info, final, begin),
+        moving: (frames) => this.playback.open(frames),
       };
       const loading = this.loader.load(source, on, this.options); // sliders may move while the file arrives
       const { bytes, part } = await loading.finally(() => {
         if (this.source === own) this.loading = null;
       });
-      this.facts.bytes = bytes;
+      this.facts.bytes ||= bytes;
+      this.playback.start();
       this.facts.loaded = performance.now() - begin;
       this.report.describe();
       this.report.say('It is shown.');
@@ -132,6 +137,7 @@ export class Viewer {
   /** Decodes the same file with other levels, groups or layers; when it is here, where it is still on its way. */
   async decodeAgain(part) {
     Object.assign(this.options, part);
+    if (this.playback.moves && !this.loading) return this.playback.again();
     if (this.loading || !this.loader.whole) return;
     const { source } = this,
       begin = performance.now();
@@ -190,6 +196,7 @@ export class Viewer {
   tick(seconds) {
     const moved = this.controls.tick(seconds);
     let moving = (this.controls.pose !== null && this.guide.tick(seconds)) || moved;
+    moving = this.playback.tick(seconds) || moving;
     if (this.spinning && this.controls.pose && !document.hidden) {
       this.controls.pose.azimuth += this.spinning * Math.min(seconds, 0.1);
       moving = true;

@@ -5,7 +5,7 @@ import { copyEmbedding, copyLink } from './view_link.js';
 const KEYS = {
   r: 'reset',
   f: 'fit',
-  ' ': 'spin',
+  ' ': 'go',
   c: 'compare',
   g: 'panel',
   l: 'full',
@@ -20,6 +20,8 @@ const KEYS = {
   ']': 'after',
   n: 'note',
   t: 'tour',
+  ',': 'earlier',
+  '.': 'later',
 };
 
 export class Wiring {
@@ -83,6 +85,11 @@ export class Wiring {
       reset: () => field && (this.viewer.spin(0), this.viewer.reset()),
       fit: () => field && this.viewer.fit(),
       spin: () => field && this.viewer.spin(this.viewer.spinning ? 0 : this.viewer.options.autorotate || 12),
+      go: () => (this.viewer.playback.moves ? this.viewer.playback.toggle() : actions.spin()),
+      playback: () => this.viewer.playback.toggle(),
+      earlier: () => this.viewer.playback.step(-1),
+      later: () => this.viewer.playback.step(1),
+      loop: () => this.viewer.playback.setLoop(!this.viewer.options.loop),
       compare: () => this.viewer.comparison.cameras.length && this.viewer.comparison.show(this.page.at('compare').hidden),
       panel: () => this.viewer.togglePanel(),
       full: () =>
