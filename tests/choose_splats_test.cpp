@@ -14,18 +14,18 @@ namespace slf::choose_splats_test {
 namespace {
 
 TEST(EncodeSplats, TranslucentThingsAreCodedAsSplatsWithoutBeingAsked) {
-  const test::TracedScene traced("vase", 5, 10, 128, 6000);
+  const test::TracedScene traced("vase", 5, 10, 112, 6000);
   Gaussians smoke;
   Capture capture = traced.capture;
   capture.cloud = {};
-  for (std::size_t p = 0; p < traced.exact.positions.size(); p += 40) {
+  for (std::size_t p = 0; p < traced.exact.positions.size(); p += 120) {
     const Float3 at = traced.exact.positions[p];
-    const auto size = std::log(12 * float(traced.step));
+    const auto size = std::log(20 * float(traced.step));
     const auto shade = [&](std::size_t k) { return float((p * (k + 3)) % 17) / 6 - 1.4f; };
     smoke.positions.push_back(at);
     smoke.log_deviations.push_back({size, size, size});
     smoke.rotations.push_back({1, 0, 0, 0});
-    smoke.logits.push_back(-1);
+    smoke.logits.push_back(-1.5f);
     for (std::size_t k = 0; k < 3; ++k) smoke.harmonics.push_back(shade(k));
     capture.cloud.positions.push_back(at);
   }
