@@ -51,11 +51,16 @@ class BitReader {
       fail(Errc::kReserved, element, begin);
   }
 
-  /// Skips zero bits to the next byte and returns the bytes that follow.
-  std::span<const std::uint8_t> align_and_rest(const char* element) {
+  /// Skips zero bits to the next byte.
+  void align(const char* element) {
     const std::uint64_t begin = pos_;
     const int padding = static_cast<int>((8 - pos_ % 8) % 8);
     if (u(padding, element) != 0) fail(Errc::kReserved, element, begin);
+  }
+
+  /// The same, and returns the bytes that follow.
+  std::span<const std::uint8_t> align_and_rest(const char* element) {
+    align(element);
     return failed_ ? std::span<const std::uint8_t>{} : bytes_.subspan(pos_ / 8);
   }
 

@@ -1,13 +1,41 @@
 #include "bitstream/parameter_sets.h"
 
+#include <array>
+
 namespace slf {
+namespace {
+
+/// By bit of the word, the most significant first.
+constexpr std::array<const char*, 32> kFeatures = {
+    "sps_feature[0]",  "sps_feature[1]",  "sps_feature[2]",  "sps_feature[3]",  "sps_feature[4]",
+    "sps_feature[5]",  "sps_feature[6]",  "sps_feature[7]",  "sps_feature[8]",  "sps_feature[9]",
+    "sps_feature[10]", "sps_feature[11]", "sps_feature[12]", "sps_feature[13]", "sps_feature[14]",
+    "sps_feature[15]", "sps_feature[16]", "sps_feature[17]", "sps_feature[18]", "sps_feature[19]",
+    "sps_feature[20]", "sps_feature[21]", "sps_feature[22]", "sps_feature[23]", "sps_feature[24]",
+    "sps_feature[25]", "sps_feature[26]", "sps_feature[27]", "sps_feature[28]", "sps_feature[29]",
+    "sps_feature[30]", "sps_feature[31]"};
+
+constexpr std::uint64_t kMostExtensionBytes = 1 << 16;
+
+}  // namespace
+
+void later_elements(ParseSyntax& parse) {
+  parse.in.align("sps_trailing_bits");
+  if (!parse.ok() || parse.in.bits_left() == 0) return;
+  for (const char* name : kFeatures) {
+    std::uint32_t flag = 0;
+    parse.u(1, name, flag, defined(0, 0));
+  }
+  if (parse.in.bits_left() > 8 * kMostExtensionBytes)
+    parse.in.fail(Errc::kOutOfRange, "sps_extension");
+}
 
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload) {
   BitReader in(payload);
   ParseSyntax parse{in};
   SequenceParameterSet set;
   sequence_parameter_set(parse, set);
-  in.trailing_bits("sps_trailing_bits");
+  later_elements(parse);
   if (!in.ok()) return in.error();
   std::uint32_t used = 0;  // groups, by bit: each has a function
   for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;

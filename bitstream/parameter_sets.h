@@ -78,8 +78,7 @@ void point_attributes(V& v, Set& s) {
   v.resize("sps_num_attributes", s.attributes, s.sps_num_attributes);
   std::uint32_t seen = 0;  // by bit: those with a meaning are there once
   for (auto& a : s.attributes) {
-    v.ue("sps_attribute_id", a.sps_attribute_id, Range{0, 255});
-    v.require(a.sps_attribute_id <= kShapeAttribute, Errc::kUnsupported, "sps_attribute_id");
+    v.ue("sps_attribute_id", a.sps_attribute_id, defined(0, kShapeAttribute));
     if (!v.ok()) return;
     v.require((seen >> a.sps_attribute_id & 1) == 0, Errc::kOutOfRange, "sps_attribute_id");
     if (a.sps_attribute_id > 0) seen |= 1u << a.sps_attribute_id;
@@ -92,17 +91,17 @@ void point_attributes(V& v, Set& s) {
 // Spec 7.2  what functions are of, and how their sum is a colour
 template <class V, class Set>
 void basis(V& v, Set& s) {
-  v.u(4, "sps_basis_idc", s.sps_basis_idc, Range{0, 1});
+  v.u(4, "sps_basis_idc", s.sps_basis_idc, defined(0, 1));
   if (s.sps_basis_idc == 0) {
     v.u(2, "sps_order_minus1", s.sps_order_minus1, Range{0, 3});
-    v.u(3, "sps_scales_theta", s.sps_scales_theta, Range{0, 6});
-    v.u(3, "sps_scales_gamma", s.sps_scales_gamma, Range{0, 6});
+    v.u(3, "sps_scales_theta", s.sps_scales_theta, defined(0, 6));
+    v.u(3, "sps_scales_gamma", s.sps_scales_gamma, defined(0, 6));
   } else {
-    v.u(4, "sps_degree", s.sps_degree, Range{0, 10});
+    v.u(4, "sps_degree", s.sps_degree, defined(0, 10));
   }
-  v.u(3, "sps_frame_idc", s.sps_frame_idc, Range{0, 1});
-  v.u(3, "sps_colour_idc", s.sps_colour_idc, Range{0, 1});
-  v.u(2, "sps_transfer_idc", s.sps_transfer_idc, Range{0, 1});
+  v.u(3, "sps_frame_idc", s.sps_frame_idc, defined(0, 1));
+  v.u(3, "sps_colour_idc", s.sps_colour_idc, defined(0, 1));
+  v.u(2, "sps_transfer_idc", s.sps_transfer_idc, defined(0, 1));
   v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
   v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
   if (s.sps_frame_idc == 1)
@@ -121,33 +120,27 @@ void group_layers(V& v, Set& s) {
     v.u(2, "sps_cut_layers", s.sps_cut_layers, Range{0, std::int64_t{s.num_layers()} - 1});
 }
 
-// Spec 7.2  sequence_parameter_set( )
+// Spec 7.2  sequence_parameter_set( ), up to its trailing bits
 template <class V, class Set>
 void sequence_parameter_set(V& v, Set& s) {
-  v.u(8, "sps_version_major", s.sps_version_major, Range{0, 255});
-  v.require(s.sps_version_major == kVersionMajor, Errc::kUnsupported, "sps_version_major");
-  v.u(8, "sps_version_minor", s.sps_version_minor, Range{0, 255});
-  // Before 1.0 every minor version may differ in anything that follows.
-  v.require(s.sps_version_minor == kVersionMinor, Errc::kUnsupported, "sps_version_minor");
-  v.u(4, "sps_profile", s.sps_profile, Range{0, 15});
-  v.require(s.sps_profile <= kTextureProfile, Errc::kUnsupported, "sps_profile");
-  v.u(4, "sps_level", s.sps_level, Range{0, 15});
-  v.require(s.sps_level == 0, Errc::kUnsupported, "sps_level");
-  v.u(5, "sps_grid_bits_minus1", s.sps_grid_bits_minus1, Range{0, 20});
+  v.u(4, "sps_profile", s.sps_profile, defined(0, kTextureProfile));
+  v.u(4, "sps_level", s.sps_level, defined(0, 0));
+  v.u(5, "sps_grid_bits_minus1", s.sps_grid_bits_minus1, defined(0, 20));
   v.u(1, "sps_unit_grid_flag", s.sps_unit_grid_flag, Range{0, 1});
   if (!s.sps_unit_grid_flag) {
     for (auto& coordinate : s.sps_origin) v.f64("sps_origin", coordinate, false);
     v.f64("sps_step", s.sps_step, true);
   }
-  v.u(3, "sps_up_axis", s.sps_up_axis, Range{0, 6});
+  v.u(3, "sps_up_axis", s.sps_up_axis, defined(0, 6));
   v.u(1, "sps_left_handed_flag", s.sps_left_handed_flag, Range{0, 1});
   v.u(1, "sps_metres_flag", s.sps_metres_flag, Range{0, 1});
   if (s.sps_metres_flag) v.f64("sps_metres_per_unit", s.sps_metres_per_unit, true);
-  v.u(2, "sps_geometry_coder", s.sps_geometry_coder, Range{0, 1});
+  v.u(2, "sps_geometry_coder", s.sps_geometry_coder, defined(0, 1));
   v.require(s.has_draco() == (s.sps_profile == kDracoProfile), Errc::kOutOfRange,
             "sps_geometry_coder");
-  v.u(4, "sps_normal_bits", s.sps_normal_bits, Range{0, 12});
-  v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kReserved, "sps_normal_bits");
+  v.u(4, "sps_normal_bits", s.sps_normal_bits, defined(0, 12));
+  v.require(s.sps_normal_bits == 0 || s.sps_normal_bits >= 4, Errc::kUnsupported,
+            "sps_normal_bits");
   base_and_cut(v, s);
   level_ranges(v, "sps_num_geometry_ranges_minus1", "sps_geometry_range_end",
                s.sps_num_geometry_ranges_minus1, s.sps_geometry_range_end, s.grid_bits());
@@ -163,7 +156,7 @@ void sequence_parameter_set(V& v, Set& s) {
             "sps_coefficient_coder");
   if (!s.has_texture()) v.u(1, "sps_prediction_flag", s.sps_prediction_flag, Range{0, 1});
   if (s.has_texture()) {
-    v.u(2, "sps_texture_bits", s.sps_texture_bits, Range{0, 2});
+    v.u(2, "sps_texture_bits", s.sps_texture_bits, defined(0, 2));
     v.u(3, "sps_texture_cell_log2", s.sps_texture_cell_log2, Range{0, 7});
   }
   v.u(4, "sps_num_groups_minus1", s.sps_num_groups_minus1, Range{0, 15});
@@ -180,6 +173,11 @@ void sequence_parameter_set(V& v, Set& s) {
   plane_table(v, s);
 }
 
+/// Spec 7.2  sps_feature[ ]: what a later version may have put behind the trailing bits. Features
+/// are to be understood, and none is known; what follows them is left to that version.
+void later_elements(ParseSyntax& parse);
+
+/// The version is that of this decoder: it stands before the payload (Unit).
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);
 std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set);
 }  // namespace slf

@@ -8,7 +8,9 @@
 
 namespace slf {
 
-inline constexpr int kVersionMajor = 0, kVersionMinor = 6;
+/// Spec 7.1.2: streams of this major version are read whose minor version is kLeastMinor or later.
+inline constexpr int kVersionMajor = 0, kVersionMinor = 7;
+inline constexpr int kLeastMinor = 7;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
@@ -40,7 +42,6 @@ inline constexpr std::uint32_t kMaxAttributes = 16;
 
 /// Spec 7.2. Defaults are what is inferred where an element is not present.
 struct SequenceParameterSet {
-  std::uint32_t sps_version_major = kVersionMajor, sps_version_minor = kVersionMinor;
   std::uint32_t sps_profile = 0, sps_level = 0;
   std::uint32_t sps_grid_bits_minus1 = 0;
   std::uint32_t sps_unit_grid_flag = 1;

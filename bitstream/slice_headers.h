@@ -49,7 +49,7 @@ struct SliceTable {
 template <class V, class Table>
 void slice_table(V& v, Table& t, std::uint32_t base_levels) {
   v.ue("slices_num_minus1", t.slices_num_minus1, Range{0, base_levels > 0 ? kMaxSlices - 1 : 0});
-  if (t.slices_num_minus1 > 0) v.ue("slices_start", t.slices_start, Range{0, 2});
+  if (t.slices_num_minus1 > 0) v.ue("slices_start", t.slices_start, defined(0, 2));
   v.resize("slices_num_minus1", t.slices, std::uint64_t{t.slices_num_minus1} + 1);
   for (auto& slice : t.slices) {
     if (base_levels > 0)

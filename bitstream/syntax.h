@@ -15,7 +15,12 @@ namespace slf {
 
 struct Range {
   std::int64_t min, max;
+  Errc beyond = Errc::kOutOfRange;  ///< what a value outside of it is
 };
+/// Spec 3.4: a later version may give the other values a meaning.
+constexpr Range defined(std::int64_t min, std::int64_t max) {
+  return {min, max, Errc::kUnsupported};
+}
 
 /// An element that was read, and where.
 struct SyntaxEntry {
@@ -80,7 +85,7 @@ struct ParseSyntax {
   void store(const SyntaxEntry& entry, T& value, Range range) {
     const std::int64_t read = *std::get_if<std::int64_t>(&entry.value);
     if (in.ok() && (read < range.min || read > range.max))
-      in.fail(Errc::kOutOfRange, entry.element, entry.bit);
+      in.fail(range.beyond, entry.element, entry.bit);
     value = static_cast<T>(in.ok() ? read : range.min);
     note(entry);
   }

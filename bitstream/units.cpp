@@ -4,12 +4,13 @@
 
 #include "bitstream/bit_reader.h"
 #include "bitstream/crc32.h"
+#include "bitstream/sequence_parameter_set.h"
 
 namespace slf {
 namespace {
 
 constexpr int kMaxLengthBytes = 6;  // 42 bits
-constexpr std::size_t kCrcBytes = 4;
+constexpr std::size_t kCrcBytes = 4, kVersionBytes = 2;
 
 /// unit_length, seven bits a byte, least significant first. Advances `at`.
 Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::size_t& at) {
@@ -25,10 +26,37 @@ Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::siz
   return Error{Errc::kOutOfRange, "unit_length"};
 }
 
+/// Spec 7.1.2: two bytes, before anything that another major version may have otherwise.
+Result<Done> check_version(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kVersionBytes) return Error{Errc::kTruncated, "sps_version_major"};
+  if (bytes[0] != kVersionMajor) return Error{Errc::kUnsupported, "sps_version_major"};
+  if (bytes[1] < kLeastMinor) return Error{Errc::kUnsupported, "sps_version_minor", 8};
+  return Done{};
+}
+
+/// "type 0" to "type 255".
+using NumberedName = std::array<char, 9>;
+constexpr std::array<NumberedName, 256> numbered_names() {
+  std::array<NumberedName, 256> names{};
+  for (unsigned type = 0; type < 256; ++type) {
+    NumberedName name = {'t', 'y', 'p', 'e', ' '};
+    std::size_t at = 5;
+    for (const unsigned unit : {100u, 10u, 1u})
+      if (type >= unit || unit == 1) name[at++] = static_cast<char>('0' + type / unit % 10);
+    names[type] = name;
+  }
+  return names;
+}
+constexpr std::array<NumberedName, 256> kNumberedNames = numbered_names();
+
 /// The unit that begins at `offset`; its checksum is in the stream, and not looked at.
 Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
   std::size_t at = offset;
   Unit unit{static_cast<UnitType>(stream[at++]), {}, offset, 0, offset + 1};
+  if (unit.type == UnitType::kSequence) {
+    SLF_CHECK(in_unit(unit, check_version(stream.subspan(at))));
+    at += kVersionBytes;
+  }
   SLF_TRY(const std::uint64_t length, in_unit(unit, read_length(stream, at)));
   unit.payload_offset = at;
   const std::span<const std::uint8_t> rest = stream.subspan(at);
@@ -50,7 +78,10 @@ Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_
   return Done{};
 }
 
-const char* unit_name(UnitType type) {
+namespace {
+
+/// nullptr where 7.1 has no name.
+const char* name_of(UnitType type) {
   switch (type) {
     case UnitType::kSequence:
       return "sequence";
@@ -79,7 +110,19 @@ const char* unit_name(UnitType type) {
     case UnitType::kEnd:
       return "end";
   }
-  return "unknown";
+  return nullptr;
+}
+
+}  // namespace
+
+const char* unit_name(UnitType type) {
+  const char* name = name_of(type);
+  return name != nullptr ? name : kNumberedNames[static_cast<std::uint8_t>(type)].data();
+}
+
+Result<Done> check_understood(UnitType type, std::uint64_t offset) {
+  if (name_of(type) != nullptr || (static_cast<unsigned>(type) & kSkipBit) != 0) return Done{};
+  return of_unit(type, offset, Errc::kUnsupported, "unit_type");
 }
 
 const Unit* Units::first(UnitType type) const {
@@ -128,6 +171,10 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
     if (!unit) return unit.error();
     if (unit->type == UnitType::kEnd)
       SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
+    if (result.units.empty() && unit->type == UnitType::kSequence) {
+      result.version_major = stream[at + 1];
+      result.version_minor = stream[at + 2];
+    }
     result.units.push_back(*unit);
     result.complete = unit->type == UnitType::kEnd;
     at += static_cast<std::size_t>(unit->bytes);
@@ -139,6 +186,10 @@ void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
                  std::span<const std::uint8_t> payload) {
   const std::size_t start = stream.size();
   stream.push_back(static_cast<std::uint8_t>(type));
+  if (type == UnitType::kSequence) {
+    stream.push_back(kVersionMajor);
+    stream.push_back(kVersionMinor);
+  }
   std::uint64_t length = payload.size();
   for (; length >= 0x80; length >>= 7) stream.push_back(static_cast<std::uint8_t>(length | 0x80));
   stream.push_back(static_cast<std::uint8_t>(length));
@@ -148,8 +199,9 @@ void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
     stream.push_back(static_cast<std::uint8_t>(crc >> shift));
 }
 
-std::uint64_t unit_bytes(std::uint64_t payload_bytes) {
-  std::uint64_t bytes = 1 + 1 + payload_bytes + 4;
+std::uint64_t unit_bytes(UnitType type, std::uint64_t payload_bytes) {
+  std::uint64_t bytes = 1 + 1 + payload_bytes + kCrcBytes;
+  if (type == UnitType::kSequence) bytes += kVersionBytes;
   for (std::uint64_t length = payload_bytes; length >= 0x80; length >>= 7) ++bytes;
   return bytes;
 }

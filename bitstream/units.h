@@ -30,9 +30,18 @@ enum class UnitType : std::uint8_t {
   kEnd = 15,
 };
 
-/// As 7.1 names it, and `slf info`; "unknown" for types of later versions.
+/// As 7.1 names it, and `slf info`; "type 29" where 7.1 does not.
 const char* unit_name(UnitType type);
 
+/// Spec 7.1.1: whose a type is, and whether a decoder that does not know it goes on without the
+/// unit, stands in three bits of its number.
+inline constexpr unsigned kSkipBit = 64, kPrivateBit = 128, kExperimentBit = 32;
+
+/// Is the unit, if it is of a type that 7.1 does not name, one that may be skipped?
+/// @errors kUnsupported: it has to be understood
+Result<Done> check_understood(UnitType type, std::uint64_t offset);
+
+/// The payload of a sequence unit begins behind the version and the length.
 struct Unit {
   UnitType type{};
   std::span<const std::uint8_t> payload;
@@ -43,16 +52,18 @@ struct Unit {
 
 struct Units {
   std::vector<Unit> units;
-  bool complete = false;  ///< the end unit was reached
+  bool complete = false;                     ///< the end unit was reached
+  int version_major = 0, version_minor = 0;  ///< of the sequence unit, where there is one
 
   /// The first of a type; nullptr where there is none.
   const Unit* first(UnitType type) const;
 };
 
-/// Checks signature, lengths and every CRC-32. Unknown types are kept; a decoder skips them.
+/// Checks signature, version, lengths and every CRC-32. Types that 7.1 does not name are kept:
+/// check_understood.
 /// @param max_bytes  units that do not end within it are left out; 0: all
-/// @errors kNotSlf; kTruncated: the stream ends inside a unit; kChecksum; kOutOfRange: bytes after
-/// the
+/// @errors kNotSlf; kUnsupported: another version; kTruncated: the stream ends inside a unit;
+/// kChecksum; kOutOfRange: bytes after the
 ///         end unit, or a length longer than it need be.
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0);
 
@@ -83,11 +94,11 @@ Result<T> in_unit(const AnyUnit& unit, Result<T> result) {
   return result;
 }
 
-/// Appends one unit. Informative mirror of the above.
+/// Appends one unit; a sequence unit with the version of this encoder.
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
                  std::span<const std::uint8_t> payload);
 
 /// Bytes of a unit with this payload.
-std::uint64_t unit_bytes(std::uint64_t payload_bytes);
+std::uint64_t unit_bytes(UnitType type, std::uint64_t payload_bytes);
 
 }  // namespace slf

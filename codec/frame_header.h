@@ -36,7 +36,7 @@ void frame_motion(V& v, Header& h) {
     v.se("frame_shift", shift, Range{-Motion::kMostShift, Motion::kMostShift});
   v.u(1, "frame_lattice_flag", h.frame_lattice_flag, Range{0, 1});
   if (!h.frame_lattice_flag) return;
-  v.u(4, "frame_lattice_log2", h.motion.lattice_log2, Range{3, 8});
+  v.u(4, "frame_lattice_log2", h.motion.lattice_log2, defined(3, 8));
   for (auto& first : h.motion.lattice_first)
     v.ue("frame_lattice_first", first, Range{0, (1 << 18) - 1});
   std::int64_t points = 1;

@@ -35,7 +35,8 @@ class Collector {
     if (is_head(unit.type)) return add_head(unit);
     if (unit.type == UnitType::kFrame) return check_frame(unit);
     if (unit.type == UnitType::kEnd) return check_end(unit);
-    return has_ids(unit.type) ? add_part(unit) : Done{};  // others stand anywhere
+    if (has_ids(unit.type)) return add_part(unit);
+    return check_understood(unit.type, unit.offset);  // others stand anywhere
   }
 
   SceneUnits take(const Units& units) {

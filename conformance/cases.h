@@ -61,6 +61,7 @@ std::vector<Case> layer_cases();      ///< among them
 std::vector<Case> attribute_cases();  ///< among them
 std::vector<Case> texture_cases();    ///< among them: planes as pictures
 std::vector<Case> frame_cases();      ///< among them: light fields that move
+std::vector<Case> growth_cases();     ///< among them: what later versions add
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -73,6 +74,7 @@ struct RefusedCase {
 std::vector<RefusedCase> refused_cases();
 std::vector<RefusedCase> refused_scenes();        ///< among them
 std::vector<RefusedCase> refused_units();         ///< among them
+std::vector<RefusedCase> refused_growth();        ///< among them
 std::vector<RefusedCase> refused_layers();        ///< among them
 std::vector<RefusedCase> refused_apart();         ///< among them
 std::vector<RefusedCase> refused_textures();      ///< among them

@@ -78,7 +78,7 @@ Bytes edited_frame(const Bytes& frame, const std::function<void(std::vector<Edit
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (units[i].type == UnitType::kEnd) units[i].payload = end_payload(i);
-    if (i > own) bytes += unit_bytes(units[i].payload.size());
+    if (i > own) bytes += unit_bytes(units[i].type, units[i].payload.size());
   }
   if (units[own].type == UnitType::kFrame)
     units[own].payload = changed_header(units[own].payload, [&](FrameHeader& h) {

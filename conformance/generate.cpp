@@ -50,11 +50,19 @@ std::string list(const std::vector<std::string>& items) {
   return text + "]";
 }
 
+/// sps_version_major, sps_version_minor: as the stream says, where it is long enough and begins
+/// with a sequence.
+std::string version_of(std::span<const std::uint8_t> stream) {
+  const std::size_t at = kSignature.size();
+  if (stream.size() < at + 3 || stream[at] != static_cast<std::uint8_t>(UnitType::kSequence))
+    return std::to_string(kVersionMajor) + "." + std::to_string(kVersionMinor);
+  return std::to_string(stream[at + 1]) + "." + std::to_string(stream[at + 2]);
+}
+
 std::string description(const std::string& id, const std::vector<std::string>& clauses,
                         const std::string& purpose, std::span<const std::uint8_t> stream) {
-  return "{\n  \"id\": " + quoted(id) +
-         ",\n  \"format_version\": \"0.4\",\n  \"clauses\": " + list(clauses) +
-         ",\n  \"purpose\": " + quoted(purpose) +
+  return "{\n  \"id\": " + quoted(id) + ",\n  \"format_version\": " + quoted(version_of(stream)) +
+         ",\n  \"clauses\": " + list(clauses) + ",\n  \"purpose\": " + quoted(purpose) +
          ",\n  \"stream\": {\"file\": \"stream.slf\", \"bytes\": " + std::to_string(stream.size()) +
          ", \"sha256\": " + quoted(sha256(stream)) + "},\n";
 }

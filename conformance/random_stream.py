@@ -68,7 +68,7 @@ class RandomStream:
         """7.2: the header in three pieces, between which sps_cut_flag and sps_cut_layers stand."""
         rng = self.rng
         self.normal_bits = rng.choice([0, 0, 4, 7])
-        head = BitWriter().u(0, 8).u(6, 8).u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
+        head = BitWriter().u(0, 8).u(self.bits - 1, 5).u(1, 1).u(4, 3).u(0, 4).u(self.normal_bits, 4)
         head.u(self.base, 5)
         self.geometry = range_ends(rng, self.bits, self.base, 3)
         tail = BitWriter().ue(len(self.geometry))

@@ -63,8 +63,6 @@ void add_headers(std::vector<RefusedCase>& cases) {
                        const std::function<void(SequenceParameterSet&)>& edit) {
     cases.push_back({id, purpose, {"7.2"}, with_sequence(edit)});
   };
-  add("version-major", "a newer major version", [](auto& s) { s.sps_version_major = 1; });
-  add("version-minor", "another 0.x version", [](auto& s) { s.sps_version_minor = 7; });
   add("profile", "an unknown profile", [](auto& s) { s.sps_profile = 9; });
   add("level", "an unknown level", [](auto& s) { s.sps_level = 3; });
   add("grid-bits", "more than 21 bits", [](auto& s) { s.sps_grid_bits_minus1 = 25; });
@@ -110,17 +108,10 @@ void add_headers(std::vector<RefusedCase>& cases) {
   add("draco-ranges", "level ranges of Draco's geometry", [](auto& s) {
     s.sps_profile = kDracoProfile, s.sps_geometry_coder = 1, s.sps_base_levels = 0;
   });
-}
-
-void add_header_lengths(std::vector<RefusedCase>& cases) {
   cases.push_back({"header-shorter",
                    "a sequence header without its last byte",
                    {"3.3"},
                    edited([](auto& units) { units[0].payload.pop_back(); })});
-  cases.push_back({"header-trailing-bytes",
-                   "a byte after the sequence header",
-                   {"3.3"},
-                   edited([](auto& units) { units[0].payload.push_back(0); })});
 }
 
 void add_attributes(std::vector<RefusedCase>& cases) {
@@ -147,10 +138,10 @@ std::vector<RefusedCase> refused_cases() {
   std::vector<RefusedCase> cases;
   add_framing(cases);
   add_headers(cases);
-  add_header_lengths(cases);
   add_attributes(cases);
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
+  for (RefusedCase& growth : refused_growth()) cases.push_back(std::move(growth));
   for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));
   for (RefusedCase& apart : refused_apart()) cases.push_back(std::move(apart));
   for (RefusedCase& texture : refused_textures()) cases.push_back(std::move(texture));

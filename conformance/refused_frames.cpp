@@ -85,6 +85,9 @@ class Refused {
       });
       return joined({f_[0], second});
     };
+    add("frames-lattice-log2", "a lattice of 2 voxels a step", with(nothing, [](FrameHeader& h) {
+          h.frame_motion_flag = h.frame_lattice_flag = h.motion.lattice_log2 = 1;
+        }));
     add("frames-lattice-too-large", "2^18 + 1 points", lattice_of({1 << 18, 0, 0}, {}));
     add("frames-lattice-too-large-together", "64 * 64 * 65 points", lattice_of({63, 63, 64}, {}));
     add("frames-vectors-shorter", "vectors that end early", lattice_of({3, 3, 3}, {0x7F}));

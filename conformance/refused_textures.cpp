@@ -71,7 +71,7 @@ void add_headers(std::vector<RefusedCase>& cases, const Bytes& base) {
     payload.resize(payload.size() * 3 / 4);
   });
   add("texture-profile", "pictures in the main profile", "7.2", [](auto& units) {
-    units[0].payload[2] = static_cast<std::uint8_t>(units[0].payload[2] & 0x0F);
+    units[0].payload[0] = static_cast<std::uint8_t>(units[0].payload[0] & 0x0F);
   });
   const Bytes larger = texture_stream(6);
   add("texture-picture-size", "pictures of a larger atlas", "7.6", [&](auto& units) {

@@ -56,7 +56,7 @@ def visited(source, function, prefix):
 def check_sequence():
     """7.2."""
     sets = code("bitstream/parameter_sets.h")
-    table = section("**7.2 Sequence**", "**7.3 Slices**")
+    table = section("**7.2 Sequence**", "**7.2.1 Later elements.**")
     text = dict(elements(table, "sps_"))
     coded = {}
     for function in ("sequence_parameter_set", "base_and_cut", "basis", "point_attributes", "group_layers", "plane_run"):
@@ -65,9 +65,19 @@ def check_sequence():
         coded[f"sps_num_{kind}_ranges_minus1"], coded[f"sps_{kind}_range_end"] = "ue", "u"
     agree("elements of 7.2", sorted(text.items()), sorted(coded.items()))
     order = [name for name, _ in elements(table, "sps_")]
+    check_reserved(table, sets)
     for function in ("sequence_parameter_set", "basis"):
         names = list(dict(visited(sets, function, "sps_")))
         agree(f"order of 7.2, {function}", [name for name in order if name in names], names)
+
+
+def check_reserved(table, sets):
+    """3.4: elements with values left to later versions, in the table, the code and the text decoder."""
+    rows = [row.split("|")[1:4] for row in table.splitlines() if re.search(r"\breserved\b", row)]
+    text = {name for row in rows for name in re.findall(r"\bsps_\w+", re.sub(r"^ if \(.*?\)", "", row[0]))}
+    agree("reserved values of 7.2", sorted(text), sorted(re.findall(r'"(sps_\w+)", [\w.]+,\s+defined\(', sets)))
+    agree("reserved values of 7.2 in the text decoder", sorted(text), sorted(
+        set(re.findall(r'"(sps_\w+)", Unsupported', DECODER)) - {"sps_version_major", "sps_version_minor"}))
 
 
 def check_slices():
@@ -91,7 +101,7 @@ def check_units():
     agree("unit types", text, coded)
     third = dict(zip(("sequence", "slices", "geometry", "normals", "coefficients"), range(1, 6)))
     third.update(zip(("index", "metadata", "digest", "transform", "refinement", "frame"), range(6, 12)), filler=14, end=15)
-    agree("unit types of the text decoder", text, third if "INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, END = 6, 7, 8, 9, 10, 11, 15"
+    agree("unit types of the text decoder", text, third if "INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, FILLER, END = 6, 7, 8, 9, 10, 11, 14, 15"
           in DECODER and "SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5" in DECODER else None)
 
 
@@ -152,8 +162,12 @@ def check_limits():
     agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)
     version = re.search(r"Version \*\*(\d+)\.(\d+)\*\*", SPEC).groups()
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
-    agree("version of the text decoder", version, re.search(
-        r'v == (\d+), "sps_version_major"\)\s+checked\(8, lambda v: v == (\d+)', DECODER).groups())
+    least = re.search(r"\| if \(unit_type = 1\) sps_version_major, sps_version_minor \|[^|]*\| (\d+); (\d+) ", SPEC).groups()
+    agree("least version", least, (version[0], re.search(r"kLeastMinor = (\d+)", sets).group(1)))
+    agree("least version of the text decoder", least, re.search(
+        r'== (\d+), "sps_version_major", Unsupported\)\s+require\(data\[position \+ 2\] >= (\d+)', DECODER).groups())
+    agree("bytes of an extension", int(re.search(r"\| the bytes that are left \| 2\^(\d+) bytes", SPEC)[1]),
+          int(re.search(r"kMostExtensionBytes = 1 << (\d+)", code("bitstream/parameter_sets.cpp"))[1]))
     first = re.search(r"the weights of the N contexts are ⌊(\d+) / N⌋,\s+the others 0\.", SPEC).group(1)
     agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))

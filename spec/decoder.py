@@ -30,18 +30,24 @@ import numpy as np
 import hevc
 
 SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
-INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, END = 6, 7, 8, 9, 10, 11, 15
+INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, FILLER, END = 6, 7, 8, 9, 10, 11, 14, 15
 MAX_VALUES = 1 << 28
 
 
 class Refused(Exception):
     """3.3: the stream does not conform, or is not supported; names the syntax element."""
+    said = "refused"
 
 
-def require(condition, element):
-    """3.3: a value outside its range is reported, and there is no light field."""
+class Unsupported(Refused):
+    """3.4: a later version may have given the value a meaning."""
+    said = "unsupported"
+
+
+def require(condition, element, refusal=Refused):
+    """3.3, 3.4: a value outside its range is reported, and there is no light field."""
     if not condition:
-        raise Refused(element)
+        raise refusal(element)
 
 
 # ---- 3 Conventions
@@ -127,13 +133,25 @@ def from_morton(code):
 SIGNATURE = bytes.fromhex("8B534C460D0A1A0A")
 
 
+def behind_version(data, position):
+    """7.1, 7.1.2: where unit_length of a unit stands; the version of a sequence unit is checked. None where the data end before it."""
+    if data[position] != SEQUENCE:
+        return position + 1
+    if position + 3 > len(data):
+        return None
+    require(data[position + 1] == 0, "sps_version_major", Unsupported)
+    require(data[position + 2] >= 7, "sps_version_minor", Unsupported)
+    return position + 3
+
+
 def read_units(data, predicted=False):
     """7.1: the units of a stream of one frame, or of a frame, as (type, payload, size of the whole unit)."""
     require(predicted or data[:8] == SIGNATURE, "signature")
     position, units = 0 if predicted else 8, []
     while position < len(data):
         start = position
-        position += 1
+        position = behind_version(data, start)
+        require(position, "sps_version_major (truncated)")
         length = shift = 0
         while True:
             require(shift < 6 * 7, "unit_length")
@@ -158,7 +176,8 @@ def read_units(data, predicted=False):
 def unit_at(data, position):
     """7.1: payload and end of the unit at a place; None where the data end before it does."""
     size = shift = 0
-    for at in range(position + 1, min(position + 7, len(data))):
+    behind = behind_version(data, position) or len(data)
+    for at in range(behind, min(behind + 6, len(data))):
         size |= (data[at] & 127) << shift
         shift += 7
         if data[at] < 128:
@@ -211,28 +230,27 @@ class Sequence:
         """7.2: parses the sequence unit."""
         reader = BitReader(payload)
 
-        def checked(bits, accept, element):
+        def checked(bits, accept, element, refusal=Refused):
             """7.2: an unsigned element and its range."""
             value = reader.u(bits, element)
-            require(accept(value), element)
+            require(accept(value), element, refusal)
             return value
 
-        checked(8, lambda v: v == 0, "sps_version_major")
-        checked(8, lambda v: v == 6, "sps_version_minor")
-        profile = checked(4, lambda v: v <= 2, "sps_profile")
-        checked(4, lambda v: v == 0, "sps_level")
-        self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1") + 1
+        profile = checked(4, lambda v: v <= 2, "sps_profile", Unsupported)
+        checked(4, lambda v: v == 0, "sps_level", Unsupported)
+        self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1", Unsupported) + 1
         self.origin, self.step = [0.0] * 3, 1.0
         if not reader.u(1, "sps_unit_grid_flag"):
             self.origin = [reader.f64("sps_origin") for _ in range(3)]
             self.step = reader.f64("sps_step")
             require(self.step > 0, "sps_step")
-        checked(3, lambda v: v <= 6, "sps_up_axis")
+        checked(3, lambda v: v <= 6, "sps_up_axis", Unsupported)
         reader.u(1, "sps_left_handed_flag")
         if reader.u(1, "sps_metres_flag"):
             require(reader.f64("sps_metres_per_unit") > 0, "sps_metres_per_unit")
-        checked(2, lambda v: v == (profile == 1), "sps_geometry_coder")
-        self.normal_bits = checked(4, lambda v: v == 0 or 4 <= v <= 12, "sps_normal_bits")
+        geometry_coder = checked(2, lambda v: v <= 1, "sps_geometry_coder", Unsupported)
+        require(geometry_coder == (profile == 1), "sps_geometry_coder")
+        self.normal_bits = checked(4, lambda v: v == 0 or 4 <= v <= 12, "sps_normal_bits", Unsupported)
         self.base_and_cut(reader, checked, profile)
         self.geometry_bounds = self.level_ranges(reader, "geometry")
         require(profile != 1 or len(self.geometry_bounds) == 2, "sps_num_geometry_ranges_minus1")
@@ -249,17 +267,17 @@ class Sequence:
         self.num_transforms, self.transforms = 0, []
         if self.functions:
             if reader.u(1, "sps_basis_flag"):
-                if checked(4, lambda v: v <= 1, "sps_basis_idc") == 0:
+                if checked(4, lambda v: v <= 1, "sps_basis_idc", Unsupported) == 0:
                     reader.u(2, "sps_order_minus1")
-                    scales = checked(3, lambda v: v <= 6, "sps_scales_theta")
-                    scales += checked(3, lambda v: v <= 6, "sps_scales_gamma")
+                    scales = checked(3, lambda v: v <= 6, "sps_scales_theta", Unsupported)
+                    scales += checked(3, lambda v: v <= 6, "sps_scales_gamma", Unsupported)
                     of_basis = 1 << scales
                 else:
-                    degree = checked(4, lambda v: v <= 10, "sps_degree")
+                    degree = checked(4, lambda v: v <= 10, "sps_degree", Unsupported)
                     of_basis = (degree + 1) ** 2
-                frame = checked(3, lambda v: v <= 1, "sps_frame_idc")
-                checked(3, lambda v: v <= 1, "sps_colour_idc")
-                checked(2, lambda v: v <= 1, "sps_transfer_idc")
+                frame = checked(3, lambda v: v <= 1, "sps_frame_idc", Unsupported)
+                checked(3, lambda v: v <= 1, "sps_colour_idc", Unsupported)
+                checked(2, lambda v: v <= 1, "sps_transfer_idc", Unsupported)
                 gamma_min, gamma_max = reader.s8("sps_gamma_min"), reader.s8("sps_gamma_max")
                 require(gamma_min >= -127, "sps_gamma_min")
                 require(gamma_max >= gamma_min, "sps_gamma_max")
@@ -270,7 +288,7 @@ class Sequence:
             coder = checked(2, lambda v: (v == 2) == (profile == 2), "sps_coefficient_coder")
             self.coder = (VectorCoder, IndependentCoder, None, VectorCoder)[coder]
             if coder == 2:
-                self.texture_bits = 8 + 2 * checked(2, lambda v: v <= 2, "sps_texture_bits")
+                self.texture_bits = 8 + 2 * checked(2, lambda v: v <= 2, "sps_texture_bits", Unsupported)
                 self.texture_cell_log2 = reader.u(3, "sps_texture_cell_log2")
             else:
                 self.prediction = bool(reader.u(1, "sps_prediction_flag"))
@@ -288,13 +306,23 @@ class Sequence:
             require(coder != 2 or len(self.coefficient_bounds) == 2, "sps_num_coefficient_ranges_minus1")
             while len(self.steps) < self.functions:
                 self.plane_run(reader)
-        self.elements = reader.elements
-        reader.trailing_bits("sps_trailing_bits")
+        self.elements = dict(reader.elements)
+        reader.align("sps_trailing_bits")
+        self.later_elements(reader)
         require(all(self.groups), "sps_num_groups_minus1")
         require(self.cut_groups <= len(self.groups), "sps_cut_groups")
-        require(profile != 1, "sps_profile (Draco geometry is not supported)")
+        require(profile != 1, "sps_profile (Draco geometry is not supported)", Unsupported)
         self.profile = profile
         self.coded = list(self.groups)      # those in whose place components stand
+
+    @staticmethod
+    def later_elements(reader):
+        """7.2.1: features, none of which is known, and what is skipped."""
+        left = len(reader.data) - reader.position // 8
+        if left:
+            for i in range(32):
+                require(reader.u(1, f"sps_feature[{i}]") == 0, f"sps_feature[{i}]", Unsupported)
+            require(left - 4 <= 1 << 16, "sps_extension")
 
     def read_attributes(self, reader):
         """7.2, 6.8: what is no view map; the number of functions of all."""
@@ -302,7 +330,7 @@ class Sequence:
         require(count <= 16, "sps_num_attributes")
         for _ in range(count):
             meaning = reader.ue("sps_attribute_id")
-            require(meaning <= 2, "sps_attribute_id")
+            require(meaning <= 2, "sps_attribute_id", Unsupported)
             require(meaning == 0 or all(meaning != other for other, _ in self.attributes), "sps_attribute_id")
             functions = reader.ue("sps_attribute_functions_minus1") + 1
             require(functions == meaning or meaning == 0 and functions <= 4096, "sps_attribute_functions_minus1")
@@ -519,7 +547,7 @@ class Frame:
         if not reader.u(1, "frame_lattice_flag"):
             return
         self.lattice_log2 = reader.u(4, "frame_lattice_log2")
-        require(3 <= self.lattice_log2 <= 8, "frame_lattice_log2")
+        require(3 <= self.lattice_log2 <= 8, "frame_lattice_log2", Unsupported)
         self.first = [reader.ue("frame_lattice_first") for _ in range(3)]
         require(max(self.first) < 1 << 18, "frame_lattice_first")
         self.size = [reader.ue("frame_lattice_size_minus1") + 1 for _ in range(3)]
@@ -562,7 +590,7 @@ class Slices:
         require(count <= 1 << 16 and (sequence.base_levels or count == 1), "slices_num_minus1")
         require(count <= 8 * len(payload), "slices_num_minus1 (truncated)")
         start = reader.ue("slices_start") if count > 1 else 1
-        require(start <= 2, "slices_start")
+        require(start <= 2, "slices_start", Unsupported)
         self.shared, self.apart = start == 0, start == 2
         self.cells, self.points = [], []
         for _ in range(count):
@@ -2265,7 +2293,7 @@ def decode_pictures(stream, count, bits, atlas):
             yield picture
         require(pictures == count, "hevc_pictures (number)")
     except hevc.Unsupported as problem:
-        raise Refused(f"hevc_pictures (HEVC is not supported: {problem})") from None
+        raise Unsupported(f"hevc_pictures (HEVC is not supported: {problem})") from None
     except hevc.Damaged as problem:
         raise Refused(str(problem)) from None
 
@@ -2322,6 +2350,8 @@ class LightField:
                 self.check_whole()
             elif unit_type == FRAME:
                 require(number == 1 and self.frame and not self.reference, "unit_type (frame)")
+            else:
+                require(unit_type == FILLER or unit_type & 64, "unit_type", Unsupported)    # 7.1.1
         if self.boxes and self.slices:
             check_boxes(self.boxes, self.slices, self.base.octree.nodes if self.base.tree else None)
 
@@ -2549,7 +2579,7 @@ def main():
                     json.dump(about, file, indent=2)
             print(*said, "points", len(arrays[0]), "functions", sequence.functions, flush=True)
     except (Refused, OSError) as problem:
-        print("refused:", problem, file=sys.stderr)
+        print(getattr(problem, "said", "refused") + ":", problem, file=sys.stderr)
         return 1
     return 0
 

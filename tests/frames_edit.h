@@ -75,7 +75,8 @@ inline Bytes joined_units(Frame units, const std::function<void(FrameHeader&)>& 
     const Bytes rest(vectors.begin(), vectors.end());
     header.frame_bytes = 0;
     for (std::size_t i = at + 1; i < units.size(); ++i)
-      header.frame_bytes += static_cast<std::uint32_t>(unit_bytes(units[i].payload.size()));
+      header.frame_bytes +=
+          static_cast<std::uint32_t>(unit_bytes(units[i].type, units[i].payload.size()));
     if (edit) edit(header);
     for (auto& size : header.motion.lattice_size) --size;
     BitWriter out;

@@ -144,7 +144,6 @@ TEST_P(SequenceParameterSetTest, IsFoundGoodBeforeItIsWritten) {
 TEST(Spec_7_2_Sequence, IsRefusedBeforeItIsWrittenWhereAReaderWouldRefuseIt) {
   using Set = SequenceParameterSet;
   const std::vector<std::function<void(Set&)>> edits = {
-      [](Set& s) { s.sps_version_minor = 99; },
       [](Set& s) { s.sps_profile = 3; },
       [](Set& s) { s.sps_grid_bits_minus1 = 21; },
       [](Set& s) { s.sps_step = 0; },

@@ -181,7 +181,7 @@ TEST(PlenopticPlanes, AreNearTheExactOnesWhereTheFileIsCut) {
   const auto encoded = encode_plenoptic(cloud, {});
   const StreamInfo info = *read_info(encoded->stream);
   const auto corrections = std::find_if(info.units.begin(), info.units.end(),
-                                        [](const auto& unit) { return unit.type == "unknown"; });
+                                        [](const auto& unit) { return unit.type == "type 192"; });
   ASSERT_NE(corrections, info.units.end());
   const std::vector<std::uint8_t> cut(
       encoded->stream.begin(), encoded->stream.begin() + std::ptrdiff_t(corrections->offset));

@@ -91,16 +91,6 @@ TEST(Spec_7_1_Hazards, ForeignFilesAreNotSlf) {
   }
 }
 
-TEST(Spec_7_2_Versions, NewerOnesAreUnsupportedNotDamaged) {
-  for (const std::size_t byte : {0u, 1u}) {  // major, minor
-    auto stream = small_stream();
-    stream[8 + 2 + byte] = 9;  // signature, type, length
-    const auto decoded = decode(fuzz::with_sound_crcs(stream));
-    ASSERT_FALSE(decoded);
-    EXPECT_EQ(decoded.error().code, Errc::kUnsupported);
-  }
-}
-
 TEST(Spec_7_1_UnknownUnits, AreSkipped) {
   const auto whole = small_stream(false);
   const auto units = split_units(whole);

@@ -55,6 +55,18 @@ completed=$(bash -c 'source "$1"; COMP_WORDS=(slf export --for); COMP_CWORD=2; _
   bash "$root/usr/share/bash-completion/completions/slf")
 [[ $completed == --format ]] || fail "completion of --for is '$completed'"
 
+say "types of files"
+if command -v file >/dev/null; then
+  [[ $(file -b -m "$root/usr/share/slf/slf.magic" --mime-type tiny.slf) == model/vnd.slf ]] || fail "file does not know tiny.slf"
+fi
+if command -v update-mime-database >/dev/null && command -v gio >/dev/null; then
+  mkdir -p data/mime/packages
+  cp "$root/usr/share/mime/packages/slf.xml" data/mime/packages/
+  update-mime-database data/mime
+  cp tiny.slf nameless
+  XDG_DATA_HOME=$work/data gio info -a standard::content-type nameless | grep -q 'model/vnd\.slf' || fail "gio does not know tiny.slf"
+fi
+
 say "a C program by pkg-config"
 export PKG_CONFIG_PATH=$libdir/pkgconfig
 cat >use.c <<'C'

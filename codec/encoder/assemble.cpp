@@ -9,10 +9,10 @@ Index index_of(std::span<const CodedUnit> units, std::span<const std::uint8_t> e
                const std::vector<CellBox>& boxes) {
   Index index{{}, boxes};
   for (const CodedUnit& unit : units) {
-    index.entries.push_back({unit.type, unit_bytes(unit.payload.size()), unit.ids});
+    index.entries.push_back({unit.type, unit_bytes(unit.type, unit.payload.size()), unit.ids});
     index.entries.back().ids.cu_prediction.clear();
   }
-  index.entries.push_back({UnitType::kEnd, unit_bytes(end.size()), {}});
+  index.entries.push_back({UnitType::kEnd, unit_bytes(UnitType::kEnd, end.size()), {}});
   return index;
 }
 

@@ -21,8 +21,8 @@ namespace {
 
 /// The frame unit of an intra frame with these units: it says how many bytes they have.
 CodedUnit frame_unit_before(std::span<const CodedUnit> units, FrameHeader& frame) {
-  std::uint64_t bytes = unit_bytes(end_payload(units.size() + 2).size());
-  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.payload.size());
+  std::uint64_t bytes = unit_bytes(UnitType::kEnd, end_payload(units.size() + 2).size());
+  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.type, unit.payload.size());
   frame.frame_bytes = static_cast<std::uint32_t>(bytes);
   return {UnitType::kFrame, write_frame_header(frame, nullptr, 0), {}};
 }

@@ -21,6 +21,7 @@ class UnitVisitor {
     switch (unit.type) {
       case UnitType::kSequence:
         sequence_parameter_set(parse_, set);
+        later_elements(parse_);
         break;
       case UnitType::kSlices: {
         SliceTable table;
@@ -77,23 +78,36 @@ class UnitVisitor {
   ParseSyntax parse_;
 };
 
+const char* body_name(UnitType type) {
+  if (type == UnitType::kSequence) return "sps_extension";
+  if (type == UnitType::kMetadata) return "metadata_deflated";
+  if (type == UnitType::kDigest) return "digest_sha256";
+  return has_ids(type) || type == UnitType::kFrame ? "codeword" : "unit_payload";
+}
+
+/// Spec 7.1: of a sequence unit, behind its type.
+void add_version(const Units& units, const Unit& sequence, std::vector<ListedElement>& elements) {
+  const std::uint64_t bit = 8 * (sequence.offset + 1);
+  elements.push_back({"sps_version_major", "u", bit, 8, std::to_string(units.version_major)});
+  elements.push_back({"sps_version_minor", "u", bit + 8, 8, std::to_string(units.version_minor)});
+}
+
 /// What follows the header as one element: a codeword, deflated metadata, a digest.
 void add_body(const Unit& unit, const BitReader& in, std::vector<ListedElement>& elements,
               std::uint64_t payload_bit) {
   const std::uint64_t at = (in.bit_position() + 7) / 8 * 8;
   if (at >= unit.payload.size() * 8) return;
-  const char* name = unit.type == UnitType::kMetadata ? "metadata_deflated"
-                     : unit.type == UnitType::kDigest ? "digest_sha256"
-                                                      : "codeword";
-  elements.push_back({name, "bytes", payload_bit + at, unit.payload.size() * 8 - at, ""});
+  elements.push_back(
+      {body_name(unit.type), "bytes", payload_bit + at, unit.payload.size() * 8 - at, ""});
 }
 
-Result<ListedUnit> list_unit(const Unit& unit, SequenceParameterSet& set) {
+Result<ListedUnit> list_unit(const Units& units, const Unit& unit, SequenceParameterSet& set) {
   const std::uint64_t payload_bit = unit.payload_offset * 8;
   BitReader in(unit.payload);
   SyntaxLog log;
   SLF_CHECK(in_unit(unit, UnitVisitor(in, log).visit(unit, set)));
   ListedUnit listed{unit_name(unit.type), unit.offset, unit.bytes, {}};
+  if (unit.type == UnitType::kSequence) add_version(units, unit, listed.elements);
   for (const SyntaxEntry& entry : log)
     listed.elements.push_back(
         {entry.element, entry.kind, payload_bit + entry.bit, entry.bits,
@@ -113,7 +127,7 @@ Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream
   SequenceParameterSet set;
   std::vector<ListedUnit> listed;
   for (const Unit& unit : units.units) {
-    SLF_TRY(ListedUnit one, list_unit(unit, set));
+    SLF_TRY(ListedUnit one, list_unit(units, unit, set));
     listed.push_back(std::move(one));
   }
   return listed;

@@ -67,8 +67,8 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   const auto& [units, scene] = opened;
   const SequenceParameterSet& set = scene.stream.set;
   StreamInfo info;
-  info.version_major = static_cast<int>(set.sps_version_major);
-  info.version_minor = static_cast<int>(set.sps_version_minor);
+  info.version_major = units.version_major;
+  info.version_minor = units.version_minor;
   info.profile = static_cast<int>(set.sps_profile);
   info.level = static_cast<int>(set.sps_level);
   info.header = header_of(set);

@@ -51,6 +51,7 @@ Result<Done> choose_units(const Index& index, std::uint64_t begin, const ByteRan
                           std::uint64_t max_bytes, ReadPlan& plan) {
   for (const IndexEntry& entry : index.entries) {
     const ByteRange range{begin, entry.bytes};
+    SLF_CHECK(check_understood(entry.type, range.offset));
     begin = range.end();
     if (range.offset >= behind.end() || (max_bytes > 0 && range.end() > max_bytes)) break;
     if (range.end() > behind.end()) return cut_short(entry, range.offset);

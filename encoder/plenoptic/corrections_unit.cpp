@@ -1,4 +1,6 @@
 // The unit of corrections within a stream.
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "bitstream/index.h"
@@ -9,8 +11,15 @@
 namespace slf {
 namespace {
 
-/// A type that the format leaves to applications (spec 7.1).
-constexpr UnitType kCorrections = static_cast<UnitType>(64);
+/// A type that the format leaves to applications, which whoever does not know it skips, and the
+/// identifier of this application (spec 7.1.1, registry.md).
+constexpr UnitType kCorrections = static_cast<UnitType>(kPrivateBit | kSkipBit);
+constexpr std::array<std::uint8_t, 4> kIdentifier = {'S', 'L', 'F', 'p'};
+
+bool has_corrections(const Unit& unit) {
+  return unit.type == kCorrections && unit.payload.size() >= kIdentifier.size() &&
+         std::equal(kIdentifier.begin(), kIdentifier.end(), unit.payload.begin());
+}
 
 }  // namespace
 
@@ -34,14 +43,17 @@ Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t>
     }
     kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
   }
-  kept.push_back({kCorrections, {payload.begin(), payload.end()}, {}});
+  std::vector<std::uint8_t> identified(kIdentifier.begin(), kIdentifier.end());
+  identified.insert(identified.end(), payload.begin(), payload.end());
+  kept.push_back({kCorrections, std::move(identified), {}});
   return assemble(set, kept, boxes);
 }
 
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
   SLF_TRY(const Units units, split_units(stream));
-  const Unit* unit = units.first(kCorrections);
-  return unit == nullptr ? std::span<const std::uint8_t>{} : unit->payload;
+  const auto found = std::find_if(units.units.begin(), units.units.end(), has_corrections);
+  if (found == units.units.end()) return std::span<const std::uint8_t>{};
+  return found->payload.subspan(kIdentifier.size());
 }
 
 }  // namespace slf

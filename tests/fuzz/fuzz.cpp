@@ -22,7 +22,7 @@ void mend_crcs(std::vector<std::uint8_t>& stream, std::size_t at, bool signature
       at += 8;
       continue;
     }
-    std::size_t length = 0, p = at + 1;
+    std::size_t length = 0, p = at + (stream[at] == 1 ? 3 : 1);  // a sequence has its version there
     for (int shift = 0; p < stream.size() && shift < 42; shift += 7) {
       length |= std::size_t{stream[p] & 0x7Fu} << shift;
       if (!(stream[p++] & 0x80)) break;

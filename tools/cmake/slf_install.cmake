@@ -15,6 +15,10 @@ install(DIRECTORY include/slf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT 
 install(EXPORT slfTargets NAMESPACE slf:: DESTINATION ${SLF_CMAKE_DIR} COMPONENT dev)
 if(TARGET slf_program)
   install(TARGETS slf_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  # What desktops and `file -m` know files by. libmagic has no folder for entries of others.
+  install(FILES tools/desktop/slf.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
+          COMPONENT program)
+  install(FILES tools/desktop/slf.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/slf COMPONENT program)
 endif()
 
 configure_package_config_file(tools/cmake/slfConfig.cmake.in ${PROJECT_BINARY_DIR}/slfConfig.cmake

@@ -2,7 +2,8 @@
 // decoded as far as it goes.
 
 const SIGNATURE = [0x8b, 0x53, 0x4c, 0x46, 0x0d, 0x0a, 0x1a, 0x0a];
-const GEOMETRY = 3,
+const SEQUENCE = 1,
+  GEOMETRY = 3,
   COEFFICIENTS = 5,
   FRAME = 11,
   END = 15;
@@ -20,9 +21,9 @@ export function walkUnits(bytes) {
   let at = SIGNATURE.length;
   while (at < bytes.length && !result.complete) {
     const type = bytes[at],
-      size = payloadSize(bytes, at + 1);
-    if (size === null || at + 1 + size.digits + size.bytes + 4 > bytes.length) break;
-    at += 1 + size.digits + size.bytes + 4;
+      end = unitEnd(bytes, at);
+    if (end === null || end > bytes.length) break;
+    at = end;
     result.end = at;
     if (type === COEFFICIENTS || (type !== GEOMETRY && result.pictures > 0)) result.pictures = at;
     result.complete = type === END;
@@ -37,10 +38,16 @@ export function walkUnits(bytes) {
 export function moves(bytes) {
   const at = SIGNATURE.length;
   if (SIGNATURE.some((byte, i) => i < bytes.length && byte !== bytes[i])) return false;
-  const size = at < bytes.length ? payloadSize(bytes, at + 1) : null;
-  if (size === null) return bytes.length > at + 7 ? false : null;
-  const next = at + 1 + size.digits + size.bytes + 4;
+  const next = at < bytes.length ? unitEnd(bytes, at) : null;
+  if (next === null) return bytes.length > at + 9 ? false : null;
   return next < bytes.length ? bytes[next] === FRAME : null;
+}
+
+/** The first byte behind a unit; null where its length is cut or too long. A sequence unit has its version before the length (7.1.2). */
+function unitEnd(bytes, at) {
+  const length = at + (bytes[at] === SEQUENCE ? 3 : 1);
+  const size = payloadSize(bytes, length);
+  return size === null ? null : length + size.digits + size.bytes + 4;
 }
 
 /** unit_length: seven bits a byte, least significant first; null where it is cut or too long. */
