@@ -15,3 +15,5 @@ foreach(language C CXX)
   set(CMAKE_${language}_ARCHIVE_FINISH "")
 endforeach()
 set(CMAKE_INSTALL_LIBDIR lib)  # nothing is installed; without it CMake warns
+# Nothing is compiled to find out (CMAKE_C_COMPILER_FORCED).
+set(CMAKE_SIZEOF_VOID_P 4)
