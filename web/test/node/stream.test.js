@@ -9,6 +9,8 @@ const decoder = await SlfDecoder.create();
 const streams = cases('streams').filter((one) => !/^(draco|texture-)/.test(one.id));
 /** More than the first request gives. */
 const large = streams.filter((one) => one.bytes.length > 1 << 16);
+/** Of these one whose first part has all headers: a decode asks for the rest. */
+const [short] = large.filter(({ id }) => !id.startsWith('header-'));
 const server = await serve(Object.fromEntries(streams.map((one) => [one.id, one.bytes])));
 after(() => server.close());
 
@@ -75,14 +77,14 @@ test('a server that ignores ranges is read whole', async () => {
 });
 
 test('sizes that may not be seen make it read whole', async () => {
-  const stream = await SlfStream.open(server.url(large[0].id, '?manner=no%20Content-Range'), { decoder });
+  const stream = await SlfStream.open(server.url(short.id, '?manner=no%20Content-Range'), { decoder });
   (await stream.decode()).release();
-  assert.equal(stream.received, large[0].bytes.length);
+  assert.equal(stream.received, short.bytes.length);
 });
 
 for (const manner of ['another part', 'less than it says', 'more than it says', 'another size', 'cut off', 'missing'])
   test(`an error where the second answer is: ${manner}`, async () => {
-    const url = server.url(large[0].id, `?manner=${encodeURIComponent(manner)}&after=1&x=${Math.random()}`);
+    const url = server.url(short.id, `?manner=${encodeURIComponent(manner)}&after=1&x=${Math.random()}`);
     const stream = await SlfStream.open(url, { decoder });
     await assert.rejects(stream.decode(), (error) => error instanceof SlfError && error.code === 'NETWORK');
   });
@@ -107,7 +109,7 @@ test('a caller ends a stall', async () => {
 });
 
 test('damage on the way is found', async () => {
-  const bytes = Uint8Array.from(caseOf(large[0].id).bytes);
+  const bytes = Uint8Array.from(caseOf(short.id).bytes);
   bytes[bytes.length - 60] ^= 4;
   const fetchDamaged = async (url, { headers }) => {
     const [begin, end] = /bytes=(\d+)-(\d+)/.exec(headers.Range).slice(1).map(Number);
@@ -135,7 +137,7 @@ function answering(bytes, { whole = Infinity } = {}) {
 }
 
 test('a server that gives the whole file from some request on is asked once more, not for every range', async () => {
-  const { bytes } = large[0], server = answering(bytes, { whole: 1 });
+  const { bytes } = short, server = answering(bytes, { whole: 1 });
   const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
   assert.ok(stream.preflight({ groups: 1 }).requests > 1);
   await stream.read({ groups: 1 });
@@ -144,7 +146,7 @@ test('a server that gives the whole file from some request on is asked once more
 });
 
 test('two reads at once ask for nothing twice', async () => {
-  const { bytes } = large[0], server = answering(bytes);
+  const { bytes } = short, server = answering(bytes);
   const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
   const opened = stream.received, { readBytes, requests: count } = stream.preflight({ groups: 1 });
   const fields = await Promise.all([stream.decode({ groups: 1 }), stream.decode({ groups: 1 }), stream.read({ groups: 1 })]);
@@ -155,7 +157,7 @@ test('two reads at once ask for nothing twice', async () => {
 });
 
 test('a read that failed does not keep the next from its turn', async () => {
-  const server = answering(large[0].bytes);
+  const server = answering(short.bytes);
   const stream = await SlfStream.open('http://nowhere.test/x.slf', { decoder, fetch: server.fetch });
   const stopped = stream.read({}, { signal: AbortSignal.abort() }), next = stream.decode();
   await assert.rejects(stopped, (error) => error instanceof SlfError && error.code === 'ABORTED');
