@@ -125,6 +125,22 @@ Result<Done> check_understood(UnitType type, std::uint64_t offset) {
   return of_unit(type, offset, Errc::kUnsupported, "unit_type");
 }
 
+bool is_of_application(const Unit& unit, const ApplicationId& id) {
+  return unit.type == kApplicationUnit && unit.payload.size() >= id.size() &&
+         std::equal(id.begin(), id.end(), unit.payload.begin());
+}
+
+std::span<const std::uint8_t> application_payload(const Unit& unit) {
+  return unit.payload.subspan(sizeof(ApplicationId));
+}
+
+std::vector<std::uint8_t> with_identifier(const ApplicationId& id,
+                                          std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> all(id.begin(), id.end());
+  all.insert(all.end(), payload.begin(), payload.end());
+  return all;
+}
+
 const Unit* Units::first(UnitType type) const {
   const auto found = std::find_if(units.begin(), units.end(),
                                   [type](const Unit& unit) { return unit.type == type; });

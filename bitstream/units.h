@@ -37,6 +37,11 @@ const char* unit_name(UnitType type);
 /// unit, stands in three bits of its number.
 inline constexpr unsigned kSkipBit = 64, kPrivateBit = 128, kExperimentBit = 32;
 
+/// What the payload of an application's unit begins with. registry.md
+using ApplicationId = std::array<std::uint8_t, 4>;
+/// Of applications of this project: a unit that whoever does not know it skips.
+inline constexpr auto kApplicationUnit = static_cast<UnitType>(kPrivateBit | kSkipBit);
+
 /// Is the unit, if it is of a type that 7.1 does not name, one that may be skipped?
 /// @errors kUnsupported: it has to be understood
 Result<Done> check_understood(UnitType type, std::uint64_t offset);
@@ -93,6 +98,12 @@ Result<T> in_unit(const AnyUnit& unit, Result<T> result) {
   if (!result) return in_unit(unit, result.error());
   return result;
 }
+
+bool is_of_application(const Unit& unit, const ApplicationId& id);
+/// What the unit of an application holds behind its identifier.
+std::span<const std::uint8_t> application_payload(const Unit& unit);
+std::vector<std::uint8_t> with_identifier(const ApplicationId& id,
+                                          std::span<const std::uint8_t> payload);
 
 /// Appends one unit; a sequence unit with the version of this encoder.
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,

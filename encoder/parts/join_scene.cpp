@@ -81,7 +81,7 @@ CodedUnit part_of(const SceneParts& parts) {
     if (const auto& digest = parts.slices[s]->digest)
       sums.slices.back().digest.assign(digest->payload.end() - 32, digest->payload.end());
   }
-  return {kPartUnit, write_part_sums(sums), {}};
+  return {kApplicationUnit, with_identifier(kPartSums, write_part_sums(sums)), {}};
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// The unit that a part has beside those of a light field: what merging it needs. Of a type that
-// decoders skip.
+// The unit that a part has beside those of a light field: what merging it needs. Decoders skip it.
 #pragma once
 
 #include <array>
@@ -12,8 +11,7 @@
 
 namespace slf {
 
-/// Types from 64 on are left to applications (7.1).
-inline constexpr auto kPartUnit = static_cast<UnitType>(64);
+inline constexpr ApplicationId kPartSums = {'S', 'L', 'F', 'm'};
 
 struct SliceSums {
   std::size_t slice = 0;

@@ -47,10 +47,10 @@ class PartReader {
     for (const Unit& unit : units_.units) {
       if (unit.type == UnitType::kTransform || unit.type == UnitType::kSlices)
         parts_.head.push_back(copy_of(unit));
-      if (unit.type != kPartUnit) continue;
+      if (!is_of_application(unit, kPartSums)) continue;
       if (found) return Error{Errc::kOutOfRange, "unit_type"};
       found = true;
-      SLF_TRY(sums_, parse_part_sums(unit.payload, parts_.table, request.planes()));
+      SLF_TRY(sums_, parse_part_sums(application_payload(unit), parts_.table, request.planes()));
     }
     if (!found) return Error{Errc::kTruncated, "part_plan"};
     parts_.plan = sums_.plan;

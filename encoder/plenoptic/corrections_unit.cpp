@@ -1,6 +1,4 @@
 // The unit of corrections within a stream.
-#include <algorithm>
-#include <array>
 #include <optional>
 
 #include "bitstream/index.h"
@@ -11,15 +9,7 @@
 namespace slf {
 namespace {
 
-/// A type that the format leaves to applications, which whoever does not know it skips, and the
-/// identifier of this application (spec 7.1.1, registry.md).
-constexpr UnitType kCorrections = static_cast<UnitType>(kPrivateBit | kSkipBit);
-constexpr std::array<std::uint8_t, 4> kIdentifier = {'S', 'L', 'F', 'p'};
-
-bool has_corrections(const Unit& unit) {
-  return unit.type == kCorrections && unit.payload.size() >= kIdentifier.size() &&
-         std::equal(kIdentifier.begin(), kIdentifier.end(), unit.payload.begin());
-}
+constexpr ApplicationId kCorrections = {'S', 'L', 'F', 'p'};
 
 }  // namespace
 
@@ -43,17 +33,15 @@ Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t>
     }
     kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
   }
-  std::vector<std::uint8_t> identified(kIdentifier.begin(), kIdentifier.end());
-  identified.insert(identified.end(), payload.begin(), payload.end());
-  kept.push_back({kCorrections, std::move(identified), {}});
+  kept.push_back({kApplicationUnit, with_identifier(kCorrections, payload), {}});
   return assemble(set, kept, boxes);
 }
 
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
   SLF_TRY(const Units units, split_units(stream));
-  const auto found = std::find_if(units.units.begin(), units.units.end(), has_corrections);
-  if (found == units.units.end()) return std::span<const std::uint8_t>{};
-  return found->payload.subspan(kIdentifier.size());
+  for (const Unit& unit : units.units)
+    if (is_of_application(unit, kCorrections)) return application_payload(unit);
+  return std::span<const std::uint8_t>{};
 }
 
 }  // namespace slf
