@@ -44,6 +44,8 @@ class RandomStream:
         self.base = rng.choice([0] + [rng.randrange(1, self.bits) for _ in range(3)])
         self.codes = random_cloud(rng, self.bits)
         self.runs()
+        later = random.Random(-seed - 1)
+        self.later = later.choice([b"", b"", bytes(4), bytes(4) + later.randbytes(later.randrange(300))])      # 7.2.1
         self.sequence_unit()
         self.units = [(text.SEQUENCE, self.sequence_payload(""))]
         self.sequence = text.Sequence(self.units[0][1])
@@ -52,6 +54,9 @@ class RandomStream:
             self.coded_units()
         finally:
             text.ArithmeticDecoder = keep
+        for _ in range(later.choice([0, 0, 1, 4])):         # 7.1.1: units to skip
+            skipped = later.choice([64, 127, 192, 224, 255]), later.randbytes(later.randrange(200))
+            self.units.insert(later.randrange(1, len(self.units) + 1), skipped)
         text.decode(stream_of(self.units), 0, 0, 0, [])        # refused where a coefficient is too great
 
     def runs(self):
@@ -113,7 +118,7 @@ class RandomStream:
         if cut and self.groups:
             writer.u(layers, self.cut_layers_bits)
         writer.bits += self.tail
-        return writer.payload()
+        return writer.payload() + self.later
 
     def coded_units(self):
         """7.1: transforms, slices, the base, and slices in any order that is allowed."""
