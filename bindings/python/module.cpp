@@ -25,6 +25,7 @@ PYBIND11_MODULE(_slf, m) {
     }
   });
   slf::python::add_decoding(m);
+  slf::python::add_frames(m);
   slf::python::add_rendering(m);
   slf::python::add_encoding(m);
 }

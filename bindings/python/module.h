@@ -20,6 +20,7 @@ struct Part {
 };
 
 void add_decoding(pybind11::module_& m);
+void add_frames(pybind11::module_& m);
 void add_rendering(pybind11::module_& m);
 void add_encoding(pybind11::module_& m);
 

@@ -2,18 +2,20 @@
 #include "slf/render.h"
 
 #include <memory>
+#include <mutex>
 
 #include "arrays.h"
 #include "cameras.h"
 #include "failure.h"
 #include "module.h"
 #include "slf/decoder.h"
+#include "slf/frames.h"
+#include "slf/gaussian_renderer.h"
 
 namespace slf::python {
 namespace {
 
-LightField decoded(const py::object& source, const Part& part) {
-  const BytesView view(source);
+DecodeOptions decode_options(const Part& part) {
   DecodeOptions options;
   options.levels = static_cast<int>(part.levels);
   options.groups = static_cast<int>(part.groups);
@@ -25,19 +27,28 @@ LightField decoded(const py::object& source, const Part& part) {
     const auto& r = *part.region;
     options.region = VoxelBox{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
   }
-  const py::gil_scoped_release no_gil;
-  return value_of(decode(view.bytes(), options));
+  return options;
 }
 
-/// View maps and the discs of a field.
+LightField decoded(const py::object& source, const Part& part) {
+  const BytesView view(source);
+  const py::gil_scoped_release no_gil;
+  return value_of(decode(view.bytes(), decode_options(part)));
+}
+
+/// View maps and the discs of a field, or its splats.
 class FieldRenderer {
  public:
   FieldRenderer(const LightField& field, int threads) : threads_(threads) {
     if (!field.header.has_basis)
       throw failure_of(InputError{Errc::kInvalidInput, "holds planes without a basis: no colours"});
     const py::gil_scoped_release no_gil;
-    maps_ = std::make_unique<ViewMaps>(field, threads);
-    renderer_ = std::make_unique<Renderer>(*maps_, settings({128, 128, 128}, true));
+    if (has_gaussians(field.header)) {
+      splats_ = std::make_unique<Gaussians>(value_of(gaussians_of(field, threads)));
+    } else {
+      maps_ = std::make_unique<ViewMaps>(field, threads);
+      discs_ = std::make_unique<Renderer>(*maps_, settings({128, 128, 128}, true));
+    }
   }
 
   py::array_t<std::uint8_t> render(const py::object& camera,
@@ -47,9 +58,11 @@ class FieldRenderer {
     Rendering rendering;
     {
       const py::gil_scoped_release no_gil;
+      const RenderSettings wanted = settings(background, view_dependent);
       const bool same = view_dependent && background == std::array<std::uint8_t, 3>{128, 128, 128};
-      rendering = same ? renderer_->render(view)
-                       : Renderer(*maps_, settings(background, view_dependent)).render(view);
+      rendering = splats_ ? GaussianRenderer(*splats_, wanted).render(view)
+                  : same  ? discs_->render(view)
+                          : Renderer(*maps_, wanted).render(view);
     }
     py::array_t<std::uint8_t> out({view.height, view.width, 3});
     std::copy(rendering.image.data.begin(), rendering.image.data.end(), out.mutable_data());
@@ -57,7 +70,8 @@ class FieldRenderer {
   }
 
   py::dict orbit(double turn, double elevation, int width, int height, double fov) const {
-    return dict_of(renderer_->orbit(turn, elevation, width, height, fov));
+    return dict_of(splats_ ? GaussianRenderer(*splats_).orbit(turn, elevation, width, height, fov)
+                           : discs_->orbit(turn, elevation, width, height, fov));
   }
 
  private:
@@ -72,7 +86,33 @@ class FieldRenderer {
 
   int threads_;
   std::unique_ptr<ViewMaps> maps_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Renderer> discs_;
+  std::unique_ptr<Gaussians> splats_;
+};
+
+/// Pictures of frames, which are decoded again for them: in order each once.
+class FramePictures {
+ public:
+  FramePictures(const py::object& source, const Part& part)
+      : view_(source),
+        threads_(part.threads),
+        decoder_(value_of(FrameDecoder::open(view_.bytes(), decode_options(part)))) {}
+
+  std::unique_ptr<FieldRenderer> renderer(std::size_t place) {
+    LightField field;
+    {
+      const py::gil_scoped_release no_gil;
+      const std::lock_guard one_at_a_time(mutex_);
+      field = value_of(decoder_.decode(place));
+    }
+    return std::make_unique<FieldRenderer>(field, threads_);
+  }
+
+ private:
+  BytesView view_;
+  int threads_;
+  std::mutex mutex_;
+  FrameDecoder decoder_;
 };
 
 }  // namespace
@@ -94,6 +134,16 @@ void add_rendering(py::module_& m) {
            py::arg("view_dependent"))
       .def("orbit", &FieldRenderer::orbit, py::arg("turn"), py::arg("elevation"), py::arg("width"),
            py::arg("height"), py::arg("fov"));
+  py::class_<FramePictures>(m, "FramePictures")
+      .def(py::init([](const py::object& source, std::uint32_t levels, std::uint32_t groups,
+                       const std::optional<std::array<int, 6>>& region, int threads,
+                       std::uint64_t max_memory) {
+             return std::make_unique<FramePictures>(
+                 source, Part{levels, groups, 0, 0, region, threads, max_memory});
+           }),
+           py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("region"),
+           py::arg("threads"), py::arg("max_memory"))
+      .def("renderer", &FramePictures::renderer, py::arg("place"));
 }
 
 }  // namespace slf::python

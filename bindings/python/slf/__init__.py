@@ -14,15 +14,17 @@ from ._encoding import encode, pack
 from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError,
                       UnsupportedError)
 from ._field import LightField, info, read
-from ._types import Camera, Capture, Encoded, Info
+from ._frames import Frames, frames
+from ._types import Camera, Capture, Encoded, Frame, Info
 
-__all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Info',
-           'InputError', 'LightField', 'LimitError', 'UnsupportedError', '__version__', 'encode',
-           'info', 'pack', 'read']
+__all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Frame',
+           'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'UnsupportedError',
+           '__version__', 'encode', 'frames', 'info', 'pack', 'read']
 
 __version__: str = _slf.version()
 
 # Where a user finds them, in messages and in help().
-for _name in ('Camera', 'Capture', 'Encoded', 'Info', 'LightField', 'encode', 'info', 'pack', 'read'):
+for _name in ('Camera', 'Capture', 'Encoded', 'Frame', 'Frames', 'Info', 'LightField', 'encode',
+              'frames', 'info', 'pack', 'read'):
     globals()[_name].__module__ = __name__
 del _name

@@ -3,23 +3,27 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import Any, Dict, Optional, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _slf
 from ._arguments import MOST_BYTES, colour, pixels, whole
-from ._types import Box, Camera, Info, Source, Vector
+from ._types import Box, Camera, Frame, Info, Source, Vector
 
 
 def _bytes(source: Source) -> Union[bytes, bytearray, memoryview]:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
-    if not isinstance(source, (str, os.PathLike)):
-        raise TypeError(f'a path or bytes are needed, not {type(source).__name__}')
-    with open(source, 'rb') as file:
-        return file.read()
+    if isinstance(source, (str, os.PathLike)):
+        with open(source, 'rb') as file:
+            return file.read()
+    read_all = getattr(source, 'read', None)
+    data = read_all() if callable(read_all) else None
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise TypeError(f'a path, bytes or a binary file are needed, not {type(source).__name__}')
+    return data
 
 
 def _info(fields: Dict[str, Any]) -> Info:
@@ -34,11 +38,12 @@ def info(source: Source) -> Info:
 class LightField:
     """A decoded light field. Arrays are read when first asked for, and are not to be written to."""
 
-    def __init__(self, data: Union[bytes, bytearray, memoryview], part: Dict[str, Any]) -> None:
-        self._data = data
-        self._part = part
-        self._field = _slf.Field(data, **part)
-        self._shape = self._field.shape()
+    def __init__(self, field: _slf.Field, make_renderer: Callable[[], _slf.Renderer],
+                 frame: Optional[Frame] = None) -> None:
+        self._field = field
+        self._make_renderer = make_renderer
+        self._shape = field.shape()
+        self.frame = frame  #: which of a light field that moves, of frames(); None of read()
 
     def __len__(self) -> int:
         return int(self._shape['points'])
@@ -118,7 +123,7 @@ class LightField:
 
     @functools.cached_property
     def _renderer(self) -> _slf.Renderer:
-        return _slf.Renderer(self._data, **self._part)
+        return self._make_renderer()
 
     def render(self, camera: Camera, size: Optional[Tuple[int, int]] = None,
                background: Tuple[int, int, int] = (128, 128, 128),
@@ -168,13 +173,15 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
     region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
     max_memory: bytes that decoding may take, 0 is 2**30.
+    Of a light field that moves the first frame (frames() has all).
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
     data = _bytes(source)
-    part = {'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
-            'layers': whole(layers, 'layers'),
-            'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
-            'threads': whole(threads, 'threads'),
-            'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
-            'region': None if region is None else _voxels(data, region)}
-    return LightField(data, part)
+    part: Dict[str, Any] = {
+        'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
+        'layers': whole(layers, 'layers'),
+        'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
+        'threads': whole(threads, 'threads'),
+        'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
+        'region': None if region is None else _voxels(data, region)}
+    return LightField(_slf.Field(data, **part), lambda: _slf.Renderer(data, **part))

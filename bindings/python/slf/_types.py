@@ -6,14 +6,15 @@ import dataclasses
 import math
 import os
 import secrets
-from typing import Optional, Sequence, Tuple, Union
+from typing import IO, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import pixels
 
-Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview]
+#: A path, bytes, or a file that is open for reading bytes.
+Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview, IO[bytes]]
 Vector = Tuple[float, float, float]
 Box = Tuple[Sequence[float], Sequence[float]]
 
@@ -43,6 +44,18 @@ class Info:
     gamma_range: Tuple[float, float]
     complete: bool  #: False: the end of the stream is missing
     metadata: Tuple[Tuple[str, str], ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Frame:
+    """A frame of a light field that moves, as its frame unit says (slf_frame of slf/slf.h)."""
+
+    number: int  #: ascending
+    time: float  #: seconds, ascending
+    predicted: bool  #: from the frame before it
+    lost: bool  #: none could be read here; it stands for one or several
+    offset: int  #: of its first byte in the stream
+    bytes: int
 
 
 @dataclasses.dataclass

@@ -5,6 +5,7 @@ import pathlib
 import tempfile
 import threading
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -28,10 +29,11 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_pictures_have_the_memory_limit_that_was_read_with(self):
         roomy = slf.read(self.encoded.data, max_memory=2**40)
-        self.assertEqual(roomy._part['max_memory'], 2**40)
-        roomy.render(self.camera)
+        with unittest.mock.patch.object(_slf, 'Renderer', wraps=_slf.Renderer) as made:
+            roomy.render(self.camera)
+        self.assertEqual(made.call_args.kwargs['max_memory'], 2**40)
         with self.assertRaises(slf.LimitError):
-            _slf.Renderer(self.encoded.data, **{**roomy._part, 'max_memory': 1000})
+            _slf.Renderer(self.encoded.data, **{**made.call_args.kwargs, 'max_memory': 1000})
 
     def test_reading_names_what_is_no_whole_number(self):
         for name in ('levels', 'groups', 'layers', 'max_bytes', 'threads', 'max_memory'):

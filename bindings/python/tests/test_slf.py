@@ -256,6 +256,9 @@ class DamageTest(unittest.TestCase):
         self.assertGreater(checked, 30)
 
 
+CLASSES = ('Field', 'FramePictures', 'Frames', 'Renderer')  # of the extension module
+
+
 class StubTest(unittest.TestCase):
     def test_types_agree_with_the_module(self):
         tool = [sys.executable, '-m', 'mypy']
@@ -267,7 +270,7 @@ class StubTest(unittest.TestCase):
                            'PYTHONPATH': str(package.parent)}
             # Classes of pybind11 have a metaclass of its own; their members are compared.
             allowed = pathlib.Path(directory) / 'allowed'
-            allowed.write_text('slf._slf.Field\nslf._slf.Renderer\n', encoding='ascii')
+            allowed.write_text(''.join(f'slf._slf.{name}\n' for name in CLASSES), encoding='ascii')
             for command in [[*tool, '--strict', '-p', 'slf'],
                             [sys.executable, '-m', 'mypy.stubtest', 'slf._slf', '--allowlist',
                              str(allowed)]]:
@@ -277,7 +280,7 @@ class StubTest(unittest.TestCase):
 
     def test_everything_in_the_stub_is_in_the_module_and_the_other_way_round(self):
         stub = (pathlib.Path(slf.__file__).parent / '_slf.pyi').read_text(encoding='utf-8')
-        for owner in [_slf, _slf.Field, _slf.Renderer]:
+        for owner in [_slf, *(getattr(_slf, name) for name in CLASSES)]:
             for name in [n for n in vars(owner) if not n.startswith('_')]:
                 self.assertRegex(stub, rf'\b(def|class) {name}\b')
         import re

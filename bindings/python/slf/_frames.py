@@ -1,0 +1,73 @@
+"""Frames of a light field that moves."""
+from __future__ import annotations
+
+import functools
+from typing import Any, Dict, Iterator, Optional, Sequence, Tuple, Union, overload
+
+from . import _slf
+from ._arguments import MOST_BYTES, whole
+from ._field import LightField, _bytes, _voxels
+from ._types import Box, Frame, Source
+
+
+class Frames(Sequence[LightField]):
+    """Light fields of a stream, one after the other: len(), [i], and a for loop.
+
+    A frame is decoded when it is asked for. One that is predicted needs those before it, back to one
+    that is not: in order each is decoded once. A light field that does not move is one frame.
+    """
+
+    def __init__(self, data: Union[bytes, bytearray, memoryview], part: Dict[str, Any]) -> None:
+        self._data = data
+        self._part = part
+        self._frames = _slf.Frames(data, **part)
+
+    def __len__(self) -> int:
+        return self._frames.count()
+
+    def __repr__(self) -> str:
+        return f'<slf.Frames: {len(self)}>'
+
+    @functools.cached_property
+    def list(self) -> Tuple[Frame, ...]:
+        """Of every frame its number, time and place in the stream; nothing is decoded."""
+        return tuple(Frame(**self._frames.info(place)) for place in range(len(self)))
+
+    @overload
+    def __getitem__(self, place: int) -> LightField: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> Sequence[LightField]: ...
+
+    def __getitem__(self, place: Union[int, slice]) -> Union[LightField, Sequence[LightField]]:
+        if isinstance(place, slice):
+            return [self[i] for i in range(*place.indices(len(self)))]
+        at = range(len(self))[place]
+        return LightField(self._frames.decode(at), lambda: self._pictures.renderer(at),
+                          self.list[at])
+
+    def __iter__(self) -> Iterator[LightField]:
+        return (self[place] for place in range(len(self)))
+
+    @functools.cached_property
+    def _pictures(self) -> _slf.FramePictures:
+        return _slf.FramePictures(self._data, **self._part)
+
+
+def frames(source: Source, *, levels: int = 0, groups: int = 0, region: Optional[Box] = None,
+           threads: int = 0, max_memory: int = 0) -> Frames:
+    """The frames of a file, of bytes (not to be changed after) or of an open file.
+
+        for field in slf.frames('walk.slf'):
+            show(field.frame.time, field.points, field.mean_colours)
+
+    Arguments are those of read(), of every frame. A frame that is damaged raises DamagedError when it
+    is decoded, and so do those of its group after it; later groups do not.
+    Raises DamagedError where no frame begins, ArgumentError; OSError of a file.
+    """
+    data = _bytes(source)
+    part = {'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
+            'threads': whole(threads, 'threads'),
+            'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
+            'region': None if region is None else _voxels(data, region)}
+    return Frames(data, part)
