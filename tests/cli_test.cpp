@@ -12,7 +12,11 @@ TEST_F(CliTest, HelpAndVersionExitWithZeroOnStandardOutput) {
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("slf ", 0), 0u) << version.out;
   EXPECT_EQ(std::count(version.out.begin(), version.out.end(), '.'), 2) << version.out;
+  EXPECT_EQ(slf("-V").out, version.out);
   const Ran help = slf("--help");
+  EXPECT_EQ(slf("help").out, help.out);
+  EXPECT_EQ(slf("help decode").out, slf("decode --help").out);
+  expect_failure(slf("help nothing"), 2, "nothing", "is not a verb");
   EXPECT_EQ(help.code, 0);
   EXPECT_NE(help.out.find("130 cancelled"), std::string::npos);
   for (const char* verb : {"synth", "encode", "pack", "decode", "render", "eval", "igc", "info"}) {

@@ -6,6 +6,8 @@
 #include <exception>
 #include <new>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "tools/heap.h"
 #include "tools/interrupt.h"
@@ -59,15 +61,24 @@ int usage_error(const CLI::App& program, const CLI::ParseError& error, const cha
   return report({kUsage, message + " (see " + verb + " --help)"});
 }
 
+/// `slf help [VERB]` as `slf [VERB] --help`; what is no verb stays alone, to be refused.
+std::vector<const char*> words_of(const CLI::App& program, int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string_view(words[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  if (argc == 2 || program.get_subcommand_no_throw(words[1]) != nullptr) words.push_back("--help");
+  return words;
+}
+
 int run(int argc, char** argv) {
   CLI::App program{
       "Surface light fields: photographs and a point cloud in, .slf out, any view back."};
   program.name("slf");
-  program.footer(
-      std::string("slf VERB --help has the options of a verb. FILE may be - for standard "
-                  "input or output.\n\n") +
-      kExitCodeHelp);
-  program.set_version_flag("--version", "slf " SLF_VERSION);
+  program.footer(std::string("slf VERB --help, or slf help VERB, has the options of a verb. FILE "
+                             "may be - for standard "
+                             "input or output.\n\n") +
+                 kExitCodeHelp);
+  program.set_version_flag("-V,--version", "slf " SLF_VERSION);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   Run verb;
@@ -86,15 +97,16 @@ int run(int argc, char** argv) {
   add_igc(program, verb);
   add_settings_verb(program, verb);
   for (CLI::App* each : program.get_subcommands({})) each->footer("Exit codes: slf --help");
+  const std::vector<const char*> words = words_of(program, argc, argv);
   try {
-    program.parse(argc, argv);
+    program.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream said;
     program.exit(asked, said, said);
     const Outcome printed = print(said.str());
     return printed ? static_cast<int>(kSuccess) : report(printed.error());
   } catch (const CLI::ParseError& error) {
-    return usage_error(program, error, argc > 1 ? argv[1] : nullptr);
+    return usage_error(program, error, words.size() > 1 ? words[1] : nullptr);
   }
   const Outcome outcome = verb();
   return outcome ? static_cast<int>(kSuccess) : report(outcome.error());

@@ -88,7 +88,7 @@ def completion(verbs, helps):
 _slf() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} options words=
   if [[ $COMP_CWORD -eq 1 ]]; then
-    COMPREPLY=($(compgen -W "{' '.join(verbs)} --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "{' '.join(verbs)} help --help --version" -- "$word"))
     return
   fi
   case ${{COMP_WORDS[1]}} in
