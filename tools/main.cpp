@@ -66,7 +66,8 @@ std::vector<const char*> words_of(const CLI::App& program, int argc, char** argv
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2 || std::string_view(words[1]) != "help") return words;
   words.erase(words.begin() + 1);
-  if (argc == 2 || program.get_subcommand_no_throw(words[1]) != nullptr) words.push_back("--help");
+  const auto is_meant = [&](const CLI::App* verb) { return verb->get_name() == words[1]; };
+  if (argc == 2 || !program.get_subcommands(is_meant).empty()) words.push_back("--help");
   return words;
 }
 
