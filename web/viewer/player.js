@@ -3,6 +3,7 @@
 
 const AHEAD = 4, // frames
   AHEAD_BYTES = 2 ** 28, // of packed frames, beyond which no other is decoded ahead
+  LOOKED_AT = 64, // frames that are compared at least: several laps of a short file
   LONGEST = 0.25, // seconds of the clock between two ticks: where pictures take longer, what moves slows down
   USUAL = 1 / 30; // seconds of a frame, of a file that has one
 
@@ -199,9 +200,10 @@ export class FramePlayer {
   #next() {
     const queued = this.#queue.reduce((sum, each) => sum + each.bytes, 0);
     if (!this.playing || this.#last === null || this.#queue.length >= AHEAD || queued > AHEAD_BYTES) return null;
+    const most = Math.max(this.source.list.length, LOOKED_AT);
     let best = null,
       left = 0;
-    for (let at = this.#after(this.#last), seen = 0; at && seen < this.source.list.length; at = this.#after(at), ++seen) {
+    for (let at = this.#after(this.#last), seen = 0; at && seen < most; at = this.#after(at), ++seen) {
       if (at.place >= (this.#damaged.get(this.source.groupOf(at.place)) ?? Infinity)) continue;
       const frames = this.#framesTo(at.place),
         early = this.#timeIn(at) - this.#position - frames * this.#cost * this.speed;

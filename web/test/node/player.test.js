@@ -126,6 +126,13 @@ test('a tick of several laps shows what is of its time, and goes on', async () =
   assert.equal(player.playing, true);
 });
 
+test('of a short loop that decodes slowly all groups are seen', async () => {
+  const source = sourceOf(24, { seconds: 0.9 }), { player, told } = playerOf(source); // longer than the loop
+  player.play();
+  await run(player, 30, 0.23);
+  assert.deepEqual([...new Set(told.shown)].filter((place) => place % GROUP === 0).sort((a, b) => a - b), [0, 8, 16]);
+});
+
 test('a jump shows its frame as soon as it is decoded, and a later jump comes before it', async () => {
   const source = sourceOf(50), { player, told } = playerOf(source);
   source.hold = true;
