@@ -95,12 +95,12 @@ export class Elements {
 
   /** What is known of a file. @param facts  of a Viewer @param stage  what shows it */
   writeFacts(facts, { field, frameTime }) {
-    const { info, bytes, first, loaded } = facts;
+    const { info, bytes, first, loaded, frames = 1 } = facts;
     const rows = {
       Name: facts.name,
       Size: bytes && sizeText(bytes),
       Points: this.grouped(field.points),
-      'Bits per point': bytes ? ((8 * bytes) / field.points).toFixed(2) : '',
+      'Bits per point': bytes ? ((8 * bytes) / (field.points * frames)).toFixed(2) : '',
       Functions: info.functions,
       Components: field.components,
       Grid: `${info.bits} bits`,
