@@ -63,8 +63,8 @@ Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceP
   std::uint32_t count = 0;
   Index index;
   parse.ue("index_num_units", count, Range{0, 0xFFFFFFFE});
-  constexpr std::uint64_t kLeastEntryBits = 8 + 5;  // the shortest unit is 6 bytes: ue(6)
-  parse.require(count <= in.bits_left() / kLeastEntryBits, Errc::kTruncated, "index_num_units");
+  parse.require(count <= in.bits_left() / kLeastIndexEntryBits, Errc::kTruncated,
+                "index_num_units");
   parse.resize("index_num_units", index.entries, count);
   for (IndexEntry& entry : index.entries) index_entry(parse, entry, set);
   index_boxes(parse, index.boxes, set.sps_base_levels);

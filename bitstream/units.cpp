@@ -167,7 +167,15 @@ Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset)
   return unit;
 }
 
-Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes) {
+std::uint64_t listed_units(const Unit& unit) {
+  if (unit.type != UnitType::kIndex) return 0;
+  BitReader in(unit.payload);
+  const std::uint64_t count = in.ue("index_num_units");
+  return in.ok() ? std::min(count, in.bits_left() / kLeastIndexEntryBits) : 0;
+}
+
+Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes,
+                          std::uint64_t max_memory) {
   if (stream.size() < kSignature.size() ||
       !std::equal(kSignature.begin(), kSignature.end(), stream.begin())) {
     const bool prefix = std::equal(
@@ -177,6 +185,7 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
     return Error{prefix && !stream.empty() ? Errc::kTruncated : Errc::kNotSlf, "signature", 0};
   }
   Units result;
+  std::uint64_t left = max_memory / kMemoryOfUnit;  // of units, and entries of indices
   std::size_t at = kSignature.size();
   while (at < stream.size()) {
     if (result.complete) return Error{Errc::kOutOfRange, "end_of_stream", at * 8};
@@ -185,6 +194,9 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
                      (unit ? at + unit->bytes > max_bytes : unit.error().code == Errc::kTruncated);
     if (cut) break;
     if (!unit) return unit.error();
+    const std::uint64_t kept = 1 + listed_units(*unit);
+    if (kept > left) return Error{Errc::kLimitExceeded, "max_memory"};
+    left -= kept;
     if (unit->type == UnitType::kEnd)
       SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
     if (result.units.empty() && unit->type == UnitType::kSequence) {

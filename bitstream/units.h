@@ -55,6 +55,10 @@ struct Unit {
   std::uint64_t payload_offset = 0;  ///< of the payload's first byte in the stream
 };
 
+/// Bytes of memory that a reader takes for each unit and each entry of an index, however short they
+/// are: its own lists while they grow, and those of read_info and truncate. By measurement.
+inline constexpr std::uint64_t kMemoryOfUnit = 256;
+
 struct Units {
   std::vector<Unit> units;
   bool complete = false;                     ///< the end unit was reached
@@ -66,14 +70,19 @@ struct Units {
 
 /// Checks signature, version, lengths and every CRC-32. Types that 7.1 does not name are kept:
 /// check_understood.
-/// @param max_bytes  units that do not end within it are left out; 0: all
+/// @param max_bytes   units that do not end within it are left out; 0: all
+/// @param max_memory  of units and entries of indices, kMemoryOfUnit each
 /// @errors kNotSlf; kUnsupported: another version; kTruncated: the stream ends inside a unit;
-/// kChecksum; kOutOfRange: bytes after the
-///         end unit, or a length longer than it need be.
-Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0);
+///         kChecksum; kOutOfRange: bytes after the end unit, or a length longer than it need be;
+///         kLimitExceeded: max_memory.
+Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0,
+                          std::uint64_t max_memory = ~std::uint64_t{0});
 
 /// Spec 7.10  end_unit( ): no unit was lost.
 Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before);
+
+/// Entries that an index says it has, and has bits for; 0 of any other unit.
+std::uint64_t listed_units(const Unit& unit);
 
 /// The unit whose first byte is stream[offset]. Its CRC-32 is checked.
 /// @errors kTruncated: the stream ends before it or within it; those of split_units
@@ -104,6 +113,9 @@ bool is_of_application(const Unit& unit, const ApplicationId& id);
 std::span<const std::uint8_t> application_payload(const Unit& unit);
 std::vector<std::uint8_t> with_identifier(const ApplicationId& id,
                                           std::span<const std::uint8_t> payload);
+
+/// Of an entry of the index: its type, and the length of the shortest unit, 6, as ue(v).
+inline constexpr std::uint64_t kLeastIndexEntryBits = 8 + 5;
 
 /// Appends one unit; a sequence unit with the version of this encoder.
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,

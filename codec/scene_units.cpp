@@ -40,6 +40,7 @@ class Collector {
   }
 
   SceneUnits take(const Units& units) {
+    for (const Unit& unit : units.units) scene_.stream.units += 1 + listed_units(unit);
     if (!units.units.empty())
       scene_.stream.bytes = units.units.back().offset + units.units.back().bytes;
     scene_.stream.complete = units.complete && !set_.sps_cut_flag;
@@ -170,12 +171,12 @@ Result<OpenStream> open_stream(std::span<const std::uint8_t> stream, const Decod
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   SLF_TRY(const FrameUnits first, first_frame(stream));  // 7.13
   const auto bytes = stream.first(static_cast<std::size_t>(first.bytes));
-  SLF_TRY(Units units, split_units(bytes, max_bytes));            // 7.1
-  SLF_CHECK(check_frame_bytes(first, units));                     // 7.13
-  SLF_TRY(const SequenceParameterSet set, find_sequence(units));  // 7.2
-  if (first.moves()) SLF_CHECK(check_frames(set));                // 7.13
-  SLF_TRY(SceneUnits scene, collect_units(units, set));           // 7.3 - 7.6
-  SLF_CHECK(check_index(units, set, scene.slices.size()));        // 7.7
+  SLF_TRY(Units units, split_units(bytes, max_bytes, limits.max_memory));  // 7.1
+  SLF_CHECK(check_frame_bytes(first, units));                              // 7.13
+  SLF_TRY(const SequenceParameterSet set, find_sequence(units));           // 7.2
+  if (first.moves()) SLF_CHECK(check_frames(set));                         // 7.13
+  SLF_TRY(SceneUnits scene, collect_units(units, set));                    // 7.3 - 7.6
+  SLF_CHECK(check_index(units, set, scene.slices.size()));                 // 7.7
   return OpenStream{std::move(units), std::move(scene)};
 }
 

@@ -26,6 +26,8 @@ Error wrong(const Unit& unit, const char* element) {
 
 }  // namespace
 
+constexpr std::uint64_t kMemoryOfFrame = 3 * sizeof(FrameUnits);  // while the list grows
+
 bool begins_intra(std::span<const std::uint8_t> rest) {
   return rest.size() >= kSignature.size() &&
          std::equal(kSignature.begin(), kSignature.end(), rest.begin());
@@ -58,10 +60,11 @@ Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t 
   return frame;
 }
 
-Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream) {
+Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream,
+                                             std::uint64_t max_memory) {
   std::vector<FrameUnits> frames;
   if (!moves(stream)) {
-    SLF_CHECK(split_units(stream));
+    SLF_CHECK(split_units(stream, 0, max_memory));
     frames.emplace_back();
     frames.back().bytes = stream.size();
     return frames;
@@ -76,6 +79,8 @@ Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> strea
         return wrong(frame->unit, "frame_number");
       if (frame->header.frame_time <= before.frame_time) return wrong(frame->unit, "frame_time");
     }
+    if (frames.size() >= max_memory / kMemoryOfFrame)
+      return Error{Errc::kLimitExceeded, "max_memory"};
     at += frame->bytes;
     frames.push_back(*std::move(frame));
   }
@@ -103,7 +108,8 @@ Result<Done> check_does_not_move(const Units& units) {
   return of_unit(frame->type, frame->offset, Errc::kUnsupported, kOneLightField);
 }
 
-Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame) {
+Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                              std::uint64_t max_memory) {
   Units result;
   const std::uint64_t end = frame.offset + frame.bytes;
   const auto bytes = stream.first(static_cast<std::size_t>(end));
@@ -120,6 +126,8 @@ Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameU
       SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
       result.complete = true;
     }
+    if (result.units.size() >= max_memory / kMemoryOfUnit)
+      return Error{Errc::kLimitExceeded, "max_memory"};
     result.units.push_back(*unit);
     at += unit->bytes;
   }

@@ -32,8 +32,10 @@ bool moves(std::span<const std::uint8_t> stream);
 /// The frame that begins at `at`. Of an intra frame the frame unit follows the sequence unit.
 Result<FrameUnits> read_frame(std::span<const std::uint8_t> stream, std::size_t at);
 
-/// @errors those of slf::list_frames
-Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream);
+/// @param max_memory  of what is listed: frames, and units of a stream that is one frame
+/// @errors those of slf::list_frames; kLimitExceeded: max_memory
+Result<std::vector<FrameUnits>> split_frames(std::span<const std::uint8_t> stream,
+                                             std::uint64_t max_memory = ~std::uint64_t{0});
 
 /// The first frame of a stream: all of it where it does not move, or ends before that is told.
 Result<FrameUnits> first_frame(std::span<const std::uint8_t> stream);
@@ -46,7 +48,9 @@ Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units);
 Result<Done> check_does_not_move(const Units& units);
 
 /// The units of a predicted frame.
-/// @errors those of units; kOutOfRange: one that such a frame does not have, frame_bytes
-Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame);
+/// @errors those of units; kOutOfRange: one that such a frame does not have, frame_bytes;
+///         kLimitExceeded: max_memory
+Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame,
+                              std::uint64_t max_memory);
 
 }  // namespace slf

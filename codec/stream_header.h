@@ -13,6 +13,7 @@ struct StreamHeader {
   UnitLayout layout;        ///< of set
   SliceTable table;         ///< no slices: the stream ends before it
   std::uint64_t bytes = 0;  ///< of signature and units
+  std::uint64_t units = 0;  ///< of all types, and entries of indices
   bool complete = false;    ///< no unit is missing
 
   int grid_bits() const { return static_cast<int>(set.grid_bits()); }

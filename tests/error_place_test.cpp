@@ -124,7 +124,7 @@ TEST(Spec_F_Places, AreTheSameForEveryReader) {
 
 /// Decodes from the head of a stream and the parts that are asked for.
 Result<LightField> decode_from_parts(const Bytes& stream, const DecodeOptions& options) {
-  SLF_TRY(const auto head, find_head(stream, stream.size()));
+  SLF_TRY(const auto head, find_head(stream, stream.size(), DecodeLimits{}.max_memory));
   const auto begin = std::span(stream).first(static_cast<std::size_t>(head->bytes));
   SLF_TRY(const ReadPlan plan, plan_read(begin, stream.size(), options));
   if (plan.whole) return decode(stream, options);

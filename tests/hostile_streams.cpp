@@ -143,6 +143,38 @@ Bytes normals_of_nothing() {
   return ends_with(*pack(field, plain(0)), UnitType::kSequence);
 }
 
+/// A few points with a colour, on a grid of which floats hold nothing, or too much.
+Bytes far_grid(double origin, double step, Transfer transfer) {
+  LightField field = field_of(lattice(4, 1), 3, 4);
+  field.header.grid = {{origin, origin, 0}, step, 3};
+  field.header.has_basis = true;
+  field.header.basis.scales_theta = field.header.basis.scales_gamma = 1;
+  field.header.transfer = transfer;
+  field.header.shift.assign(4, 0);
+  return *pack(field, plain(4));
+}
+
+/// Filler units of 6 bytes before the end.
+Bytes many_units(std::size_t count) {
+  return conformance::edited(cube(2, 1, 1), [&](Units& units) {
+    units.insert(units.end() - 1, count, {UnitType::kFiller, {}});
+  });
+}
+
+/// An index of filler units that are not there: the stream was cut behind it.
+Bytes many_entries(std::size_t count) {
+  BitWriter out;
+  out.ue(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.u(8, static_cast<std::uint64_t>(UnitType::kFiller));
+    out.ue(6);
+  }
+  out.u(1, 0);
+  Bytes stream = ends_with(cube(2, 1, 1), UnitType::kSequence);
+  append_unit(stream, UnitType::kIndex, out.take());
+  return stream;
+}
+
 struct Hostile {
   const char* name;
   bool refused;
@@ -182,8 +214,33 @@ const std::vector<Hostile> kStreams = {
     {"octree-deep", false, [] { return cube(32, 21, 0, 1 << 16); }},
     {"steering-metadata", false, [] { return steering_metadata(); }},
     {"normals-of-nothing", false, [] { return normals_of_nothing(); }},
+    {"units-300k", false, [] { return many_units(300000); }},
+    {"index-300k", false, [] { return many_entries(300000); }},
     {"cluster", false, [] { return cluster(32, 32, 1 << 10, 15); }},
 };
+
+struct FarGrid {
+  const char* name;
+  double origin, step;
+};
+
+constexpr FarGrid kFarGrids[] = {
+    {"origin-1e38", 1e38, 1e38},      {"step-1e20", 0, 1e20},        {"step-1e150", 0, 1e150},
+    {"origin-1e39", 1e39, 1e37},      {"step-1e-150", 0, 1e-150},    {"origin-1e300", 1e300, 1},
+    {"origin-1e308", 1.7e308, 1e307}, {"step-most", 1e12, 1e12 / 8}, {"step-least", 0, 1e-12},
+    {"origin-most", -1e12, 1e-12},    {"step-1e-300", 1, 1e-300}};
+
+int write_grids(const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  for (const FarGrid& grid : kFarGrids)
+    for (const Transfer transfer : {Transfer::kDisplay, Transfer::kLinear}) {
+      const Bytes stream = far_grid(grid.origin, grid.step, transfer);
+      const char* suffix = transfer == Transfer::kLinear ? "-linear.slf" : ".slf";
+      if (!write_file(directory / (grid.name + std::string(suffix)), stream.data(), stream.size()))
+        return 1;
+    }
+  return 0;
+}
 
 int write_all(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory / "refused");
@@ -195,7 +252,7 @@ int write_all(const std::filesystem::path& directory) {
     if (!write_file(file, stream.data(), stream.size())) return 1;
     std::printf("%s: %zu bytes\n", hostile.name, stream.size());
   }
-  return 0;
+  return write_grids(directory / "grids");
 }
 
 }  // namespace

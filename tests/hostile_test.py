@@ -4,9 +4,11 @@ claim; others stay within the limits they are given. Judges exit codes and memor
 
     tests/hostile_test.py SLF HOSTILE_STREAMS
 """
+import math
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -35,6 +37,7 @@ class Judge:
         self.program = program
         self.base = run([program, "--version"])[1]
         self.wrong, self.worst_bytes, self.worst_seconds, self.count = [], 0, 0.0, 0
+        self.count_drawn = 0
 
     def check(self, good, what):
         """Notes a failure."""
@@ -79,6 +82,30 @@ class Judge:
             self.check(code in (0, LIMIT), f"decode {file}: exit code {code} {said}")
             self.check(code != 0 or peak - self.base <= 1.1 * most + MOST_BEYOND, f"decode {file}: {peak} bytes")
 
+    def draws_no_nonsense(self, file):
+        """Pictures and files of a grid anywhere: refused, or finite."""
+        with tempfile.TemporaryDirectory() as scratch:
+            outputs = [["render", file, "--size", "48x48", "-o", scratch + "/x.png"], ["decode", file, "-o", scratch + "/d.ply"],
+                       ["export", file, "--mean", "-o", scratch + "/m.ply"]]
+            outputs += [["export", file, "-o", f"{scratch}/x.{kind}"] for kind in ("ply", "glb", "spz")]
+            for command in outputs:
+                code, _, _, said = run([self.program, *command, "-j", "1"])
+                made = pathlib.Path(command[-1])
+                self.check(code in (0, 4), f"{command[0]} {made.name} of {file}: exit code {code} {said}")
+                self.check(not re.search(rb"[ -](nan|inf)\b", said), f"{command[0]} of {file}: {said}")
+                self.check(made.exists() == (code == 0), f"{command[0]} {made.name} of {file}: exit code {code}, {os.listdir(scratch)}")
+                self.count_drawn += code == 0
+                if code == 0 and made.suffix == ".ply":
+                    self.check(floats_are_finite(made), f"{command[0]} {made.name} of {file}: not finite")
+
+
+def floats_are_finite(ply):
+    """Of every property that is a float, in a binary PLY of one element."""
+    head, body = ply.read_bytes().split(b"end_header\n", 1)
+    kinds = re.findall(rb"property (\w+) ", head)
+    row = struct.Struct("<" + "".join({b"float": "f", b"double": "d", b"uchar": "B"}[kind] for kind in kinds))
+    return len(body) > 0 and all(math.isfinite(value) for values in row.iter_unpack(body) for value in values)
+
 
 def main():
     """All refused conformance streams, and the hostile ones."""
@@ -90,6 +117,9 @@ def main():
             judge.refuses(str(file))
         for file in sorted(pathlib.Path(made).glob("*.slf")):
             judge.stays_within(str(file), 64 * MEBIBYTE)
+        for file in sorted(pathlib.Path(made, "grids").iterdir()):
+            judge.draws_no_nonsense(str(file))
+        judge.check(30 < judge.count_drawn < 100, f"{judge.count_drawn} pictures and files of far grids")
     print(f"{judge.count} refusals: at most {judge.worst_bytes / MEBIBYTE:.1f} MiB and {judge.worst_seconds:.2f} s "
           f"of user time; {len(judge.wrong)} wrong")
     return 1 if judge.wrong or judge.count < 100 else 0

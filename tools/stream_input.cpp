@@ -74,7 +74,8 @@ void add_limits(CLI::App& verb, LimitOptions& options) {
       ->group(group);
   verb.add_option("--max-work", limits.max_work,
                   "Steps of decoding at most: 8 for every node that the octrees may have, 1 for "
-                  "every value of a component; a core does some 10^8 a second")
+                  "every value of a component, 1 for 64 bytes of what each of several slices "
+                  "starts from; a core does some 10^8 a second")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_range(1, std::int64_t{1} << 60))
@@ -188,6 +189,10 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
 }
 
 Outcome require_view_maps(const LightField& field, const std::string& file) {
+  if (!field.header.grid.fits_floats())
+    return Failure{kInputInvalid, input_name(file) +
+                                      ": its grid lies beyond what pictures and splats can hold "
+                                      "(slf decode --dump writes its integers)"};
   if (field.header.has_basis && field.header.num_functions > 0) return Done{};
   const char* what =
       field.header.num_functions == 0 ? "geometry alone" : "integer planes without a basis";

@@ -72,9 +72,13 @@ nlohmann::ordered_json transforms_json(const StreamInfo& info) {
 }
 
 /// What decoding the whole file takes.
-Result<DecodeCost, Failure> cost_of(const StreamFile& file, const InfoOptions& given) {
-  const DecodeOptions options = decode_options(file.info, {}, given.limits, given.common);
-  return from(input_name(given.input), decode_cost(file.bytes, options));
+Result<DecodeCost, Failure> cost_of(const StreamFile& file, const InfoOptions& given,
+                                    const LimitOptions& limits) {
+  auto cost = decode_cost(file.bytes, decode_options(file.info, {}, limits, given.common));
+  // More units than the limits of a decode have room for: what that takes is told all the same.
+  if (!cost && cost.error().code == Errc::kLimitExceeded)
+    cost = decode_cost(file.bytes, decode_options(file.info, {}, {given.asked}, given.common));
+  return from(input_name(given.input), std::move(cost));
 }
 
 /// What decoding takes is told of any file; limits that were given are held against it.
@@ -85,8 +89,8 @@ Outcome check_limits(const StreamFile& file, const DecodeCost& cost, const InfoO
                        : cost.work > asked.max_work            ? "max_work"
                                                                : nullptr;
   if (beyond == nullptr) return Done{};
-  const DecodeOptions options = decode_options(file.info, {}, given.limits, given.common);
-  return decode_failure(given.input, {Errc::kLimitExceeded, beyond}, file, options);
+  return decode_failure(given.input, {Errc::kLimitExceeded, beyond}, file,
+                        decode_options(file.info, {}, given.limits, given.common));
 }
 
 nlohmann::ordered_json decode_cost_json(const DecodeCost& cost) {
@@ -248,8 +252,9 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
 }
 
 Outcome run_info(const InfoOptions& given) {
-  SLF_TRY(const StreamFile file, read_stream(given.input, given.limits, given.common));
-  auto cost = cost_of(file, given);
+  const LimitOptions any{given.asked, given.limits.strict};  // but for those that were given
+  SLF_TRY(const StreamFile file, read_stream(given.input, any, given.common));
+  auto cost = cost_of(file, given, given.limits);
   if (cost) SLF_CHECK(check_limits(file, *cost, given));
   if (given.syntax) return print_syntax(file.bytes, given.input, given.common.json);
   if (!cost) return cost.error();

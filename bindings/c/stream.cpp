@@ -33,7 +33,7 @@ slf_code read_beginning(slf_stream& stream, slf_error* error) {
        bytes = std::min(4 * bytes, stream.size)) {
     if (const slf_code code = read_head(stream, bytes, error); code != SLF_OK) return code;
     if (bytes == stream.size) return SLF_OK;
-    const auto head = find_head(stream.head, stream.size);
+    const auto head = find_head(stream.head, stream.size, DecodeLimits{}.max_memory);
     if (!head) return fail(error, head.error());
     if (!*head) continue;
     if ((*head)->bytes > bytes)

@@ -93,7 +93,7 @@ Result<bool> ArrivingFrames::take_first() {
                   rest().begin()))
     return Error{Errc::kNotSlf, "signature"};
   if (!finished_) return false;  // one light field, or too few bytes to tell
-  SLF_TRY(const auto units, split_units(rest()));
+  SLF_TRY(const auto units, split_units(rest(), 0, DecodeLimits{}.max_memory));
   ArrivedFrame frame;
   frame.units.bytes = rest().size();
   frame.bytes.assign(rest().begin(), rest().end());

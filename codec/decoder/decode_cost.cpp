@@ -10,7 +10,6 @@
 
 namespace slf {
 namespace {
-
 /// What is usual, and what nothing exceeds. Bytes, unless said.
 struct Bytes {
   double usual = 0, most = 0;
@@ -62,16 +61,18 @@ class Model {
   /// threads: at most as many as there are slices.
   DecodeCost cost(int threads) {
     active_ = shape_.slices.empty() ? 0 : threads;
-    DecodeCost cost;
     const Bytes slices = shape_.base_alone ? Bytes{} : output() + in_flight() + frames();
-    const Bytes bytes = base() + slices;
-    cost.memory = static_cast<std::uint64_t>(bytes.usual);
-    cost.memory_most = static_cast<std::uint64_t>(bytes.most);
-    cost.work = work();
-    return cost;
+    const Bytes bytes = lists() + base() + slices;
+    return {static_cast<std::uint64_t>(bytes.usual), static_cast<std::uint64_t>(bytes.most),
+            work()};
   }
 
  private:
+  /// Of units and slices, however little is in them.
+  Bytes lists() const {
+    return Bytes::both(static_cast<double>(kMemoryOfUnit * (shape_.units + shape_.slices.size())));
+  }
+
   /// Of a row, while its components are decoded.
   Bytes values() const {
     if (planes_ == 0) return {};
@@ -172,7 +173,21 @@ class Model {
     const std::uint64_t slices = shape_.base_alone ? 0 : points_;
     const std::uint64_t nodes = slices * (shape_.draco ? 1 : shape_.levels - shape_.base_levels) +
                                 shape_.cells * shape_.base_levels;
-    return 8 * nodes + (slices + shape_.cells) * std::max<std::uint64_t>(shape_.planes, 1);
+    return 8 * nodes + (slices + shape_.cells) * std::max<std::uint64_t>(shape_.planes, 1) +
+           copies();
+  }
+
+  /// Slices start from states of their own, a copy of the base's or, for each unit, of slice 0's:
+  /// a step is 64 bytes, 6 GB a second.
+  std::uint64_t copies() const {
+    const bool each = shape_.shared_states;
+    if (shape_.slices.size() < 2 || shape_.draco) return 0;
+    const double geometry = each ? static_cast<double>(shape_.geometry_units) : 1,
+                 values = static_cast<double>(each ? shape_.coefficient_units : shape_.groups),
+                 bytes = kHistory +
+                         geometry * static_cast<double>(OccupancyStates::bytes(points_)) +
+                         values * (shape_.vector ? kCoefficientStates : 0);
+    return static_cast<std::uint64_t>(static_cast<double>(shape_.slices.size()) * bytes / 64);
   }
 
   const DecodeShape& shape_;
@@ -197,6 +212,7 @@ DecodeShape shape_of(const Request& request) {
   const SequenceParameterSet& set = stream.set;
   DecodeShape shape;
   for (const SliceEntry& slice : stream.table.slices) shape.slices.push_back(slice.points());
+  shape.units = stream.units;
   shape.cells = stream.num_cells();
   shape.planes = request.planes();
   shape.groups = request.groups.size();

@@ -14,6 +14,7 @@ struct DecodeShape {
   static constexpr double kUnknown = -1;
 
   std::vector<std::uint64_t> slices;  ///< points of each
+  std::uint64_t units = 0;            ///< of all types, and entries of indices
   std::uint64_t cells = 0;            ///< of the base; 0: none
   std::uint64_t planes = 0;           ///< 3 R, of the groups that are decoded
   std::uint64_t groups = 0;

@@ -20,10 +20,10 @@ bool lacks_cells(const FrameState& reference, int bits) { return reference.cells
 }  // namespace
 
 Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
-                                  const OpenStream& group) {
+                                  const OpenStream& group, std::uint64_t max_memory) {
   SequenceParameterSet set = group.scene.stream.set;
   set.predicted = true;
-  SLF_TRY(const Units own, predicted_units(stream, frame));
+  SLF_TRY(const Units own, predicted_units(stream, frame, max_memory));
   Units units;  // behind sequence and transforms of the group
   for (const Unit& unit : group.units.units)
     if (unit.type == UnitType::kSequence || unit.type == UnitType::kTransform)
@@ -51,7 +51,8 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
 Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> stream,
                                                 const FrameUnits& frame,
                                                 const DecodeOptions& options, FrameState& kept) {
-  SLF_TRY(const OpenStream opened, open_predicted(stream, frame, *group_));
+  SLF_TRY(const OpenStream opened,
+          open_predicted(stream, frame, *group_, options.limits.max_memory));
   Motion motion = frame.header.motion;
   const int bits = opened.scene.stream.grid_bits();
   if (lacks_cells(state_, bits))

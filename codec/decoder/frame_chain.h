@@ -12,9 +12,10 @@
 namespace slf {
 
 /// A predicted frame behind the sequence and the transforms of its group.
+/// @param max_memory  DecodeLimits::max_memory
 /// @errors those of predicted_units and collect_units
 Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
-                                  const OpenStream& group);
+                                  const OpenStream& group, std::uint64_t max_memory);
 
 class FrameChain {
  public:

@@ -47,7 +47,7 @@ Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
   auto impl = std::make_unique<Impl>();
   impl->stream = stream;
   impl->options = options;
-  SLF_TRY(impl->frames, split_frames(stream));
+  SLF_TRY(impl->frames, split_frames(stream, options.limits.max_memory));
   impl->infos = infos_of(impl->frames);
   return FrameDecoder(std::move(impl));
 }

@@ -58,7 +58,7 @@ Result<std::optional<StreamBeginning>> read_beginning(const StreamSource& source
   for (std::uint64_t size = kFirstRead; !head; size *= 4) {
     if (bytes.size() == source.bytes) return std::optional<StreamBeginning>();
     SLF_CHECK(grow(source, std::min(size, source.bytes), limits, bytes));
-    SLF_TRY(head, find_head(bytes, source.bytes));
+    SLF_TRY(head, find_head(bytes, source.bytes, limits.max_memory));
   }
   if (!head->complete) return std::optional<StreamBeginning>();
   SLF_CHECK(grow(source, head->bytes, limits, bytes));

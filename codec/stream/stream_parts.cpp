@@ -12,10 +12,10 @@ namespace slf {
 namespace {
 
 /// The whole units among the first bytes of a stream, of its first frame.
-Result<Units> units_of_beginning(std::span<const std::uint8_t> begin) {
+Result<Units> units_of_beginning(std::span<const std::uint8_t> begin, std::uint64_t max_memory) {
   SLF_TRY(const FrameUnits first, first_frame(begin));  // 7.13
   const auto frame = begin.first(static_cast<std::size_t>(first.bytes));
-  return split_units(frame, std::max<std::size_t>(frame.size(), 1) - 1);
+  return split_units(frame, std::max<std::size_t>(frame.size(), 1) - 1, max_memory);
 }
 
 /// The stream ends inside a unit that the index lists.
@@ -82,8 +82,8 @@ std::uint64_t ReadPlan::bytes() const {
 }
 
 Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
-                                            std::uint64_t stream_bytes) {
-  SLF_TRY(const Units units, units_of_beginning(begin));
+                                            std::uint64_t stream_bytes, std::uint64_t max_memory) {
+  SLF_TRY(const Units units, units_of_beginning(begin, max_memory));
   if (units.units.empty()) return std::optional<StreamHead>();
   SLF_TRY(const SequenceParameterSet set, find_sequence(units));
   for (const Unit& unit : units.units) {
@@ -110,7 +110,8 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
     SLF_TRY(const FrameUnits first, first_frame(head));  // 7.13
     frame = head.first(static_cast<std::size_t>(first.bytes));
   }
-  SLF_TRY(const Units units, split_units(frame, is_all ? options.max_bytes : 0));
+  SLF_TRY(const Units units,
+          split_units(frame, is_all ? options.max_bytes : 0, options.limits.max_memory));
   ReadPlan plan;
   SLF_TRY(plan.set, find_sequence(units));
   SLF_TRY(const SceneUnits scene, collect_units(units, plan.set));
@@ -139,7 +140,7 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
 
 Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPlan& plan,
                                 std::span<const StreamPart> parts, const DecodeOptions& options) {
-  SLF_TRY(Units units, split_units(head));
+  SLF_TRY(Units units, split_units(head, 0, options.limits.max_memory));
   const Unit* lists = units.first(UnitType::kIndex);
   Error disagrees{Errc::kOutOfRange, "index_unit_bytes"};
   if (lists != nullptr) disagrees = in_unit(*lists, disagrees);

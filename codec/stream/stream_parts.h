@@ -34,9 +34,10 @@ struct StreamHead {
 
 /// @param begin  the first bytes of a stream
 /// @param stream_bytes  of all of it
+/// @param max_memory    DecodeLimits::max_memory
 /// @return nullopt: more has to be read to tell
 Result<std::optional<StreamHead>> find_head(std::span<const std::uint8_t> begin,
-                                            std::uint64_t stream_bytes);
+                                            std::uint64_t stream_bytes, std::uint64_t max_memory);
 
 /// What is to be read of a stream.
 struct ReadPlan {

@@ -42,11 +42,12 @@ class FrameCutter {
   }
 
   Result<Bytes> cut_predicted(const FrameUnits& frame) {
-    SLF_TRY(const OpenStream opened, open_predicted(stream_, frame, *group_));
+    SLF_TRY(const OpenStream opened,
+            open_predicted(stream_, frame, *group_, options_.limits.max_memory));
     SLF_TRY(const Request request, request_of(opened.units, opened.scene, options_, &asked_));
     SLF_CHECK(check_limits(request, options_));
     if (request.whole) return copy_of(frame);
-    SLF_TRY(const Units own, predicted_units(stream_, frame));
+    SLF_TRY(const Units own, predicted_units(stream_, frame, options_.limits.max_memory));
     Bytes bytes;
     SLF_CHECK(append_frame(frame, own, request, bytes));
     return bytes;

@@ -15,7 +15,8 @@ struct DecodeLimits {
   /// Bytes that a decode may need at a time, all counted: the light field, trees, coder states,
   /// slices in flight on all threads. DecodeCost::memory_most is held against it.
   std::uint64_t max_memory = std::uint64_t{1} << 30;
-  /// Steps: decisions of octree nodes (8 each) and values of components, whatever the bytes say.
+  /// Steps: decisions of octree nodes (8 each) and values of components, whatever the bytes say,
+  /// and 64 bytes of each state that one of several slices starts from.
   /// DecodeCost::work is held against it; a core takes some 10^8 of them a second.
   std::uint64_t max_work = std::uint64_t{1} << 35;
 
