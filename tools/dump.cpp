@@ -45,6 +45,17 @@ bool floats_hold(const Grid& grid) {
   return farthest < double(1 << 23);
 }
 
+/// Are coordinates finite floats, or from an origin that is a finite double? Two voxels differ.
+bool fits_a_cloud(const Grid& grid) {
+  constexpr double kMost = std::numeric_limits<float>::max(),
+                   kLeast = std::numeric_limits<float>::min();
+  const double extent = grid.step * double(1 << grid.bits);
+  const double farthest = floats_hold(grid) ? kMost : std::numeric_limits<double>::max();
+  return extent <= kMost && grid.step >= kLeast &&
+         std::all_of(grid.origin.begin(), grid.origin.end(),
+                     [&](double x) { return std::abs(x) <= farthest - extent; });
+}
+
 Outcome save_array(const std::string& directory, const char* name, const NpyFile& file) {
   return save(inside(directory, name),
               std::array{std::as_bytes(std::span(file.head)), file.elements});
@@ -142,11 +153,11 @@ PointCloud mean_cloud(const LightField& field, int threads) {
   return cloud;
 }
 
-bool fits_a_cloud(const Grid& grid) {
-  const double extent = grid.step * double(1 << grid.bits);
-  return extent <= double{std::numeric_limits<float>::max()} &&
-         std::all_of(grid.origin.begin(), grid.origin.end(),
-                     [&](double x) { return std::isfinite(x + extent); });
+Outcome require_cloud_grid(const LightField& field, const std::string& file) {
+  if (fits_a_cloud(field.header.grid)) return Done{};
+  return Failure{kInputInvalid, input_name(file) +
+                                    ": its points lie beyond what a PLY can hold (slf decode "
+                                    "--dump writes them)"};
 }
 
 Outcome dump(const LightField& field, bool planes, const std::string& directory) {

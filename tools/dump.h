@@ -13,9 +13,9 @@ namespace slf::tools {
 /// basis.
 PointCloud mean_cloud(const LightField& field, int threads);
 
-/// Can floats, from a double's origin, hold the world coordinates of every voxel? A grid may lie
+/// Floats, from a double's origin, hold the world coordinates of every voxel. A grid may lie
 /// anywhere that a double reaches.
-bool fits_a_cloud(const Grid& grid);
+Outcome require_cloud_grid(const LightField& field, const std::string& file);
 
 /// Writes positions.npy, components.npy, octahedral.npy where normals are coded, light_field.json:
 /// all of them or none (save_directory).

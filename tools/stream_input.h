@@ -64,7 +64,7 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
                                          const LimitOptions& given, const CommonOptions& common);
 
 /// A failure for verbs that need view maps, where the file holds geometry alone, or integer planes
-/// without a meaning.
+/// without a meaning; and where its grid is none that floats hold.
 Outcome require_view_maps(const LightField& field, const std::string& file);
 
 }  // namespace slf::tools

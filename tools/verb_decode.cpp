@@ -63,10 +63,7 @@ Outcome run_decode(const DecodeVerbOptions& given) {
   part.means_only = given.dump.empty();
   SLF_TRY(const DecodedFile decoded, decode_file(given.input, part, given.limits, given.common));
   const auto peak = static_cast<std::uint64_t>(peak_memory_mib() * (1 << 20));
-  if (!given.output.empty() && !fits_a_cloud(decoded.field.header.grid))
-    return Failure{kInputInvalid, input_name(given.input) +
-                                      ": its points lie beyond what a PLY can hold (--dump "
-                                      "writes them)"};
+  if (!given.output.empty()) SLF_CHECK(require_cloud_grid(decoded.field, given.input));
   if (!given.output.empty()) SLF_CHECK(save_cloud(given, decoded));
   if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.planes, given.dump));
   if (given.common.json) return print(report_json(decoded, peak));

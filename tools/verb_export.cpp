@@ -94,6 +94,7 @@ Outcome export_points(const ExportOptions& given) {
   part.means_only = true;
   SLF_TRY(const DecodedFile decoded, decode_file(given.input, part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
+  SLF_CHECK(require_cloud_grid(decoded.field, given.input));
   SLF_CHECK(save(given.output, mean_cloud(decoded.field, given.common.threads)));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"points", decoded.field.num_points()},
@@ -142,11 +143,22 @@ Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatForma
   return Done{};
 }
 
+/// Fitting harmonics takes more than decoding: some 33 us of one core a point.
+Outcome check_work(const ExportOptions& given, std::uint64_t points) {
+  constexpr std::uint64_t kStepsOfPoint = 3300;  // of DecodeLimits::max_work
+  const std::uint64_t most = given.limits.limits.max_work;
+  if (points <= most / kStepsOfPoint) return Done{};
+  return Failure{kLimitExceeded, input_name(given.input) + ": splats of its " + grouped(points) +
+                                     " points take " + grouped(points * kStepsOfPoint) +
+                                     " steps, more than the " + grouped(most) + " of --max-work"};
+}
+
 Outcome export_splats(const ExportOptions& given, SplatFormat format) {
   const std::string name = input_name(given.input);
   SLF_TRY(const DecodedFile decoded,
           decode_file(given.input, given.part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
+  SLF_CHECK(check_work(given, decoded.field.num_points()));
   if (has_gaussians(decoded.field.header)) {
     SLF_TRY(Gaussians gaussians, from(name, gaussians_of(decoded.field, given.common.threads)));
     return convert_splats(given, {std::move(gaussians), "slf"}, format);

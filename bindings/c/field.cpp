@@ -102,6 +102,7 @@ slf_code read_discs(const slf_field* field, const Rows& rows, std::size_t width,
                     const Source& source) {
   if (const slf_code code = check(field, rows, width * sizeof(float), error); code != SLF_OK)
     return code;
+  if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
   return guarded(error, [&] {
     copy_rows(rows, source(discs_of(*field)), width);
     return slf_code{SLF_OK};
@@ -115,6 +116,7 @@ slf_code read_splats(const slf_field* field, const Rows& rows, std::size_t width
   if (const slf_code code = check(field, rows, width * sizeof(float), error); code != SLF_OK)
     return code;
   if (!field->has_splats()) return invalid(error, name);
+  if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
   return guarded(error, [&] {
     const SplatShapes& splats =
         field->splats.get([&] { return splat_shapes(field->field, field->threads); });
@@ -222,6 +224,7 @@ slf_code slf_read_disc_centres(const slf_field* field, uint64_t first, uint64_t 
   const Rows rows{first, count, to, stride};
   if (const slf_code code = check(field, rows, 3 * sizeof(float), error); code != SLF_OK)
     return code;
+  if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
   return guarded(error, [&] {
     const slf::Grid& grid = field->field.header.grid;
     const slf::SurfelCloud& discs = discs_of(*field);

@@ -34,7 +34,8 @@ struct SurfelCloud;
 /// count. Several threads may render at a time.
 class Renderer {
  public:
-  /// Precomputes normals and surfel radii; keeps a reference to `maps`.
+  /// Precomputes normals and surfel radii; keeps a reference to `maps`. Of a grid that is no
+  /// Grid::fits_floats() it draws the background alone.
   Renderer(const ViewMaps& maps, const RenderSettings& settings = {});
   /// O(points + pixels).
   Rendering render(const Camera& camera) const;

@@ -21,6 +21,15 @@ struct Grid {
   double step = 1;       ///< world units; finite, > 0
   int bits = 1;          ///< 1 .. 21 per axis; also the depth of the octree
 
+  /// Are coordinates, steps and what is made of their squares finite floats, above 0? A stream may
+  /// say any finite doubles (spec 6.2). Renderers draw nothing of other grids, exports refuse them.
+  bool fits_floats() const {
+    constexpr double kMost = 1e12, kLeast = 1e-12;
+    bool fits = step >= kLeast && step * (1 << bits) <= kMost;
+    for (const double x : origin) fits = fits && x >= -kMost && x <= kMost;
+    return fits;
+  }
+
   Vec3 world(const Voxel& v) const {
     return {origin[0] + step * v[0], origin[1] + step * v[1], origin[2] + step * v[2]};
   }

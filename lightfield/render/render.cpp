@@ -57,8 +57,10 @@ Renderer::Renderer(const ViewMaps& maps, const RenderSettings& settings)
     : maps_(maps),
       settings_(settings),
       surfels_(std::make_shared<const SurfelCloud>(
-          surfel_cloud(maps.header().grid, maps.positions(), maps.normals(), settings.radius,
-                       settings.threads))) {}
+          maps.header().grid.fits_floats()
+              ? surfel_cloud(maps.header().grid, maps.positions(), maps.normals(), settings.radius,
+                             settings.threads)
+              : SurfelCloud{})) {}
 
 Rendering Renderer::render(const Camera& camera) const {
   const auto splats = project_surfels(*surfels_, camera, settings_.threads);

@@ -158,6 +158,8 @@ Result<SplatCloud, InputError> make_splats(const ViewMaps& maps, const SplatSett
   if (!(settings.size >= 0.1 && settings.size <= 4))
     return InputError{Errc::kInvalidArgument, "the size of splats is not 0.1 to 4"};
   if (maps.num_points() == 0) return InputError{Errc::kInvalidInput, "has no points"};
+  if (!maps.header().grid.fits_floats())
+    return InputError{Errc::kInvalidInput, "its grid lies beyond what floats of splats hold"};
   SplatCloud splats = discs(maps, settings);
   fit_harmonics(maps, settings.threads, splats);
   for (auto& n : splats.normals)
