@@ -31,6 +31,8 @@ struct ConstLanes {
   const std::int32_t* first;
   std::size_t stride;
   const std::int32_t* row(std::size_t r) const { return first + r * stride; }
+  /// From lane j on; where there are no rows, none.
+  ConstLanes from(std::size_t j) const { return {first == nullptr ? nullptr : first + j, stride}; }
 };
 
 /// Means of a node of `weight` points, of the values in its row.

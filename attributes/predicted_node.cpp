@@ -53,8 +53,7 @@ void PredictedNode::predict_block(std::size_t block, Lanes values, Lanes means,
     if (modes_[first] == kUnpredicted) continue;
     Corrections some;
     predict_children(plans_[modes_[first]], {values.first + first, values.stride},
-                     {means.first + first, means.stride},
-                     {reference.first + first, reference.stride}, j - first, some);
+                     {means.first + first, means.stride}, reference.from(first), j - first, some);
     for (std::size_t i = 0; i < plan_->children; ++i)
       std::copy_n(some[i].begin(), j - first,
                   corrections_[block][i].begin() + static_cast<std::ptrdiff_t>(first - begin));

@@ -144,8 +144,8 @@ std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<
   for (std::size_t j = run.begin; j < run.end; j += kBlock) {
     const std::size_t lanes = std::min(kBlock, run.end - j);
     const Lanes values{range.values.first + j, range.values.stride};
-    predict_children(plan, values, {means.first + j, means.stride},
-                     {reference.first + j, reference.stride}, lanes, corrections);
+    predict_children(plan, values, {means.first + j, means.stride}, reference.from(j), lanes,
+                     corrections);
     bad |= inverse_lanes(own, range, j, lanes);
     add_corrections(plan, corrections, values, lanes);
   }
