@@ -14,6 +14,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace slf::fuzz {
 
+/// How many inputs were read to the end: what a target does behind that, no other input tries.
+inline std::size_t accepted_inputs = 0;
+
+/// Counts an input whose result is a value.
+template <class Outcome>
+void accept(const Outcome& result) {
+  accepted_inputs += static_cast<bool>(result);
+}
+
 /// The stream with every CRC right, so that the fuzzer reaches the parsers behind them.
 std::vector<std::uint8_t> with_sound_crcs(std::span<const std::uint8_t> stream);
 

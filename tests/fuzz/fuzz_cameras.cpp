@@ -10,8 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   directory.write("cameras.json", parts[0]);
   directory.write("transforms_train.json", parts[0]);
   directory.write("transforms_test.json", parts.back());
-  (void)slf::import_transforms_json(directory.path() / "transforms.json");
-  (void)slf::import_cameras_json(directory.path() / "cameras.json");
+  slf::fuzz::accept(slf::import_transforms_json(directory.path() / "transforms.json"));
+  slf::fuzz::accept(slf::import_cameras_json(directory.path() / "cameras.json"));
   (void)slf::import_transforms_splits(directory.path());
   return 0;
 }

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       ++i;
     }
   }
-  (void)slf::import_colmap_text(directory.path());
-  (void)slf::import_colmap_binary(directory.path());
+  slf::fuzz::accept(slf::import_colmap_text(directory.path()));
+  slf::fuzz::accept(slf::import_colmap_binary(directory.path()));
   return 0;
 }

@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto stream = slf::fuzz::with_sound_crcs({data, size});
   slf::DecodeOptions options;
   options.limits = slf::fuzz::small_limits();
-  (void)slf::decode(stream, options);
+  slf::fuzz::accept(slf::decode(stream, options));
   options.levels = 2;
   options.groups = 1;
   (void)slf::decode(stream, options);

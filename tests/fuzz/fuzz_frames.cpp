@@ -16,7 +16,7 @@ void decode_frames(const std::vector<std::uint8_t>& stream, const slf::DecodeOpt
   auto decoder = slf::FrameDecoder::open(stream, options);
   if (!decoder) return;
   const std::size_t frames = std::min(decoder->frames().size(), kMostFrames);
-  for (std::size_t frame = 0; frame < frames; ++frame) (void)decoder->decode(frame);
+  for (std::size_t frame = 0; frame < frames; ++frame) slf::fuzz::accept(decoder->decode(frame));
 }
 
 /// The same as it arrives, in pieces of a length that the input says.

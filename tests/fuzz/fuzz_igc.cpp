@@ -28,6 +28,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.limits.max_points = 1 << 9;
   options.estimate_normals = true;
   options.threads = 1;
-  (void)slf::decode_igc({data, size}, capture, options);
+  slf::fuzz::accept(slf::decode_igc({data, size}, capture, options));
   return 0;
 }

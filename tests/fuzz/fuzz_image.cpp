@@ -8,11 +8,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)slf::png_header(file);
   (void)slf::jpeg_header(file);
   const auto small = [](const auto& s) { return s && s->width <= 512 && s->height <= 512; };
-  if (slf::is_png(file) && small(png)) (void)slf::decode_png("fuzz.png", file);
+  if (slf::is_png(file) && small(png)) slf::fuzz::accept(slf::decode_png("fuzz.png", file));
   if (slf::is_jpeg(file) && small(jpeg)) {
     slf::ImageSize read;
     for (int r = 0; r <= slf::kMostJpegReduction; ++r)
-      (void)slf::decode_jpeg("fuzz.jpg", file, r, read);
+      slf::fuzz::accept(slf::decode_jpeg("fuzz.jpg", file, r, read));
   }
   return 0;
 }

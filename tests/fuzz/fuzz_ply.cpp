@@ -5,7 +5,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slf::fuzz::MemoryFile file({data, size});
   std::vector<std::string> warnings;
-  (void)slf::read_ply_mesh(file.path(), false, &warnings);
-  (void)slf::read_ply_mesh(file.path(), true, &warnings);
+  slf::fuzz::accept(slf::read_ply_mesh(file.path(), false, &warnings));
+  slf::fuzz::accept(slf::read_ply_mesh(file.path(), true, &warnings));
   return 0;
 }

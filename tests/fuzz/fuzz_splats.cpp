@@ -25,6 +25,7 @@ void read(const std::vector<std::uint8_t>& file) {
   (void)slf::looks_like_gaussians(file, file.size());
   const auto read = slf::parse_gaussians("fuzz", file);
   if (read && !is_finite(read->gaussians)) std::abort();
+  slf::fuzz::accept(read);
 }
 
 /// 48 bytes of either header, then the rest.
