@@ -88,7 +88,7 @@ Bytes indexed_with_unit(int type) {
 TEST(Spec_7_1_1_UnitTypes, AreRefusedWhereTheIndexAloneShowsThem) {
   for (const int type : {29, 93}) {
     const Bytes stream = indexed_with_unit(type);
-    const auto head = find_head(stream, stream.size());
+    const auto head = find_head(stream, stream.size(), DecodeLimits{}.max_memory);
     ASSERT_TRUE(head && *head);
     ASSERT_LT((*head)->bytes, stream.size());
     DecodeOptions coarse;
