@@ -29,7 +29,8 @@ class FrameCutter {
  private:
   Result<Bytes> cut_intra(const FrameUnits& frame) {
     SLF_TRY(group_, open_stream(bytes_of(frame), options_.limits));
-    SLF_TRY(const Request request, request_of(group_->units, group_->scene, options_));
+    SLF_TRY(Request request, request_of(group_->units, group_->scene, options_));
+    request.kept = &predicted_from_;
     SLF_CHECK(check_limits(request, options_));
     asked_ = request;
     if (request.whole) return copy_of(frame);
@@ -44,7 +45,8 @@ class FrameCutter {
   Result<Bytes> cut_predicted(const FrameUnits& frame) {
     SLF_TRY(const OpenStream opened,
             open_predicted(stream_, frame, *group_, options_.limits.max_memory));
-    SLF_TRY(const Request request, request_of(opened.units, opened.scene, options_, &asked_));
+    SLF_TRY(Request request, request_of(opened.units, opened.scene, options_, &asked_));
+    request.kept = &predicted_from_;
     SLF_CHECK(check_limits(request, options_));
     if (request.whole) return copy_of(frame);
     SLF_TRY(const Units own, predicted_units(stream_, frame, options_.limits.max_memory));
@@ -82,6 +84,8 @@ class FrameCutter {
 
   std::span<const std::uint8_t> stream_;
   DecodeOptions options_;
+  // Stays empty. That frames keep what the next is predicted from makes them need all points.
+  FrameState predicted_from_;
   std::optional<OpenStream> group_;  // the intra frame before
   GroupRequest asked_;               // of its group
 };
