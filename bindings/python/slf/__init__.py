@@ -15,16 +15,17 @@ from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError
                       UnsupportedError)
 from ._field import LightField, info, read
 from ._frames import Frames, frames
+from ._notebook import Turntable
 from ._types import Camera, Capture, Encoded, Frame, Info
 
 __all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Frame',
-           'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'UnsupportedError',
-           '__version__', 'encode', 'frames', 'info', 'pack', 'read']
+           'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'Turntable',
+           'UnsupportedError', '__version__', 'encode', 'frames', 'info', 'pack', 'read']
 
 __version__: str = _slf.version()
 
 # Where a user finds them, in messages and in help().
-for _name in ('Camera', 'Capture', 'Encoded', 'Frame', 'Frames', 'Info', 'LightField', 'encode',
+for _name in ('Camera', 'Capture', 'Encoded', 'Frame', 'Frames', 'Info', 'LightField', 'Turntable', 'encode',
               'frames', 'info', 'pack', 'read'):
     globals()[_name].__module__ = __name__
 del _name

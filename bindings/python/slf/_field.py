@@ -9,11 +9,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, colour, pixels, whole
+from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole
+from ._notebook import Turntable, png
 from ._types import Box, Camera, Frame, Info, Source, Vector
 
 
-def _bytes(source: Source) -> Union[bytes, bytearray, memoryview]:
+Data = Union[bytes, bytearray, memoryview]
+
+
+def _bytes(source: Source) -> Data:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
     if isinstance(source, (str, os.PathLike)):
@@ -39,14 +43,20 @@ class LightField:
     """A decoded light field. Arrays are read when first asked for, and are not to be written to."""
 
     def __init__(self, field: _slf.Field, make_renderer: Callable[[], _slf.Renderer],
+                 made_by: Tuple[Callable[..., LightField], Tuple[Any, ...]],
                  frame: Optional[Frame] = None) -> None:
         self._field = field
         self._make_renderer = make_renderer
+        self._made_by = made_by
         self._shape = field.shape()
         self.frame = frame  #: which of a light field that moves, of frames(); None of read()
 
     def __len__(self) -> int:
         return int(self._shape['points'])
+
+    def __reduce__(self) -> Tuple[Callable[..., LightField], Tuple[Any, ...]]:
+        """Pickled as the bytes of its stream, and decoded again."""
+        return self._made_by
 
     def __repr__(self) -> str:
         return f'<slf.LightField of {len(self)} points, {self.header.functions} functions>'
@@ -146,6 +156,43 @@ class LightField:
         return Camera(**self._renderer.orbit(turn, elevation, *pixels(size), fov))
 
 
+    def turntable(self, steps: int = 24, elevation: float = 20,
+                  size: Tuple[int, int] = (400, 400)) -> Turntable:
+        """Pictures of an orbit, 2 to 360 of them, which a notebook shows under a slider."""
+        count = whole(steps, 'steps', 2, 360)
+        return Turntable([self.render(self.orbit(step / count, elevation, size))
+                          for step in range(count)], repr(self))
+
+    def view_map(self, point: int, rows: int = 64) -> npt.NDArray[np.uint8]:
+        """Colours of a point over all directions, uint8 [rows, 2 rows, 3], display values.
+
+        Columns are azimuths about the world's z axis from -180 to 180 degrees, rows the sine of the
+        elevation from 1 to -1, each at the middle of its pixel. Raises IndexError.
+        """
+        height = whole(rows, 'rows', 1, MOST_PIXELS // 2)
+        sine = 1 - (2 * np.arange(height)[:, None] + 1) / height
+        azimuth = np.pi * ((np.arange(2 * height)[None, :] + 0.5) / height - 1)
+        across = np.sqrt(1 - sine**2)
+        directions = np.stack(np.broadcast_arrays(across * np.cos(azimuth),
+                                                  across * np.sin(azimuth), sine), axis=-1)
+        colours = self.radiance(point, directions)
+        if self.header.transfer == 'linear':
+            colours = 255 * _display(colours / 255)
+        return np.clip(np.rint(colours), 0, 255).astype(np.uint8)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        """What a notebook shows; nothing where integers have no meaning as colours."""
+        if self.header.basis == 'none' or not len(self):
+            return None
+        return png(self.render(self.orbit(0.1, size=(400, 400))))
+
+
+def _display(linear: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+    """Display values of linear ones, 0 to 1 (IEC 61966-2-1)."""
+    light = np.clip(linear, 0, 1)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
+
+
 _Any = TypeVar('_Any', bound=np.generic)
 
 
@@ -154,7 +201,7 @@ def _fixed(array: npt.NDArray[_Any]) -> npt.NDArray[_Any]:
     return array
 
 
-def _voxels(data: Union[bytes, bytearray, memoryview], region: Box) -> Tuple[int, ...]:
+def _voxels(data: Data, region: Box) -> Tuple[int, ...]:
     """A box of the world in voxels, as `slf decode --region` has it."""
     header = _info(_slf.info(data))
     corners = np.sort(np.asarray(region, float), axis=0)
@@ -184,4 +231,14 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
         'threads': whole(threads, 'threads'),
         'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
         'region': None if region is None else _voxels(data, region)}
-    return LightField(_slf.Field(data, **part), lambda: _slf.Renderer(data, **part))
+    return _decoded(data, part)
+
+
+def _decoded(data: Data, part: Dict[str, Any]) -> LightField:
+    return LightField(_slf.Field(data, **part), lambda: _slf.Renderer(data, **part),
+                      (_decoded, (_kept(data), part)))
+
+
+def _kept(data: Data) -> Data:
+    """Bytes that can be pickled."""
+    return bytes(data) if isinstance(data, memoryview) else data

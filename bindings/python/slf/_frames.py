@@ -2,11 +2,11 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Dict, Iterator, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterator, Optional, Sequence, Tuple, Union, overload
 
 from . import _slf
 from ._arguments import MOST_BYTES, whole
-from ._field import LightField, _bytes, _voxels
+from ._field import Data, LightField, _bytes, _kept, _voxels
 from ._types import Box, Frame, Source
 
 
@@ -17,7 +17,7 @@ class Frames(Sequence[LightField]):
     that is not: in order each is decoded once. A light field that does not move is one frame.
     """
 
-    def __init__(self, data: Union[bytes, bytearray, memoryview], part: Dict[str, Any]) -> None:
+    def __init__(self, data: Data, part: Dict[str, Any]) -> None:
         self._data = data
         self._part = part
         self._frames = _slf.Frames(data, **part)
@@ -44,7 +44,11 @@ class Frames(Sequence[LightField]):
             return [self[i] for i in range(*place.indices(len(self)))]
         at = range(len(self))[place]
         return LightField(self._frames.decode(at), lambda: self._pictures.renderer(at),
-                          self.list[at])
+                          (_frame, (_kept(self._data), self._part, at)), self.list[at])
+
+    def __reduce__(self) -> Tuple[Callable[..., Frames], Tuple[Any, ...]]:
+        """Pickled as the bytes of its stream."""
+        return Frames, (_kept(self._data), self._part)
 
     def __iter__(self) -> Iterator[LightField]:
         return (self[place] for place in range(len(self)))
@@ -52,6 +56,10 @@ class Frames(Sequence[LightField]):
     @functools.cached_property
     def _pictures(self) -> _slf.FramePictures:
         return _slf.FramePictures(self._data, **self._part)
+
+
+def _frame(data: Data, part: Dict[str, Any], place: int) -> LightField:
+    return Frames(data, part)[place]
 
 
 def frames(source: Source, *, levels: int = 0, groups: int = 0, region: Optional[Box] = None,
