@@ -70,6 +70,22 @@ TEST_P(CApiRadiance, WeightsTimesFunctionsAreTheViewMaps) {
   }
 }
 
+TEST_P(CApiRadiance, DirectionsWithoutALengthAreRefused) {
+  const Stream stream(stream_of(GetParam()));
+  const Field field(stream.handle, nullptr);
+  const std::uint32_t points[] = {0, 0};
+  std::vector<float> row(field.shape.weights), colours(6);
+  for (const float wrong : {0.0f, std::nanf(""), INFINITY}) {
+    const float along[] = {0, 0, 1, 0, wrong, 0};
+    EXPECT_EQ(slf_read_radiance(field.handle, 2, points, along, colours.data(), nullptr),
+              SLF_INVALID_ARGUMENT);
+    EXPECT_EQ(slf_frame_direction(field.handle, 0, along + 3, colours.data(), nullptr),
+              SLF_INVALID_ARGUMENT);
+    EXPECT_EQ(slf_read_functions(field.handle, 1, along + 3, row.data(), 0, nullptr),
+              SLF_INVALID_ARGUMENT);
+  }
+}
+
 TEST_P(CApiRadiance, TheCubeHoldsTheFunctionsAtItsTexels) {
   const Stream stream(stream_of(GetParam()));
   const Field field(stream.handle, nullptr);

@@ -65,6 +65,15 @@ slf_code check(const slf_field* field, const void* from, const void* to, std::ui
   return SLF_OK;
 }
 
+/// Of any length but 0. [count][3]
+bool are_directions(const float* directions, std::uint64_t count) {
+  for (std::uint64_t i = 0; i < count; ++i, directions += 3) {
+    const float length = std::hypot(directions[0], directions[1], directions[2]);
+    if (!(length > 0) || !std::isfinite(length)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 }  // namespace slf::capi
 
@@ -73,6 +82,7 @@ using namespace slf::capi;
 slf_code slf_read_functions(const slf_field* field, uint64_t count, const float* directions,
                             float* to, size_t stride, slf_error* error) {
   if (const slf_code code = check(field, directions, to, count, error); code != SLF_OK) return code;
+  if (!are_directions(directions, count)) return invalid(error, "directions");
   return guarded(error, [&] {
     const slf::FunctionWeights& functions = weights_of(*field);
     const std::size_t bytes = functions.size() * sizeof(float);
@@ -106,6 +116,7 @@ slf_code slf_frame_direction(const slf_field* field, uint64_t p, const float* wo
   if (world == nullptr) return invalid(error, "world");
   if (to == nullptr) return invalid(error, "to");
   if (p >= field->field.num_points()) return invalid(error, "p");
+  if (!are_directions(world, 1)) return invalid(error, "world");
   return guarded(error, [&] {
     const slf::Vec3 v = to_frame_of(*field, static_cast<std::size_t>(p), world);
     for (std::size_t k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
@@ -120,6 +131,7 @@ slf_code slf_read_radiance(const slf_field* field, uint64_t count, const uint32_
   const bool known = std::all_of(points, points + count,
                                  [&](uint32_t p) { return p < field->field.num_points(); });
   if (!known) return invalid(error, "points");
+  if (!are_directions(directions, count)) return invalid(error, "directions");
   return guarded(error, [&] {
     const slf::FunctionWeights& source = weights_of(*field);
     std::vector<float> row(source.stride()), weights(3 * source.size());

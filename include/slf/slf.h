@@ -406,12 +406,14 @@ SLF_API slf_code slf_read_function_cube(const slf_field* field, uint32_t side, f
                                         size_t capacity, slf_error* error);
 
 /* Direction `world` (float[3], from a point to the eye, any length > 0) as the functions of point p
- * take it: of unit length, mirrored at the point's frame normal in the reflected frame. */
+ * take it: of unit length, mirrored at the point's frame normal in the reflected frame.
+ * Errors: SLF_INVALID_ARGUMENT, also for a direction of length 0, or one that is not finite. */
 SLF_API slf_code slf_frame_direction(const slf_field* field, uint64_t p, const float* world,
                                      float* to, slf_error* error);
 
 /* Colours of `count` points: points[i] seen along directions[3 i ..] (from the point to the eye,
- * any length > 0). to: float[count][3], R, G, B, 0 .. 255 of the field's transfer. Spec 6.7. */
+ * any length > 0). to: float[count][3], R, G, B, 0 .. 255 of the field's transfer. Spec 6.7.
+ * Errors: as slf_frame_direction, before anything is written. */
 SLF_API slf_code slf_read_radiance(const slf_field* field, uint64_t count, const uint32_t* points,
                                    const float* directions, float* to, slf_error* error);
 

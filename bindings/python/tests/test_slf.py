@@ -58,7 +58,7 @@ class ReadTest(unittest.TestCase):
         for points, directions, error in [
                 (len(self.field), [0, 0, 1], IndexError), (-1, [0, 0, 1], IndexError),
                 (0.5, [0, 0, 1], ValueError), (0, [0, 1], ValueError),
-                (0, [0, 0, np.nan], ValueError), ([0, 1], np.ones((3, 3)), ValueError)]:
+                (0, [0, 0, np.nan], ValueError), (0, [0, 0, 0], ValueError), ([0, 1], np.ones((3, 3)), ValueError)]:
             with self.assertRaises(error):
                 self.field.radiance(points, directions)
 
