@@ -93,6 +93,7 @@ Result<Done, InputError> write_file(const fs::path& file, Pieces pieces) {
   }
   struct stat status {};
   const bool exists = ::stat(file.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) return unwritable(file, ELOOP);  // links that lead to each other
   if (exists && S_ISDIR(status.st_mode)) return unwritable(file, EISDIR);
   const bool direct = exists && (!S_ISREG(status.st_mode) || names_descriptor(file));
   const int failed =

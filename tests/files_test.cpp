@@ -95,6 +95,15 @@ TEST(WriteFile, GoesThroughSymbolicLinksThatLeadToNothingYet) {
   EXPECT_EQ(test::read_text(directory / "real"), "new");
 }
 
+TEST(WriteFile, LinksThatLeadToEachOtherStay) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_symlink("b", directory / "a");
+  std::filesystem::create_symlink("a", directory / "b");
+  EXPECT_FALSE(write_file(directory / "a", "new", 3));
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "a"));
+  EXPECT_EQ(directory.num_entries(), 2u);
+}
+
 TEST(WriteFile, WritesIntoDevicesAndPipesThemselves) {
   EXPECT_TRUE(write_file("/dev/null", "x", 1));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
