@@ -168,10 +168,10 @@ def check_limits():
         r'== (\d+), "sps_version_major", Unsupported\)\s+require\(data\[position \+ 2\] >= (\d+)', DECODER).groups())
     agree("bytes of an extension", int(re.search(r"\| the bytes that are left \| 2\^(\d+) bytes", SPEC)[1]),
           int(re.search(r"kMostExtensionBytes = 1 << (\d+)", code("bitstream/parameter_sets.cpp"))[1]))
-    first = re.search(r"the weights of the N contexts are ⌊(\d+) / N⌋,\s+the others 0\.", SPEC).group(1)
+    first = re.search(r"the\s+weights\s+of\s+the\s+N\s+contexts\s+are ⌊(\d+) / N⌋,\s+the\s+others\s+0\.", SPEC).group(1)
     agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
-    first = re.findall(r"(?:Three|Two) families of sets, all weights (\d+) at first", SPEC)
+    first = re.findall(r"(?:Three|Two)\s+families\s+of\s+sets,\s+all\s+weights\s+(\d+)\s+at\s+first", SPEC)
     agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\(\[(\d+)\] \* 8\)", DECODER))
     constants = [re.search(rf"{letter} = (0x\w{{16}})", section("**8.4.4", "**8.5")).group(1) for letter in "AB"]
     agree("constants of 8.4.4", constants, re.findall(r"0x\w{16}", re.search("HASH_A, HASH_B = .*", DECODER).group(0)))
