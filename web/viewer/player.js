@@ -108,7 +108,11 @@ export class FramePlayer {
       due = this.#queue.shift();
     }
     if (due) this.#show(due);
-    if (ended && !this.loop && this.#position >= this.duration) return this.#finish();
+    if (ended && !this.loop && this.#position >= this.duration) {
+      const last = list.length - 1;
+      if (this.shown === last || this.#isLost(last)) return this.#finish();
+      this.seek(last); // it is late: the end shows it all the same
+    }
     this.#ask();
     return true;
   }
@@ -196,6 +200,8 @@ export class FramePlayer {
     this.on.failed?.(error, this.source.list[place]);
   }
 
+  #isLost(place) { return place >= (this.#damaged.get(this.source.groupOf(place)) ?? Infinity); }
+
   /** What to decode now: the first frame that will be there in its time; where there is none, the one that is least late. */
   #next() {
     const queued = this.#queue.reduce((sum, each) => sum + each.bytes, 0);
@@ -204,7 +210,7 @@ export class FramePlayer {
     let best = null,
       left = 0;
     for (let at = this.#after(this.#last), seen = 0; at && seen < most; at = this.#after(at), ++seen) {
-      if (at.place >= (this.#damaged.get(this.source.groupOf(at.place)) ?? Infinity)) continue;
+      if (this.#isLost(at.place)) continue;
       const frames = this.#framesTo(at.place),
         early = this.#timeIn(at) - this.#position - frames * this.#cost * this.speed;
       if (best === null || early > best.early) best = { ...at, frames, early, left };

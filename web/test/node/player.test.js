@@ -114,6 +114,17 @@ test('frames are left out rather than late where decoding is slow', async () => 
   }
 });
 
+test('the end shows the last frame, however late, before it is told', async () => {
+  for (const damaged of [[], [19]]) {
+    const source = sourceOf(20, { seconds: 0.5, damaged }), { player, told } = playerOf(source, { loop: false });
+    player.play();
+    await run(player, 5, 1 / 5);
+    assert.deepEqual([told.finished, player.playing, told.stopped], [1, false, []]);
+    assert.equal(told.shown.at(-1) === 19, !damaged.length);
+    assert.ok(told.failed.length <= 1);
+  }
+});
+
 test('a tick of several laps shows what is of its time, and goes on', async () => {
   const source = sourceOf(12), { player, told } = playerOf(source);
   player.play();
