@@ -11,6 +11,7 @@
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
+#include "encoder/still_points.h"
 #include "slf/frames.h"
 
 namespace slf {
@@ -145,13 +146,18 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
   const bool chooses = !clouds && settings.q == kAutomaticQ;
   std::optional<ChosenForAll> chosen;
   std::optional<FrameEncoder> encoder;
+  StillPoints still;
   for (std::size_t f = 0; f < frames; ++f) {
     if (progress) progress("frames", static_cast<double>(f) / static_cast<double>(frames));
     Stopwatch watch;
     SLF_TRY(const LoadedFrame frame, load(f));
     const VoxelCloud cloud = on_grid(frame, encoded.grid, settings);
-    SLF_TRY(const LightField field,
-            light_field_of(frame, cloud, settings, chooses, chosen, progress));
+    SLF_TRY(LightField field, light_field_of(frame, cloud, settings, chooses, chosen, progress));
+    std::size_t held = 0;
+    if (frame_settings.hold_still && !clouds) {
+      SLF_CHECK(still.see(frame, settings.threads));
+      held = still.hold(frame, field, settings.threads);
+    }
     if (!encoder) {
       encoded.q = chosen->settings.q;
       CodingParameters parameters = chosen->parameters;
@@ -161,7 +167,7 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
     SLF_TRY(const auto bytes, encoder->add(field, static_cast<double>(f) / frame_settings.rate));
     SLF_CHECK(take(f, bytes));
     encoded.frames.push_back({f % static_cast<std::size_t>(frame_settings.group) != 0,
-                              field.num_points(), bytes.size(), watch.lap()});
+                              field.num_points(), held, bytes.size(), watch.lap()});
   }
   if (progress) progress("frames", 1);
   return encoded;

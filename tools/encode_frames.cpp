@@ -16,22 +16,21 @@ namespace slf::tools {
 namespace {
 
 nlohmann::ordered_json frame_json(const EncodedFrame& f, std::uint32_t number) {
-  return {{"number", number},
-          {"predicted", f.predicted},
-          {"points", f.points},
-          {"bytes", f.bytes},
-          {"seconds", f.seconds}};
+  return {{"number", number}, {"predicted", f.predicted}, {"points", f.points},
+          {"held", f.held},   {"bytes", f.bytes},         {"seconds", f.seconds}};
 }
 
 Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
                       const EncodedFrames& encoded, std::size_t bytes, double rate) {
-  std::size_t predicted = 0;
+  std::size_t predicted = 0, points = 0, held = 0;
   std::uint64_t of_predicted = 0;
   double seconds = 0;
   for (const EncodedFrame& f : encoded.frames) {
     predicted += f.predicted;
     of_predicted += f.predicted ? f.bytes : 0;
     seconds += f.seconds;
+    points += f.points;
+    held += f.held;
   }
   const std::size_t count = encoded.frames.size();
   if (given.common.json) {
@@ -42,6 +41,9 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
   }
   if (given.common.quiet) return Done{};
   std::string out = text("frames        %zu, %zu predicted\n", count, predicted);
+  if (held > 0)
+    out += text("still         %.1f %% of points keep the view map of the frame before\n",
+                1e2 * static_cast<double>(held) / static_cast<double>(points));
   out += text("quality       Q %.4g\n", encoded.q);
   out += text("bytes         %s a frame that is not predicted, %s one that is\n",
               grouped((bytes - of_predicted) / std::max<std::size_t>(count - predicted, 1)).c_str(),
@@ -102,6 +104,10 @@ void add_frames(CLI::App& verb, FrameOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(0.001, 10000.0))
       ->group(group);
+  verb.add_flag("--refit-still", options.refit,
+                "Fit every frame anew, also points where no photograph shows a change: these keep "
+                "the view map of the frame before otherwise")
+      ->group(group);
 }
 
 bool is_frame_input(const EncodeOptions& given, const FrameOptions& frames) {
@@ -127,7 +133,7 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
   };
   auto encoded = encode_frames(
       inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings,
-      {frames.group, frames.rate}, take, line.callback());
+      {frames.group, frames.rate, !frames.refit}, take, line.callback());
   line.clear();
   if (!encoded && loader.failure()) return *loader.failure();
   SLF_TRY(const EncodedFrames all, from(given.capture, std::move(encoded)));

@@ -11,6 +11,7 @@ struct FrameOptions {
   std::string range;  ///< A:B of the numbers in the names
   int group = 16;
   double rate = 30;
+  bool refit = false;  ///< points that stand still, too
 };
 void add_frames(CLI::App& verb, FrameOptions& options);
 

@@ -104,6 +104,9 @@ class FrameEncoder {
 struct FrameSettings {
   int group = 16;    ///< frames from one that is not predicted to the next
   double rate = 30;  ///< frames a second
+  /// Points that stand where they stood, and where no photograph shows a change beyond its noise,
+  /// keep the view maps that they had.
+  bool hold_still = true;
 };
 
 /// What one frame is made of, loaded when it is its turn.
@@ -119,7 +122,7 @@ using TakeFrame =
 /// What became of a frame.
 struct EncodedFrame {
   bool predicted = false;
-  std::size_t points = 0;
+  std::size_t points = 0, held = 0;  ///< held: with the view map of the frame before
   std::uint64_t bytes = 0;
   double seconds = 0;
 };
@@ -131,12 +134,14 @@ struct EncodedFrames {
 };
 
 /// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the
-/// first frame chose. Points are as given: nothing is mended, trained or made up.
+/// first frame chose. Points are as given: nothing is mended, trained or made up. What stands still
+/// keeps its view map (FrameSettings::hold_still).
 /// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be
 /// coded
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
 ///         textures); those of load, take, encode() and FrameEncoder
-/// One frame is in memory at a time, and what is left of the one before. The same bytes for any
+/// One frame is in memory at a time, what is left of the one before, and a photograph of every
+/// camera to compare with. The same bytes for any
 /// thread count of one binary.
 Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
                                                 const EncoderSettings& settings,

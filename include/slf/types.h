@@ -24,9 +24,9 @@ struct Grid {
   /// Are coordinates, steps and what is made of their squares finite floats, above 0? A stream may
   /// say any finite doubles (spec 6.2). Renderers draw nothing of other grids, exports refuse them.
   bool fits_floats() const {
-    constexpr double kMost = 1e12, kLeast = 1e-12;
-    bool fits = step >= kLeast && step * (1 << bits) <= kMost;
-    for (const double x : origin) fits = fits && x >= -kMost && x <= kMost;
+    constexpr double kGridMost = 1e12, kGridLeast = 1e-12;
+    bool fits = step >= kGridLeast && step * (1 << bits) <= kGridMost;
+    for (const double x : origin) fits = fits && x >= -kGridMost && x <= kGridMost;
     return fits;
   }
 
