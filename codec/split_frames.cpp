@@ -102,12 +102,6 @@ Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units) {
   return Done{};
 }
 
-Result<Done> check_does_not_move(const Units& units) {
-  const Unit* frame = units.first(UnitType::kFrame);
-  if (frame == nullptr) return Done{};
-  return of_unit(frame->type, frame->offset, Errc::kUnsupported, kOneLightField);
-}
-
 Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                               std::uint64_t max_memory) {
   Units result;

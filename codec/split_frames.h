@@ -44,9 +44,6 @@ Result<FrameUnits> first_frame(std::span<const std::uint8_t> stream);
 /// @errors kOutOfRange: frame_bytes
 Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units);
 
-/// @errors kUnsupported, with the element kOneLightField: the stream is one of frames
-Result<Done> check_does_not_move(const Units& units);
-
 /// The units of a predicted frame.
 /// @errors those of units; kOutOfRange: one that such a frame does not have, frame_bytes;
 ///         kLimitExceeded: max_memory

@@ -36,6 +36,24 @@ TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
   expect_failure(slf("eval a.slf tiny --unquantised nowhere.slf"), 3, "nowhere.slf", "");
 }
 
+TEST_F(TinyCaptureTest, EvalMeasuresAFrameByItsOwnBytes) {
+  std::filesystem::create_directory(path("moves"));
+  for (const char* frame : {"moves/frame_0001", "moves/frame_0002"})
+    std::filesystem::copy(path("tiny"), path(frame), std::filesystem::copy_options::recursive);
+  ASSERT_EQ(slf("encode moves -o m.slf -q 32 --grid-bits 6 --fit paper --functions 8").code, 0);
+  std::vector<nlohmann::json> measured;
+  for (const char* frame : {"0", "1"})
+    measured.push_back(parsed(slf("eval m.slf tiny --json --frame " + std::string(frame)).out));
+  const auto psnr = [](const nlohmann::json& m) {
+    return m["input"]["image"]["psnr"].get<double>();
+  };
+  EXPECT_NEAR(psnr(measured[0]), psnr(measured[1]), 0.05);
+  const auto bytes = [](const nlohmann::json& m) { return m["bytes"].get<std::size_t>(); };
+  EXPECT_LT(4 * bytes(measured[1]), bytes(measured[0])) << "it stands still";
+  EXPECT_EQ(bytes(measured[0]) + bytes(measured[1]), read("m.slf").size());
+  expect_failure(slf("eval m.slf tiny --frame 2"), 2, "m.slf", "it has 2");
+}
+
 TEST_F(TinyCaptureTest, EvalReadsIgcFiles) {
   const auto coded =
       slf("igc tiny -o a.igc --grid-bits 6 --functions 8 --qp 22 --speed fast --json");

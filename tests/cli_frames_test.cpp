@@ -55,6 +55,12 @@ TEST_F(CliFramesTest, TruncateKeepsFramesThatWereAskedForAndThoseTheyNeed) {
   EXPECT_FALSE(exists("z.slf"));
 }
 
+TEST_F(CliFramesTest, MergeRefusesByName) {
+  expect_failure(slf("merge x.slf x.slf -o y.slf --quiet"), 4, "x.slf",
+                 "a stream of several frames");
+  EXPECT_FALSE(exists("y.slf"));
+}
+
 TEST_F(CliFramesTest, HtmlHoldsAllFramesAndHowTheyPlay) {
   const Ran ran = slf("html x.slf -o y.html --quiet --no-poster --no-loop --speed 2 --paused");
   if (ran.err.find("one_file.html") != std::string::npos) GTEST_SKIP() << "built without the page";

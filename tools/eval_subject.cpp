@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "slf/frames.h"
 #include "slf/gaussian_renderer.h"
 #include "slf/parallel.h"
 #include "tools/choices.h"
@@ -23,23 +24,42 @@ int threads_of(const CommonOptions& common) {
   return thread_count(common.threads, std::numeric_limits<std::size_t>::max());
 }
 
+/// @param bytes  receives those of the frame
+Result<LightField> frame_of_stream(const StreamFile& stream, int frame,
+                                   const DecodeOptions& options, std::uint64_t& bytes) {
+  SLF_TRY(FrameDecoder decoder, FrameDecoder::open(stream.bytes, options));
+  const auto place = static_cast<std::size_t>(frame);
+  if (place < decoder.frames().size()) bytes = decoder.frames()[place].bytes;
+  return decoder.decode(place);
+}
+
 Result<Subject, Failure> decode_slf(const SubjectOptions& given, const std::string& input,
                                     std::vector<std::uint8_t> bytes) {
   SLF_TRY(const StreamFile stream,
           open_stream(input, std::move(bytes), given.limits, given.common));
   const StreamInfo& info = stream.info;
+  if (given.frame < 0 && stream.frames > 1)
+    warn(input_name(input) + ": of " + grouped(stream.frames) +
+             " frames the first is measured, against the bytes of all (--frame)",
+         given.common.quiet);
+  if (given.frame >= 0 && static_cast<std::size_t>(given.frame) >= stream.frames)
+    return Failure{kUsage, input_name(input) + ": frame " + std::to_string(given.frame) +
+                               " is asked for, but it has " + std::to_string(stream.frames) +
+                               ", from 0 on"};
   DecodeSeconds seconds;
   DecodeOptions options = decode_options(info, {}, given.limits, given.common);
   options.seconds = &seconds;
   Stopwatch watch;
-  auto field = decode(stream.bytes, options);
+  std::uint64_t bytes_of_subject = stream.bytes.size();
+  auto field = given.frame < 0 ? decode(stream.bytes, options)
+                               : frame_of_stream(stream, given.frame, options, bytes_of_subject);
   if (!field) return decode_failure(input, field.error(), stream, options);
   const nlohmann::ordered_json decode_seconds = {{"threads", threads_of(given.common)},
                                                  {"geometry", seconds.geometry},
                                                  {"coefficients", seconds.coefficients},
                                                  {"total", watch.lap()}};
   return Subject{*std::move(field),
-                 stream.bytes.size(),
+                 bytes_of_subject,
                  info.metadata,
                  bytes_by_type_json(info),
                  settings_json(info),

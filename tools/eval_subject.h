@@ -12,6 +12,7 @@ namespace slf::tools {
 struct SubjectOptions {
   LimitOptions limits;
   CommonOptions common;
+  int frame = -1;                 ///< place among the frames; -1: the file is one light field
   bool estimate_normals = false;  ///< of an .igc
 };
 

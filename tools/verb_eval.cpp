@@ -27,13 +27,14 @@ namespace {
 
 struct EvalOptions {
   std::string input, capture, points, images, split, unquantised, error_maps;
+  int frame = -1;  ///< of a file of several
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
   std::optional<double> min_psnr, min_image_psnr;
   LimitOptions limits;
   CommonOptions common;
 
-  SubjectOptions decode() const { return {limits, common, estimate_normals}; }
+  SubjectOptions decode() const { return {limits, common, frame, estimate_normals}; }
 };
 
 std::string metadata_value(const Metadata& metadata, const std::string& key) {
@@ -227,6 +228,11 @@ void add_eval(CLI::App& program, Run& run) {
                    "Hidden if deeper than the depth buffer by more, in point spacings")
       ->capture_default_str()
       ->check(range(0, 1000));
+  verb->add_option("--frame", o->frame,
+                   "Of a file of several frames the one to measure, from 0 on, against its own "
+                   "capture and by its own bytes")
+      ->type_name("N")
+      ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
   verb->add_flag("--estimate-normals", o->estimate_normals,
                  "An .igc file: normals from its points; default: the capture's, as a gift");
   auto* no_images =

@@ -27,10 +27,12 @@ class PartReader {
   PartReader(const PartStream& part, SceneParts& parts) : part_(part), parts_(parts) {}
 
   Result<Done> read() {
+    SLF_TRY(const FrameUnits first, first_frame(part_.bytes));
+    if (first.moves())
+      return of_unit(first.unit.type, first.unit.offset, Errc::kUnsupported, kOneLightField);
     SLF_TRY(units_, split_units(part_.bytes));
     SLF_TRY(cut_, find_sequence(units_));
     SLF_TRY(scene_, collect_units(units_, cut_));
-    SLF_CHECK(check_does_not_move(units_));
     SLF_TRY(parts_.metadata, collect_metadata(units_));
     parts_.table = scene_.stream.table;
     parts_.set = cut_;
