@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building needs; with the argument `web` also those that
 # web/build_wasm.sh and its tests need, with `lab` these and those of all tests and of the RD
-# laboratory (tools/rd), with `machines` those of conformance/machines.sh (cross compilers, qemu, wine), with `s390x` those
-# of its one machine that every change is tried on.
+# laboratory (tools/rd), with `machines` those of conformance/machines.sh (cross compilers, qemu, wine).
 # Quick when all are there; safe to repeat. As root, or through sudo.
 set -euo pipefail
 
@@ -25,11 +24,8 @@ if [[ "${1:-}" == lab ]]; then
     locales  # tests/locale_test.py
     chromium)  # web/test/browser
 fi
-if [[ "${1:-}" == machines || "${1:-}" == s390x ]]; then
-  packages+=(g++-s390x-linux-gnu qemu-user-static)
-fi
 if [[ "${1:-}" == machines ]]; then
-  packages+=(g++-{aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64)
+  packages+=(qemu-user-static g++-{s390x,aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64)
 fi
 
 missing=()
