@@ -12,29 +12,39 @@
 namespace slf::python {
 namespace {
 
-/// Calls a Python function from a library that must not be left by an exception: the first one is
-/// kept, and raised when the library is done.
+/// Calls a Python function, if there is one, and sees whether Python was interrupted. Either may
+/// end what is going on: the exception is kept while the library is left without Python's lock.
 class Reporter {
  public:
   explicit Reporter(const py::object& function) : function_(function) {}
 
   Progress progress() {
-    if (function_.is_none()) return {};
     return [this](const char* stage, double fraction) {
       const py::gil_scoped_acquire gil;
-      if (error_) return;
       try {
-        function_(stage, fraction);
+        if (!function_.is_none()) function_(stage, fraction);
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       } catch (const py::error_already_set&) {
         error_ = std::current_exception();
+        throw Ended{};
       }
     };
   }
-  void raise() const {
-    if (error_) std::rethrow_exception(error_);
+
+  /// What Python raised within call(), which is called without its lock.
+  template <class Call>
+  void run(const Call& call) const {
+    try {
+      const py::gil_scoped_release no_gil;
+      call();
+    } catch (const Ended&) {
+      std::rethrow_exception(error_);
+    }
   }
 
  private:
+  struct Ended {};
+
   py::object function_;
   std::exception_ptr error_;
 };
@@ -123,13 +133,11 @@ py::tuple encode_capture(const Capture& capture, const std::string& split, const
   Reporter reporter(progress);
   const Progress report = reporter.progress();
   Encoded encoded;
-  {
-    const py::gil_scoped_release no_gil;
+  reporter.run([&] {
     std::vector<int> cameras;
     if (!capture.cameras.empty()) cameras = value_of(split_cameras(capture, split));
     encoded = value_of(encode(capture, cameras, settings, report));
-  }
-  reporter.raise();
+  });
   using namespace py::literals;
   return py::make_tuple(
       bytes_of(encoded.stream),

@@ -157,7 +157,8 @@ struct LightField {
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Called from time to time, always from the thread that called the long function.
-/// stage: literal, e.g. "fit"; fraction: 0 .. 1 of that stage.
+/// stage: literal, e.g. "fit"; fraction: 0 .. 1 of that stage. An exception ends the function, and
+/// is thrown by it.
 using Progress = std::function<void(const char* stage, double fraction)>;
 
 }  // namespace slf

@@ -26,7 +26,8 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[floa
     is fitted to pictures, or of preset 'paper'. split: which images, as `slf encode --split`. preset:
     'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr: in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
     0 or 4 to 12. quality_layers: 1 to 4, each at half of the step of the one before, so that quality
-    is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises is raised at the end.
+    is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises ends the
+    encoding, as an interrupt (Ctrl-C) does.
     Raises InputError, ArgumentError, ValueError.
     """
     if preset not in ('default', 'paper'):

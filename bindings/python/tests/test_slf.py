@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -185,10 +186,21 @@ class EncodeTest(unittest.TestCase):
         self.assertTrue(all(0 <= fraction <= 1 for _, fraction in stages))
         self.assertGreater(slf.info(encoded.data).functions, 1)
 
+        called = []
+
         def fails(stage, fraction):
+            called.append(stage)
             raise KeyError(stage)
         with self.assertRaises(KeyError):
             slf.encode(capture, split='all', effort=1, grid_bits=6, progress=fails)
+        self.assertEqual(len(called), 1)
+
+        def interrupts(stage, fraction):
+            called.append(stage)
+            os.kill(os.getpid(), signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            slf.encode(capture, split='all', effort=1, grid_bits=6, progress=interrupts)
+        self.assertEqual(len(called), 2)
         capture.images = capture.images[1:]
         with self.assertRaises(ValueError):
             slf.encode(capture)
