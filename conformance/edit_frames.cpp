@@ -14,7 +14,8 @@ bool is_intra(const Bytes& frame) { return frame[0] == kSignature[0]; }
 Bytes changed_header(const Bytes& payload, const std::function<void(FrameHeader&)>& edit) {
   std::span<const std::uint8_t> vectors;
   FrameHeader header = *parse_frame_header(payload, vectors);
-  for (auto& size : header.motion.lattice_size) --size;
+  if (header.frame_lattice_flag != 0)  // as they are coded
+    for (auto& size : header.motion.lattice_size) --size;
   edit(header);
   BitWriter out;
   WriteSyntax write{out};
