@@ -48,7 +48,7 @@ struct Plane {
   }
 };
 
-/// Of a photograph's channels, what differs; nothing where both are clear.
+/// What differs in a channel of two photographs; nothing where both are clear.
 Plane difference(const Image& before, const Image& after, int channel) {
   Plane out(after.width, after.height);
   const auto clear = [](const Image& image, std::size_t pixel) {

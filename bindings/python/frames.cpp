@@ -55,7 +55,7 @@ class Frames {
     return frame;
   }
 
-  /// Of a lost frame none: its decode says why.
+  /// A lost frame has none: its decode says why.
   std::shared_ptr<const Stream> stream_of_group(std::size_t place) const {
     slf_frame first = get(place);
     while (first.predicted != 0 && place > 0) first = get(--place);

@@ -220,7 +220,7 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
     region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
     max_memory: bytes that decoding may take, 0 is 2**30.
-    Of a light field that moves the first frame (frames() has all).
+    A light field that moves gives its first frame (frames() has all).
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
     data = _bytes(source)
