@@ -18,7 +18,7 @@ sources="$work/sources"
 mkdir "$sources"
 together() {  # FILES FOLDER...
   for folder in "${@:2}"; do
-    ls $folder/*.cpp | grep -v -e parallel_serial -e left_out | sed 's/.*/#include "&"/' |
+    ls $folder/*.cpp | grep -v -e parallel_serial -e left_out -e suite_decoder | sed 's/.*/#include "&"/' |
       split -l "$1" --additional-suffix=.cpp - "$sources/${folder//\//_}_"
   done
 }
