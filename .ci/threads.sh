@@ -8,7 +8,7 @@ cmake -S . -B $build -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=De
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSLF_SANITIZE=thread -DSLF_TESTS=OFF -DSLF_BENCH=OFF \
   -DSLF_TOOLS=OFF -DSLF_FUZZ=OFF > $build.log
 cmake --build $build --target slf_decoder >> $build.log
-clang++ -std=c++20 -O1 -g1 -fsanitize=thread -Iinclude -I. tests/decode_on_threads.cpp tests/fuzz/fuzz.cpp \
+clang++ -std=c++20 -O1 -g1 -fsanitize=thread -Iinclude -I. tests/codec/decode_on_threads.cpp tests/fuzz/fuzz.cpp \
   $build/libslf_decoder.a -o $build/decode_on_threads $(pkg-config --libs zlib libde265) -ldraco -lpthread
 TSAN_OPTIONS=halt_on_error=1 $build/decode_on_threads conformance/streams/*/stream.slf \
   conformance/refused/*/stream.slf

@@ -21,7 +21,7 @@ fi
 if [[ "${1:-}" == lab ]]; then
   packages+=(libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib
     pybind11-dev python3-venv mypy doxygen dpkg-dev man-db file shared-mime-info libglib2.0-bin  # bindings/python/, packages, reference, man pages, file types
-    locales  # tests/locale_test.py
+    locales  # tests/tools/locale_test.py
     chromium)  # web/test/browser
 fi
 if [[ "${1:-}" == machines ]]; then

@@ -1,7 +1,7 @@
 """The codecs, their rate options and every option a manifest may set, with ranges.
 
 Ranges are those of `slf settings`, kept here so that an impossible manifest is refused before anything
-runs; tests/settings_table_test.py compares them.
+runs; tests/house/settings_table_test.py compares them.
 """
 
 SLF = ("raht", "tmc", "tmc3")

@@ -1,0 +1,104 @@
+// Files of Gaussian splats through the program: drawn, and written in another format.
+#include "cli_support.h"
+#include "slf/capture.h"
+#include "tests/lightfield/gaussian_support.h"
+
+namespace slf::cli_splats_test {
+namespace {
+
+class SplatFileTest : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    const auto bytes = gaussian_file(test::random_gaussians(300, 2), SplatFormat::kPly);
+    write("x.ply", {bytes->begin(), bytes->end()});
+  }
+};
+
+TEST_F(SplatFileTest, IsDrawnAndItsCopiesInOtherFormatsAre) {
+  ASSERT_EQ(slf("render x.ply -o x.png --size 90x70").code, 0);
+  const auto image = read_image(path("x.png"));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 90);
+  EXPECT_NE(*std::min_element(image->data.begin(), image->data.end()),
+            *std::max_element(image->data.begin(), image->data.end()));
+  for (const std::string format : {"spz", "glb"}) {
+    EXPECT_EQ(slf("export x.ply -o x." + format).code, 0);
+    EXPECT_EQ(slf("render x." + format + " --orbit 2 --sheet -o sheet.png --size 50x50").code, 0);
+  }
+  ASSERT_EQ(slf("export x.glb -o back.ply").code, 0);
+  EXPECT_EQ(read_gaussians(path("back.ply"))->gaussians.positions,
+            read_gaussians(path("x.ply"))->gaussians.positions);
+}
+
+TEST_F(SplatFileTest, IsReportedAndCutToADegree) {
+  const Ran ran = slf("export x.ply -o y.ply --degree 1 --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = parsed(ran.out);
+  EXPECT_EQ(report["splats"], 300);
+  EXPECT_EQ(report["degree"], 1);
+  EXPECT_EQ(report["input_format"], "PLY");
+  EXPECT_EQ(report["bytes"], read("y.ply").size());
+  EXPECT_EQ(read_gaussians(path("y.ply"))->gaussians.degree, 1);
+}
+
+TEST_F(SplatFileTest, IsRefusedWhereAnOptionMeansNothingForItAndWhenDamaged) {
+  expect_failure(slf("render x.ply -o x.png --levels 2"), 2, "x.ply", "no part");
+  expect_failure(slf("export x.ply -o x.spz --axes world"), 2, "x.ply", "--axes");
+  std::string text = read("x.ply");
+  text.resize(text.size() - 9);
+  write("cut.ply", text);
+  EXPECT_NE(slf("render cut.ply -o x.png").code, 0);
+  write("new.spz", std::string("NGSP\4\0\0\0", 8) + std::string(24, '\0'));
+  const Ran ran = slf("render new.spz -o x.png");
+  EXPECT_NE(ran.err.find("splat-transform"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.code, 0);
+}
+
+TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
+  const Ran coded = slf("encode x.ply -o x.slf -q 3 --json");
+  ASSERT_EQ(coded.code, 0) << coded.err;
+  const auto report = parsed(coded.out);
+  EXPECT_EQ(report["bytes"], read("x.slf").size());
+  EXPECT_EQ(report["q"], 3);
+  EXPECT_NE(slf("info x.slf").out.find("shape"), std::string::npos);
+  ASSERT_EQ(slf("render x.slf -o a.png --size 80x80").code, 0);
+  ASSERT_EQ(slf("render x.ply -o b.png --size 80x80").code, 0);
+  EXPECT_EQ(slf("export x.slf -o y.ply").code, 0);
+  EXPECT_EQ(read_gaussians(path("y.ply"))->gaussians.size(), report["splats"]);
+  EXPECT_EQ(slf("export x.slf -o y.spz").code, 0);
+  EXPECT_EQ(slf("encode y.spz -o z.slf --quiet").code, 0);
+  if (const Ran page = slf("html x.slf -o x.html --quiet"); page.code != 6) {  // 6: has no page
+    EXPECT_EQ(page.code, 0) << page.err;
+    EXPECT_NE(read("x.html").find("data:image/jpeg;base64,"), std::string::npos);
+  }
+  expect_failure(slf("encode x.ply -o w.slf --degree 4"), 2, "x.ply", "--degree");
+  expect_failure(slf("encode x.ply -o w.slf --points x.ply"), 2, "x.ply", "--points");
+  expect_failure(slf("encode x.ply -o w.slf --target-bytes 100"), 2, "", "target bytes");
+}
+
+TEST_F(SplatFileTest, WarnsOfSplatsThatAreLeftOut) {
+  write("bad.ply", [] {
+    std::string text = test::ascii_header(2, test::kSplatNames);
+    return text + "nan 0 0 0 0 0 0 -3 -3 -3 1 0 0 0\n0 0 0 0 0 0 0 -3 -3 -3 1 0 0 0\n";
+  }());
+  const Ran ran = slf("export bad.ply -o good.ply");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_NE(ran.err.find("1 splats are left out"), std::string::npos) << ran.err;
+}
+
+TEST_F(SplatFileTest, IsJudgedAgainstPhotographs) {
+  ASSERT_EQ(slf("synth can -o can --size 64x64 --points 500 --quiet").code, 0);
+  const Ran ran = slf("eval x.ply can --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = parsed(ran.out);
+  EXPECT_EQ(report["points"], 300);
+  EXPECT_EQ(report["bytes"], read("x.ply").size());
+  EXPECT_GT(report["input"]["image"]["all"]["psnr"], 3);
+  EXPECT_FALSE(report["input"].contains("points"));
+  EXPECT_EQ(slf("eval x.ply can --min-image-psnr 99").code, 8);
+  expect_failure(slf("eval x.ply can --min-psnr 3"), 2, "x.ply", "--min-psnr");
+}
+
+}  // namespace
+}  // namespace slf::cli_splats_test
