@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Thread sanitizer on streams of several slices: decodes whole, partial, cut and damaged, on four
 # threads. Builds the decoder alone (minutes); not part of .ci/run.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the codes weigh over which a transform tree stands: points 1, cells of a base their classes.
 // Spec 8.2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quantised coefficients of a slice from its coefficient units. Spec 8.7.
 #pragma once
 

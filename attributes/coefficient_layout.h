@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the coefficient coders know of the arrays they work on. Spec 8.7.
 #pragma once
 

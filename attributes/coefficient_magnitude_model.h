@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The magnitude of a value of a vector, predicted from the magnitudes around it. Written once for
 // decoder and encoder. Spec 8.7.2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which coefficients lie around a coefficient, and how large it is likely to be beside them. Spec
 // 8.7.2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quantisation of transform coefficients against the prediction a decoder will make: a closed loop,
 // level by level. Mirror of raht_inverse. Informative.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sign of a value of a vector, predicted from the signs around it: an edge that runs on gives
 // neighbouring differences the same sign, and the colours of a picture change together. Written
 // once for decoder and encoder. Spec 8.7.2.

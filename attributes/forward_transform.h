@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The encoder's side of attributes/plane_transform.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of a row one at a time or four together: what loops over planes do to a value is written
 // once, and in WebAssembly, where compilers find no good vectors for products of 64 bits, for both.
 #pragma once

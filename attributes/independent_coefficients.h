@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's way: every plane alone, with one adaptive context set of its own for all levels.
 // Written once for decoder and encoder. Spec 8.7.3.
 #pragma once

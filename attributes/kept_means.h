@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Means of nodes that are kept for the frame after, and what they say of its root. Spec 8.12.4.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vectors of a group that are not zero, for the contexts of those coded after them. Spec 8.7.2.
 #pragma once
 

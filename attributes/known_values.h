@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a finer layer knows of values by the layers before it. Spec 8.7.7.
 #pragma once
 

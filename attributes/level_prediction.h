@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The children of a node predicted from what is known around them. Spec 8.7.6.
 #pragma once
 

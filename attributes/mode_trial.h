@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A prediction mode on trial. Informative: an encoder may choose as it likes.
 #pragma once
 

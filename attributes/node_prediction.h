@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the children of a node are predicted from, and how much of each: for all planes. Spec 8.7.6.
 #pragma once
 

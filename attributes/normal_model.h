@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Octahedral normals, each predicted by the one before it in Morton order. Written once for decoder
 // and encoder. Spec 8.10.
 #pragma once

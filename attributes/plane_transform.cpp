@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "attributes/plane_transform.h"
 
 #include "base/multiversion.h"

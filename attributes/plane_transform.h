@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A linear transform across the planes of a point: few components give many functions. Spec 7.11,
 // 8.7.5.
 #pragma once

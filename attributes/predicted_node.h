@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The children of a node on the encoder's side: predictions of planes that are predicted in
 // different ways, and the coefficients these would have. Spec 8.7.6.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uniform quantisation with a step per plane. Spec 8.7.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A quantiser's step, by which encoders divide as often as there are values. Informative.
 #pragma once
 

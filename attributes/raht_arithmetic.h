@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arithmetic of a merge, both ways. Spec 8.6.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of attributes/raht_inverse.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dequantisation, inverse transform with prediction, and the means of coarser levels. Spec 8.7.4,
 // 8.7.6, 8.8, 8.9.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transform tree over the points of a slice; every plane uses the same. Spec 8.6.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What quantised coefficients will cost, roughly, for the encoder's choices. Informative.
 #pragma once
 

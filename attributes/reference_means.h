@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values of the frame that a frame is predicted from, at every level. Spec 8.12.4.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "attributes/row_quantiser.h"
 
 #include <algorithm>

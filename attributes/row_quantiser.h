@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quantised coefficients of a row, chosen by distortion and rate. Informative.
 #pragma once
 

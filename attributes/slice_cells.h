@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells of the base that a slice consists of, and what its transform starts from: values and
 // contexts of the base. Spec 8.6.4, 8.7.2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adaptive states that several coders start from, and a copy that one of them works on. Spec 8.1.
 #pragma once
 

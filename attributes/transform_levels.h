@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The octree levels of a transform tree: which rows are nodes, and where they lie. Spec 8.7.6.
 #pragma once
 

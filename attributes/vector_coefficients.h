@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients of one plane group, a vector per node: is it all zero, then every value. Each
 // decision is predicted from the vectors around it. Written once for decoder and encoder. Spec
 // 8.7.2. A finer layer is coded alike, without the decisions that the layers before answer: 8.7.7.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How large the values of a vector are likely to be, by the vectors around it. Spec 8.7.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the decisions about the vectors of a group have learnt, and what selects their contexts.
 // Spec 8.7.2.
 #pragma once

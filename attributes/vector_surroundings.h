@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows around a row whose vectors tell what its own may be. Spec 8.7.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "attributes/weight_roots.h"
 
 #include "geometry/isqrt.h"

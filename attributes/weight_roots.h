@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roots of the weights of nodes. Spec 8.7.6.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A decision that processors foresee.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where an error is, as seen by whoever called the function that found it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Squared errors of 8-bit colours, and the PSNRs of them. Spec annex D.
 #pragma once
 

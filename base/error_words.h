@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An error of a bitstream, for the message of a file that holds more than one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Large arrays on large pages, where the system has them and asks to be told.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What several threads change and wait for; nothing of it where a build has one thread.
 #pragma once
 

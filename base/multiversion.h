@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hot loops over integers, compiled for AVX2 as well where there is; the result is the same.
 #pragma once
 

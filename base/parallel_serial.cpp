@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Twin of base/parallel.cpp for builds with one thread (SLF_THREADS=OFF): the same ranges, one
 // after the other.
 #include <algorithm>

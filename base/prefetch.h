@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of a large array that are soon needed, on their way to the cache.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory given back before its owner goes.
 #pragma once
 

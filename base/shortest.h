@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A number as a person writes it.
 #pragma once
 

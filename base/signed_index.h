@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Indices of containers for libraries that count with a sign.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wall time of the steps of an encode or decode, for reports.
 #pragma once
 

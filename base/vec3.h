@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three numbers as a vector: what every folder needs of it, once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bits of one unit, most significant first. Spec 3.3.
 #pragma once
 

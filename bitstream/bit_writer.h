@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of bitstream/bit_reader.h. Spec 3.3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checksum of units. Spec 7.1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bitstream/deflate.h"
 
 #include <zlib.h>

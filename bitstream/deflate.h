@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that includes zlib: what an encoder writes, and files of others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The index unit: types, lengths and ids of all units after it, and where slices lie. Spec 7.7.
 #pragma once
 

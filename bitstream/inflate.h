@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading zlib streams, for metadata alone: small rather than fast. Spec 7.8.
 #pragma once
 

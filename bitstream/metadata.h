@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The metadata unit: deflated key-value pairs. Spec 7.8.
 #pragma once
 

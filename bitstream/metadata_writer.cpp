@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of bitstream/metadata.cpp.
 #include "bitstream/bit_writer.h"
 #include "bitstream/deflate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sequence header, written once: visited to parse, to check and to write. Spec 7.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values of the sequence header, and what follows from them. Spec 7.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slices of a scene, and what the units of its base and its slices begin with. Spec 7.3 - 7.9.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One description of a header, visited to parse it, to check it and to write it. Rows stand in the
 // order of the spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
 #pragma once

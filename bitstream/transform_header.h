@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a transform unit, visited to parse and to write. Spec 7.11.
 #pragma once
 

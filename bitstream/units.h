@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream is a signature and a sequence of units. Spec 7.1.
 #pragma once
 

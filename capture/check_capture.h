@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a capture can be meant as it was read. What cannot be used is refused; what is suspicious
 // but usable becomes a warning. docs/captures.md lists both.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether photographs and masks fit the calibration and the cloud. docs/captures.md lists what is
 // refused and what is warned about.
 #pragma once

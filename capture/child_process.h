@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other programs: what they do with files that have no name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A COLMAP model, whichever of its two spellings it was read from.
 // Source: COLMAP doc/format.rst and doc/cameras.rst.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands around a COLMAP model: other models, photographs, masks, dense clouds.
 #pragma once
 

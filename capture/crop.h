@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a capture that is wanted, and points that are far away from all others.
 #pragma once
 

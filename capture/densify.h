@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points between the points of a cloud.
 #pragma once
 

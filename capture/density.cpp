@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the cameras' pixels to the grid's step.
 #include "capture/density.h"
 

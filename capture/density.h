@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of choose_density that meshes need too.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the doubles of a file to the floats of a cloud.
 #pragma once
 

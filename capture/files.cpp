@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole files out. They appear complete or not at all. In: input_file.cpp.
 #include <fcntl.h>
 #include <sys/stat.h>

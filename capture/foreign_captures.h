@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures of formats that are not read: what they are, and the way to one that is.
 #pragma once
 

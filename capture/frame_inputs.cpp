@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames by their names, and what all captures of a sequence have in common.
 #include "slf/frame_inputs.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of files that have the number of a frame in them.
 #pragma once
 

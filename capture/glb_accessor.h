@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers out of the binary chunk of a GLB file. glTF 2.0, 3.6.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Binary glTF 2.0: the triangles of a scene. Numbers in brackets are clauses of its specification.
 #include <algorithm>
 #include <cmath>

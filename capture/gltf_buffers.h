@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of glTF's buffers, wherever they are. glTF 2.0, 3.6.1.
 #pragma once
 

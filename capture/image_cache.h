@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs that were decoded, as many as fit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the PNG and JPEG adapters offer: whole files in memory to and from images.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands beside the pixels of PNG and JPEG files: EXIF orientation, colour profiles, gamma.
 // Sources: EXIF 2.32 4.6; PNG (ISO 15948) 11.3; ICC.1:2022 annex B.4.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images by content, out through write_file.
 #include <algorithm>
 #include <utility>

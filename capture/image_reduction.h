@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images made smaller by powers of two.
 #pragma once
 

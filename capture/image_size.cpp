@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image headers read by hand, so that hundreds of images can be checked without decoding one.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cameras.json: the shared convention. OpenCV axes, pixel centres at + 0.5, no distortion.
 #include <cmath>
 #include <map>

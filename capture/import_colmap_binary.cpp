@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // COLMAP's cameras.bin, images.bin and points3D.bin: little endian, no padding.
 #include <bit>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // COLMAP's cameras.txt, images.txt and points3D.txt.
 #include <charconv>
 #include <cmath>

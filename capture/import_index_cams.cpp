@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // index.cams: cameras of the surface light fields of Wood et al. (SIGGRAPH 2000), of Fish and
 // Elephant. A line a photograph: name x y z qi qj qk qr cx cy ar f k, the eye in metres, the
 // quaternion's real part last, pixels. The data do not say which way it turns and along which axis

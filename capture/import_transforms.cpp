@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // transforms.json: camera to world, OpenGL axes (x right, y up, looking along -z), corner pixels.
 // Source: instant-ngp nerf_loader, nerfstudio data conventions, NeRF's Blender scenes.
 #include <cmath>

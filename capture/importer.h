@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the importers have in common. Each turns one format into an Import; load_capture picks the
 // importer, reads the cloud and checks the whole.
 #pragma once

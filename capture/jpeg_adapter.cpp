@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The adapter of libjpeg-turbo. Errors arrive by longjmp: each function that calls setjmp has only
 // trivial locals; what owns memory lives in its caller.
 #include <cstddef>

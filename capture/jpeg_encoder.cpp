@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors of libjpeg arrive by longjmp: the function that calls setjmp has only trivial locals.
 #include <cstddef>
 #include <cstdio>

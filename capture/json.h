@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON documents with errors that name the file and the place in it. The adapter of nlohmann-json.
 #pragma once
 

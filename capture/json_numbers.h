@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors, matrices and sizes out of JSON.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which importer reads a path, where the cloud comes from, and the checks of the whole.
 #include "capture/check_capture.h"
 #include "capture/check_photographs.h"

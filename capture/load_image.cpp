@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One photograph of a capture, its mask in the alpha channel.
 #include <algorithm>
 #include <memory>

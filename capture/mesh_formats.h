@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mesh files other than PLY. No library reads them: tinyobjloader takes what is no number for 0,
 // and tinygltf 2.7 copies up to eight bytes from behind a file whose binary chunk is too long;
 // either would need most of a reader around it to be told where a hostile file is wrong.

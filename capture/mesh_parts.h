@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes whose points are too many to be held at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points of a mesh, as many as a grid has voxels on it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles of a mesh one by one: corners, normals, and what follows from all of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nearest points of a cloud, ties included in the promise. The adapter of nanoflann.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Source: ppm(5) and pgm(5) of Netpbm.
 #include "capture/netpbm.h"
 

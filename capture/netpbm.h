@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PPM and PGM: pictures of the Netpbm programs, P2, P3, P5 and P6.
 #pragma once
 

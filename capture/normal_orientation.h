@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which of the two sides of a surface is the outside, from where it was seen.
 #pragma once
 

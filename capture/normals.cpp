@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals of a cloud by principal component analysis of each point's neighbourhood.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which properties of a PLY's vertices are the colours of views.
 #pragma once
 

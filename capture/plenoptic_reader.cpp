@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A PLY with the colours of N views to a cloud on a grid.
 #include <algorithm>
 #include <bit>

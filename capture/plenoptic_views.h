@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the cameras of a plenoptic cloud stand.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plenoptic cloud as a binary little endian PLY, with the properties that it came with.
 #include <bit>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows behind the header of a PLY file, one block of it after the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of a PLY, whose range its types do not tell.
 #pragma once
 

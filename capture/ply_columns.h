@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the properties of a PLY's vertices are to a point cloud.
 #pragma once
 

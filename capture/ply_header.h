@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PLY file (Turk 1994): which elements there are and how a row of each is stored.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY to a point cloud or mesh, properties by name.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A PLY file as a whole.
 #pragma once
 

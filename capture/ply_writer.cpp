@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A point cloud as a binary little endian PLY.
 #include <algorithm>
 #include <bit>

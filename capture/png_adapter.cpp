@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The adapter of libpng. libpng reports errors by longjmp: each function that calls setjmp has only
 // trivial locals and calls nothing of C++; what owns memory lives in its caller.
 #include <png.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values in the middle, and elsewhere in the order.
 #pragma once
 

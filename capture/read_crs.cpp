@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Well-known text, as far as it is told from what is none: what it means is for others.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which reader a mesh file has, and what every mesh has to be.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scanners' own formats, by PDAL. The adapter of its program.
 #pragma once
 

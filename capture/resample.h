@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface sampled anew: one point for every lattice line that crosses it.
 #pragma once
 

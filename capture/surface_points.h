@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface while it is being mended: points, who is next to whom, and smoothing over that.
 #pragma once
 

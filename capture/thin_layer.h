@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One voxel of a surface where a dense cloud fills two.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The intrinsics of a frame of transforms.json.
 #pragma once
 

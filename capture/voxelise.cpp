@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A float cloud onto the grid.
 #include "capture/voxelise.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of voxelise, for geometry that is sampled on the grid itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Well-known text of coordinate systems.
 #pragma once
 

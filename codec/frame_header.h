@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frame unit: which instant a frame is of, and what it is predicted from. Spec 7.13.
 #pragma once
 

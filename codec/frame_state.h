@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame leaves to the one that is predicted from it. Spec 8.12.
 #pragma once
 

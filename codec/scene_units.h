@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The units of a stream by what they belong to: the base of the scene, or a slice. Spec 7.1, 8.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between the coded sequence parameters and the header people see. Spec 7.2.
 #pragma once
 

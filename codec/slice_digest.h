@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The digest of a slice's integers. Spec 7.9.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What slice 0 leaves after each of its units, for the slices that start from it. Spec 7.3, 8.1.
 #pragma once
 

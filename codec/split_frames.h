@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the frames of a stream are. Spec 7.13.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a stream is: what its first units say, and which units it has. Spec 7.2, 7.3.
 #pragma once
 

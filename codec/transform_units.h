@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transforms across planes of a stream, from their units. Spec 7.11.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Table 7.1 as a type: which units a stream has, and in which order. Whatever reads, writes, counts
 // or leaves out units walks this list.
 #pragma once

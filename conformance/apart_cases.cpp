@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices that are coded knowing their own points alone. Spec 7.3, 8.1, 8.8.3.
 #include "bitstream/slice_headers.h"
 #include "codec/slice_digest.h"

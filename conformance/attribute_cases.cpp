@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of points that are no view map. Spec 6.8.
 #include "conformance/cases.h"
 #include "conformance/fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light fields behind the golden streams. Everything is made from integers and fixed seeds.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Which stream exercises which clause: the table of annex G of slf-bitstream.md, made of the manifests and of the misreadings.
 
     clauses.py            checks that the table in the text is current, that every clause that says what a decoder does has a stream,

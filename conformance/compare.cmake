@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Runs GENERATE into OUTPUT and compares with GOLDENS, file by file, both ways. Cases that GENERATE
 # leaves out, because its build lacks a component, are named and not compared.
 file(REMOVE_RECURSE ${OUTPUT})

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Integer coding gives the same bytes for gcc and clang, -O0 and -O3: builds the generator of the golden
 # streams with each and compares all it writes with the goldens.
 #   compilers.sh ["COMPILER LEVEL"...]   (default: all four)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of every kind: few and many, large and zero, in groups, predicted, transformed.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "conformance/edit_frames.h"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams of frames, coded by motions that are given, and changed.
 #pragma once
 

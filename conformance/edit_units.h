@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams to be refused: units changed, with sound lengths, CRCs and unit count.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams that no encoder writes, made of packed ones: units changed, added and left out.
 #include "bitstream/bit_writer.h"
 #include "bitstream/index.h"

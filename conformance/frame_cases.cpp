@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields that move: every kind of motion, of reference and of group. Spec 7.13, 8.12.
 #include "codec/encoder/derive_transforms.h"
 #include "codec/scene_units.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the golden streams and their manifests: slf_conformance_generate DIRECTORY
 //
 // The same bytes for every compiler and optimisation level; conformance/compilers.sh proves it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What later versions add, as a decoder of this version meets it: units, features, elements of the
 // sequence header, minor versions. Spec 7.1.1, 7.1.2, 7.2.1.
 #include "bitstream/crc32.h"

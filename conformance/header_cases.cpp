@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices, normals, and what headers say of a light field.
 #include "conformance/cases.h"
 #include "conformance/fields.h"

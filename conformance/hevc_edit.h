@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // HEVC byte streams by NAL unit, and sequence parameter sets with an element changed.
 #pragma once
 

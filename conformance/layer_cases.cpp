@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients in quality layers. Spec 8.7.7.
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The same integers on every machine: builds the decoder alone, on one thread and without other libraries,
 # for each machine named and runs it over the conformance suite, colours included.
 #   conformance/machines.sh [NAME...]    (default: all of them)

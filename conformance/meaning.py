@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What the streams mean: meaning.json, by stream the header, and colours of points along directions (spec 6, 7.2).
 
     meaning.py            checks that meaning.json is current

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A random stream, made without an encoder: the text decoder (spec/decoder.py) runs with something in place of its
 arithmetic decoder that chooses decisions, at random by their probabilities or by a cloud of points, and writes
 down the codeword they make. So a stream may have any order of units, level ranges, groups, base and runs of

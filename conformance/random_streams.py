@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Random streams, which a decoder has to decode as the text decoder (spec/decoder.py) does.
 
     random_streams.py --decoder "slf decode {in} --dump {out} {options}" [--seeds FIRST LAST] [--keep DIRECTORY]

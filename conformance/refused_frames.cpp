@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames to be refused: their order, their units, their motion and what they are predicted from.
 #include "codec/encoder/assemble.h"
 #include "conformance/cases.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is wrong with slices, their units and the index of them.
 #include <algorithm>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is wrong with textures and with the HEVC streams in them.
 #include <algorithm>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams that break one rule each and are sound but for it: a decoder that does not check it
 // decodes them.
 #include <algorithm>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs a decoder against the conformance streams.
 
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]

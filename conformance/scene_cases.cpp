@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A base and slices; what was cut; parts of space.
 #include "conformance/cases.h"
 #include "conformance/fields.h"

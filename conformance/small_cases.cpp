@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smallest light fields that show something: a mistake is found in them in a moment.
 #include <algorithm>
 

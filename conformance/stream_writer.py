@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Streams written without an encoder: bits of headers, codewords of decisions that are chosen, units. For random_stream.py."""
 import pathlib
 import random

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What conformance/run.py asks of a decoder, with nothing but the decoder's library and a compiler:
 // machines.sh builds it for other processors, where the program slf has no libraries to link.
 //

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and

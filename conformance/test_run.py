@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The runner itself: decoders that are wrong in one way each must fail, in the cases that show it. test_run.py SLF"""
 import json, pathlib, subprocess, sys, tempfile
 import xml.etree.ElementTree as xml

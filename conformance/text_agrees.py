@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The decoder written from the text alone, spec/decoder.py, against the conformance streams.
 
     text_agrees.py [--part I N] [NAME ...]

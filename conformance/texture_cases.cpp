@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes as pictures.
 #include "conformance/cases.h"
 #include "conformance/fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transforms that no encoder writes: greatest entries, groups without a coded function, several at
 // once.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All streams that must decode; here those of geometry alone and of beginnings.
 #include "conformance/cases.h"
 #include "conformance/fields.h"

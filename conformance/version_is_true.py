@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Streams of one format number never change: what changes them raises the number.
 
     version_is_true.py              compare every golden stream with the digest that is recorded for its number

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quantiser step that costs held-out pictures no more than was asked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which surface photographs are predicted best by: as given, mended, or trained.
 #pragma once
 

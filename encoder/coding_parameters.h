@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the encoder's settings to those of the coder.
 #pragma once
 

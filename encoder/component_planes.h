@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From fitted coefficients to integer components: units, steps and groups. Spec 6.3, 6.5; annex C.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The encoder's main path: photographs and points to bytes. The last step is
 // codec/encoder/pack.cpp.
 #include <optional>

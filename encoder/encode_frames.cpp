@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures or clouds of several instants to one stream.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the encoder records of itself in the metadata unit.
 #pragma once
 

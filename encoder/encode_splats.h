@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs to splats: what EncoderSettings::surface kSplats asks for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bytes or PSNR in place of a step: the encoder's rate control.
 #pragma once
 

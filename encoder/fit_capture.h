@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a capture to an integer light field: the encoder's steps before coding. The decoder of
 // image-plus-geometry files (tools/rd/igc/) runs the same ones on what it decoded.
 #pragma once

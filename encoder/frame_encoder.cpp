@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving light field, each predicted from what a decoder has of the one before.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which steps, groups and levels splats are coded with.
 #pragma once
 

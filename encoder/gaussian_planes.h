@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats as integers: points of a grid with harmonics, a shape and an opacity. Spec 6.8.
 #pragma once
 

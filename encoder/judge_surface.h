@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How well a surface predicts photographs that were held out: what a surface is chosen by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame that another is matched with, at one level: its surface and how colours change on it.
 // Informative.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A motion that is looked for: an affine one, and a lattice. Informative.
 #pragma once
 

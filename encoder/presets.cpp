@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Named configurations. Spec annex C.
 #include <algorithm>
 #include <array>

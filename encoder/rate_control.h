@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quantiser step for which a file has a given size, or a given quality.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kinds of rows of the settings' table: a number, a number or a word, one of some words, a flag.
 #pragma once
 

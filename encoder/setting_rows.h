@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of the encoder's settings: one row names, describes, reads and writes one of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From names and values to the encoder's settings.
 #include "slf/settings.h"
 

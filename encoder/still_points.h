@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands still from frame to frame keeps its view map: it does not flicker, and takes hardly
 // a byte.
 #pragma once

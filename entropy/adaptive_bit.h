@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The adaptive probability of one binary decision in one context. Spec 8.3.2.
 #pragma once
 

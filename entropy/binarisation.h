@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Magnitudes as binary decisions. Written once for decoder and encoder. Spec 8.3.4.
 #pragma once
 

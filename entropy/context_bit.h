@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state of one context of a mixed decision, in 16 bits. Spec 8.3.5.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contexts of a decision, declared by what selects them: index and size come from one place.
 #pragma once
 

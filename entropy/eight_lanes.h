@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Eight 16-bit integers that are worked on together: inputs and weights of a mixer. Spec 8.3.3.
 #pragma once
 

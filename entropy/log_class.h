@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Classes of a quantity for contexts: quarter octaves. Spec 8.3.6.
 #pragma once
 

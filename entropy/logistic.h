@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Probabilities and their logistic values, in integers. Spec 8.3.3.
 #pragma once
 

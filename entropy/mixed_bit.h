@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One kind of binary decision, predicted in several contexts at a time and mixed. Spec 8.3.5.
 #pragma once
 

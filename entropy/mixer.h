@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mixing of several predictions of one decision in the logistic domain: 8 inputs and 8 weights of
 // 16 bits. Spec 8.3.3.
 #pragma once

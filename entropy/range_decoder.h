@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Binary arithmetic decoder. Spec 8.3.1.
 #pragma once
 

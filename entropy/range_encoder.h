@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of entropy/range_decoder.h. Spec 8.3.1 (the encoder is informative).
 #pragma once
 

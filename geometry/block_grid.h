@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of a slice by blocks of 4 x 4 x 4 cells, with neighbours. Spec 8.11.1.
 #pragma once
 

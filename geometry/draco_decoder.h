@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place, with draco_encoder, that includes Draco: optional geometry coder. Spec 8.5.
 #pragma once
 

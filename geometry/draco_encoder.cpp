@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "geometry/draco_encoder.h"
 
 #if SLF_WITH_DRACO

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Morton order: x least significant. Spec 6.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the points of a frame were in the frame that it is predicted from. Spec 8.12.1.
 #pragma once
 

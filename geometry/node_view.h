@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is around an octree node, and latest in its columns. Spec 8.4.2, 8.4.3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What earlier nodes of a level that share two coordinates looked like. Spec 8.4.3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The probabilities of child occupancy. One description for decoder and encoder. Spec 8.4.2.
 #pragma once
 

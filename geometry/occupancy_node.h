@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the decisions about the children of a node have in common. Spec 8.4.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What speaks for the children of a node, added up. Spec 8.4.7.
 #pragma once
 

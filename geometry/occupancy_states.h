@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the decisions of child occupancy have learnt. Spec 8.4.2.
 #pragma once
 

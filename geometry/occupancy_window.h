@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells around the children of an octree node, as bits. Spec 8.4.1, 8.4.2.
 #pragma once
 

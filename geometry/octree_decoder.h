@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxels from geometry units: of the base, or of a slice. Spec 8.4.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of geometry/octree_decoder.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The octree of a slice, level by level, with the neighbours of every node. Spec 8.4.1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a frame that was decoded before has points: at any level, at any place. Spec 8.12.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the reference of a predicted frame says of one child. Spec 8.12.3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame decoded before has where the children of a node were then. Spec 8.12.3.
 #pragma once
 

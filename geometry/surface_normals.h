@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals of the surface that voxels lie on, from the voxels alone. Spec 6.6.
 #pragma once
 

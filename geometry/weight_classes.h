@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many points the cells of a base have, to a power of two. Written once for decoder and
 // encoder. Spec 8.4.5.
 #pragma once

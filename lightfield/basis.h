@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's one-dimensional periodic B-spline wavelets, by their definition. Spec 6.3.
 #pragma once
 

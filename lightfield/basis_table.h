@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One axis of the basis in B-spline form: for order o the functions w_0 .. w_(n-1), n = 2^s, span
 // exactly the periodic splines of order o on n equal cells, so each is a sum of n shifted
 // B-splines.

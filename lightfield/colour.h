@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sRGB transfer curve (IEC 61966-2-1), on 0 .. 1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Integer components to real weights in R, G, B. Spec 6.7, 6.5.
 #pragma once
 

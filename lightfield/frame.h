@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions in the frame of a point. Spec 6.4.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coded functions along directions: sums of basis functions, worked out once. Spec 6.7, 8.7.5.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field as weights and functions of direction: what a renderer elsewhere is handed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attributes of a splat as real numbers. Spec 6.8.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points with a shape and an opacity, as splats. Spec 6.8.
 #include "slf/gaussians.h"
 

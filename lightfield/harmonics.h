@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Real spherical harmonics. Spec 6.3 (basis 1).
 #pragma once
 

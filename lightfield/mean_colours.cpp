@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The colour of points averaged over all directions, from the components that have a part in it.
 #include <algorithm>
 #include <cmath>

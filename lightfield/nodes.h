@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between coefficients of the basis and coefficients of plain B-splines on a grid of directions
 // (nodes; for order 2 simply the values there). A fixed separable map, exact because both span the
 // same functions. A function of direction then costs o * o products instead of K.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "slf/normals.h"
 
 #include "lightfield/octahedral.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit vectors as points of a square: the octahedral map. Spec 6.6.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Symmetric 3 x 3 matrices: as six values that are coded, and as axes with a value each.
 #pragma once
 

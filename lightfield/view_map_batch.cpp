@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of many points at once, as a renderer asks for them.
 #include <algorithm>
 #include <cmath>

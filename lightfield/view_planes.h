@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of direction of a light field alone, where its components are not their weights.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """An independent decoder, written from the text of slf-bitstream.md alone; slow; for reading beside the
 specification and as a second opinion in the conformance tests.
 

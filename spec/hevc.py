@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """HEVC pictures for decoder.py, by libde265 through ctypes. An adapter: what a stream may hold is the
 specification's to say and decoder.py's to check; nothing here is about the format.
 

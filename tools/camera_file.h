@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras to render from, out of a cameras.json or a capture.
 #pragma once
 

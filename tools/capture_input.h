@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What slf encode and slf igc begin with: the capture and its input cameras.
 #pragma once
 

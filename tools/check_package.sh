@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Makes the Debian packages of a build, installs them into an empty root with dpkg, and there: runs the
 # program, reads its man pages, completes a command line, builds a C and a C++ program with
 # pkg-config and docs/examples/ with find_package; then removes them and looks that nothing is left.

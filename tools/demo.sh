@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # From photographs to .slf and back: tools/demo.sh [CAPTURE]. Without a capture, one of an analytic
 # can is made first. Everything lands in build/demo; the last thing printed is a table. Safe to repeat.
 set -euo pipefail

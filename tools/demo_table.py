@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The table that tools/demo.sh prints, from the JSON reports of the steps."""
 import json
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Headers and reports as JSON and as text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field in forms that other programs read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode of frames: a directory of captures or clouds, an instant each.
 #pragma once
 

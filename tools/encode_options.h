@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What slf encode and slf igc are told: an input, an output, and settings in place of a preset's.
 #pragma once
 

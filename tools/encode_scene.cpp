@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode of a scene that is coded in parts: with a plan, or making one.
 #include <array>
 #include <charconv>

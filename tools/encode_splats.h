@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode of Gaussian splats.
 #pragma once
 

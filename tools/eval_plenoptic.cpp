@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf eval of a plenoptic cloud: bits per point, and PSNR of every view.
 #include <algorithm>
 #include <cmath>

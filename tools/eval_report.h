@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What slf eval says of a file, as JSON and as text.
 #pragma once
 

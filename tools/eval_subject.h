@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `slf eval` judges: a file, decoded.
 #pragma once
 

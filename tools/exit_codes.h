@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `slf` returns to the shell. Documented in docs/cli.md and at the end of `slf --help`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Why a verb stopped: an exit code and the one line that a person reads.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/frame_source.h"
 
 #include "slf/frame_inputs.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frames of a .slf file as input of a verb.
 #pragma once
 

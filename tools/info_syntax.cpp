@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/info_syntax.h"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf info --syntax: the elements of the headers for people and for programs.
 #pragma once
 

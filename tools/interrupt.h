@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SIGINT and SIGTERM end the program at once with exit code 130, but never between the creation
 // of a temporary file and its renaming.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf: surface light fields on the command line. One file per verb; this one parses, runs and
 // turns what went wrong into one line and an exit code.
 #include <unistd.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Man pages and bash completion from what the program says with --help.
 
     manual.py PROGRAM DIRECTORY

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the pictures of a file that was just written are worth.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writing results: checked before the work, atomic after it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer as one page, built by `npm run build` in web/ and taken into the program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a .slf file as input of a verb: read where it lies in the file.
 #pragma once
 

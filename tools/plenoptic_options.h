@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode and slf eval of plenoptic clouds: a PLY with the colours of N views.
 #pragma once
 

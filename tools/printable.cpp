@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text from files, on its way to a terminal.
 #include <algorithm>
 #include <cstdint>

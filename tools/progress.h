@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One line of progress on a terminal; nothing in a pipe or a log.
 #pragma once
 

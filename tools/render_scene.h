@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `slf render` draws: a light field, or Gaussian splats of another program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What slf plan, slf encode and slf merge are told of scenes that are coded in parts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of the command line made from the table of the encoder's settings.
 #pragma once
 

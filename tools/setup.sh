@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that building needs; with the argument `web` also those that
 # web/build_wasm.sh and its tests need, with `lab` these and those of all tests and of the RD
 # laboratory (tools/rd), with `machines` those of conformance/machines.sh (cross compilers, qemu, wine).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/splat_input.h"
 
 #include "tools/text.h"

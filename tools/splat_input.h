@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of Gaussian splats as input of a verb that reads .slf files.
 #pragma once
 

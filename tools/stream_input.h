@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A .slf file as input of a verb: read, judged by the limits that the caller sets, and what is
 // missing of it said.
 #pragma once

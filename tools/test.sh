@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs what is needed, builds release and runs all tests. Arguments go to cmake, e.g.
 # -DSLF_WERROR=ON. Safe to repeat. BUILD_DIR: where to build (default: build).
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """One line about a run of ctest: what passed, how many, and what was skipped and why.
 
     test_summary.py JUNIT        JUNIT: what ctest --output-junit has written

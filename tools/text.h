@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text for people: formatted numbers, and writing it out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verbs of `slf`. Each adds its subcommand; the one that the command line names says what to
 // run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf decode: points with their mean colour, and on request every integer of the light field.
 #include <array>
 #include <memory>

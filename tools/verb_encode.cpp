@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode: photographs and points, or a coloured cloud, to an .slf file.
 #include <array>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf eval: quality of a file against its capture, by the one definition of slf/evaluate.h.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf export: a light field for programs that do not know .slf.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf html: one page with a file, the decoder and the viewer in it, opened by a double click.
 #include <array>
 #include <filesystem>

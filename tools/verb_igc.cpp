@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf igc: photographs by a video codec and points by ours, for comparison. Paper IV-F.
 #include <array>
 #include <memory>

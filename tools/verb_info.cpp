@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf info: what a file holds, from its headers alone.
 #include <map>
 #include <memory>

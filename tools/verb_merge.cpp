@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf merge: parts of a scene to one file.
 #include <array>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf pack: given integers to bytes, without any fit. For research, golden encodes, comparisons.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf plan: what the parts of a scene share.
 #include <memory>
 

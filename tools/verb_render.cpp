@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf render: images from a circle of viewpoints, from a given camera, or beside a photograph.
 #include <array>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf settings: what the encoder can be told, for people and for programs that tell it.
 #include <memory>
 

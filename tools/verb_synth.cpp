@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf synth: a capture of an analytic scene.
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf truncate: a file with less in it, its units kept or left out as they are.
 #include <array>
 #include <memory>

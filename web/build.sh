@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Builds the decoder in WebAssembly (build_wasm.sh) and, with packages of npm, what a package has beside the
 # sources (made/) and the page of `slf html` (dist/one_file.html). 77 and a line where a tool or a network is
 # missing; what can be built without it is built first. Safe to repeat, quick when nothing has changed; two

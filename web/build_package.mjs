@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes made/, what a package has beside the sources: workers in one piece (start_worker.js), the decoder
 // within a module (slf-decoder/inline), the viewer's markup and style (slf_viewer.js). Prints what each takes.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Builds web/slf.wasm (128-bit vectors) and web/slf_scalar.wasm (without). Needs the packages of
 # tools/setup.sh web. Prints their sizes: raw, and as brotli at its best would send them.
 # BUILD_DIR: where to build (default: build-wasm). Safe to repeat.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surface light fields decoded in WebAssembly. No globals, no dependency; every function throws SlfError.
 
 /** Code of an error: as in include/slf/slf.h without SLF_, and three of the page: network, its own end, its policy. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The decoder of surface light fields as an ES module: browser, worker, node. No dependency.
 //
 //     const decoder = await SlfDecoder.create();

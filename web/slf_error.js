@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error of every module here.
 
 /** What went wrong. code: as in include/slf/slf.h without SLF_ ("OUT_OF_RANGE"), or "NETWORK", "ABORTED", "POLICY". */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A decoded light field: arrays, colours, what a shader needs.
 import { SlfError } from './slf_error.js';
 import { FRAMES, TRANSFERS } from './slf_headers.js';

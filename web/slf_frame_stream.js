@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field that moves, from an address, a file or bytes, frame by frame.
 //
 //     for await (const frame of frames('walk.slf')) show(frame.time, frame.field);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a light field that moves, from bytes that are pushed as they come. slf_frame_stream.js fetches them.
 import { SlfError } from './slf_error.js';
 import { SlfField } from './slf_field.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is asked of a decode, and what headers say, in the numbers of web/wasm/slf_wasm.c.
 import { SlfError } from './slf_error.js';
 

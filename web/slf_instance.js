@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // WebAssembly: which build, compiled from where, and instances with memory of their own.
 import { SlfError } from './slf_error.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What node runs in place of slf.js and slf_stream.js (package.json, exports): files are read from the disk.
 import { readFile } from 'node:fs/promises';
 import { files } from './slf_instance.js';

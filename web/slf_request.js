@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requests to a server that may stall, break off or know no ranges: every failure is an SlfError.
 import { SlfError } from './slf_error.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files on a server, read in parts: the beginning with the index, then what is asked for.
 import { preflight, readInfo, setOptions, SlfError, SlfDecoder } from './slf.js';
 import { contentRange, network, Request } from './slf_request.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decoding off the main thread: the page's side. The worker's is slf_worker_service.js.
 //
 //     const worker = await SlfWorker.create();

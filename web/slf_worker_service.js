@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the worker of SlfWorker (slf_worker.js) runs: a decoder, and streams by their number.
 import { SlfDecoder, SlfError } from './slf.js';
 import { SlfFrameStream } from './slf_frame_stream.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Workers that start wherever this code came from: browsers refuse a worker whose script is of another origin, and some
 // bundlers leave it out.
 import { SlfError } from './slf_error.js';

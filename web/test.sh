@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs tests of web/, as web/build.sh has built it; 77 and a line where something for that is missing.
 #   web/test.sh node        the decoder, under node
 #   web/test.sh browser [NAME]   the viewer, in Chromium (CHROMIUM), against the program slf

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian's clang 19 with WASI's libc++: decoders in WebAssembly, without exceptions and threads.
 set(CMAKE_SYSTEM_NAME WASI)
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}/wasm")  # Platform/WASI

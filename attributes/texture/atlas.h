@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pixel of every point of a slice, derived from the positions. Spec 8.11.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The axis along which the surface in a block is projected. Spec 8.11.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "attributes/texture/box_packing.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rectangles side by side in a strip. Spec 8.11.4.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Patches of a slice's surface that project to a plane one to one. Spec 8.11.3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values for the pixels of a texture that no point has. Informative.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The planes of a group from their pictures. Spec 8.11.6.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands before the pictures of a group. Spec 7.6.
 #pragma once
 

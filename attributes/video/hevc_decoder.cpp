@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "attributes/video/hevc_decoder.h"
 
 #if SLF_WITH_HEVC

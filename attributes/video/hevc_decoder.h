@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that includes libde265: pictures coded as HEVC.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that includes x265: HEVC encoding. x265 is GPL, so it is a component of its own
 // (SLF_X265, target slf_x265) that is off unless asked for.
 #pragma once

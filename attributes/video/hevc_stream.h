@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an HEVC byte stream says of itself, checked before a decoder sees it.
 #pragma once
 

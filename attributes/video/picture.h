@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture as video codecs take it: planes of integer samples.
 #pragma once
 

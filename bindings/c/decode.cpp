@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decoding through the C interface.
 #include <algorithm>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arrays of a decoded field, copied to the caller's.
 #include <algorithm>
 #include <array>

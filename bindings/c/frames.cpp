@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams of several frames, as their bytes come.
 #include <algorithm>
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a C caller asks for and brings along, in the library's own types.
 #pragma once
 

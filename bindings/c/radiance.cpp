@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours along directions, and the functions they are sums of.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structs that grow: as much of them is read and written as the caller knows of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Opening of streams, and what their headers say.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Short texts without a format string, allocation or locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Versions, and what a build can do.
 #include "bitstream/parameter_sets.h"
 #include "slf/slf.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds the wheel with cmake (PEP 517). No other package is needed to build.
 
 The build folder is build/pip, or SLF_PIP_BUILD. SLF_CMAKE_ARGS: more arguments for cmake.

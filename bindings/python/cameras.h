@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf.Camera of Python and slf::Camera.
 #pragma once
 

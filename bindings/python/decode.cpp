@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decoding, on the C interface alone.
 #include <memory>
 #include <optional>

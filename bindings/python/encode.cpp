@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Encoding, on the C++ library.
 #include "slf/encoder.h"
 

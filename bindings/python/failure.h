@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes wrong becomes an exception of slf._errors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a light field that moves, on the C interface alone.
 #include <memory>
 #include <mutex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The extension module slf._slf. Python's own layer over it is slf/__init__.py.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rendering, on the C++ library: the C interface has no renderer.
 #include "slf/render.h"
 

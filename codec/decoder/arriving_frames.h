@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bytes that come in pieces, cut into frames. Spec 7.13.
 #pragma once
 

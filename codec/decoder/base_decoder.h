@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The base of a scene: its cells and their components, from which all slices go on. Spec 8.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficient units of the base or of a slice to components. Spec 8.6 - 8.9.
 #pragma once
 

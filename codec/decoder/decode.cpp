@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The decoder's main path. Spec clause 8; steps and names are mirrored in codec/encoder/pack.cpp.
 #include "base/stopwatch.h"
 #include "codec/decoder/base_decoder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a decode will take, from headers alone: bytes at a time, and steps. Spec 9.
 #pragma once
 

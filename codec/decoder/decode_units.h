@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The decoder behind the splitting of a stream into units.
 #pragma once
 

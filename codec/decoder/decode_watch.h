@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a decode has come, and whether it shall go on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Table 8.1 as types: what a decoder keeps between units, a value for each lifetime.
 //
 //   of                      value                                     starts as

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames one after the other, each from the state that the one before has left. Spec 8.12.
 #pragma once
 

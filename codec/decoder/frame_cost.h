@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What frames in time take beside the decoding of each. Spec 9.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any frame of a stream: those before it that it needs, and it. Spec 8.12.
 #include <optional>
 #include <utility>

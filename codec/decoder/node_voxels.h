@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes of the tree as voxels of the kept levels. Spec 8.9.
 #pragma once
 

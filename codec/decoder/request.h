@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What was asked of a stream, as far as it has it. Spec 8.9.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All slices of a scene, several at a time. Spec 8.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One slice, from its units to integers. Spec 8.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which step of which slice a thread takes next. Spec 8.2 leaves the order free.
 #pragma once
 

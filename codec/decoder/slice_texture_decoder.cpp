@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Components of a slice whose planes are pictures. Spec 8.11.
 #include <optional>
 

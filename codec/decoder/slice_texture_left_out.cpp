@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Twin of codec/decoder/slice_texture_decoder.cpp for builds without textures (SLF_TEXTURE=OFF).
 #include "codec/decoder/slice_decoder.h"
 

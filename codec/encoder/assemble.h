@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units to a stream. Spec 7.1, 7.7, 7.10.
 #pragma once
 

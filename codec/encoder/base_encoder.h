@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirror of codec/decoder/base_decoder.h.
 #pragma once
 

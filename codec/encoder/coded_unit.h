@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units of a scene on their way into a stream, and what all parts of a scene share.
 #pragma once
 

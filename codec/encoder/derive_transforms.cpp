@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "codec/encoder/derive_transforms.h"
 
 #include <Eigen/Core>

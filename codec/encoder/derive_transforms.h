@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transforms across planes, found from the transform coefficients of all slices (Karhunen-Loeve).
 // Informative: a decoder reads them from their units.
 #pragma once

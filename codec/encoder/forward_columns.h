@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What finds the components of a transform whose matrix is known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coder's main path, from integers to bytes. Mirrors codec/decoder/decode.cpp.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame of several, from integers to bytes. Mirrors codec/decoder/frame_decoder.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checked parameters of the coder, as the sequence unit has them. Spec 7.2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirrors codec/encoder/pack.cpp as far as the quantiser.
 #include "codec/encoder/quantise_field.h"
 

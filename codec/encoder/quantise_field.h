@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What quantisation leaves of a light field, without coding it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "codec/encoder/scene_frame.h"
 
 #include "geometry/cell_box.h"

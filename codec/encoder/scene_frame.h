@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands around the parts of a scene in a stream: boxes for the index.
 #pragma once
 

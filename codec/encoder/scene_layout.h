@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an encoder divides a scene: levels of the base, and slices. Informative.
 #pragma once
 

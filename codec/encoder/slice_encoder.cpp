@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "codec/encoder/slice_encoder.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficient units of a slice whose planes are pictures. Mirror of slice_texture_decoder.cpp.
 #include <optional>
 

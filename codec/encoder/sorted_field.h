@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The integers of a light field on their way into the slices of a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the encoder chooses for textures: the size of cells and the least steps. Informative.
 #pragma once
 

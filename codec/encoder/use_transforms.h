@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sequence, its slices and their values with transforms across planes. Spec 7.11, 8.7.5.
 #pragma once
 

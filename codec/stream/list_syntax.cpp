@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf info --syntax: the same descriptions that parse the headers, with every element noted.
 #include "slf/syntax_listing.h"
 

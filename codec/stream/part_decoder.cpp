@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a stream read where the index says they lie. Spec 7.7.
 #include "slf/part_decoder.h"
 

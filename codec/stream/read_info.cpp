@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Headers alone: what `slf info` shows. Spec 7.
 #include "bitstream/index.h"
 #include "codec/scene_units.h"

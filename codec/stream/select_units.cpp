@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "codec/stream/select_units.h"
 
 namespace slf {

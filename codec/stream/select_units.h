@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The units of a stream that are wanted, as they are.
 #pragma once
 

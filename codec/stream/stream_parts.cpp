@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "codec/stream/stream_parts.h"
 
 #include <algorithm>

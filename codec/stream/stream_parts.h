@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams of which not all is there: what their index says of the rest, and decoding of parts.
 #pragma once
 

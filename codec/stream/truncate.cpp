@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream with less in it: units are kept or left out, none is coded again. Spec 7.2, 8.9.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames with less in them, and fewer of them. Spec 7.13, 8.9.
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Misreadings of the specification, each of which the conformance streams have to notice.
 
     run.py [--part I N] [--jobs J] [--record] [NAME ...]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Traces of small streams: what a decoder has after every stage, to find where another first differs.
 
     trace.py                   checks that the traces beside this script are current

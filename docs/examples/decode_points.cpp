@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes an .slf file and prints where a point lies and what colour it has seen from a direction.
 //
 //   decode_points FILE [POINT X Y Z]     POINT: its number; X Y Z: towards the eye, any length

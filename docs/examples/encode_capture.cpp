@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Encodes a capture (docs/captures.md) with the default preset, a little coarser.
 //
 //   encode_capture CAPTURE OUTPUT

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """A light field in numpy: the view map of one point, a rendering, and quality against bytes.
 
     notebook.py CAPTURE PICTURE.png        needs the Python package slf and matplotlib

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Colour of points along a direction, from the integers that `slf decode --dump DIR` writes.
 
     radiance.py DIR POINT X Y Z     POINT: its number; X Y Z: towards the eye, any length

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws the figure of architecture.md: architecture.py [DIRECTORY]. Needs Python 3 alone."""
 import pathlib
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the surface around a point says about its view map: one solution per octree block, each
 // shrunk towards those of the blocks above it, and between blocks what is interpolated.
 #pragma once

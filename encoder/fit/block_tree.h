@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The octree blocks that hold points, from the finest up to the one that holds all, and what is
 // between them.
 #pragma once

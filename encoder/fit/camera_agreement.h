@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How well what a camera sees agrees with what the others see of the same points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of the input cameras to hold out in turn: for cross-validation of what a fit is set to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far what is seen of a point along one direction tells what is seen along another.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of a basis along directions, scaled to mean square 1: what the hierarchical fit
 // works in, whatever the basis.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is reflected: light on a sphere about the object, at a finite distance.
 #pragma once
 

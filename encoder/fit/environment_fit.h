@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The environment that explains best what the cameras saw of a surface.
 #pragma once
 

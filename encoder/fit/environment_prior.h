@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the environment tells of the points of the hierarchical fit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An environment in the functions of a basis, per point.
 #pragma once
 

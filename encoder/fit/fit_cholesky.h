@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cholesky factors of small symmetric matrices, packed: column j of the lower triangle holds rows
 // j .. n-1, columns follow each other. Half the memory of a square, which is what is kept per
 // point. The diagonal of a factor holds the reciprocals of the pivots.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit without a ridge: among the coefficients that fit the observations best, the smallest.
 #pragma once
 

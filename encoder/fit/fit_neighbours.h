@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nearest voxels, by exact integer distance, ties by index.
 #pragma once
 

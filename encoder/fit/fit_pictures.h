@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // View maps whose pictures look like the photographs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Settings of the hierarchical fit by cross-validation: choose_fit of slf/fit.h.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ridge problems of one point (paper Eq. 2 and 3), solved through one Cholesky factor.
 //
 // Eq. 3 with d = lambda + beta and m = beta mean / d, and Eq. 2 with d = lambda and m = 0, both ask

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One ridge penalty, all points: the solves of one equation of the paper, with factors kept between
 // sweeps where memory allows.
 #pragma once

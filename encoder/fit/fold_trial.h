@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits without some of the cameras, and how they predict these: what settings are chosen by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of input cameras that a fit has not used: what a coder's losses are weighed against.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums of products of long rows of floats, sixteen lanes at a time: the normal equations of the
 // fit.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one camera sees of the points. Paper III-A: field of view, occlusion, cone, interpolation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Occlusion by a depth buffer of splatted points (paper III-A) or of triangles.
 #pragma once
 

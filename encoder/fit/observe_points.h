@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What cameras see of points, where something else says what hides them.
 #pragma once
 

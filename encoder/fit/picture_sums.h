@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture as sums over what its pixels are made of: the renderer's weights W, both ways.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit to pictures as linear algebra.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs as a picture fit sees them: which pixels count, and which points they are made of.
 #pragma once
 

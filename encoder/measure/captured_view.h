@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the capture's own surface is, and what of it a camera sees: the ground that pictures are
 // judged on, the same for every codec. Spec annex D.
 #pragma once

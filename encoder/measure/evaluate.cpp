@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One definition of quality. Spec annex D.
 #include "slf/evaluate.h"
 

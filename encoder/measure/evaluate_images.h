@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of a light field against photographs. Spec annex D.
 #pragma once
 

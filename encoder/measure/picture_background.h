@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photograph and rendering over one background: what stands behind the object. Spec annex D.
 #pragma once
 

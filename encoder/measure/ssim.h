@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structural similarity of two images inside a mask, at one scale and at five.
 #pragma once
 

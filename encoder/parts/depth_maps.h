@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is nearest to each camera of a scene: made once of all points, kept on disk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices of a plan, one after the other, to a part.
 #include <cstdio>
 

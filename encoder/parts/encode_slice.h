@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One slice of a planned scene: its points and photographs to units.
 #pragma once
 

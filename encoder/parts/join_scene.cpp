@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices to one stream: the base, which they have together, is coded here.
 #include <algorithm>
 #include <iterator>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "encoder/parts/part_sums.h"
 
 #include "bitstream/bit_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The unit that a part has beside those of a light field: what merging it needs. Decoders skip it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan from JSON, every number within its range. Mirror of plan_writer.cpp.
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the slices of a scene must agree on, chosen once.
 #include <algorithm>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan as JSON. The way back: plan_reader.cpp.
 #include <array>
 #include <charconv>

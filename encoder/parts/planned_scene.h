@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan with all that follows from it: what every step of a part works on.
 #pragma once
 

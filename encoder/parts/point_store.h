@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of a scene on its grid, in Morton order, in files: what slices read their points from.
 #pragma once
 

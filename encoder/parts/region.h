@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of some cells of a scene, with those around them.
 #pragma once
 

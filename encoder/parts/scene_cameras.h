@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cameras see what of a scene, and how much of their photographs is needed for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the work on a scene takes, and whether there is as much.
 #include <algorithm>
 

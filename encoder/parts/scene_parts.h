@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices of a scene on their way into one file: in memory, and as the streams that parts are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of a scene: from a capture onto the grid, and into files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directories that the work on a scene is kept in.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rounding leaves of exact bytes: a unit of an application type, which decoders of the format
 // skip. docs/plenoptic.md has its syntax.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a decoded field to the cloud that it was made from.
 #include <algorithm>
 

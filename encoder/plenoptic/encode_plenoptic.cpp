@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plenoptic cloud to bytes, by way of planes or of view maps.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PSNR of every view of a plenoptic cloud, as its codecs are judged.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "encoder/plenoptic/plenoptic_metadata.h"
 
 #include <charconv>

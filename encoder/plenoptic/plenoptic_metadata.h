@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a file says of the cloud that it was made from.
 #pragma once
 

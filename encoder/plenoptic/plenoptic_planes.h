@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Views as functions without a meaning: the way of planes.
 #pragma once
 

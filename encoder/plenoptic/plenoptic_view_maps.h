@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Views as observations of view maps.
 #pragma once
 

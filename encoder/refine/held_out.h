@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How well photographs predict each other through a surface: what mending must lower.
 #pragma once
 

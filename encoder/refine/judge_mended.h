@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a mended surface predicts photographs that did not make it.
 #pragma once
 

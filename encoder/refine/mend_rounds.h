@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The search for a surface on which photographs agree: coarse to fine, a round at each scale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the mending of a cloud works with: points, photographs, outlines, scales.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One offset per point from what offsets cost: smooth over the surface; where the photographs
 // do not say, as its neighbours.
 #pragma once

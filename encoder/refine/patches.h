@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Patches of a surface as photographs show them, and how far they agree.
 #pragma once
 

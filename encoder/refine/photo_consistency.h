@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every offset along a point's normal costs: how little the photographs agree there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs as geometry needs them: grey, at the scale of the points, with their cameras.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "encoder/refine/refine_geometry.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mends a capture's cloud where photographs disagree about it. Encoder only, before voxelisation.
 #pragma once
 

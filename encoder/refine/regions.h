@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where mending helped, and where the capture's points are better.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Holes that mending tore: where a photograph would show what is behind the object.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where photographs show the object at all: mending must not uncover what they show.
 #pragma once
 

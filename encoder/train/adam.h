@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adam: Kingma, Ba, "A method for stochastic optimization" (2015).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers that look like chance and are the same everywhere. Vigna, splitmix64.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fused surface against what each view shows: points where it is missing (outlines that averages
 // have worn off, hollows that few views see), and none where no view shows it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distances to a surface at the nodes of a lattice, kept near the surface alone: blocks of 8^3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfels to pictures, front to back, and gradients back again.
 #pragma once
 

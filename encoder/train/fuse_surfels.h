@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What trained surfels show in every photograph, as one surface. Curless, Levoy, "A volumetric
 // method for building complex models from range images" (1996).
 #pragma once

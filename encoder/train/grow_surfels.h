@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where surfels are too few they split; what nothing shows goes.
 #pragma once
 

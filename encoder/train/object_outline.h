@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pixels of a photograph show the object, by the photograph alone.
 #pragma once
 

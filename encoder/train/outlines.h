@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The object as the outlines of its photographs have it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a drawn picture is from its photograph, and which way is nearer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "encoder/train/shown_surface.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What trained surfels show in one view: the depth of every pixel, and which way it faces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where training starts when a capture has photographs and cameras, and no points.
 #pragma once
 

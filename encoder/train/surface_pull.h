@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfels that lie on one surface pull each other into it: where photographs do not say how deep
 // one lies, its neighbours do.
 #pragma once

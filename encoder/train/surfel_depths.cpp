@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/multiversion.h"
 #include "encoder/train/draw_surfels.h"
 #include "encoder/train/tile_pixels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One surfel in one picture, with what its gradients need again.
 #pragma once
 

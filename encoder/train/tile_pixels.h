@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pixels of a tile, eight at a time, as lightfield/render/lanes.h has them.
 #pragma once
 

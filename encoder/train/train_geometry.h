@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From photographs and whatever points there are to a surface that predicts photographs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfels that photographs train: through the renderer, coarse to fine.
 #pragma once
 

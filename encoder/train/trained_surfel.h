@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A surfel in training: a flat disc with a soft edge, an opacity and a colour that depends on
 // direction. Huang, Yu, Chen, Geiger, Gao, "2D Gaussian Splatting" (2024), with the edge of the
 // reference kernel in place of a Gaussian.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every training begins with: photographs, points, and how many surfels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A photograph as the trainer needs it: without distortion, over a plain background, at a size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cameras of a capture see what the others see.
 #pragma once
 

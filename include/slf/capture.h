@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A capture: a point cloud and calibrated photographs, however they were stored.
 #pragma once
 

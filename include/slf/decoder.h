@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decoding: bytes to the integer light field. Links without the encoder (target slf::decoder).
 #pragma once
 

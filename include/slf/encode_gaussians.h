@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats to bytes: points with a view map, a shape and an opacity. Spec 6.8.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Encoding: a capture, or given integers, to bytes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors and results. Nothing in this library throws an exception of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quality, by one definition that every comparison uses. Spec annex D.
 #pragma once
 

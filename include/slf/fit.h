@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From photographs to view maps: the encoder's floating-point half.
 #pragma once
 

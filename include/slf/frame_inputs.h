@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving light field as files: which there are, and in what order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a stream that is still on its way: bytes in, light fields out. Spec 7.13, 8.12.
 #pragma once
 

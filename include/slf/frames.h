@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moving light fields: a stream of frames, an instant each. Spec 7.13, 8.12.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats from other programs' files and back to them. docs/export.md says what each format
 // keeps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of Gaussian splats, on the CPU.
 #pragma once
 

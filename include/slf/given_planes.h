@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the coded functions back to the planes that were given to an encoder. Spec 8.7.5.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JPEG, for previews: pictures that are looked at, not measured.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coded normals as vectors.
 #pragma once
 

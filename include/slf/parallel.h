@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work shared by threads in a way that cannot change a result.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decoding parts of a stream that is not in memory: no more of it is read than they need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The matrices that make given functions of few coded ones. Spec 7.11, 8.7.5.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plenoptic point clouds: voxels that have a colour for each of N cameras.
 #pragma once
 

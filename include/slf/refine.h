@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry mended by photographs before it is coded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images from a light field, on the CPU.
 #pragma once
 

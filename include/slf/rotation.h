@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a matrix that somebody gives is a rotation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes larger than one machine: a plan that all parts share, parts that are coded apart, and the
 // file that they make together. The same file however the work was divided.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The encoder's settings by name: what command lines, bindings and tables are made from.
 #pragma once
 

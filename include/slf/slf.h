@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The C interface of the decoder: C99, no C++ type, no exception, no global state.
  *
  * A stream is opened (slf_open, slf_open_reader), asked what it holds (slf_get_info, slf_preflight)

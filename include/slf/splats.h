@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats: a light field as the discs with harmonics that other programs draw. Lossy, one
 // way; docs/export.md says what is lost.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which surface is coded: the capture's own, or one that photographs mend or train.
 #pragma once
 

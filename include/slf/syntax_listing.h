@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every element of a stream's headers with its place and value: for writers of other decoders.
 #pragma once
 

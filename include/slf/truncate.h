@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams with less in them, without decoding and coding again.
 #pragma once
 

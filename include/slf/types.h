@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light field as data: what every part of the library hands to the next.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The radiance conformance point: colour of a point along a direction.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Front to back blending of a tile, eight pixels at a time.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lightfield/render/gaussian_cloud.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats as their renderer holds them, and as a camera sees them. Kerbl, Kopanas,
 // Leimkuehler, Drettakis, "3D Gaussian splatting for real-time radiance field rendering" (2023),
 // with the projection of Zwicker et al., "EWA splatting" (2002).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which splats touch which tile of the picture, and the picture of a tile.
 #pragma once
 

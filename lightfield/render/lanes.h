@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Eight pixels at a time, as vectors that every compiler has: four columns of two rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras on a circle around what has to be shown.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats to ellipses of the picture, with the colours that the eye sees, sorted by depth.
 #include <algorithm>
 #include <bit>

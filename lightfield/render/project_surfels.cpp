@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The splats of a cloud's discs in a camera.
 #include <algorithm>
 

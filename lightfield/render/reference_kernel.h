@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constants of the reference reconstruction, spec annex E. A picture fit inverts exactly this
 // kernel, so a renderer with another one shows a fitted file less sharp or too sharp.
 #pragma once

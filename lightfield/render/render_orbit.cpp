@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras on a circle around the cloud.
 #include <algorithm>
 #include <cmath>

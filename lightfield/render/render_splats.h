@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfels as a camera sees them, and their rasterisation. Botsch, Hornung, Zwicker, Kobbelt,
 // "High-quality surface splatting on today's GPUs" (2005), with the screen-space filter of
 // Zwicker et al., "EWA splatting" (2002), on the CPU.

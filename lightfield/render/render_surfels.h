@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Discs from voxels: where no normals are coded, and how large a disc must be.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which splat counts where in an image, and how much: the one definition for pictures and for fits
 // to pictures.
 #pragma once

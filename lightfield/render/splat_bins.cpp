@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bands of an image: how they begin, and which splats touch each.
 #include <algorithm>
 #include <cmath>

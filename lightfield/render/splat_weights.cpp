@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lightfield/render/splat_weights.h"
 
 #include <cstddef>

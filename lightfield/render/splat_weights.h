@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture as a linear function of the colours of points: what a fit to pictures inverts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The discs that stand for the points of a light field, and their splats in a camera.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lightfield/splats/gaussian_collector.h"
 
 namespace slf {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats of a file, checked one by one.
 #pragma once
 

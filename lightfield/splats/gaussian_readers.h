@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The formats of splats that are read, one file each. The first of a pair tells them by their
 // content, the second reads them.
 #pragma once

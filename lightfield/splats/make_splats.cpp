@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points to splats: discs from normals and spacing, harmonics from colours along directions.
 #include <algorithm>
 #include <cmath>

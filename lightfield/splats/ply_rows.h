@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of the elements of a PLY that is in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SuperSplat's compressed PLY: chunks of 256 splats with their bounds, four words a splat, and
 // bytes for the harmonics beyond degree 0.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 with KHR_gaussian_splatting, as text or as GLB: points with turns, sizes, opacities and
 // an accessor for every harmonic, moved and turned by the nodes above them.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY of splats: scales as logarithms, opacity as a logit, quaternions w first, harmonics channel
 // by channel (Kerbl et al. 2023, scene/gaussian_model.py). Variants: names that other trainers use,
 // colours of bytes in place of harmonics, two scales of a disc (Huang et al. 2024), and the filter

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // .ksplat (GaussianSplats3D), version 0.1: sections of splats, in buckets whose centres positions
 // are given from where they are compressed (level 1: halves; level 2: bytes for harmonics too).
 #include <array>

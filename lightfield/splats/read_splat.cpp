@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // .splat (Kwok): 32 bytes a splat, without a header. Position and deviations as floats, colour and
 // opacity as bytes, a quaternion of four bytes about 128.
 #include <bit>

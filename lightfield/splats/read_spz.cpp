@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SPZ (Niantic), versions 1 to 3: attribute by attribute in gzip. Version 1 has half floats for
 // positions, version 3 quaternions of which the largest component is left out.
 #include <array>

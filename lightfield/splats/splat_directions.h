@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions over the sphere, and what a light field shows along them.
 #pragma once
 

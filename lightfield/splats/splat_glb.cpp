@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 binary with KHR_gaussian_splatting: linear scales and opacity, quaternions w last, an
 // accessor for every harmonic; COLOR_0 for programs that know points alone.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the harmonics of splats lose of the colours along directions.
 #include <algorithm>
 #include <cmath>

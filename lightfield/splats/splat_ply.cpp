@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY as 3-D Gaussian splatting (Kerbl et al. 2023) writes it: scales as logarithms, opacity as a
 // logit, quaternions w first, harmonics channel by channel.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What writers of splats ask for: the same of discs and of Gaussians. Values before and after their
 // activations are both asked for, so that what a source has is written to the last bit.
 #pragma once

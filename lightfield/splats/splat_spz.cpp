@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SPZ versions 2 and 3 (Niantic): fixed-point positions, bytes for the rest, in gzip. Every reader
 // of SPZ knows version 2. Its quaternions have x, y and z in 8 bits each, which is coarse only
 // where w is small; those of discs (disc_rotation) never are. Version 3 leaves the largest out.

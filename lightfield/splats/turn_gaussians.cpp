@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lightfield/splats/turn_gaussians.h"
 
 #include <algorithm>

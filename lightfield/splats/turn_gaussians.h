@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats in other axes: what is turned of them, harmonics too.
 #pragma once
 

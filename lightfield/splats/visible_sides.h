@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which side of a point's surface can be seen: normals of a light field have either sign.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What units of coefficients hand on: nothing where all is zero, from a base, from the first slice.
 #include <gtest/gtest.h>
 

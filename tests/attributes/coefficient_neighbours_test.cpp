@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows around a row, and scales: what contexts of coefficients are made of. Spec 8.7.2.
 #include <gtest/gtest.h>
 

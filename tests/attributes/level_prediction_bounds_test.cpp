@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prediction between levels of the largest values, and of parts of a tree. Spec 8.7.6, 8.8.2.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Children predicted from coarser levels: a decoder does what the encoder did, and it can be off.
 // Spec 8.7.6.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a level is predicted is the encoder's choice, made on a part of a large level's nodes. Spec
 // 8.7.6.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transforms across planes: spec 7.11 and 8.7.5, and what the encoder makes of them.
 #include "attributes/plane_transform.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Division by a quantiser's step without one.
 #include "attributes/quantiser_step.h"
 

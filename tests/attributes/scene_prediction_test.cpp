@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prediction in a base and the slices below it: a decoder reconstructs what the encoder did.
 // Spec 8.7.6.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the points of a slice stand in its pictures. Spec 8.11.
 #include "attributes/texture/atlas.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units of pictures that are damaged, cut off or out of range. Spec 7.6.
 #include <functional>
 

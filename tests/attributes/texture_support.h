@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields coded as pictures; skips, by name, of tests that need a video library.
 #pragma once
 

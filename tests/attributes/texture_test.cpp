@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes as pictures: the way through pack and decode. Spec 8.11.
 #include <cstdlib>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transforms across planes of any rank: planes that are zero, constant or independent, and few
 // points. Spec 8.7.5, encoder.
 #include <gtest/gtest.h>

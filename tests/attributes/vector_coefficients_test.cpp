@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors of quantised coefficients, there and back. Spec 8.7.2.
 #include <gtest/gtest.h>
 

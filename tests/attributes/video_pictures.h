@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures that are something to predict, and what is left of them.
 #pragma once
 

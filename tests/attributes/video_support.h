@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Skips, by name, of tests that need a video library which this build may lack.
 #pragma once
 

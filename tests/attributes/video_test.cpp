@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Video codec adapters: what goes in comes out, and nothing hostile gets through.
 #include <thread>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every allocation of a decode, and of an encode, fails once: the result is std::bad_alloc or an
 // error, and nothing leaks (under AddressSanitizer, .ci/run).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Apart from what allocates: where both are inlined, compilers take free() for a mistake.
 #include "failing_allocations.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program with this has an operator new that fails when it is told to, and counts.
 #pragma once
 

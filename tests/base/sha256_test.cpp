@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Digests against those of the standard.
 #include "base/sha256.h"
 

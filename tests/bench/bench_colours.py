@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """One 8-bit colour per point against the RAHT of G-PCC's reference software.
 
     tests/bench/bench_colours.py SLF CLOUD.ply...      clouds named as in TMC13 below

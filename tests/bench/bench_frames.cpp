@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving cloud, each predicted and each by itself: bench_frames STEP DIR [DIR ...].
 // A DIR is what `slf synth rot1 --frames N -o DIR` makes: integers on a grid of 8 bits and a
 // colour. STEP: grey levels of brightness, twice that of the other channels. Bytes by kind, PSNR

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One frame of Gaussian splats, by stage: bench_gaussians [SPLATS [WIDTHxHEIGHT [THREADS
 // [FRAMES]]]]. A synthetic scene: a room whose walls and some balls in it are covered with splats
 // of harmonics of degree 3, sizes and opacities spread as trained scenes have them. Seconds, least

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lossless geometry of voxel clouds, whole file counted: bench_geometry CLOUD.ply ...
 //
 // Prints bytes, bits per point and times beside Draco's in the same run and, for the clouds TMC13

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The main job, timed by stage, and the presets beside each other: bench_main_job CAPTURE
 // [GRID_BITS [SPLIT]]
 //

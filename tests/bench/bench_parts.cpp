@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What parts of a file cost beside the whole: bench_parts FILE.slf [RUNS]
 //
 // For every number of levels, some of groups, and two regions (cubes around a point on the object,

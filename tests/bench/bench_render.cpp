@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One frame on one thread, by stage: bench_render FILE.slf [SIZE [FRAMES]]. User seconds, mean over
 // cameras of an orbit that fills the picture.
 #include <sys/resource.h>

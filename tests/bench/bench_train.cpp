@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfels trained on a capture's photographs: bench_train CAPTURE [POINTS [ITERATIONS [SURFELS
 // [SPLATS.ply]]]]. SURFELS 0: as many as the photographs resolve.
 // Seconds by stage; photographs that were held out, as the surfels themselves show them.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Two builds of slf, in turns: bytes, user seconds, peak memory; of the same integers, or of captures.
 
     tests/bench/compare_versions.py OLD_SLF NEW_SLF [--runs 3] [--cloud FILE.ply ...]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Time, memory and bytes of scenes of growing size, coded slice by slice.
 
     scenes.py --slf build/bin/slf --work DIR [--points 100000,1000000,10000000] [--csv FILE] [--plot FILE]

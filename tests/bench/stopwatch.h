@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times for tables: medians of repeated runs.
 #pragma once
 

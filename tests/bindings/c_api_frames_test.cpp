@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames through the C interface against the C++ one, and what a caller can do wrong.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams and fields of the C interface that release themselves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours by the C interface: weights, functions, tables, means.
 #include <gtest/gtest.h>
 

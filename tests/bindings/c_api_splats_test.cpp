@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats by the C interface: shapes and opacities are those of the library.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C interface against the C++ one, and everything a caller can do wrong.
 #include "slf/slf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A program in C99 on slf/slf.h alone: every file named is opened and decoded twenty times, from
  * memory and through a reader; all that is taken of an allocator is given back; no struct that is
  * shorter than the library's is read or written beyond its end.

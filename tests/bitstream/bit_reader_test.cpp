@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Codes of headers. Spec 3.3.
 #include "bitstream/bit_reader.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a later version may add, as a reader of this version meets it. Spec 7.1.1, 7.1.2, 7.2.1.
 #include <gtest/gtest.h>
 

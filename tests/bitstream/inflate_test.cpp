@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our own checksum and inflate against zlib's: the same values, the same refusals.
 #include "bitstream/inflate.h"
 

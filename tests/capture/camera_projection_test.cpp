@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points of the world on pixels, and distortion of the lens.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures that cannot be meant are refused with file and cause; suspicious ones are warned about.
 #include <gmock/gmock.h>
 #include <sys/stat.h>

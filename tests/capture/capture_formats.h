@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One set-up of two photographs, written as a capture of every format.
 #pragma once
 

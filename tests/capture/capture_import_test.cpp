@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same two photographs in every format give the same cameras; what cannot be meant is refused.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiny captures in a temporary directory.
 #pragma once
 

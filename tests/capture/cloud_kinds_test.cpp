@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clouds as programs of the field write them: other names and ranges, points that are none, normals
 // of any side, sparse voxels, strips.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders as COLMAP and the programs around it leave them.
 #include <gmock/gmock.h>
 

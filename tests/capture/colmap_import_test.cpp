@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models of COLMAP, as text and as binaries.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cloud with points far away: what is said, and what --crop leaves of it.
 #include "capture/crop.h"
 

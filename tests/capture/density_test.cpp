@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxels of a cloud and of its photographs: as large as a pixel, no finer than the points.
 #include "capture/density.h"
 

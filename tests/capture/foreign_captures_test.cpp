@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What people have that is no capture: named, with the way to one.
 #include <gmock/gmock.h>
 

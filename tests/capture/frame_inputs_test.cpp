@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving light field as files: order, gaps, and what is refused.
 #include "slf/frame_inputs.h"
 

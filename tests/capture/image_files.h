@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image files written by hand, so that it is not the library that tests itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs that are read smaller than they are, and those that are kept.
 #include "capture/image_reduction.h"
 

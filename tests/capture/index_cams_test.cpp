@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // index.cams: the raw surface light fields of Wood et al.
 #include <gmock/gmock.h>
 

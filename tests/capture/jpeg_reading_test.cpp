@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JPEG in, and sizes out of headers alone.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JPEG out: previews, read back by the reader of captures.
 #include "slf/jpeg.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of meshes: what they give, and what is refused.
 #include <gmock/gmock.h>
 

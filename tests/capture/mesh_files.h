@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cube of side 1 about the origin as a mesh file of every format, written by hand.
 #pragma once
 

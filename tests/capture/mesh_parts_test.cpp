@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes of more points than are held at once: cube by cube they become what they are as a whole.
 #include "capture/mesh_parts.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a grid makes of a mesh: a layer one voxel thick, on the surface, with its outside out.
 #include "capture/mesh_sampling.h"
 

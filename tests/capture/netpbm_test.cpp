@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PPM and PGM: ppm(5) and pgm(5) of Netpbm.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What masks, alpha and what stands beside the pixels of a photograph mean.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY files that are larger than what is read of them at once.
 #include "capture_support.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY: what is read by name, what is refused, what comes back.
 #include <gmock/gmock.h>
 

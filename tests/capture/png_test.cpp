@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PNG in, PNG out.
 #include <gmock/gmock.h>
 

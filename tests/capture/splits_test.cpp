@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cameras are input and which are held out.
 #include <gmock/gmock.h>
 

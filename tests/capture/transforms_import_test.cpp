@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // transforms.json: of documents and frames, of Blender scenes, of nerfstudio.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clouds onto the grid, Morton order, nearest points, normals.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a decode is said to take is what it is refused for.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes files on four threads, whole, in part, and with a byte changed in every unit: for the
 // thread sanitizer (.ci/threads.sh).
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an error of a stream says of its place, on the streams that have to be refused. Spec annex
 // F.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields of integers for tests: small, of every shape that has gone wrong somewhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a stream that comes in pieces: the same light fields, whatever the pieces.
 // Spec 7.13, 8.12.
 #include "slf/frame_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What damaged streams of frames may do: give an error that names its place, no more.
 #include "frames_edit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small light fields that move, and streams of them.
 #pragma once
 

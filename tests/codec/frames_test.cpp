@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames in time: what is decoded is what was coded, from any frame on. Spec 7.13, 8.12.
 #include <cstdlib>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames with less in them: what is left decodes as it did. Spec 7.13, 8.9.
 #include "frames_support.h"
 #include "slf/truncate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What frames are made of, and motions that are made to hurt. Spec 7.13.
 #include <chrono>
 

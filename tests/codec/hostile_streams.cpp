@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams made to hurt: few bytes that ask for much memory, or time, or for the reader's terminal.
 // hostile_streams DIRECTORY writes them; those to be refused are in DIRECTORY/refused. Made anew
 // for every version of the format, so that they get as far as they can.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What hostile files cost: a refusal at most 16 MiB beyond a program that does nothing, whatever they
 claim; others stay within the limits they are given. Judges exit codes and memory; user time is shown.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean colours of a decode of no more than they need.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a stream that are decoded without reading the rest.
 #include "slf/part_decoder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients in layers: each halves the step of those before. Spec 8.7.4, 8.7.7, 8.9.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a scene: fewer levels, groups, a region, beginnings of streams. Spec 8.9.
 #include <array>
 #include <cmath>

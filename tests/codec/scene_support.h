@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sphere coded as a base and slices.
 #pragma once
 

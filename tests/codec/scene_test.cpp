@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of a base and several slices: spec 7.3, 7.7, 8.2.
 #include <algorithm>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which step of which slice a thread takes next: spec 8.2 leaves the order free, memory does not.
 #include "codec/decoder/slice_schedule.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a damaged, foreign or hostile stream may do: give an error that names its place. Nothing
 // else.
 #include <gtest/gtest.h>

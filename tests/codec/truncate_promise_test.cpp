@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The promise of truncate(), over the whole suite: decode() of what it makes, with the same
 // options, is decode() of the stream with them. Of whole, cut and damaged streams.
 #include <gtest/gtest.h>

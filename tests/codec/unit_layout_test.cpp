@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which units a stream has, and in which order. Spec 7.1.
 #include "codec/unit_layout.h"
 

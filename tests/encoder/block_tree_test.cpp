@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blocks of points, and what is between them.
 #include "encoder/fit/block_tree.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs that do not belong, one badly posed, one overexposed: the fit is no worse for them.
 #include "slf/camera_trust.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats in place of a surface, where nobody asked for them.
 #include <gtest/gtest.h>
 

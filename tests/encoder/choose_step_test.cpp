@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A step that is not given: what it costs, where it cannot be chosen, and what it leaves alone.
 #include "encoder/choose_step.h"
 

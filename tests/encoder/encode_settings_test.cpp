@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is asked of an encode is what its file has: efforts, targets, steps.
 #include "end_to_end.h"
 

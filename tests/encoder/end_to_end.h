@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small synthetic capture and what it is encoded to: made once for the tests of a program.
 #pragma once
 

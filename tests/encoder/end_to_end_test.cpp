@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs to .slf and back, on a small synthetic capture.
 #include "end_to_end.h"
 

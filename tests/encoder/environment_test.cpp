@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is reflected: its model, how it is found, and what it is worth between cameras.
 #include "encoder/fit/environment.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures against photographs: masks, borders, regions, error maps. Spec annex D.
 #include <cmath>
 #include <utility>

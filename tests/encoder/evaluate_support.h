@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plate, and photographs of one colour of it.
 #pragma once
 

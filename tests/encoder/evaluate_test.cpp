@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors at points and in pictures, of known differences. Spec annex D.
 #include "slf/evaluate.h"
 

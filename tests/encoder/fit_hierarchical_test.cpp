@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hierarchical fit against naive dense solves of its definition (slf/fit.h).
 #define EIGEN_MPL2_ONLY
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit to pictures against a dense solve of its definition (encoder/fit/picture_system.h).
 #define EIGEN_MPL2_ONLY
 #include "encoder/fit/fit_pictures.h"

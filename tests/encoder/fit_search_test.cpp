@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cross-validation of the hierarchical fit: choose_fit of slf/fit.h, on scenes whose answer is
 // known.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit against naive dense solves written from the paper's equations.
 #include "slf/fit.h"
 

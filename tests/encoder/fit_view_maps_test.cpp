@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What holds of a fit to points whatever its equations: settings, threads, progress.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sums of products that the fit is made of, against loops of doubles.
 #include "encoder/fit/lane_products.h"
 

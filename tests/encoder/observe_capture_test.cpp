@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Observations of a whole capture, from photographs on disk.
 #include <gtest/gtest.h>
 #include <unistd.h>

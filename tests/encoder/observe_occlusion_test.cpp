@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What hides a point: nearer points, as splats, and triangles.
 #include <gtest/gtest.h>
 

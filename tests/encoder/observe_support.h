@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One camera that looks along +z, and what it sees of points in front of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Observation with known answers: one camera that looks along +z at points in front of it.
 #include <gtest/gtest.h>
 

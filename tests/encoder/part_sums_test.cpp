@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The unit that parts of a scene have for being merged.
 #include "encoder/parts/part_sums.h"
 

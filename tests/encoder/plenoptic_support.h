@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small plenoptic cloud: a sphere of voxels whose colours depend on the direction.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plenoptic clouds: what is read of a PLY, and what comes back of a file.
 #include <gmock/gmock.h>
 

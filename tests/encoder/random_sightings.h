@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxels with random observations, for tests of the fit to points.
 #pragma once
 

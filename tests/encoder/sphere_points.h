@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A surface whose every property is known, for tests of what mends surfaces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands still keeps its view map from frame to frame; what changes does not.
 #include "encoder/still_points.h"
 

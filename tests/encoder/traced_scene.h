@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A synthetic scene in memory: photographs of rings of cameras, and its exact points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces that photographs train, from points that are far off, few, or wrong.
 #include "encoder/train/train_geometry.h"
 

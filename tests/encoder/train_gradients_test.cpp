@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gradients of trained surfels, written by hand, against differences of the loss itself.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the targets share. A target is a function of bytes that must return, whatever they are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Descriptions of cameras: transforms.json and cameras.json, each as the other too, and the split
 // files of a directory.
 #include "capture/importer.h"

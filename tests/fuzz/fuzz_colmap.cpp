@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // COLMAP models, as text and as binary: cameras, images, points.
 #include "capture/importer.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes are an error or a light field; what the headers say it takes is never less than a
 // decode of fewer levels or groups needs.
 #include "tests/fuzz/fuzz.h"

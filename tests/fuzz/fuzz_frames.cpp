@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes are an error or frames, each an error or a light field; fewer levels too, and in
 // pieces.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GLB meshes. Lengths of the file and of its first chunk are made right.
 #include "capture/mesh_formats.h"
 #include "tests/fuzz/fuzz.h"

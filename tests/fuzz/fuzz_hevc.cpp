@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An HEVC stream of the pictures that a texture has. The first byte is their number and depth.
 #include "attributes/video/hevc_decoder.h"
 #include "tests/fuzz/fuzz.h"

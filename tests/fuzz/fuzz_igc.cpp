@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image-plus-geometry files, with the calibration that the seeds were made with: cameras named
 // images/N.png, of 32 x 32 pixels.
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs: PNG (its CRCs are not checked while fuzzing where libpng is built so) and JPEG.
 #include "capture/image_formats.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arrays as slf pack reads them.
 #include "tests/fuzz/fuzz.h"
 #include "tools/npy.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ meshes.
 #include "capture/mesh_formats.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a scene: one alone, and two files as parts of one.
 #include "slf/scene.h"
 #include "tests/fuzz/fuzz.h"

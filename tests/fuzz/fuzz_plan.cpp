@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans of scenes: what is read is written as it was read.
 #include <cstdlib>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY clouds and meshes.
 #include "capture/ply_reader.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field that decodes can be drawn, whatever is in it, and no depth is NaN.
 #include <cstdlib>
 

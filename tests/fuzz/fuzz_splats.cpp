@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of Gaussian splats of every format. An SPZ comes without its gzip, a ksplat (behind "KS")
 // without the zeros of its headers, so that the fuzzer reaches what is in them. What is kept must
 // be finite.

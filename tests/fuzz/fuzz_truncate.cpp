@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What truncate makes of a stream that decodes, decodes: with the same options to the same.
 #include <cstdlib>
 

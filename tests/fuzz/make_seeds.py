@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Seeds of the fuzz targets: small files of every format, OUT/TARGET/NAME.
 
     tests/fuzz/make_seeds.py OUT [--slf build/bin/slf]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mutator for libFuzzer that knows units: it changes the payload of one, repeats, drops, moves,
 // cuts or inserts one, and writes lengths, checksums and the count of the end unit anew. Streams of
 // frames too: a signature stands before some units. Linked into the targets of streams

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a target on files, or all files of directories, without libFuzzer: seeds and finds in the
 // normal build. With --accepts-some first, fails where the target refuses every one of them: seeds
 // of an older format try nothing but a refusal.

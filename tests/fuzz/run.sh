@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # tests/fuzz/run.sh SECONDS [TARGET...]: every target (or those named) under AddressSanitizer and
 # UndefinedBehaviorSanitizer, as many at a time as there are cores. SECONDS are those of one core,
 # shared alike by all targets: with two cores it is done in half of them. Prints the runs of each.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draco geometry (spec 8.5): what stands in front of Draco.
 #include <gtest/gtest.h>
 

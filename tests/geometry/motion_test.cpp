@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where points were: affine motions, lattices between their points and beyond their ends.
 #include "geometry/motion.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of the octree's contexts. Spec 8.4.7.
 #include "geometry/occupancy_rows.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cells of a frame decoded before, found by brute force too.
 #include "geometry/reference_cells.h"
 

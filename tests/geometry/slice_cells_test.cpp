@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a slice takes over from the base. Spec 8.6.4.
 #include "attributes/slice_cells.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals from voxels alone. Spec 6.6.
 #include "geometry/surface_normals.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the cells of a base weigh. Spec 8.4.5.
 #include "geometry/weight_classes.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Clauses of the specification that comments, tests and texts cite are there.
 
     clauses_cited_test.py ROOT

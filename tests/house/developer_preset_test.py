@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The preset `developer` of CMake builds what tools/test.sh builds.
 
     developer_preset_test.py ROOT

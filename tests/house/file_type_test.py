@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Desktop programs know .slf files by their first bytes: file_type_test.py ROOT
 
 Asks `file` with tools/desktop/slf.magic and `gio` with tools/desktop/slf.xml about the golden streams and about files that are

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the build to a directory of its own, builds docs/examples/ against it through
 # find_package(slf), and runs them: the colours of decode_points (node fetches) and of radiance.py
 # (the plain sum, in numpy) agree.

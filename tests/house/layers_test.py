@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Includes run downwards: a folder includes what stands before it in LAYERS, and itself.
 
     layers_test.py ROOT

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Parameters of tests print as names, not as bytes: who reads that one has failed knows which.
 
     named_parameters_test.py BUILD_TESTS        the folder of CTestTestfile.cmake

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The laboratory's options have the ranges of the program's settings.
 
 usage: settings_table_test.py SLF TOOLS_RD

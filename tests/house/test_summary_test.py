@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The line at the end of tools/test.sh says what passed, what failed, and what was skipped and why.
 
     test_summary_test.py TOOLS

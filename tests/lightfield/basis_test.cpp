@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The basis against hand-computed values, its Gram matrix, and its form as plain B-splines.
 #include "lightfield/basis.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a view of a whole light field has to show.
 #include "lightfield/render/framed_ball.h"
 

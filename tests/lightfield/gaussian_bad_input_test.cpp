@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of splats that are damaged, or whose values mean nothing.
 #include <gmock/gmock.h>
 

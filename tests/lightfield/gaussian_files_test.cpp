@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of splats: what is written is read again, what others write is read, what is damaged is
 // refused.
 #include <gmock/gmock.h>

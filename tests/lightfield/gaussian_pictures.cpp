@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of a file of splats with their cameras, for a renderer that is not ours to compare:
 // tests/lightfield/gaussian_reference_test.py.
 //   gaussian_pictures FILE OUT      writes OUT0.ppm, OUT0.json, ...

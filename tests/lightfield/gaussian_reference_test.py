@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Trained splats drawn by the library against the reference rasterisation in numpy (tools/rd/splat_render.py).
 
     gaussian_reference_test.py ROOT PROGRAM SPLATS...

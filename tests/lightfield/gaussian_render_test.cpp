@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The renderer of splats against one that evaluates every splat in every pixel.
 #include <gmock/gmock.h>
 

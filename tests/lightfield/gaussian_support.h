@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats made by hand, and bytes of files made of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals as two coordinates on an octahedron.
 #include "lightfield/octahedral.h"
 

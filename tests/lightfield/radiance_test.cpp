@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Radiance of a point along a direction, worked out by hand. Spec 6.7.
 #include <gtest/gtest.h>
 

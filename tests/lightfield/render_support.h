@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields made by hand, of one colour per point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes ball.ply, ball.glb, ball.spz and expected.json to a directory, for a reader that is not
 // ours: tests/readers/read_splats.mjs. What is expected comes from the light field, not from
 // splats.

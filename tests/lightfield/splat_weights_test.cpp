@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every point is worth in every pixel: what the renderer draws with. Spec annex E.
 #include "lightfield/render/splat_weights.h"
 

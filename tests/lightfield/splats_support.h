@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ball whose points have harmonics that splats can hold exactly.
 #pragma once
 

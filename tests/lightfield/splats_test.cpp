@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats made of a light field say what the light field says, in every frame and every axes.
 #include "splats_support.h"
 

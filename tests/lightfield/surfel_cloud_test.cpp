@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Discs of points: their normals and radii. Spec annex E.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Node form against the plain sum over the basis functions.
 #include <gtest/gtest.h>
 

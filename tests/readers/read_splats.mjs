@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of `slf export` as three.js reads them: positions, discs, and colours evaluated from the
 // coefficients that its loaders give, by the formulas of KHR_gaussian_splatting, against what the
 // light field shows. Exits with 77 (skipped) where three is not installed, neither here nor, of the same

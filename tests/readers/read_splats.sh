@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # read_splats.mjs where there is node; else 77 and a line.
 #   tests/readers/read_splats.sh DIRECTORY
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The adapter of AV1: what goes in comes out, and nothing hostile gets through.
 #include "tools/rd/igc/av1_codec.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad input of every kind through the program: one line that names file and cause, the documented
 // exit code, no output file, and what was there before survives.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf encode: grids, presets, images of another exposure, clouds without cameras.
 #include <map>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf eval: what it measures, on which cameras, and where it says no.
 #include "cli_support.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream of several frames and the verbs: none loses frames without a word.
 #include "cli_support.h"
 #include "tests/codec/frames_support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf html, with the viewer's page in the program and without.
 #include "cli_support.h"
 

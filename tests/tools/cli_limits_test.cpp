@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits, partial files and foreign text through the program.
 #include <sys/stat.h>
 

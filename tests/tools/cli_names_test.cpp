@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that people give: cameras by their photographs, outputs by their formats; and what is said
 // of a file that was written.
 #include "cli_support.h"

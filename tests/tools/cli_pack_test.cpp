@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf pack, and decode --dump: integers in, the same integers out.
 #include "cli_support.h"
 #include "tools/npy.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a file through the program: no more is read of it than they need.
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // slf synth --plenoptic, encode, decode and eval of clouds of views.
 #include "cli_support.h"
 

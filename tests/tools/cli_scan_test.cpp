@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scans of other formats, read by PDAL's program: with one that stands in for it, and with the real
 // one where it is installed.
 #include "cli_support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes in parts, as a person runs them: plan, encode --part, merge, encode --memory.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of Gaussian splats through the program: drawn, and written in another format.
 #include "cli_support.h"
 #include "slf/capture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the built program `slf` in a directory of its own. SLF_PROGRAM is the path of the program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program as a person meets it: verbs on a tiny capture, usage errors, reports.
 #include <algorithm>
 #include <map>

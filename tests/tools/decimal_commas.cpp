@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program: makes it one that has set the locale of its environment, as a desktop
 // program does that has a codec for a plug-in. Without it LC_ALL changes nothing in slf.
 #include <clocale>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures hundreds of kilometres from zero: the files, figures and pictures of those near zero.
 #include <gmock/gmock.h>
 

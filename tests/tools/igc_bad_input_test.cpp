@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image-plus-geometry files that are damaged or do not fit, and captures that cannot be coded.
 #include "igc_support.h"
 #include "tools/rd/igc/igc_file.h"

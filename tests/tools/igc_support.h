@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small synthetic capture, coded as images plus geometry. What includes it links slf_synth.
 #pragma once
 

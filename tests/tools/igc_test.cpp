@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image-plus-geometry coding on a small synthetic capture. Paper IV-F.
 #include <algorithm>
 #include <numeric>

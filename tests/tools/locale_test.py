@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """A process whose numbers have decimal commas writes and reads the same files.
 
     tests/tools/locale_test.py SLF DECIMAL_COMMAS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page that `slf html` fills in.
 #include "tools/page_template.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """tools/scene: the workflow makes what one process makes, and makes again only what is lost.
 
     scene_workflow_test.py ROOT SLF

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes that move: frames are what they say, of one grid, and the same on any number of threads.
 #include <gtest/gtest.h>
 

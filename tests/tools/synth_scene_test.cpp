@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where cameras stand, and the surfaces they see.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streets of houses: points on surfaces, cameras that see them, and files that are always the same.
 #include <gtest/gtest.h>
 

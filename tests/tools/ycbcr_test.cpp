@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of photographs as video has them, and back.
 #include "tools/rd/igc/ycbcr.h"
 

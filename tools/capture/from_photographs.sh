@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # From a folder of photographs to a light field: docs/from-photographs.md
 #
 #     tools/capture/from_photographs.sh PHOTOS -o x.slf [--html x.html] [--work DIR] [--cameras one|each]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The scene: a board with a wheel, a lattice tower, a bowl and a mirroring ball, within 1 of the origin."""
 import math
 

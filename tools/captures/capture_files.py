@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Files of a capture, and what its cameras mean; without Blender."""
 import os
 import struct

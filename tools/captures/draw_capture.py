@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Draws a capture of thin, hollow and reflecting things with Blender.
 
     blender -b --factory-startup -P tools/captures/draw_capture.py -- OUT [--size N] [--cameras N] ...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Points of the meshes of a scene: exact ones for points.ply, and what structure from motion would find of them."""
 import math
 import random

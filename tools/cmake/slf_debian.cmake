@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian packages, by `cpack` in the build directory: slf (the program), libslf0 (the C interface),
 # libslf-dev (headers, static libraries, find_package, pkg-config). Checked by tools/check_package.sh.
 set(CPACK_GENERATOR DEB)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installation: libraries, public headers, the program, and what find_package(slf) reads. Components
 # are Debian's packages: lib (shared C interface), dev, program.
 include(CMakePackageConfigHelpers)

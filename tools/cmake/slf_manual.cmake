@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Man pages and bash completion, made of what the program itself says with --help.
 find_package(Python3 COMPONENTS Interpreter)
 if(TARGET slf_program AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)

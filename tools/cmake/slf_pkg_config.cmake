@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # pkg-config files: slf for the shared C interface, slf-cxx for the static C++ libraries, which bring
 # along what they use inside.
 set(requires "")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # With CMAKE_UNITY_BUILD=ON, as tools/demo.sh and tools/test.sh build, up to twelve files of a folder are one
 # for the compiler, which is done in half the time: most of it goes into headers and templates that
 # they share. Names in a folder's unnamed namespaces are unlike each other for this. Without it, as

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """BD-rate and BD-PSNR of two rate-distortion curves.
 
     bd.py ANCHOR.csv TEST.csv [--akima]     two columns each: bytes, PSNR in dB; no header

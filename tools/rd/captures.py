@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where captures come from: made by `slf synth`, in the data directory, or any directory.
 
 A source is one of

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Files beside a photograph: close_ups.py CAPTURE IMAGE X,Y -o OUT.png LABEL=PROGRAM:FILE...
 
 One column for the photograph and one per file, each drawn by its own program, so that two versions of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """results.csv: one row per experiment and encode."""
 import csv
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of the basis itself: the functions, fits in one dimension, the coefficients' distribution."""
 import math
 import pathlib

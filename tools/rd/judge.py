@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pictures against a capture's photographs, by the definition of spec annex D that `slf eval` has.
 
 For what `slf eval` does not read. Captures are those of cameras.json with a cloud that has normals; the masks of

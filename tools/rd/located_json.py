@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """JSON that knows the line of every key and value, for messages `file:line: what`."""
 import json
 import re

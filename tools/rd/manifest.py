@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Manifests: one JSON file per experiment (keys: README.md), checked before anything runs."""
 import re
 

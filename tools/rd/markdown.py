@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A run's tables and figures as one Markdown page with its pictures beside it, for the repository."""
 import pathlib
 import shutil

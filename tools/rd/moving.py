@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the six moving clouds of `slf synth` anew and says how frames resemble each other.
 
     moving.py --slf build/bin/slf --out build/moving [--frames 4] [--bits 8] [SCENE ...]

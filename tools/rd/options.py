@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The codecs, their rate options and every option a manifest may set, with ranges.
 
 Ranges are those of `slf settings`, kept here so that an impossible manifest is refused before anything

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures that show renderings: views beside the photograph, and sheets of a circle of views."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """From manifests to a plan: every job once, under a key that changes with whatever changes its result."""
 import hashlib
 import itertools

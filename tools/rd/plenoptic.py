@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Plenoptic clouds: our planes and our view maps against RAHT-KLT as published.
 
     plenoptic.py --slf build/bin/slf --out DIR [CLOUD.ply ...] [--points 300000] [--rates 4,8,16,32,64]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of a run, PNG and SVG, under OUT/figures. The same rows give the same SVG bytes."""
 import pathlib
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What the beginning of a file shows: prefixes.py FILE.slf -o OUT.png [--slf PROGRAM]
 
 A column for each share of the bytes, in rows two views of an orbit: the light on the object shows where colours

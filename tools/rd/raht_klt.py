@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """RAHT-KLT as published: Sandri, de Queiroz, Chou, "Compression of plenoptic point clouds", TIP 28(3), 2019.
 
 Per channel (Y, U, V) the N colours of a point are a vector; the N x N Karhunen-Loeve transform of the cloud's covariance is

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The RD laboratory: runs experiments and writes their table, plots, verdicts and one report page.
 
     rd.py quick --slf build/bin/slf --out build/rd          small captures, minutes; what CI runs

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One self-contained HTML page of a run: no script, no external resource, pictures inline."""
 import base64
 import html

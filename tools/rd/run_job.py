@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs one job: encode, measure, write row.json. run_job.py DIR, which holds job.json.
 
 A job that fails leaves a row with status "failed" and the reason, and log.txt beside it; the exit code

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes one picture or histogram of a coded file: run_task.py DIR, which holds task.json.
 
 Writes done.json {"status", "reason", "files" or "counts"}; never fails (see run_job.py).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Gaussian splats (Kerbl et al. 2023) from their PLY to pictures, in numpy.
 
 The rasteriser has the steps and constants of the reference implementation, so that splats trained elsewhere

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Trained Gaussian splats as others code them: bytes and held-out pictures.
 
     splats.py CAPTURE A.ply ... --out DIR [--formats spz,sog]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of a run, as (header, lines) of plain text; report.py makes HTML of them."""
 from bd import NoFigure, bd_psnr, bd_rate
 from collect import image_psnr, psnr, size, size_without_geometry

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The G-PCC reference software (TMC13) as a codec: geometry, and every coefficient plane as 8 bits.
 
 The program takes one 8-bit attribute per run, so a file of N functions is 1 + 3 N runs. Counted are the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The paper's findings, each judged by a rule written here, from the rows of a run.
 
 A verdict is "agrees", "contradicts" or "undecided", with the figures it rests on; nothing is tuned to

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Encodes a large scene in parts, side by side, by a workflow.
 
     scene.py CAPTURE -o scene.slf [--parts N] [--cores N] [--memory 2G] [--cluster sbatch] [--work DIR]

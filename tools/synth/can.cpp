@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A slim beverage can: the paper's Can in spirit. Detailed label, four lamps, specular 0.5.
 #include <array>
 #include <numbers>

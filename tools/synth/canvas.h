@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A wrap-around picture painted with antialiased shapes: the label of a can.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of a synthetic capture, and how a directory of ours is known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A rounded die: the paper's Die in spirit. Three lamps, specular, a fifth of the light passes
 // straight through, so that the pips of the far side shine dimly from everywhere.
 #include <array>

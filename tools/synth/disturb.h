@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clouds that are wrong on purpose: what a scanner's noise and a visual hull do to geometry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures and clouds that move: a directory with an entry for every frame.
 #pragma once
 

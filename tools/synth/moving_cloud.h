@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving scene as clouds on one grid, to compare codecs with.
 #pragma once
 

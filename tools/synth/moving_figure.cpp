@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A figure of capsules that walks: parts that move against each other, and hide one another.
 #include <numbers>
 

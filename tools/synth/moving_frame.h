@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One frame of a moving scene: its photographs and its points.
 #pragma once
 

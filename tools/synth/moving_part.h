@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A closed surface that is where it is as a function of time: a mesh at rest, and how it is bent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes that move: what `slf synth --frames` draws.
 #pragma once
 

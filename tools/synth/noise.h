@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers that look random and depend on nothing but a place and a seed.
 #pragma once
 

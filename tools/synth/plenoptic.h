@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plenoptic cloud of an analytic scene: what each of N cameras sees of each voxel.
 #pragma once
 

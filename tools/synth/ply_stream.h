@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A point cloud file that is written piece by piece.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A closed surface of revolution around the z axis, given by a polyline with rounded corners.
 #pragma once
 

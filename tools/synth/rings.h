@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's camera arrangement: circles around the object, evenly spaced in height.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the ray tracer and the point sampler ask of a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lambert and Blinn-Phong under a few lamps, and the display curve.
 #pragma once
 

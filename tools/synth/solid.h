@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Convex solids that a large scene is built of, each given by the box around it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree of boxes over solids, so that a ray looks at few of many.
 #pragma once
 

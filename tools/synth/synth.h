@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Captures of analytic scenes, so that the demo and the tests need no download.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streets of terraced houses: a scene of any size, with windows, wet stones and metal that look
 // different from everywhere.
 #pragma once

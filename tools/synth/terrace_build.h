@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The solids of a terrace: houses, and what stands in the streets.
 #pragma once
 

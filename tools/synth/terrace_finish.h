@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the surfaces of a terrace look at a place: colour, gloss, and the small relief of stones.
 #pragma once
 

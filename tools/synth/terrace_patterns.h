@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coordinates on faces, and stones laid in courses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the streets, houses and gardens of a terrace lie. Metres; streets run along x, z is up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/synth/terrace_sky.h"
 
 #include "tools/synth/noise.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sky over a terrace, and its sun.
 #pragma once
 

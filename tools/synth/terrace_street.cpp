@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is between the houses of a terrace.
 #include "tools/synth/noise.h"
 #include "tools/synth/terrace_build.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who photographs a terrace: somebody who walks through the streets, and a drone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree of boxes over triangles: what a ray meets first.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A glazed vase that mirrors a coloured room: view dependence that is neither diffuse nor a lamp.
 #include <array>
 #include <numbers>

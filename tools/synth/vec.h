@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arithmetic on Vec3, for the analytic scenes.
 #pragma once
 

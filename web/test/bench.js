@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints what a decode costs under node: the first of a process, as a page has it, and the ones after it.
 //   node web/test/bench.js FILE.slf [WASM]
 // Milliseconds: wall; CPU of the process (user; the compiler's threads count in); CPU of the thread that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of SLFLoader.js.
 import type { Loader, LoadingManager } from 'three';
 import type { WasmSource } from '../slf.js';

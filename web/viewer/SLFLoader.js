@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // three.js loader of surface light fields.
 //
 //   import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js'

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes dist/one_file.html, the template of `slf html`: viewer.html with its style and code in it, the
 // code and the decoder packed. Prints what each part takes.
 import { readFile, writeFile, mkdir } from 'node:fs/promises';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras and photographs of a capture (docs/captures.md): cameras.json or transforms.json, from a
 // folder on a server or from files that were dropped.
 import { ViewerError } from './packed_field.js';

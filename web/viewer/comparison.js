@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Looking through the cameras of a capture: a photograph beside the rendering, and how alike they are.
 import { fetchCapture, psnrWithin } from './capture.js';
 import { axesOf, dot, fittedCamera, poseOfCamera } from './view.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mouse, touch and keyboard to a pose (view.js). Everything is scaled by the distance, so small and
 // large objects turn alike. Nothing here draws.
 import { Manners } from './manners.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a decoding worker does; apart from it so that a page without workers can do it as well.
 import { buffersOf, packField, ViewerError } from './packed_field.js';
 import { walkUnits } from './stream_units.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer's elements, in a document or in a shadow root, and what they say of numbers.
 
 import { BACKGROUNDS } from './options.js';

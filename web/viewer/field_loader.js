@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a file, an address or bytes to packed light fields: coarse ones while the rest arrives.
 import { decoderModule } from '../slf.js';
 import { startWorker } from '../start_worker.js';

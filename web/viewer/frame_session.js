@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a decoding worker does with a light field that moves: it reads the file by itself, in parts, and packs frames.
 import { SlfFrameStream } from '../slf_frame_stream.js';
 import { checkColours, partOf, plainInfo } from './decode_session.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page's side of a light field that moves: what has arrived of it, and its frames from the worker.
 
 export class FrameSource {

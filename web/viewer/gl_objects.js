@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs, textures and frame buffers of WebGL 2, each made in one call.
 
 /** Compiled and linked, with the places of its uniforms. @throws Error with the compiler's own words */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Notes on the stage: a mark for each annotation where its point is, a card with its text, and tracks that are played.
 import { fetchNotes } from './notes.js';
 import { pick } from './pick.js';

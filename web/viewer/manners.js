@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose gestures are: a viewer within a page that scrolls leaves one finger and the wheel to the page until somebody
 // takes hold of it by a click or a tap, and lets go when the hand goes elsewhere. Two fingers are always the viewer's.
 

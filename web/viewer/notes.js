@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a file's owner says about it: points with text, and tracks of views, in a small JSON (docs/notes.md). Everything in
 // it is checked before any of it is used; texts are texts, never markup.
 import { ViewerError } from './packed_field.js';

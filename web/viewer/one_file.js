@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the page that `slf html` makes runs once its code is unpacked. `parts` comes from the page's
 // own beginning (one_file_start.js): the decoding worker's code and the decoder's bytes.
 import { Elements } from './elements.js';

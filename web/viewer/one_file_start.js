@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only code of a one-file page that stands in it as it is: unpacks the rest. The packed bytes are
 // three parts, each after its length (4 bytes, least significant first): page, worker, decoder.
 addEventListener('DOMContentLoaded', async () => {

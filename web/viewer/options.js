@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an address, or a page that was made by `slf html`, asks of the viewer. The list is that of
 // README.md.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of packed_field.js.
 import type { SlfField, SlfGrid } from '../slf.js';
 

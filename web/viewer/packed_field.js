@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A decoded light field as the texels that the pipeline uploads: no DOM, no WebGL, so that a worker
 // does it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Weights and functions as the texels that the pipelines upload; without DOM and WebGL.
 
 const HEADROOM = 1.25; // of the greatest weights of a frame, for those of the frames behind it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats as the texels that their pipeline uploads; as packed_field.js, without DOM and WebGL.
 
 const LEAST_ALPHA = 1 / 255; // below which a splat does not show: spec E.6

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What viewer.html runs.
 import { Elements } from './elements.js';
 import { Viewer } from './viewer.js';

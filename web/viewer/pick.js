@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets a light field, and the colour that is seen that way: on the processor, from the texels that the
 // pipeline uploads. Lengths in voxels from `packed.centre`, as these texels are.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets splats: where half of what is behind is hidden, on the processor. Lengths as in packed_splats.js.
 
 const HALF = 0.5, // of what is behind, as the depth of the C++ renderer

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pipeline draws a light field.
 import { SplatPipeline } from './splat_pipeline.js';
 import { SurfelPipeline } from './surfel_pipeline.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bar of a light field that moves: play, pause, a slider over its frames, speed, loop; and what it tells a page.
 import { FramePlayer } from './player.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When which frame shows. Frames are decoded ahead into a short queue; where that takes longer than they last, frames
 // are left out, so that what shows is of its time. No DOM, no graphics.
 

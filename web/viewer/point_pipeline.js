@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What pipelines of points share: the texels of a light field on the device, and the colours of its points from
 // a place.
 import { bind, image, layered, program, putImage, putLayers, quadIndices, target, use } from './gl_objects.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a viewer says: of the file that is shown, on its way, or cannot be.
 import { sizeText } from './elements.js';
 import { ViewerError } from './packed_field.js';

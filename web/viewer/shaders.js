@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GLSL of the reference reconstruction, spec annex E. Lengths are voxels, colours 0 .. 1, images have
 // their first row at the bottom, as WebGL has it. The constants are those of lightfield/render/reference_kernel.h.
 

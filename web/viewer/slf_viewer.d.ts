@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of slf_viewer.js: <slf-viewer>.
 import type { SLFParts } from './SLFLoader.js';
 import type { ViewerError } from './packed_field.js';

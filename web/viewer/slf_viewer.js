@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <slf-viewer src="can.slf">: the viewer as an element of any page, as many as there are. viewer/README.md has the
 // list of attributes, which is that of the address of viewer.html.
 //

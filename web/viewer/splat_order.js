@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats from the farthest to the nearest along a view: a counting sort of 16 bits, twice, over the bits of a float,
 // so that the order is that of the C++ renderer. In slices of time, for what is too much for a frame.
 

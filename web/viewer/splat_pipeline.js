@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats (spec annex E.6) in WebGL2: colours of splats, and the splats blended from the farthest to the
 // nearest.
 import { bind, image, putImage, sample, target, use } from './gl_objects.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GLSL of Gaussian splats, spec annex E.6. Lengths are voxels, colours 0 .. 1 and more, images have their first row at
 // the bottom. The constants are those of lightfield/render/gaussian_cloud.h.
 import { HEAD, TRANSFERS } from './shaders.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A canvas with one light field on it: draws when something has changed, coarser while frames are
 // slow and a hand moves, and again after the context was lost.
 import { pipelineWith } from './pipelines.js';

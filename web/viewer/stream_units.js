@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where units of a stream end (spec 7.1), so that the beginning of a file that is still arriving is
 // decoded as far as it goes.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of surface_light_field.js.
 import type { BufferGeometry, Color, Intersection, Mesh, MeshBasicMaterial, Vector3 } from 'three';
 import type { SlfInfo } from '../slf.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field as an object of a three.js scene. It has the picture of `slf render` from wherever the
 // scene's camera is, hides what is behind it and is hidden by what is before it.
 import {

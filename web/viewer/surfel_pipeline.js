@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference reconstruction (spec annex E) in WebGL2, without any framework: colours of points,
 // depths of discs, their weighted sums, the mean over what is behind.
 import { bind, image, sample, target, use } from './gl_objects.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loader in a scene of its own: a light field on a plinth, among meshes that hide it and that it
 // hides. three.html?src=FILE
 import * as THREE from 'three';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras: an orbit around a light field as `slf render --orbit` has it, a camera file's entries, and
 // what lies between. A View is what point_pipeline.js draws.
 

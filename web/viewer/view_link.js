@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Addresses that lead to a view, and the lines that put it into another page.
 import { fittingPose } from './view.js';
 

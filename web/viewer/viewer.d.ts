@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of viewer.js: the viewer page's own object. It needs the elements of viewer.html.
 import type { SlfInfo } from '../slf.js';
 

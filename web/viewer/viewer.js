@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer page: viewer.html's elements to a Stage (what is drawn), Controls (hands) and a
 // FieldLoader (bytes). `slf html` makes pages of the same parts.
 import { Comparison } from './comparison.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which of many viewers on a page are awake: those that are near what is seen, and no more than browsers have
 // graphics contexts for.
 

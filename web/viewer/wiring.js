@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Buttons, keys, sliders and files of the page to what the viewer does.
 import { droppedCapture } from './capture.js';
 import { copyEmbedding, copyLink } from './view_link.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Languages: a file each in languages/, its keys the English that stands in the page and in the code. A number in
 // a sentence is {} there.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // malloc and free of one instance, on one thread: a tenth of the bytes of the C library's. Blocks
 // lie one after another, those that are free in lists by size; neighbours that are free are joined.
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lack of memory leaves through JavaScript, which throws an error of its own and drops the
 // instance: there are no exceptions here.
 #include <__verbose_abort>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* What web/slf.js calls: the C interface with numbers alone. Structs are handed over as arrays of
  * doubles, in the order of the functions below, so that JavaScript knows no offsets. One decode at a
  * time; a failure leaves its text in one place. */

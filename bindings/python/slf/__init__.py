@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Surface light fields: read, look at, render and encode .slf files with numpy.
 
     import slf

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks of arguments: what is wrong is named, and nothing is rounded or cut."""
 from __future__ import annotations
 

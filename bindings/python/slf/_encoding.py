@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Encoding: of photographs and points, of given integers."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Decoding: what of a stream, its arrays, its pictures."""
 from __future__ import annotations
 

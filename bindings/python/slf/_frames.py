@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames of a light field that moves."""
 from __future__ import annotations
 

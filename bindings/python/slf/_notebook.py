@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What notebooks show: pictures as PNG, and an orbit under a slider in plain HTML."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The extension module; slf/__init__.py is what programs use."""
 from typing import Any, Callable, Optional, Sequence, Tuple
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Values that functions of slf take and give."""
 from __future__ import annotations
 

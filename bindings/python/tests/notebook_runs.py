@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """docs/examples/notebook.py on a small capture: it ends, and all three of its pictures show something.
 
 77 and a line where a package is missing. PYTHONPATH has the package slf.

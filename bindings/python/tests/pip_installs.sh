@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # `pip install .` of what a build compiled, in a fresh environment, without a network; then the package
 # reads a stream. 77 and a line where venv or pip is not there.
 #   bindings/python/tests/pip_installs.sh PYTHON SOURCE_DIR BUILD_DIR

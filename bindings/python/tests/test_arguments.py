@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Wrong arguments are refused by name; nothing is rounded, cut or left out."""
 import dataclasses
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames of light fields that move, and pictures of splats."""
 import hashlib
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The package as a user meets it: arrays, pictures and errors."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The stub says what the extension module has."""
 import os
 import pathlib

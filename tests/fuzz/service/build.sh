@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Builds the targets that need the decoder alone, each with its seeds and the dictionary, into $OUT. The service
 # sets CXX, CXXFLAGS (sanitizers), LIB_FUZZING_ENGINE and OUT; `tests/fuzz/service/build.sh` by itself uses clang's.
 set -euo pipefail

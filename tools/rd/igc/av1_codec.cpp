@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/rd/igc/av1_codec.h"
 
 #if SLF_WITH_AV1

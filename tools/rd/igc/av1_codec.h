@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that includes libaom: AV1, for image-plus-geometry files alone (SLF_AV1).
 #pragma once
 

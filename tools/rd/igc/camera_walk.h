@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order in which photographs are coded: from each to one that looks alike. Paper IV-F.
 #pragma once
 

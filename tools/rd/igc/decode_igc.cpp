@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An IGC file to a light field: the decoder does what the encoder of .slf does. Mirrors
 // tools/rd/igc/encode_igc.cpp.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs and points to an IGC file. Mirrors tools/rd/igc/decode_igc.cpp.
 #include <algorithm>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image-plus-geometry coding (IGC): what the paper compares with. Paper IV-F.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the decoder has to know: text of KEY=VALUE lines, deflated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Photographs as video codecs take them: BT.709 YCbCr, 8 bit, full range.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Stands in for slf in tests: made-up numbers in the form of the real reports.
 
 --lambda 99 makes encode fail; FAKE_SLF_CALLS names a file that gets a line per call.

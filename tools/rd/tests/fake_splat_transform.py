@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Stands in for splat-transform in tests: its command line; a "coded" file is the PLY with colours rounded, deflated.
 
 A file that is named broken fails, as one does that the real program cannot read.

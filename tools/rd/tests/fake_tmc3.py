@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Stands in for tmc3 in tests: command lines and streams of its form, quantisation without a transform.
 
 The decoder gives the points in reverse order, as the real one gives them in another.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What several tests share: a directory that goes away, manifests as files, runs with the fake slf."""
 import json
 import os

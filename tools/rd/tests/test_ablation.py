@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Variants: what is refused, what they expand to, and the table against the first of them."""
 import csv
 import unittest

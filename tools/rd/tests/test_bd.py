@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """bd.py against cases with a known answer. Where the vectors come from stands at each."""
 import math
 import unittest

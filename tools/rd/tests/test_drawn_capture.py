@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tools/captures/draw_capture.py, where Blender is: a small capture whose cameras, pictures and points agree."""
 import shutil
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A manifest that is not sound is refused with its line, before anything runs."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shares of voxels of the laboratory's moving clouds: zero motion and blocks."""
 import unittest
 

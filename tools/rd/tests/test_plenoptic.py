@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """RAHT-KLT of the laboratory: its own promises."""
 import unittest
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Keys, resuming, failing jobs and the table, with a fake slf; one smoke test with the real one."""
 import csv
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Trained splats: what draws them, what judges, and the script around, with a fake splat-transform."""
 import csv
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The adapter of the G-PCC reference software, with a fake that has its command line."""
 import pathlib
 import subprocess

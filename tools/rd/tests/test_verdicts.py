@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every rule on made-up rows: agreeing, contradicting, undecided; and a verdict that flips."""
 import unittest
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field in a React page: <LightField src="/can.slf" azimuth={40} onReady={(points) => …} />
 import { useEffect, useRef } from 'react';
 import 'slf-decoder/viewer/slf_viewer.js';

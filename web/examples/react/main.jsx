@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { createElement as element } from 'react';
 import { createRoot } from 'react-dom/client';
 import { LightField } from './LightField.jsx';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame of the viewer takes on this machine.
 //   node web/test/browser/frame_times.mjs FILE.slf [pixels of a side, default 800]
 // In full: milliseconds of a view that has changed, colours and all, until the graphics are done; least of ten. Turning:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields that move: played, held, scrubbed, stepped, repeated; damage; less motion; while they arrive.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

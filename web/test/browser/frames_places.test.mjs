@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields that move, elsewhere than on the viewer's page: in <slf-viewer>, as splats, in one file.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

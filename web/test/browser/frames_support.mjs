@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests of light fields that move share: a tube that twists, a damaged one, a slow one, a server, Chromium.
 import assert from 'node:assert/strict';
 import { after, before } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The modules by themselves, in a page of a server: the decoding worker, the loader and the object of three.js.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

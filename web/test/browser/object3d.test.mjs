@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field as an object of three.js: bounds, rays, clones, layers, what is before and behind it.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

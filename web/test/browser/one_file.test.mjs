@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page that `slf html` makes, opened from a disk.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';

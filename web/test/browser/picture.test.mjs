@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The browser's pictures are the C++ renderer's.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';

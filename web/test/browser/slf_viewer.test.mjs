@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <slf-viewer>: several on a page, lazily; gestures that leave the page its scrolling; views in addresses; policies.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

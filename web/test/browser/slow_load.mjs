@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a file shows over a slow network: the first picture, and the whole.
 //   node web/test/browser/slow_load.mjs FILE.slf [kbit/s, default 750: 3G]
 // The viewer's page in Chromium, from a server that sends the file at that rate; seconds since the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of Gaussian splats in the viewer's page, the three.js object and the one-file page: the C++ renderer's pictures.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person does with the viewer: opening, turning, sliders, comparing.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the viewer does while files arrive, and when contexts, files and photographs come and go.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

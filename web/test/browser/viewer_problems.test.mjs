@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes wrong before the viewer: damaged files, networks, memory; a person is told, nothing is left.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

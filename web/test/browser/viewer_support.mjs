@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests of the viewer's page share: a can, files that are slow or broken, a server, Chromium.
 import assert from 'node:assert/strict';
 import { after, before } from 'node:test';

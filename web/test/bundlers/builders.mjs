@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What each bundler makes of a project's main.js. A builder gives the folder to serve, or an address where it serves
 // by itself. Parts: what a bundler that sees no addresses has to be given (docs/web.md).
 import { spawn } from 'node:child_process';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packs the package, installs it in empty projects and draws what bundlers make of pages/ in Chromium.
 //     node web/test/bundlers/run.mjs [part of a bundler's name]
 // Needs the program slf, Chromium and npm's registry; 77 and a line where one of them is missing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A static server of one folder, open to other origins, that packs what it sends and counts it.
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The conformance suite against the decoder in WebAssembly: the same digests, the same refusals.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module by itself: options, arrays, memory, errors.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

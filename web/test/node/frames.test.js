@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of streams that move: the integers of the suite, from bytes in pieces, by ranges, in a worker.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';

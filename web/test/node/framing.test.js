@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What views of a whole light field frame.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

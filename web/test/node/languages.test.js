@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every text of the viewer stands in every language, and no language has one that the viewer lacks.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Annotations and tracks: what is read of their JSON, and what is refused by its place.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `npm pack` makes is whole: its licence, every file that another one names, and a decoder that runs.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';

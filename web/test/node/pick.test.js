@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays against a light field, on the processor: pick.js.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When which frame shows: a player with a clock and a decoder of the test's own.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

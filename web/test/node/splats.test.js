@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian splats without a browser: their arrays, their order along a view, where rays meet them.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

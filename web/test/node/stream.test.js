@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading in parts from servers of all manners.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units of streams that arrive, by their bytes alone. Spec 7.1, 7.1.2.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests share: the conformance suite, and a server that can be told to misbehave.
 import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync } from 'node:fs';

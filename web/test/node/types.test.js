@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The types of the modules agree with how they are used. Needs the packages of npm.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of the viewer needs no browser: bytes on their way, decodes of a part, the loader of three.js.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';

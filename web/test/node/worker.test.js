@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page's side of a decoding worker, against a worker that answers as the test wants.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

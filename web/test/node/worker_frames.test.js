@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames by a worker: the page's side and the worker's own code, without a thread between them.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

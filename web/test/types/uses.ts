@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled and not run: what the documentation shows, and what must not compile.
 import { Box3, PerspectiveCamera, Raycaster, Scene, WebGLRenderer } from 'three';
 import { SlfDecoder, SlfError } from 'slf-decoder';

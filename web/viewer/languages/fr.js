@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer in French. Keys: words.js.
 export default {
   'Address': 'Adresse',

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js';
 

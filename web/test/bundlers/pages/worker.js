@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { SlfWorker } from 'slf-decoder/worker';
 
 const worker = await SlfWorker.create({ /* parts */ });
