@@ -9,7 +9,7 @@
 
 namespace slf {
 
-/// Voxel edge of an automatic grid, in pixels of the sharpest view (docs/pictures/density.md).
+/// Voxel edge of an automatic grid, in pixels of the sharpest view (docs/decisions/021).
 inline constexpr double kPixelsPerVoxel = 1;
 
 /// What an automatic grid takes at the most: memory and time of an encode grow with it.

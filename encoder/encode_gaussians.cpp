@@ -12,7 +12,7 @@ namespace slf {
 namespace {
 
 // Shares of Q at which the last byte of each buys the same in pictures: slopes of blender_can and
-// middlebury_dino, 4,000 and 6,000 splats. docs/splats.md
+// middlebury_dino, 4,000 and 6,000 splats. docs/decisions/024
 constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
 
 /// What the reference rasteriser never draws.

@@ -42,7 +42,7 @@ void add_start(std::vector<SettingRow>& rows) {
               kMostEffort,
               {},
               std::to_string(kDefaultEffort),
-              "Time for bytes: 1 is quickest, 8 looks furthest (docs/rate.md)",
+              "Time for bytes: 1 is quickest, 8 looks furthest (docs/cli.md)",
               "",
               {}})});
 }

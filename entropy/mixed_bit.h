@@ -18,7 +18,7 @@ namespace slf {
 template <class Coder, std::size_t kModels>
 SLF_OWN_CALL unsigned code_mixed(Coder& coder, const std::array<ContextBit*, kModels>& selected,
                                  std::size_t next, EightLanes& weights, unsigned bit) {
-  constexpr std::int32_t kRate = 8;  // found on the light fields and clouds of docs/rate.md
+  constexpr std::int32_t kRate = 8;  // found on the light fields and clouds of docs/decisions/001
   const SelectedContexts<kModels> states(selected, next);
   const Mixed<1> mixed(states.inputs(), {&weights});
   bit = coder.bit(mixed.p1(), bit);
@@ -65,7 +65,7 @@ class MixedBit {
   }
 
  private:
-  // Of 8192, shared between the models; found on synthetic scenes (docs/format-0.4.md).
+  // Of 8192, shared between the models; found on synthetic scenes (docs/decisions/010).
   static constexpr int kFirstWeights = 8500;
 
   /// Where each model's contexts begin.

@@ -83,7 +83,7 @@ class OccupancyModel {
 
   static constexpr unsigned kOnly = 256;  // as the second argument of group()
   /// From here on what the rows say is not asked to be confirmed. Found on the clouds of
-  /// docs/rate.md.
+  /// docs/decisions/001.
   static constexpr std::int32_t kCertain = 1152;
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 

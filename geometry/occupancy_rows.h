@@ -48,7 +48,8 @@ class SelectedRows {
   }
 
  private:
-  static constexpr std::int32_t kSlow = 32, kFast = 128;  // found on the clouds of docs/rate.md
+  // Found on the clouds of docs/decisions/002.
+  static constexpr std::int32_t kSlow = 32, kFast = 128;
 
   void move(std::size_t begin, std::size_t end, EightLanes step) const {
     for (std::size_t i = begin; i < end; ++i) {

@@ -47,7 +47,7 @@ struct OccupancyStates {
   static constexpr int kMostHashedBits = 18;
   static constexpr std::uint32_t kHashed = 3;
 
-  // Found on the clouds of docs/rate.md.
+  // Found on the clouds of docs/decisions/001.
   static constexpr std::int16_t kFirstWeight = 900;  // of 8192
   static constexpr std::uint32_t kFirstRate = 8, kLastRate = 4;
 

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> cells_of(std::span<const std::uint64_t> morton, int b
   return cells;
 }
 
-/// 3 of 4: at half of them or a third, asking first costs bytes (docs/format-0.4.md).
+/// 3 of 4: at half of them or a third, asking first costs bytes (docs/decisions/002).
 bool most_have_one_child(const std::vector<std::uint8_t>& occupancy) {
   const auto ones = std::count_if(occupancy.begin(), occupancy.end(),
                                   [](std::uint8_t o) { return std::has_single_bit(o); });

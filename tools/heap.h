@@ -15,7 +15,7 @@ namespace slf::tools {
 
 /// For the beginning of main(): the first 64 MiB of malloc's heap are address space taken in one
 /// step, resident as they are used, 2 MiB at a time. On small pages a third of a decode was page
-/// faults (docs/format-0.4.md). Where the C library is another, or gives less, nothing changes.
+/// faults (docs/decisions/008). Where the C library is another, or gives less, nothing changes.
 inline void heap_on_huge_pages() {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
   constexpr int kHeap = 64 << 20;

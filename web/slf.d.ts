@@ -173,7 +173,7 @@ export class SlfField {
   weights(out?: Float32Array): Float32Array;
   /** [P][3] R, G, B averaged over all directions. */
   meanColours(): Uint8Array;
-  /** side: 2 .. 1024 [65]. Linear interpolation is off by what docs/web.md lists. */
+  /** side: 2 .. 1024 [65]. Linear interpolation is off by what docs/decisions/028 lists. */
   functionTable(options?: { side?: number }): SlfFunctionTable;
   /** [n][3] reference colours of points (whole numbers below P) along world directions from the point to the eye. */
   radiance(points: ArrayLike<number>, directions: ArrayLike<number>): Float32Array;

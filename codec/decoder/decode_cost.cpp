@@ -24,8 +24,8 @@ struct Bytes {
 };
 
 // Bytes of a point, of what the arrays named hold. Where a figure depends on the scene, the usual
-// one is what scenes of docs/limits.md have: surfaces, of a third as many nodes a level up, with
-// ten neighbours each; 26 and as many nodes are the most.
+// one is what scenes of docs/decisions/009 have: surfaces, of a third as many nodes a level up,
+// with ten neighbours each; 26 and as many nodes are the most.
 constexpr double kVoxel = 12, kCode = 8;
 constexpr double kTop = 16 + 1 + 4 + 4 + 4;  // RahtTop: merges, split, parent, order, first
 constexpr Bytes kWaiting{kVoxel + kCode + 1.2 * kTop, kVoxel + kCode + 2 * kTop},  // SliceGeometry

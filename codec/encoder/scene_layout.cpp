@@ -9,7 +9,7 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kFewPoints = 2000;   // a base does not pay below
-constexpr std::size_t kPointsOfCell = 24;  // at least, by choice: docs/format-0.4.md
+constexpr std::size_t kPointsOfCell = 24;  // at least, by choice: docs/decisions/005
 constexpr std::size_t kCellsOfSlice = 2;   // at least, where there are several slices
 /// At least, of slices apart: enough to cut slices alike, and few, since no cell knows of another.
 constexpr std::size_t kCellsOfSliceApart = 4;

@@ -20,7 +20,7 @@ constexpr std::size_t kLeastCameras = 8;
 constexpr int kLeastFolds = 3;
 constexpr double kLeastGain = 0.005;
 constexpr double kLeastStructureGain = 0.03, kSureStructureGain = 0.15;
-constexpr std::array kStrengths = {0.1, 0.3, 1.0};  // 3 looks better than it is: docs/rate.md
+constexpr std::array kStrengths = {0.1, 0.3, 1.0};  // 3 looks better than it is: docs/decisions/004
 constexpr std::array kGrowths = {1.15, 1.3, 1.5};
 constexpr double kPenaltyRaise = 5;
 

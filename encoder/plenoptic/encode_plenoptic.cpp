@@ -17,7 +17,7 @@ namespace slf {
 namespace {
 
 /// Step of the planes of an exact file, grey levels. The corrections take what it leaves: smaller
-/// and larger steps are larger files on clouds with the noise of cameras (docs/plenoptic.md).
+/// and larger steps are larger files on clouds with the noise of cameras (docs/decisions/026).
 constexpr std::uint32_t kExactStep = 8;
 constexpr int kPlaneShift = 3;  // of planes with a step: eighths of a grey level
 

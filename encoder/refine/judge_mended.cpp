@@ -9,7 +9,7 @@
 namespace slf {
 namespace {
 
-// All measured on middlebury_dino: docs/pictures/geometry.md.
+// All measured on middlebury_dino: docs/decisions/019.
 constexpr double kRegion = 8;      // spacings: side of the cubes that are kept or not
 constexpr double kUnseenMove = 2;  // lattice steps: moved farther, a point must be seen
 constexpr double kSlanted = 1.4;   // lattice steps: between points of a slanted surface

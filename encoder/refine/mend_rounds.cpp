@@ -10,7 +10,7 @@
 namespace slf {
 namespace {
 
-// All measured on middlebury_dino: docs/pictures/geometry.md.
+// All measured on middlebury_dino: docs/decisions/019.
 constexpr std::size_t kNear = 24;         // points of a plane
 constexpr double kReach = 1.5;            // spacings: of a neighbour's influence
 constexpr std::size_t kNearOffsets = 12;  // points whose offsets agree

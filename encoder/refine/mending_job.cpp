@@ -13,7 +13,7 @@
 namespace slf {
 namespace {
 
-// All measured on middlebury_dino: docs/pictures/geometry.md.
+// All measured on middlebury_dino: docs/decisions/019.
 constexpr double kPatchesApart = 1;     // of the finest photographs matched, between points: nearer
                                         // ones have the same patch
 constexpr double kDenser = 1.2;         // times farther apart: worth it

@@ -14,7 +14,7 @@
 namespace slf {
 namespace {
 
-// All measured on middlebury_dino: docs/pictures/geometry.md.
+// All measured on middlebury_dino: docs/decisions/019.
 constexpr std::size_t kLeastCameras = 8, kMostPoints = 2'000'000;
 constexpr double kLeastGain = 0.15;  // of the squared error, for kAuto: less may be the smoothing
 // Pixels of half-size photographs: a cloud that kAuto leaves (the can: 0), one that is wrong for

@@ -16,7 +16,7 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
-constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/pictures/trained.md
+constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/decisions/020
 constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the photographs
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
 constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface

@@ -120,7 +120,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
 /// What decode() takes, as headers tell: before any of it is allocated.
 struct DecodeCost {
   /// Bytes at a time, the light field included, the stream itself not. Of scenes like those of
-  /// docs/limits.md within 10 %; a hostile stream may need up to memory_most.
+  /// docs/decisions/009 within 10 %; a hostile stream may need up to memory_most.
   std::uint64_t memory = 0;
   std::uint64_t memory_most = 0;  ///< what no stream with these headers exceeds
   std::uint64_t work = 0;         ///< steps as DecodeLimits::max_work counts them, at most

@@ -10,7 +10,8 @@
 
 namespace slf {
 
-/// Where EncoderSettings::q is kAutomaticQ. It costs about 0.25 dB of pictures (docs/splats.md).
+/// Where EncoderSettings::q is kAutomaticQ. It costs about 0.25 dB of pictures
+/// (docs/decisions/024).
 inline constexpr double kGaussianQ = 7;
 
 struct EncodedGaussians {

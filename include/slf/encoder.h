@@ -159,7 +159,7 @@ inline constexpr int kDefaultEffort = 7, kMostEffort = 8;
 
 /// The settings of a preset. kPaper is the configuration of the paper as written (spec annex C).
 /// @param effort  1 .. kMostEffort, of kDefault alone: time of the encoder for bytes at equal
-///                quality. 7 is what the members above start with. Measured: docs/rate.md
+///                quality. 7 is what the members above start with. Measured: docs/decisions/013
 EncoderSettings settings_of(Preset preset, int effort = kDefaultEffort);
 
 /// Where a quantiser step came from, and what it is expected to cost.

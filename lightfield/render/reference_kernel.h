@@ -6,7 +6,7 @@
 namespace slf {
 
 /// Discs of points, their weights in a pixel, and how much of a pixel they cover. What a change of
-/// each costs in pictures: docs/pictures/renderer.md.
+/// each costs in pictures: docs/decisions/018.
 struct ReferenceKernel {
   int version = 2;  ///< 1: that of slf 0.1 with format 0.3
 

@@ -116,7 +116,7 @@ TEST_P(QualityLayersTest, EveryPrefixDecodesAndThreadsDoNotMatter) {
 }
 
 TEST_P(QualityLayersTest, LayersCostLittle) {
-  // Two layers of the captures of docs/format-0.4.md cost 0.4 to 1.0 %.
+  // Two layers of the captures of docs/decisions/006 cost 0.4 to 1.0 %.
   EXPECT_LT(static_cast<double>(packed(2).size()), 1.06 * static_cast<double>(packed(1).size()));
 }
 

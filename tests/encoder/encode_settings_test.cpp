@@ -40,7 +40,7 @@ TEST(Effort, SevenIsWhatSettingsStartWithAndThePaperHasNone) {
   EXPECT_FALSE(settings_of(Preset::kPaper, 8).search.any());
 }
 
-/// A matte object in the mirrored frame costs a sixth more bytes and 0.6 dB (docs/pictures.md).
+/// A matte object in the mirrored frame costs a sixth more bytes and 0.6 dB (docs/decisions/017).
 TEST(Effort, WhereGeometryIsMendedTheFrameIsSearchedAndBelowTheDefaultNothingElse) {
   for (int effort = 1; effort <= kMostEffort; ++effort) {
     const EncoderSettings s = settings_of(Preset::kDefault, effort);

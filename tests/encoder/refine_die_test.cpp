@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(, RefineDieTest,
                          testing::PrintToStringParamName());
 
 /// What mending gains there is its smoothing of points: the file grows by a fifth, its pictures do
-/// not get better (docs/pictures/geometry.md).
+/// not get better (docs/decisions/019).
 TEST(RefineNoisyDieTest, AGainThatPicturesDoNotShowLeavesTheCloudAlone) {
   const DieCapture die({.noise = 0.7, .noise_scale = 6});
   const auto refined = refine_geometry(die.capture, die.cameras, {.grid_bits = 8});

@@ -34,7 +34,7 @@ test('the colour of a point along a way is its radiance there', () => {
       most = Math.max(most, Math.abs(255 * v - Math.max(0, Math.min(255, exact[3 * i + k]))));
     }));
   }
-  assert.ok(most < 1, `${most} grey levels`); // the table's own: docs/web.md
+  assert.ok(most < 1, `${most} grey levels`); // the table's own: docs/decisions/028
 });
 
 test('the nearest disc is met, from either side, and none behind the eye or beside the ray', () => {
