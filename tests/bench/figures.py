@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Measures the figures of docs/figures.md and writes that page.
+
+    tests/bench/figures.py --build build --data ../shared/data --clouds ../shared/clouds --work build/figures -o docs/figures.md
+
+Tables whose captures are not there are left out, and the page says so. Seconds are processor time, user and system, of all
+threads, so that a busy machine changes them little. Results stay in WORK by commit: a run that was stopped goes on.
+--only NAME measures one table and prints it. A whole run takes about 25 minutes of one core.
+"""
+import argparse
+import datetime
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+
+import figures_tables as tables
+from measured import Store
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def commit():
+    def git(*words):
+        return subprocess.run(['git', '-C', str(ROOT), *words], capture_output=True, text=True, check=True).stdout.strip()
+    changed = git('status', '--porcelain', '--untracked-files=no', '--', ':!docs', ':!tests', ':!*.md')
+    return git('rev-parse', '--short=10', 'HEAD') + ('-dirty' if changed else '')
+
+
+def machine():
+    info = pathlib.Path('/proc/cpuinfo').read_text()
+    name = re.search(r'model name\s*: (.*)', info)
+    return f'{name[1] if name else platform.machine()}, {info.count("processor")} cores, Linux {platform.release()}'
+
+
+def head(args, at):
+    version = subprocess.run([args.build / 'bin/slf', '--version'], capture_output=True, text=True, check=True).stdout.split('\n')[0]
+    return ['# Figures', '',
+            'Written by `tests/bench/figures.py`. No other living document has a figure that is not on this page (`tests/house/figures_test.py`). '
+            'How the figures came about: [decisions](decisions/README.md).', '',
+            f'{version}, commit {at}, {datetime.date.today().isoformat()}; {machine()}, beside other work. '
+            'Seconds are processor time, user and system, of all threads. '
+            'dB is PSNR of pictures: *inside* where file and photograph both show the object, *all* over all pixels (specification annex D). '
+            '*Held out* are photographs that the encoder did not see.', '']
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--build', type=pathlib.Path, default=pathlib.Path('build'))
+    parser.add_argument('--data', type=pathlib.Path, default=pathlib.Path('../shared/data'))
+    parser.add_argument('--clouds', type=pathlib.Path, default=pathlib.Path('../shared/clouds'))
+    parser.add_argument('--work', type=pathlib.Path, default=pathlib.Path('build/figures'))
+    parser.add_argument('--only', choices=list(tables.TABLES))
+    parser.add_argument('-o', '--output', type=pathlib.Path)
+    args = parser.parse_args()
+    at = commit()
+    place = tables.Place(args.build, args.data, args.clouds, Store(args.work, at))
+    lines = [] if args.only else head(args, at)
+    for name, (title, make) in tables.TABLES.items():
+        if args.only in (None, name):
+            lines += [f'## {title}', '', *make(place), '']
+    text = '\n'.join(lines).rstrip('\n') + '\n'
+    if args.output:
+        args.output.write_text(text)
+    else:
+        sys.stdout.write(text)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,193 @@
+"""The tables of docs/figures.md: each makes lines of Markdown from what it measures."""
+import json
+import pathlib
+import re
+from dataclasses import dataclass
+
+from measured import Store, run
+
+# Figures of other programs, from the pages of docs/decisions that have their conditions.
+SPZ = {'can_n4000_s3': ('84,154', '24.09', '0.901'), 'can_n20000_s3': ('403,843', '24.87', '0.943'), 'dino_n6000_s2': ('94,525', '29.38', '0.930')}
+SOG = {'can_n4000_s3': ('152,963', '24.54', '0.908'), 'can_n20000_s3': ('907,861', '25.45', '0.951'), 'dino_n6000_s2': ('191,124', '30.17', '0.936')}
+SPLATS = {'can_n4000_s3': ('blender_can', '4,000 splats of degree 3'), 'can_n20000_s3': ('blender_can', '20,000 of degree 3'),
+          'dino_n6000_s2': ('middlebury_dino', '6,000 of degree 2')}
+# A name, the capture, the options of encode.
+PICTURES = [('the default', 'blender_can', []), ('`-q 32`', 'blender_can', ['-q', 32]), ('`-q 64`', 'blender_can', ['-q', 64]),
+            ('the paper as written, `--preset paper -q 8`', 'blender_can', ['--preset', 'paper', '-q', 8]),
+            ('`--preset paper -q 32`', 'blender_can', ['--preset', 'paper', '-q', 32]),
+            ('the default, from 9,230 sparse points', 'blender_can', ['--points', '{data}/blender_can/sparse_points.ply']),
+            ('`--effort 1 -q 24`', 'blender_can', ['--effort', 1, '-q', 24]), ('`--effort 3 -q 24`', 'blender_can', ['--effort', 3, '-q', 24]),
+            ('`--effort 5 -q 24`', 'blender_can', ['--effort', 5, '-q', 24]), ('`--effort 7 -q 24`', 'blender_can', ['--effort', 7, '-q', 24]),
+            ('`--effort 8 -q 24`', 'blender_can', ['--effort', 8, '-q', 24]),
+            ('the default: it takes splats', 'middlebury_dino', []), ('`--surface trained`', 'middlebury_dino', ['--surface', 'trained']),
+            ('`--surface given`', 'middlebury_dino', ['--surface', 'given']),
+            ('the default', 'can', []), ('the default', 'die', []), ('`-q 16`', 'die', ['-q', 16])]
+DRAWN = {'can': 'slf synth can, 256 × 256', 'die': 'slf synth die, 200 × 200'}
+MOVING = {'rot1': 'a can that turns by 1 degree a frame', 'rot4': 'by 4 degrees', 'tube2': 'a tube that twists and bends, slowly', 'tube8': 'fast',
+          'still': 'nothing moves', 'noise': 'every point moves by 0.3 voxels'}
+
+
+@dataclass
+class Place:
+    build: pathlib.Path
+    data: pathlib.Path
+    clouds: pathlib.Path
+    store: Store
+
+    @property
+    def slf(self):
+        return self.build / 'bin/slf'
+
+    def bench(self, name, *words):
+        return run([next(self.build.rglob(name)), *words])[0]
+
+    def capture(self, name):
+        """The directory of a capture, drawn if it is one of `slf synth`; None where it is not there."""
+        if name not in DRAWN:
+            return self.data / name if (self.data / name).exists() else None
+        folder = self.store.folder / name
+        if not folder.exists():
+            run([self.slf, 'synth', name, '--size', DRAWN[name].split(', ')[1].replace(' × ', 'x'), '-o', folder])
+        return folder
+
+
+def table(header, rows):
+    rows = [list(header), ['---'] * len(header), *rows]
+    return ['| ' + ' | '.join(str(cell) for cell in row) + ' |' for row in rows]
+
+
+def coded(place, capture, options):
+    """A capture encoded, decoded, drawn and judged: what the table needs."""
+    folder = place.capture(capture)
+    options = [str(word).replace('{data}', str(place.data)) for word in options]
+
+    def make():
+        file = place.store.folder / f'{capture}{re.sub("[^a-z0-9]+", "-", " ".join(options))}.slf'
+        text, encode, memory = run([place.slf, 'encode', folder, '-o', file, '--json', '--quiet', *options])
+        report = json.loads(text)
+        judged = json.loads(run([place.slf, 'eval', file, folder, '--json', '--quiet'])[0])
+        decode = min(run([place.slf, 'decode', file, '--dump', place.store.folder / 'dump', '-j', 1, '--quiet'])[1] for _ in range(3))
+        return {'file': str(file), 'bytes': report['bytes'], 'points': report['points'], 'q': report['q'], 'encode': encode, 'memory': memory,
+                'decode': decode, 'frame': judged['render']['seconds_per_image'], 'held_out': judged['held_out']['image'],
+                'input': judged['input']['image']}
+    return place.store.get(f'coded {capture} {" ".join(options)}', make)
+
+
+def pictures(place):
+    rows = []
+    for name, capture, options in PICTURES:
+        if place.capture(capture) is None:
+            continue
+        c = coded(place, capture, options)
+        out, seen = c['held_out'], c['input']
+        rows.append([DRAWN.get(capture, capture), name, f"{c['q']:g}", f"{c['points']:,}", f"{c['bytes']:,}", f"{8 * c['bytes'] / c['points']:.1f}",
+                     f"{out['psnr']:.2f}", f"{out['all']['psnr']:.2f}", f"{out['ssim']:.3f}", f"{seen['psnr']:.2f}", f"{c['encode']:.0f}",
+                     f"{c['memory'] / 1024:.1f}", f"{c['decode']:.2f}", f"{1000 * c['frame']:.0f}"])
+    return ['Whole files. *Decode* is the program with `--dump`: all components, one thread, writing included. *Frame* is a picture of the size of the '
+            "capture's photographs, one thread.", '',
+            *table(['capture', 'encoder', 'Q', 'points', 'bytes', 'bits/point', 'held out, inside dB', 'all dB', 'SSIM', 'input, inside dB',
+                    'encode s', 'peak GiB', 'decode s', 'frame ms'], rows)]
+
+
+def splats(place):
+    rows = []
+    for name, (capture, what) in SPLATS.items():
+        source = place.data / 'splats' / f'{name}.ply'
+        if not source.exists():
+            continue
+        row = [f'{capture}, {what}']
+        for size, psnr, ssim in (SPZ[name], SOG[name]):
+            row.append(f'{size} B {psnr} dB {ssim}')
+        for q in (9, 7, 5):
+            def make(q=q):
+                file = place.store.folder / f'{name}-{q}.slf'
+                report = json.loads(run([place.slf, 'encode', source, '-o', file, '--json', '--quiet', '-q', q])[0])
+                judged = json.loads(run([place.slf, 'eval', file, place.data / capture, '--json', '--quiet'])[0])
+                return {'bytes': report['bytes'], 'held_out': judged['held_out']['image']}
+            c = place.store.get(f'splats {name} {q}', make)
+            row.append(f"{c['bytes']:,} B {c['held_out']['psnr']:.2f} dB {c['held_out']['ssim']:.3f}")
+        rows.append(row)
+    return ['Splats that another program trained, as files of three formats. Held out, inside / SSIM. SPZ v4 and SOG v2 are written by '
+            '@playcanvas/splat-transform 2.7.1 ([decision 024](decisions/024-gaussian-splats.md)).', '',
+            *table(['splats', 'SPZ v4', 'SOG v2', '`slf -q 9`', '`-q 7`, the default', '`-q 5`'], rows)]
+
+
+def geometry(place):
+    files = sorted(place.clouds.glob('*.ply'))
+    if not files:
+        return ['No clouds on this machine.']
+    text = place.store.get('geometry', lambda: place.bench('bench_geometry', *files))
+    rows = []
+    for line in text.splitlines():
+        found = re.match(r'(\S+)\s+(\d+) \|\s+(\d+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+) \|\s+(\d+)\s+[\d.]+\s+[\d.]+ \|\s+(\d+)\s+(\S+%)', line)
+        if found:
+            name, points, size, rate, encode, decode, draco, tmc, change = found.groups()
+            rows.append([name, f'{int(points):,}', f'{int(size):,}', rate, f'{int(tmc):,}', change.replace('%', ' %'), f'{int(draco):,}', encode, decode])
+    mean = re.search(r'mean against TMC13: (\S+) %', text)
+    return ['Lossless positions on a grid. Whole `.slf` files against the position bytes of the reference software of G-PCC (TMC13 v23.0-rc2, the better '
+            f'of planar on and off) and Draco. Mean against TMC13: {mean[1] if mean else "?"} %. One thread, clock.', '',
+            *table(['cloud', 'points', 'slf, bytes', 'bits/point', 'TMC13, bytes', 'slf against TMC13', 'Draco, bytes', 'encode s', 'decode s'], rows)]
+
+
+def speed(place):
+    if place.capture('blender_can') is None:
+        return ['blender_can is not on this machine.']
+    c = coded(place, 'blender_can', [])
+
+    def make():
+        parts = {}
+        for name, options in [('points and mean colours, `-o x.ply`', []), ('fewer levels, `--levels 7`', ['--levels', 7]),
+                              ('one group, `--groups 1`', ['--groups', 1])]:
+            runs = [run([place.slf, 'decode', c['file'], '-o', place.store.folder / 'out.ply', '-j', 1, '--quiet', *options]) for _ in range(5)]
+            parts[name] = min(seconds for _, seconds, _ in runs), min(memory for _, _, memory in runs)
+        whole = [run([place.slf, 'decode', c['file'], '--dump', place.store.folder / 'dump', '-j', 1, '--quiet']) for _ in range(5)]
+        parts['all components, `--dump`'] = min(s for _, s, _ in whole), min(m for _, _, m in whole)
+        return parts
+    rows = [[name, f'{seconds:.3f}', f'{memory:.0f}'] for name, (seconds, memory) in place.store.get('speed', make).items()]
+    frame = place.store.get('frame', lambda: place.bench('bench_render', c['file'], 800, 6))
+    ms = re.search(r'([\d.]+) ms a frame', frame)[1]
+    return [f"The default file of blender_can ({c['bytes']:,} B), one thread, the whole program, least of five. A frame of 800 × 800 takes {ms} ms.", '',
+            *table(['`slf decode`', 'seconds', 'peak MiB'], rows)]
+
+
+def moving(place):
+    folders = []
+    for name in MOVING:
+        folder = place.store.folder / name
+        if not folder.exists():
+            run([place.slf, 'synth', name, '--frames', 6, '-o', folder])
+        folders.append(folder)
+    text = place.store.get('moving', lambda: place.bench('bench_frames', 16, *folders))
+    rows, name, by_kind = [], None, {}
+    for line in text.splitlines():
+        words = line.split()
+        if line and not line[0].isspace() and 'frames' in line:
+            name, by_kind = pathlib.Path(line.split(',')[0]).name, {}
+        elif len(words) == 6 and name:
+            by_kind[words[0]] = words[1:]
+        elif len(words) == 3 and all(word.endswith('%') for word in words):
+            (_, own), (_, predicted) = list(by_kind.items())[-2:]
+            rows.append([f'{name}: {MOVING[name]}', f'{int(own[0]):,}', f'{int(predicted[0]):,}', *(word.replace('%', ' %') for word in words)])
+    return ['Clouds of one colour a point on a grid of 8 bits, step 16 (`tests/bench/bench_frames`): bytes a frame, coded by itself and predicted from the '
+            'frame before, at the same step.', '',
+            *table(['sequence', 'alone, bytes', 'predicted, bytes', 'all', 'geometry', 'values'], rows)]
+
+
+def pages(place):
+    wasm = pathlib.Path(__file__).resolve().parents[2] / 'web'
+    rows = [[name, f'{(wasm / name).stat().st_size:,}'] for name in ('slf.wasm', 'slf_scalar.wasm') if (wasm / name).exists()]
+    for capture in ('can', 'blender_can'):
+        if place.capture(capture) is None:
+            continue
+        c = coded(place, capture, [])
+
+        def make(c=c):
+            page = place.store.folder / 'page.html'
+            run([place.slf, 'html', c['file'], '-o', page, '--quiet'])
+            return page.stat().st_size
+        rows.append([f"page of `slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", f"{place.store.get(f'page {capture}', make):,}"])
+    return ['One page holds the file, the decoder and the viewer.', '', *table(['', 'bytes'], rows)]
+
+
+TABLES = {'pictures': ('Captures', pictures), 'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),
+          'speed': ('Decoding and drawing', speed), 'moving': ('Clouds that move', moving), 'pages': ('In a browser', pages)}
