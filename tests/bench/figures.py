@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measures the figures of docs/figures.md and writes that page.
 
     tests/bench/figures.py --build build --data ../shared/data --clouds ../shared/clouds --work build/figures -o docs/figures.md

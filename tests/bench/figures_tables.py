@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The tables of docs/figures.md: each makes lines of Markdown from what it measures."""
 import json
 import pathlib

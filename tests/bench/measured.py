@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One run of a program: what it printed, its processor time and its memory. Results are kept by name, so that a run that was stopped goes on."""
 import json
 import os
