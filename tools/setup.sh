@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages that building needs; with the argument `web` also those that
-# web/build_wasm.sh and its tests need, with `lab` these and those of all tests and of the RD
-# laboratory (tools/rd), with `machines` those of conformance/machines.sh (cross compilers, qemu, wine).
+# Installs the Debian packages that building needs. An argument adds others: `web` those that
+# web/build_wasm.sh and its tests need, `lab` these and those of all tests and of the RD laboratory
+# (tools/rd), `site` those of tools/site.sh, `machines` those of conformance/machines.sh (cross
+# compilers, qemu, wine).
 # Quick when all are there; safe to repeat. As root, or through sudo.
 set -euo pipefail
 
@@ -24,6 +25,9 @@ if [[ "${1:-}" == lab ]]; then
     pybind11-dev python3-venv mypy doxygen dpkg-dev man-db file shared-mime-info libglib2.0-bin  # bindings/python/, packages, reference, man pages, file types
     locales  # tests/tools/locale_test.py
     chromium)  # web/test/browser
+fi
+if [[ "${1:-}" == site || "${1:-}" == lab ]]; then
+  packages+=(mkdocs mkdocs-material codespell)
 fi
 if [[ "${1:-}" == machines ]]; then
   packages+=(qemu-user-static g++-{s390x,aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64)

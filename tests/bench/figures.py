@@ -23,10 +23,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def commit():
+    """The last commit that changed the code."""
     def git(*words):
         return subprocess.run(['git', '-C', str(ROOT), *words], capture_output=True, text=True, check=True).stdout.strip()
-    changed = git('status', '--porcelain', '--untracked-files=no', '--', ':!docs', ':!tests', ':!*.md')
-    return git('rev-parse', '--short=10', 'HEAD') + ('-dirty' if changed else '')
+    code = ['--', ':!docs', ':!tests', ':!.ci', ':!tools/rd', ':!tools/site', ':!*.md']
+    changed = git('status', '--porcelain', '--untracked-files=no', *code)
+    return git('log', '-1', '--format=%h', '--abbrev=10', *code) + ('-dirty' if changed else '')
 
 
 def machine():
@@ -53,9 +55,10 @@ def main():
     parser.add_argument('--clouds', type=pathlib.Path, default=pathlib.Path('../shared/clouds'))
     parser.add_argument('--work', type=pathlib.Path, default=pathlib.Path('build/figures'))
     parser.add_argument('--only', choices=list(tables.TABLES))
+    parser.add_argument('--commit', help="what BUILD was built from; default: the last commit that changed the code")
     parser.add_argument('-o', '--output', type=pathlib.Path)
     args = parser.parse_args()
-    at = commit()
+    at = args.commit or commit()
     place = tables.Place(args.build, args.data, args.clouds, Store(args.work, at))
     lines = [] if args.only else head(args, at)
     for name, (title, make) in tables.TABLES.items():

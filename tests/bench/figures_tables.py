@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of docs/figures.md: each makes lines of Markdown from what it measures."""
+import gzip
 import json
 import pathlib
 import re
+import shutil
+import subprocess
 from dataclasses import dataclass
 
 from measured import Store, run
@@ -174,10 +177,18 @@ def moving(place):
             *table(['sequence', 'alone, bytes', 'predicted, bytes', 'all', 'geometry', 'values'], rows)]
 
 
+def packed(file):
+    """Bytes of a file as it is, by gzip, and by brotli where that is there."""
+    data = file.read_bytes()
+    brotli = shutil.which('brotli')
+    small = f"{len(subprocess.run([brotli, '-c', '-q', '11', file], capture_output=True, check=True).stdout):,}" if brotli else ''
+    return [f'{len(data):,}', f'{len(gzip.compress(data, 9)):,}', small]
+
+
 def pages(place):
-    wasm = pathlib.Path(__file__).resolve().parents[2] / 'web'
-    rows = [[name, f'{(wasm / name).stat().st_size:,}'] for name in ('slf.wasm', 'slf_scalar.wasm') if (wasm / name).exists()]
-    for capture in ('can', 'blender_can'):
+    web = pathlib.Path(__file__).resolve().parents[2] / 'web'
+    rows = [[f'`{name}`', *packed(web / name)] for name in ('slf.wasm', 'slf_scalar.wasm') if (web / name).exists()]
+    for capture in ('can', 'blender_can', 'middlebury_dino'):
         if place.capture(capture) is None:
             continue
         c = coded(place, capture, [])
@@ -185,9 +196,9 @@ def pages(place):
         def make(c=c):
             page = place.store.folder / 'page.html'
             run([place.slf, 'html', c['file'], '-o', page, '--quiet'])
-            return page.stat().st_size
-        rows.append([f"page of `slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", f"{place.store.get(f'page {capture}', make):,}"])
-    return ['One page holds the file, the decoder and the viewer.', '', *table(['', 'bytes'], rows)]
+            return packed(page)
+        rows.append([f"`slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", *place.store.get(f'page {capture}', make)])
+    return ['One page holds the file, the decoder, the viewer and one or two posters.', '', *table(['', 'bytes', 'gzip -9, bytes', 'brotli 11, bytes'], rows)]
 
 
 TABLES = {'pictures': ('Captures', pictures), 'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Copies every Markdown page of the repository, and the files that pages link to, into a folder for mkdocs.
+
+    stage_pages.py ROOT FOLDER
+
+The tree stays as it is, so that relative links hold. A link to a folder leads to its README, or loses its address where there is none.
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+
+def pages_of(root):
+    listed = subprocess.run(['git', '-C', str(root), 'ls-files', '*.md'], capture_output=True, text=True, check=True).stdout.splitlines()
+    return [root / name for name in listed]
+
+
+def main():
+    root, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    pages = pages_of(root)
+    linked = set()
+
+    def mended(found, page):
+        """The link as it has to be in the staged page."""
+        image, text, target = found[1], found[2], found[3]
+        if re.match(r'[a-z][a-z0-9+.-]*:|#', target):
+            return found[0]
+        where = (page.parent / target.partition('#')[0]).resolve()
+        if where.is_dir():
+            return f'[{text}]({target.rstrip("/")}/README.md)' if (where / 'README.md').exists() else text
+        linked.add(where)
+        return f'{image}[{text}]({target})'
+
+    for page in pages:
+        text = re.sub(r'(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)', lambda found: mended(found, page), page.read_text(encoding='utf-8'))
+        out = folder / page.relative_to(root)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(text, encoding='utf-8')
+    for file in linked - set(pages):
+        out = folder / file.relative_to(root)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, out)
+
+
+if __name__ == '__main__':
+    main()
