@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Copies every Markdown page of the repository, and the files that pages link to, into a folder for mkdocs.
 
-    stage_pages.py ROOT FOLDER
+    stage_pages.py ROOT FOLDER [PROGRAM]
 
 The tree stays as it is, so that relative links hold. A link to a folder leads to its README, or loses its address where there is none.
+reference/program.md has the help of every verb of PROGRAM.
 """
 import pathlib
 import re
@@ -16,6 +17,22 @@ import sys
 def pages_of(root):
     listed = subprocess.run(['git', '-C', str(root), 'ls-files', '*.md'], capture_output=True, text=True, check=True).stdout.splitlines()
     return [root / name for name in listed]
+
+
+def help_of(program, *verb):
+    return subprocess.run([program, *verb, '--help'], capture_output=True, text=True, check=True).stdout.rstrip()
+
+
+def reference_of(program):
+    """The help of the program and of its verbs, as a page."""
+    if not program.exists():
+        return '# The options of `slf`\n\n`tools/site.sh` was run without the program: build it first.\n'
+    whole = help_of(program)
+    verbs = re.findall(r'^  (\w+) {2,}', whole.partition('Subcommands:')[2], flags=re.M)
+    parts = ['# The options of `slf`', f'```\n{whole}\n```']
+    for verb in verbs:
+        parts += [f'## slf {verb}', f'```\n{help_of(program, verb)}\n```']
+    return '\n\n'.join(parts) + '\n'
 
 
 def main():
@@ -43,6 +60,9 @@ def main():
         out = folder / file.relative_to(root)
         out.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, out)
+    program = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else root / 'build/bin/slf'
+    (folder / 'reference').mkdir()
+    (folder / 'reference/program.md').write_text(reference_of(program), encoding='utf-8')
 
 
 if __name__ == '__main__':
