@@ -6,7 +6,8 @@
 
 Tables whose captures are not there are left out, and the page says so. Seconds are processor time, user and system, of all
 threads, so that a busy machine changes them little. Results stay in WORK by commit: a run that was stopped goes on.
---only NAME measures one table and prints it. A whole run takes about 25 minutes of one core.
+--only NAME measures one table and prints it, --stored measures nothing: the page has what is known. A whole run takes about 25 minutes
+of one core.
 """
 import argparse
 import datetime
@@ -40,12 +41,11 @@ def machine():
 def head(args, at):
     version = subprocess.run([args.build / 'bin/slf', '--version'], capture_output=True, text=True, check=True).stdout.split('\n')[0]
     return ['# Figures', '',
-            'Written by `tests/bench/figures.py`. No other living document has a figure that is not on this page (`tests/house/figures_test.py`). '
-            'How the figures came about: [decisions](decisions/README.md).', '',
-            f'{version}, commit {at}, {datetime.date.today().isoformat()}; {machine()}, beside other work. '
-            'Seconds are processor time, user and system, of all threads. '
-            'dB is PSNR of pictures: *inside* where file and photograph both show the object, *all* over all pixels (specification annex D). '
-            '*Held out* are photographs that the encoder did not see.', '']
+            f'{version}, commit {at}, {datetime.date.today().isoformat()}; {machine()}, beside other work.', '',
+            '* `tests/bench/figures.py` writes this page. No other living document has a figure that is not here (`tests/house/figures_test.py`).',
+            '* Seconds are processor time, user and system, of all threads. Other work in the caches and on the same cores makes them longer.',
+            '* dB is PSNR of pictures: *inside* where file and photograph both show the object, *all* over all pixels (specification annex D).',
+            '* *Held out* are photographs that the encoder did not see.', '* How the figures came about: [decisions](decisions/README.md).', '']
 
 
 def main():
@@ -56,10 +56,11 @@ def main():
     parser.add_argument('--work', type=pathlib.Path, default=pathlib.Path('build/figures'))
     parser.add_argument('--only', choices=list(tables.TABLES))
     parser.add_argument('--commit', help="what BUILD was built from; default: the last commit that changed the code")
+    parser.add_argument('--stored', action='store_true')
     parser.add_argument('-o', '--output', type=pathlib.Path)
     args = parser.parse_args()
     at = args.commit or commit()
-    place = tables.Place(args.build, args.data, args.clouds, Store(args.work, at))
+    place = tables.Place(args.build, args.data, args.clouds, Store(args.work, at, args.stored))
     lines = [] if args.only else head(args, at)
     for name, (title, make) in tables.TABLES.items():
         if args.only in (None, name):

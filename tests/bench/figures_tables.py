@@ -46,12 +46,14 @@ class Place:
         return run([next(self.build.rglob(name)), *words])[0]
 
     def capture(self, name):
-        """The directory of a capture, drawn if it is one of `slf synth`; None where it is not there."""
-        if name not in DRAWN:
-            return self.data / name if (self.data / name).exists() else None
+        """The directory of a capture; None where it is not there. Those of `slf synth` are drawn when they are needed."""
+        folder = self.store.folder / name if name in DRAWN else self.data / name
+        return folder if name in DRAWN or folder.exists() else None
+
+    def draw(self, name, *options):
         folder = self.store.folder / name
         if not folder.exists():
-            run([self.slf, 'synth', name, '--size', DRAWN[name].split(', ')[1].replace(' × ', 'x'), '-o', folder])
+            run([self.slf, 'synth', name, *options, '-o', folder])
         return folder
 
 
@@ -61,36 +63,38 @@ def table(header, rows):
 
 
 def coded(place, capture, options):
-    """A capture encoded, decoded, drawn and judged: what the table needs."""
+    """A capture encoded, decoded, drawn and judged: what the table needs. None where nothing is known and nothing is to be measured."""
     folder = place.capture(capture)
     options = [str(word).replace('{data}', str(place.data)) for word in options]
 
     def make():
+        if capture in DRAWN:
+            place.draw(capture, '--size', DRAWN[capture].split(', ')[1].replace(' × ', 'x'))
         file = place.store.folder / f'{capture}{re.sub("[^a-z0-9]+", "-", " ".join(options))}.slf'
         text, encode, memory = run([place.slf, 'encode', folder, '-o', file, '--json', '--quiet', *options])
         report = json.loads(text)
         judged = json.loads(run([place.slf, 'eval', file, folder, '--json', '--quiet'])[0])
         decode = min(run([place.slf, 'decode', file, '--dump', place.store.folder / 'dump', '-j', 1, '--quiet'])[1] for _ in range(3))
         return {'file': str(file), 'bytes': report['bytes'], 'points': report['points'], 'q': report['q'], 'encode': encode, 'memory': memory,
-                'decode': decode, 'frame': judged['render']['seconds_per_image'], 'held_out': judged['held_out']['image'],
-                'input': judged['input']['image']}
+                'decode': decode, 'held_out': judged['held_out']['image'], 'input': judged['input']['image']}
     return place.store.get(f'coded {capture} {" ".join(options)}', make)
 
 
 def pictures(place):
-    rows = []
+    rows, missing = [], []
     for name, capture, options in PICTURES:
-        if place.capture(capture) is None:
+        c = coded(place, capture, options) if place.capture(capture) else None
+        if c is None:
+            missing.append(f'{DRAWN.get(capture, capture)}, {name}')
             continue
-        c = coded(place, capture, options)
         out, seen = c['held_out'], c['input']
         rows.append([DRAWN.get(capture, capture), name, f"{c['q']:g}", f"{c['points']:,}", f"{c['bytes']:,}", f"{8 * c['bytes'] / c['points']:.1f}",
                      f"{out['psnr']:.2f}", f"{out['all']['psnr']:.2f}", f"{out['ssim']:.3f}", f"{seen['psnr']:.2f}", f"{c['encode']:.0f}",
-                     f"{c['memory'] / 1024:.1f}", f"{c['decode']:.2f}", f"{1000 * c['frame']:.0f}"])
-    return ['Whole files. *Decode* is the program with `--dump`: all components, one thread, writing included. *Frame* is a picture of the size of the '
-            "capture's photographs, one thread.", '',
+                     f"{c['memory'] / 1024:.1f}", f"{c['decode']:.2f}"])
+    return ['Whole files. *Decode* is the program with `--dump`: all components, one thread, writing included.', '',
             *table(['capture', 'encoder', 'Q', 'points', 'bytes', 'bits/point', 'held out, inside dB', 'all dB', 'SSIM', 'input, inside dB',
-                    'encode s', 'peak GiB', 'decode s', 'frame ms'], rows)]
+                    'encode s', 'peak GiB', 'decode s'], rows),
+            *(['', 'Not measured in this run: ' + '; '.join(missing) + '.'] if missing else [])]
 
 
 def splats(place):
@@ -109,7 +113,7 @@ def splats(place):
                 judged = json.loads(run([place.slf, 'eval', file, place.data / capture, '--json', '--quiet'])[0])
                 return {'bytes': report['bytes'], 'held_out': judged['held_out']['image']}
             c = place.store.get(f'splats {name} {q}', make)
-            row.append(f"{c['bytes']:,} B {c['held_out']['psnr']:.2f} dB {c['held_out']['ssim']:.3f}")
+            row.append('' if c is None else f"{c['bytes']:,} B {c['held_out']['psnr']:.2f} dB {c['held_out']['ssim']:.3f}")
         rows.append(row)
     return ['Splats that another program trained, as files of three formats. Held out, inside / SSIM. SPZ v4 and SOG v2 are written by '
             '@playcanvas/splat-transform 2.7.1 ([decision 024](decisions/024-gaussian-splats.md)).', '',
@@ -120,23 +124,25 @@ def geometry(place):
     files = sorted(place.clouds.glob('*.ply'))
     if not files:
         return ['No clouds on this machine.']
-    text = place.store.get('geometry', lambda: place.bench('bench_geometry', *files))
+    text = place.store.get('geometry', lambda: place.bench('bench_geometry', *files)) or ''
     rows = []
     for line in text.splitlines():
-        found = re.match(r'(\S+)\s+(\d+) \|\s+(\d+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+) \|\s+(\d+)\s+[\d.]+\s+[\d.]+ \|\s+(\d+)\s+(\S+%)', line)
+        found = re.match(r'(\S+)\s+(\d+) \|\s+(\d+)\s+([\d.]+)\s+[\d.]+\s+[\d.]+ \|\s+(\d+)\s+[\d.]+\s+[\d.]+ \|\s+(\d+)\s+(\S+%)', line)
         if found:
-            name, points, size, rate, encode, decode, draco, tmc, change = found.groups()
-            rows.append([name, f'{int(points):,}', f'{int(size):,}', rate, f'{int(tmc):,}', change.replace('%', ' %'), f'{int(draco):,}', encode, decode])
+            name, points, size, rate, draco, tmc, change = found.groups()
+            rows.append([name, f'{int(points):,}', f'{int(size):,}', rate, f'{int(tmc):,}', change.replace('%', ' %').replace('-', '−'), f'{int(draco):,}'])
     mean = re.search(r'mean against TMC13: (\S+) %', text)
     return ['Lossless positions on a grid. Whole `.slf` files against the position bytes of the reference software of G-PCC (TMC13 v23.0-rc2, the better '
-            f'of planar on and off) and Draco. Mean against TMC13: {mean[1] if mean else "?"} %. One thread, clock.', '',
-            *table(['cloud', 'points', 'slf, bytes', 'bits/point', 'TMC13, bytes', 'slf against TMC13', 'Draco, bytes', 'encode s', 'decode s'], rows)]
+            f'of planar on and off) and Draco. Mean against TMC13: {mean[1] if mean else "?"} %.', '',
+            *table(['cloud', 'points', 'slf, bytes', 'bits/point', 'TMC13, bytes', 'slf against TMC13', 'Draco, bytes'], rows)]
 
 
 def speed(place):
     if place.capture('blender_can') is None:
         return ['blender_can is not on this machine.']
     c = coded(place, 'blender_can', [])
+    if c is None:
+        return ['Not measured in this run.']
 
     def make():
         parts = {}
@@ -147,21 +153,15 @@ def speed(place):
         whole = [run([place.slf, 'decode', c['file'], '--dump', place.store.folder / 'dump', '-j', 1, '--quiet']) for _ in range(5)]
         parts['all components, `--dump`'] = min(s for _, s, _ in whole), min(m for _, _, m in whole)
         return parts
-    rows = [[name, f'{seconds:.3f}', f'{memory:.0f}'] for name, (seconds, memory) in place.store.get('speed', make).items()]
-    frame = place.store.get('frame', lambda: place.bench('bench_render', c['file'], 800, 6))
-    ms = re.search(r'([\d.]+) ms a frame', frame)[1]
-    return [f"The default file of blender_can ({c['bytes']:,} B), one thread, the whole program, least of five. A frame of 800 × 800 takes {ms} ms.", '',
+    rows = [[name, f'{seconds:.3f}', f'{memory:.0f}'] for name, (seconds, memory) in (place.store.get('speed', make) or {}).items()]
+    frame = place.store.get('frame', lambda: place.bench('bench_render', c['file'], 800, 6)) or '? ms a frame'
+    ms = re.search(r'([\d.?]+) ms a frame', frame)[1]
+    return [f"The default file of blender_can ({c['bytes']:,} B), one thread, the whole program, least of five. A picture of 800 × 800 takes {ms} ms.", '',
             *table(['`slf decode`', 'seconds', 'peak MiB'], rows)]
 
 
 def moving(place):
-    folders = []
-    for name in MOVING:
-        folder = place.store.folder / name
-        if not folder.exists():
-            run([place.slf, 'synth', name, '--frames', 6, '-o', folder])
-        folders.append(folder)
-    text = place.store.get('moving', lambda: place.bench('bench_frames', 16, *folders))
+    text = place.store.get('moving', lambda: place.bench('bench_frames', 16, *[place.draw(name, '--frames', 6) for name in MOVING])) or ''
     rows, name, by_kind = [], None, {}
     for line in text.splitlines():
         words = line.split()
@@ -188,16 +188,18 @@ def packed(file):
 def pages(place):
     web = pathlib.Path(__file__).resolve().parents[2] / 'web'
     rows = [[f'`{name}`', *packed(web / name)] for name in ('slf.wasm', 'slf_scalar.wasm') if (web / name).exists()]
-    for capture in ('can', 'blender_can', 'middlebury_dino'):
-        if place.capture(capture) is None:
+    for capture in ('can', 'blender_can'):
+        c = coded(place, capture, []) if place.capture(capture) else None
+        if c is None:
             continue
-        c = coded(place, capture, [])
 
         def make(c=c):
             page = place.store.folder / 'page.html'
             run([place.slf, 'html', c['file'], '-o', page, '--quiet'])
             return packed(page)
-        rows.append([f"`slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", *place.store.get(f'page {capture}', make)])
+        sizes = place.store.get(f'page {capture}', make)
+        if sizes:
+            rows.append([f"`slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", *sizes])
     return ['One page holds the file, the decoder, the viewer and one or two posters.', '', *table(['', 'bytes', 'gzip -9, bytes', 'brotli 11, bytes'], rows)]
 
 

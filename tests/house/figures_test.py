@@ -19,7 +19,7 @@ UNITS = {'B': (SIZE, 1), 'byte': (SIZE, 1), 'bytes': (SIZE, 1), 'kB': (SIZE, 1e3
 UNIT = '|'.join(sorted(UNITS, key=len, reverse=True))
 NUMBER = r'\d+(?:,\d{3})+(?:\.\d+)?|\d+(?:\.\d+)?'
 # Pages of figures of their own, which a program wrote with its commit or that carry a date.
-OWN = {'docs/figures.md': 'the page itself', 'docs/related-codecs.md': 'measured by tools/rd, with date and commit'}
+OWN = {'figures.md': 'the page itself', 'related-codecs.md': 'measured by tools/rd, with date and commit'}
 PATTERNS = ['README.md', 'CONTRIBUTING.md', 'docs/*.md', 'bindings/python/README.md', 'web/README.md', 'web/viewer/README.md', 'conformance/README.md']
 
 
@@ -79,7 +79,7 @@ def main():
     wrong, checked = [], 0
     for page in pages:
         name = page.relative_to(root).as_posix()
-        if name in OWN:
+        if page.name in OWN:
             continue
         for at, number, unit in figures_of(page.read_text(encoding='utf-8')):
             checked += 1

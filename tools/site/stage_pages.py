@@ -5,7 +5,7 @@
     stage_pages.py ROOT FOLDER [PROGRAM]
 
 The tree stays as it is, so that relative links hold. A link to a folder leads to its README, or loses its address where there is none.
-reference/program.md has the help of every verb of PROGRAM.
+reference/program.md has the help of every verb of PROGRAM, gallery/README.md the live pages that tools/site/gallery.sh made.
 """
 import pathlib
 import re
@@ -35,6 +35,16 @@ def reference_of(program):
     return '\n\n'.join(parts) + '\n'
 
 
+def stage_gallery(made, folder):
+    """The page of the gallery, and what it shows."""
+    folder.mkdir()
+    listed = made / 'list.md'
+    text = listed.read_text(encoding='utf-8') if listed.exists() else '`tools/site/gallery.sh` was not run.\n'
+    (folder / 'README.md').write_text('# Gallery\n\nA picture leads to its live page: turn it by hand.\n\n' + text, encoding='utf-8')
+    for file in [*made.glob('*.html'), *made.glob('*.png')]:
+        shutil.copyfile(file, folder / file.name)
+
+
 def main():
     root, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     pages = pages_of(root)
@@ -61,6 +71,7 @@ def main():
         out.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file, out)
     program = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else root / 'build/bin/slf'
+    stage_gallery(root / 'build/gallery', folder / 'gallery')
     (folder / 'reference').mkdir()
     (folder / 'reference/program.md').write_text(reference_of(program), encoding='utf-8')
 
