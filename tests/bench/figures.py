@@ -16,6 +16,7 @@ import platform
 import re
 import subprocess
 import sys
+import textwrap
 
 import figures_tables as tables
 from measured import Store
@@ -48,6 +49,13 @@ def head(args, at):
             '* *Held out* are photographs that the encoder did not see.', '* How the figures came about: [decisions](decisions/README.md).', '']
 
 
+def wrapped(line):
+    """A line of prose at 156 characters; tables stay."""
+    if len(line) <= 160 or line.startswith('|'):
+        return [line]
+    return textwrap.wrap(line, 156, subsequent_indent='  ' if line.startswith('* ') else '', break_long_words=False, break_on_hyphens=False)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--build', type=pathlib.Path, default=pathlib.Path('build'))
@@ -65,7 +73,7 @@ def main():
     for name, (title, make) in tables.TABLES.items():
         if args.only in (None, name):
             lines += [f'## {title}', '', *make(place), '']
-    text = '\n'.join(lines).rstrip('\n') + '\n'
+    text = '\n'.join(part for line in lines for part in wrapped(line)).rstrip('\n') + '\n'
     if args.output:
         args.output.write_text(text)
     else:
