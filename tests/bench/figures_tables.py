@@ -167,11 +167,11 @@ def moving(place):
         words = line.split()
         if line and not line[0].isspace() and 'frames' in line:
             name, by_kind = pathlib.Path(line.split(',')[0]).name, {}
-        elif len(words) == 6 and name:
-            by_kind[words[0]] = words[1:]
+        elif len(words) >= 6 and name:
+            by_kind[' '.join(words[:-5])] = words[-5:]
         elif len(words) == 3 and all(word.endswith('%') for word in words):
-            (_, own), (_, predicted) = list(by_kind.items())[-2:]
-            rows.append([f'{name}: {MOVING[name]}', f'{int(own[0]):,}', f'{int(predicted[0]):,}', *(word.replace('%', ' %') for word in words)])
+            own, predicted = by_kind['by itself'], by_kind['predicted']
+            rows.append([f'{name}: {MOVING[name]}', f'{int(own[0]):,}', f'{int(predicted[0]):,}', *(word.replace('%', ' %').replace('-', '−') for word in words)])
     return ['Clouds of one colour a point on a grid of 8 bits, step 16 (`tests/bench/bench_frames`): bytes a frame, coded by itself and predicted from the '
             'frame before, at the same step.', '',
             *table(['sequence', 'alone, bytes', 'predicted, bytes', 'all', 'geometry', 'values'], rows)]
