@@ -3,6 +3,7 @@
 // order of the spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -106,34 +107,8 @@ struct ParseSyntax {
   std::uint64_t last_begin_ = 0;
 };
 
-/// Writes. Values are within range: CheckSyntax.
-struct WriteSyntax {
-  BitWriter& out;
-
-  template <class T>
-  void u(int n, const char*, const T& value, Range) {
-    out.u(n, static_cast<std::uint64_t>(value));
-  }
-  template <class T>
-  void ue(const char*, const T& value, Range) {
-    out.ue(static_cast<std::uint64_t>(value));
-  }
-  template <class T>
-  void se(const char*, const T& value, Range) {
-    out.se(value);
-  }
-  template <class T>
-  void s8(const char*, const T& value, Range) {
-    out.u(8, static_cast<std::uint8_t>(value));
-  }
-  void f64(const char*, double value, bool) { out.f64(value); }
-  template <class T>
-  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
-  void require(bool, Errc, const char*) {}
-  bool ok() const { return true; }
-};
-
-/// Checks what is about to be written: a reader would refuse what this does. See ParseSyntax.
+/// Checks what a caller gives before it is written: a reader would refuse what this does. See
+/// ParseSyntax.
 struct CheckSyntax {
   const char* element = nullptr;  ///< the first that is wrong; nullptr: none
   std::int64_t found = 0;
@@ -172,6 +147,81 @@ struct CheckSyntax {
     found = value;
     range = allowed;
   }
+};
+
+/// Writes what was checked before. See WriteSyntax.
+struct WriteUnchecked {
+  BitWriter& out;
+
+  template <class T>
+  void u(int n, const char*, const T& value, Range) {
+    out.u(n, static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void ue(const char*, const T& value, Range) {
+    out.ue(static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void se(const char*, const T& value, Range) {
+    out.se(value);
+  }
+  template <class T>
+  void s8(const char*, const T& value, Range) {
+    out.u(8, static_cast<std::uint8_t>(value));
+  }
+  void f64(const char*, double value, bool) { out.f64(value); }
+  template <class T>
+  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
+  void require(bool, Errc, const char*) {}
+  bool ok() const { return true; }
+};
+
+/// Writes. What a reader would refuse is a mistake of ours: builds with assertions stop at it.
+class WriteSyntax {
+ public:
+  explicit WriteSyntax(BitWriter& out) : out_(out) {}
+
+  template <class T>
+  void u(int n, const char* name, const T& value, Range range) {
+    check_.u(n, name, value, range);
+    write().u(n, name, value, range);
+  }
+  template <class T>
+  void ue(const char* name, const T& value, Range range) {
+    check_.ue(name, value, range);
+    write().ue(name, value, range);
+  }
+  template <class T>
+  void se(const char* name, const T& value, Range range) {
+    check_.se(name, value, range);
+    write().se(name, value, range);
+  }
+  template <class T>
+  void s8(const char* name, const T& value, Range range) {
+    check_.s8(name, value, range);
+    write().s8(name, value, range);
+  }
+  void f64(const char* name, double value, bool positive) {
+    check_.f64(name, value, positive);
+    write().f64(name, value, positive);
+  }
+  template <class T>
+  void resize(const char* name, const std::vector<T>& list, std::uint64_t size) {
+    require(list.size() == size, Errc::kOutOfRange, name);
+  }
+  void require(bool condition, Errc code, const char* name) {
+    check_.require(condition, code, name);
+    assert(check_.ok());
+  }
+  bool ok() const { return true; }
+
+ private:
+  WriteUnchecked write() {
+    assert(check_.ok());
+    return {out_};
+  }
+  BitWriter& out_;
+  CheckSyntax check_;
 };
 
 }  // namespace slf

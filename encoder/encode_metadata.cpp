@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "encoder/setting_rows.h"
 #include "lightfield/render/reference_kernel.h"
 
 namespace slf {
@@ -61,48 +62,41 @@ Metadata surface_metadata(const SurfaceReport& r) {
   return out;
 }
 
+Metadata step_metadata(const EncoderSettings& s, const ChosenStep& step) {
+  Metadata metadata = {{"q", text(s.q)}};
+  if (step.origin == ChosenStep::kChosen)
+    metadata.insert(metadata.end(), {{"quality", "auto"},
+                                     {"quality_loss", text(s.quality_loss)},
+                                     {"quality_loss_held_out", hundredths(step.loss)}});
+  return metadata;
+}
+
+/// What became of the cameras, and of the fit to what they saw.
+Metadata camera_metadata(const Encoded& encoded) {
+  Metadata metadata;
+  for (const auto& [key, verdict] : {std::pair{"cameras_dropped", CameraVerdict::kDropped},
+                                     {"cameras_gain_corrected", CameraVerdict::kGainCorrected}})
+    if (const auto indices = cameras_with(verdict, encoded.cameras); !indices.empty())
+      metadata.emplace_back(key, indices);
+  const Metadata fit = fit_metadata(encoded.fit);
+  metadata.insert(metadata.end(), fit.begin(), fit.end());
+  if (encoded.fit.settings.pictures.rounds > 0) {
+    metadata.emplace_back("picture_pull", text(encoded.pictures.pull));
+    metadata.emplace_back("kernel", std::to_string(kReferenceKernel.version));
+  }
+  return metadata;
+}
+
 }  // namespace
 
 Metadata fit_metadata(const ChosenFit& chosen) {
-  const FitSettings& fit = chosen.settings;
-  const PictureFitSettings& pictures = fit.pictures;
-  Metadata metadata = {{"functions", std::to_string(fit.basis.num_functions())}};
-  if (fit.basis.id == BasisId::kBspline)
-    metadata.emplace_back("order", std::to_string(fit.basis.order));
-  metadata.emplace_back("fit_to", pictures.rounds > 0 ? "pictures" : "points");
-  if (pictures.rounds > 0)
-    metadata.insert(metadata.end(), {
-                                        {"picture_rounds", std::to_string(pictures.rounds)},
-                                        {"picture_steps", std::to_string(pictures.steps)},
-                                        {"picture_mean_penalty", text(pictures.mean_penalty)},
-                                        {"picture_penalty", text(pictures.penalty)},
-                                        {"picture_growth", text(pictures.growth)},
-                                        {"picture_outlier", text(pictures.outlier)},
-                                    });
-  if (fit.method == FitMethod::kHierarchical) {
-    const HierarchySettings& h = fit.hierarchy;
-    metadata.insert(metadata.end(),
-                    {
-                        {"fit", "hierarchical"},
-                        {"frame", fit.frame == FrameId::kReflected ? "reflected" : "global"},
-                        {"block_log2", std::to_string(h.block_log2)},
-                        {"block_strength", text(h.strength)},
-                        {"block_growth", text(h.growth)},
-                        {"point_penalty", text(h.point_penalty)},
-                        {"point_growth", text(h.point_growth)},
-                        {"environment_degree", std::to_string(fit.environment.degree)},
-                        {"environment_radius", text(fit.environment.radius)},
-                        {"cross_validation", cross_validation(chosen)},
-                    });
-    return metadata;
-  }
-  metadata.insert(metadata.end(), {
-                                      {"lambda", text(fit.lambda)},
-                                      {"beta", text(fit.beta)},
-                                      {"iterations", std::to_string(fit.iterations)},
-                                      {"neighbours", std::to_string(fit.neighbours)},
-                                      {"penalise_dc", fit.penalise_dc ? "yes" : "no"},
-                                  });
+  EncoderSettings used;
+  used.fit = chosen.settings;
+  Metadata metadata = {{"functions", std::to_string(used.fit.basis.num_functions())}};
+  const Metadata fit = recorded_settings(used, {SettingPart::kFit});
+  metadata.insert(metadata.end(), fit.begin(), fit.end());
+  if (used.fit.method == FitMethod::kHierarchical)
+    metadata.emplace_back("cross_validation", cross_validation(chosen));
   return metadata;
 }
 
@@ -121,53 +115,20 @@ Metadata encoder_metadata(const EncoderSettings& s, const Encoded& encoded, std:
       {"cameras", std::to_string(cameras)},
       {"observations", std::to_string(encoded.observations)},
       {"merged_points", std::to_string(encoded.merged)},
-      {"steps", s.steps_by_norm ? "by-norm" : "uniform"},
   };
-  if (s.coefficients == CoefficientCoder::kTexture) {
-    metadata.insert(
-        metadata.end(),
-        {
-            {"texture_bits", std::to_string(s.texture.bits)},
-            {"texture_qp", s.texture.lossless ? "lossless" : std::to_string(s.texture.qp)},
-            {"texture_mode", s.texture.mode == TextureSettings::kIntra ? "intra" : "low-delay"},
-            {"texture_preset", s.texture.preset},
-        });
-  } else {
-    metadata.emplace_back("q", text(s.q));
-    if (encoded.step.origin == ChosenStep::kChosen)
-      metadata.insert(metadata.end(), {
-                                          {"quality", "auto"},
-                                          {"quality_loss", text(s.quality_loss)},
-                                          {"quality_loss_held_out", hundredths(encoded.step.loss)},
-                                      });
-    if (s.transform != TransformMode::kNone)
-      metadata.emplace_back("klt",
-                            s.transform == TransformMode::kFunctions ? "functions" : "joint");
-    if (s.chroma_step != 1) metadata.emplace_back("chroma_step", text(s.chroma_step));
-  }
-  const Metadata grid = grid_metadata(s, encoded.grid, encoded.density);
-  metadata.insert(metadata.end(), grid.begin(), grid.end());
+  const auto append = [&metadata](const Metadata& more) {
+    metadata.insert(metadata.end(), more.begin(), more.end());
+  };
+  if (s.coefficients != CoefficientCoder::kTexture) append(step_metadata(s, encoded.step));
+  append(grid_metadata(s, encoded.grid, encoded.density));
+  append(
+      recorded_settings(s, {SettingPart::kGeometry, SettingPart::kCoding, SettingPart::kTexture}));
   if (cameras > 0) {
-    metadata.insert(metadata.end(),
-                    {
-                        {"delta", text(s.observe.delta_degrees)},
-                        {"occlusion_resolution", text(s.observe.occlusion_resolution)},
-                        {"depth_tolerance", text(s.observe.depth_tolerance)},
-                    });
-    for (const auto& [key, verdict] : {std::pair{"cameras_dropped", CameraVerdict::kDropped},
-                                       {"cameras_gain_corrected", CameraVerdict::kGainCorrected}})
-      if (const auto indices = cameras_with(verdict, encoded.cameras); !indices.empty())
-        metadata.emplace_back(key, indices);
-    const Metadata fit = fit_metadata(encoded.fit);
-    metadata.insert(metadata.end(), fit.begin(), fit.end());
-    if (encoded.fit.settings.pictures.rounds > 0) {
-      metadata.emplace_back("picture_pull", text(encoded.pictures.pull));
-      metadata.emplace_back("kernel", std::to_string(kReferenceKernel.version));
-    }
+    append(recorded_settings(s, {SettingPart::kObservation}));
+    append(camera_metadata(encoded));
   }
-  const Metadata surface = surface_metadata(encoded.surface);
-  if (s.surface != Surface::kGiven) metadata.insert(metadata.end(), surface.begin(), surface.end());
-  metadata.insert(metadata.end(), s.metadata.begin(), s.metadata.end());
+  if (s.surface != Surface::kGiven) append(surface_metadata(encoded.surface));
+  append(s.metadata);
   return metadata;
 }
 

@@ -11,6 +11,7 @@
 #include "encoder/fit/fit_pictures.h"
 #include "encoder/fit/fit_settings.h"
 #include "encoder/refine/refine_geometry.h"
+#include "encoder/setting_rows.h"
 #include "geometry/surface_normals.h"
 #include "geometry/weight_classes.h"
 #include "lightfield/octahedral.h"
@@ -49,25 +50,10 @@ FitSettings in_spacings(FitSettings fit, std::span<const Voxel> positions, int g
 }
 
 Result<Done, InputError> check_settings(const EncoderSettings& s) {
-  if (s.q != kAutomaticQ && !(s.q >= 0.05 && s.q <= 4096))
-    return invalid("q: 0.05 to 4096, or automatic");
-  if (!(s.quality_loss >= 0.001 && s.quality_loss <= 10))
-    return invalid("quality loss: 0.001 to 10 dB");
-  if (s.voxel_size < 0 || !std::isfinite(s.voxel_size)) return invalid("voxel size: above 0");
-  if (s.voxel_size == 0 && (s.grid_bits < 0 || s.grid_bits > 21))
-    return invalid("grid bits: 1 to 21, or 0 for automatic");
-  if (!(s.surface_seconds >= 0 && s.surface_seconds <= 1e6))
-    return invalid("surface seconds: 0 to 1,000,000");
-  if (s.surface_memory < 16 || s.surface_memory > 1 << 20)
-    return invalid("surface memory: 16 to 1,048,576 MiB");
-  if (!(s.observe.delta_degrees >= 0 && s.observe.delta_degrees <= 90))
-    return invalid("delta: 0 to 90 degrees");
+  SLF_CHECK(check_ranges(s));
   SLF_CHECK(check_fit_settings(s.fit));
   if (s.search.any() && s.fit.method != FitMethod::kHierarchical)
     return invalid("cross-validation: of the hierarchical fit alone");
-  if (!(s.chroma_step >= 0.1 && s.chroma_step <= 10)) return invalid("chroma step: 0.1 to 10");
-  if (s.normal_bits != 0 && (s.normal_bits < 4 || s.normal_bits > 12))
-    return invalid("normal bits: 0, or 4 to 12");
   return Done{};
 }
 

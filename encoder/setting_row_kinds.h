@@ -36,9 +36,12 @@ SettingRow number(const char* name, Member member, double low, double high, cons
   EncoderSettings settings = initial_settings();
   using T = std::remove_reference_t<decltype(member(settings))>;
   constexpr auto kind = std::is_floating_point_v<T> ? SettingInfo::kNumber : SettingInfo::kWhole;
-  return {
-      {name, kind, low, high, {}, shown(static_cast<double>(member(settings))), help, "", {}},
-      [member](EncoderSettings& s, const std::string& text) { member(s) = number_of<T>(text); }};
+  const auto value = [member](const EncoderSettings& s) {
+    return shown(static_cast<double>(member(s)));
+  };
+  return {{name, kind, low, high, {}, value(settings), help, "", {}},
+          [member](EncoderSettings& s, const std::string& text) { member(s) = number_of<T>(text); },
+          value};
 }
 
 /// A number, or a word that stands for one.
@@ -47,12 +50,27 @@ SettingRow number_or(const char* word, T stands_for, const char* name, Member me
                      double high, const char* help) {
   SettingRow row = number(name, member, low, high, help);
   row.info.words = {word};
-  if (row.info.initial == shown(static_cast<double>(stands_for))) row.info.initial = word;
   row.apply = [=, set = row.apply](EncoderSettings& s, const std::string& text) {
     if (text == word)
       member(s) = stands_for;
     else
       set(s, text);
+  };
+  row.value = [=, get = row.value](const EncoderSettings& s) {
+    return member(s) == stands_for ? word : get(s);
+  };
+  row.info.initial = row.value(initial_settings());
+  return row;
+}
+
+/// A number that is 0 unless it is given.
+template <class Member>
+SettingRow number_or_nothing(const char* name, Member member, double low, double high,
+                             const char* help) {
+  SettingRow row = number(name, member, low, high, help);
+  row.info.initial.clear();
+  row.value = [=, get = row.value](const EncoderSettings& s) {
+    return member(s) == 0 ? "" : get(s);
   };
   return row;
 }
@@ -62,16 +80,28 @@ using Words = std::vector<std::pair<const char*, T>>;
 
 template <class Member, class T>
 SettingRow choice(const char* name, Member member, Words<T> words, const char* help) {
-  EncoderSettings settings = initial_settings();
   SettingRow row{{name, SettingInfo::kWord, 0, 0, {}, "", help, "", {}}, {}};
-  for (const auto& [word, value] : words) {
-    row.info.words.emplace_back(word);
-    if (member(settings) == value) row.info.initial = word;
-  }
+  for (const auto& [word, value] : words) row.info.words.emplace_back(word);
   row.apply = [=](EncoderSettings& s, const std::string& text) {
     for (const auto& [word, value] : words)
       if (text == word) member(s) = value;
   };
+  row.value = [=](const EncoderSettings& s) -> std::string {
+    for (const auto& [word, value] : words)
+      if (member(s) == value) return word;
+    return "none";
+  };
+  row.info.initial = row.value(initial_settings());
+  return row;
+}
+
+/// One of some words, or "auto", which encoder/settings.cpp makes one of them.
+template <class Member, class T>
+SettingRow choice_or_auto(const char* name, Member member, Words<T> words, const char* initial,
+                          const char* help) {
+  SettingRow row = choice(name, member, std::move(words), help);
+  row.info.words.emplace_back("auto");
+  row.info.initial = initial;
   return row;
 }
 
@@ -80,13 +110,14 @@ SettingRow on_or_off(const char* name, Member member, const char* help) {
   return choice(name, member, Words<bool>{{"on", true}, {"off", false}}, help);
 }
 
-/// A flag of the command line. What it sets, given.
-template <class Member>
-SettingRow flag(const char* name, Member member, const char* help) {
+/// A flag of the command line: given, it puts `set` into its place.
+template <class Member, class T>
+SettingRow flag(const char* name, Member member, T set, const char* help) {
   return {{name, SettingInfo::kFlag, 0, 0, {}, "", help, "", {}},
           [=](EncoderSettings& s, const std::string& text) {
-            if (text == "on") member(s);
-          }};
+            if (text == "on") member(s) = set;
+          },
+          [=](const EncoderSettings& s) { return member(s) == set ? "on" : "off"; }};
 }
 
 /// A setting that takes more than its place: settings_from() knows it.
@@ -97,4 +128,42 @@ inline SettingRow words_of_fit(const char* name, std::vector<std::string> words,
   return other({name, SettingInfo::kWord, 0, 0, std::move(words), initial, help, "", {}});
 }
 
+/// No option of the program.
+inline SettingRow inner(SettingRow row) {
+  row.option = false;
+  return row;
+}
+
+inline SettingRow recorded(SettingRow row, const char* unless = "") {
+  row.recorded = true;
+  row.unless = unless;
+  return row;
+}
+
+inline SettingRow searched(bool FitSearch::*by, SettingRow row) {
+  row.searched = by;
+  return row;
+}
+
+inline SettingRow in(const SettingScope& scope, SettingRow row) {
+  row.scope = &scope;
+  return row;
+}
+
+/// Adds rows of one group on a page, one part and, where they have none of
+/// their own, one scope.
+inline void add(SettingTable& table, SettingPart part, const char* group, const SettingScope* scope,
+                std::vector<SettingRow> more) {
+  for (SettingRow& row : more) {
+    row.info.group = group;
+    row.part = part;
+    if (row.scope == nullptr) row.scope = scope;
+    table.push_back(std::move(row));
+  }
+}
+
 }  // namespace slf::row_kinds
+
+// NOLINTNEXTLINE: a place in the settings, for reading and writing.
+#define SLF_AT(member) \
+  [](auto& s) -> auto& { return s.member; }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "encoder/fit_setting_rows.h"
 #include "encoder/setting_rows.h"
 
 namespace slf {
@@ -79,9 +80,6 @@ class Given {
     const std::string* there = find(name);
     return there != nullptr && *there == value;
   }
-  bool any(std::initializer_list<std::string_view> names) const {
-    return std::any_of(names.begin(), names.end(), [&](auto name) { return has(name); });
-  }
   int whole(std::string_view name, int otherwise) const {
     const std::string* there = find(name);
     if (there != nullptr) read(*there, otherwise);
@@ -92,26 +90,20 @@ class Given {
   const GivenSettings& given_;
 };
 
-Outcome check_given(const GivenSettings& all) {
+Outcome check_given(const GivenSettings& all, const SettingTable& table) {
   const Given given(all);
   for (const auto& pair : all) {
     const std::string &name = pair.first, &value = pair.second;
-    const auto& rows = encoder_settings();
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const SettingInfo& info) { return info.name == name; });
-    if (row == rows.end()) return wrong("--" + name + " is not a setting of the encoder");
+    const auto row = std::find_if(table.begin(), table.end(), [&](const SettingRow& r) {
+      return r.option && r.info.name == name;
+    });
+    if (row == table.end()) return wrong("--" + name + " is not a setting of the encoder");
     if (given.find(name) != &value) return wrong("--" + name + " is given twice");
-    if (const std::string what = wrong_value(*row, value); !what.empty())
+    if (const std::string what = wrong_value(row->info, value); !what.empty())
       return wrong("--" + name + " " + what);
-    for (const std::string& excluded : row->excludes)
+    for (const std::string& excluded : row->info.excludes)
       if (given.has(excluded)) return wrong("--" + name + " excludes --" + excluded);
   }
-  return Done{};
-}
-
-Outcome refuse(const Given& given, std::initializer_list<const char*> names, const char* of) {
-  for (const char* name : names)
-    if (given.has(name)) return wrong(std::string("--") + name + " is for " + of);
   return Done{};
 }
 
@@ -122,43 +114,36 @@ Outcome refuse(const Given& given, const char* name, const char* value, const ch
 }
 
 /// What was given for another fit, basis or coder than the one in force.
-Outcome refuse_idle(const Given& given, const FitSettings& fit) {
-  if (fit.method == FitMethod::kHierarchical) {
-    SLF_CHECK(
-        refuse(given, {"lambda", "beta", "iterations", "penalise-dc", "free-dc"}, "--fit paper"));
-  } else {
+Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
+                    const SettingTable& table) {
+  if (settings.fit.method == FitMethod::kPaper) {
     const char* of = "--fit hierarchical";
     SLF_CHECK(refuse(given, "basis", "harmonics", of));
     SLF_CHECK(refuse(given, "basis", "auto", of));
     SLF_CHECK(refuse(given, "frame", "auto", of));
-    SLF_CHECK(refuse(given,
-                     {"cross-validate", "effort", "block-log2", "block-strength", "block-growth",
-                      "point-penalty", "point-growth", "environment-degree", "environment-radius"},
-                     of));
   }
-  if (!given.is("coefficients", "texture"))
-    SLF_CHECK(refuse(
-        given, {"texture-bits", "texture-qp", "texture-mode", "texture-preset", "texture-lossless"},
-        "--coefficients texture"));
-  if (!given.is("quality", "auto") && (given.has("quality") || given.is("preset", "paper")))
-    SLF_CHECK(refuse(given, {"quality-loss"}, "--quality auto"));
-  if (given.is("surface", "given") || given.is("surface", "mended"))
-    SLF_CHECK(refuse(given, {"surface-seconds", "surface-memory"}, "--surface auto and trained"));
   if (given.is("cross-validate", "off")) {
     SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
     SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));
   }
-  if (fit.basis.id == BasisId::kBspline) return refuse(given, {"degree"}, "--basis harmonics");
-  SLF_CHECK(refuse(given, {"functions", "scales"}, "--basis bspline"));
-  return given.is("basis", "auto") ? Outcome(Done{}) : refuse(given, {"order"}, "--basis bspline");
+  for (const SettingRow& row : table)
+    if (row.scope != nullptr && given.has(row.info.name) && !row.scope->holds(settings))
+      return wrong("--" + row.info.name + " is for " + row.scope->name);
+  return Done{};
+}
+
+bool is_of_paper(const SettingRow& row) {
+  const SettingScope* scope = row.scope;
+  return scope == &kPaperFit || scope == &kSplines || row.info.name == "order";
 }
 
 /// Each fit has a basis and a frame of its own. Settings that only the paper's has choose it.
-void choose_fit(const Given& given, EncoderSettings& settings) {
+void choose_fit(const Given& given, EncoderSettings& settings, const SettingTable& table) {
   FitSettings& fit = settings.fit;
   const bool of_paper =
-      !given.has("basis") && given.any({"functions", "scales", "order", "lambda", "beta",
-                                        "iterations", "penalise-dc", "free-dc"});
+      !given.has("basis") && std::any_of(table.begin(), table.end(), [&](const SettingRow& row) {
+        return given.has(row.info.name) && is_of_paper(row);
+      });
   const bool hierarchical = given.has("fit") ? given.is("fit", "hierarchical")
                                              : !of_paper && fit.method == FitMethod::kHierarchical;
   const FitSettings start = hierarchical ? FitSettings::hierarchical() : FitSettings{};
@@ -173,8 +158,6 @@ void choose_fit(const Given& given, EncoderSettings& settings) {
   if (given.is("basis", "harmonics") && fit.basis.id != BasisId::kHarmonics)
     fit.basis = FitSettings::hierarchical().basis;
   if (given.is("basis", "auto")) fit.basis.id = BasisId::kHarmonics;
-  if (given.is("frame", "global")) fit.frame = FrameId::kGlobal;
-  if (given.is("frame", "reflected")) fit.frame = FrameId::kReflected;
 }
 
 void choose_pictures(const Given& given, PictureFitSettings& pictures) {
@@ -185,21 +168,21 @@ void choose_pictures(const Given& given, PictureFitSettings& pictures) {
 
 /// What is left to cross-validation where the preset has `of_preset`: nothing that was given, and
 /// all else where it is asked for.
-FitSearch search_of(const Given& given, FitMethod method, FitSearch of_preset) {
+FitSearch search_of(const Given& given, FitMethod method, FitSearch of_preset,
+                    const SettingTable& table) {
   const bool asked = given.has("cross-validate")
                          ? given.is("cross-validate", "on")
                          : given.is("basis", "auto") || given.is("frame", "auto");
   const bool on = asked || (!given.has("cross-validate") && of_preset.any());
   if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
-  const auto searched = [&](const char* name, bool by_preset) {
-    return (asked || by_preset) && (!given.has(name) || given.is(name, "auto"));
-  };
   FitSearch search = of_preset;
   if (asked) search.points = std::max(search.points, FitSearch{}.points);
-  search.strength = searched("block-strength", of_preset.strength);
-  search.growth = searched("block-growth", of_preset.growth);
-  search.point_penalty = searched("point-penalty", of_preset.point_penalty);
-  search.frame = searched("frame", of_preset.frame);
+  for (const SettingRow& row : table) {
+    if (row.searched == nullptr) continue;
+    const std::string& name = row.info.name;
+    search.*row.searched =
+        (asked || of_preset.*row.searched) && (!given.has(name) || given.is(name, "auto"));
+  }
   search.basis =
       given.has("basis") ? given.is("basis", "auto") : of_preset.basis && !given.has("degree");
   return search;
@@ -228,7 +211,8 @@ Outcome choose_scales(const Given& given, Basis& basis) {
 const std::vector<SettingInfo>& encoder_settings() {
   static const std::vector<SettingInfo> all = [] {
     std::vector<SettingInfo> infos;
-    for (const SettingRow& row : setting_rows()) infos.push_back(row.info);
+    for (const SettingRow& row : setting_rows())
+      if (row.option) infos.push_back(row.info);
     return infos;
   }();
   return all;
@@ -255,20 +239,25 @@ std::string wrong_value(const SettingInfo& setting, std::string_view value) {
 }
 
 Result<EncoderSettings, InputError> settings_from(const GivenSettings& all) {
-  SLF_CHECK(check_given(all));
+  return settings_from(all, setting_rows());
+}
+
+Result<EncoderSettings, InputError> settings_from(const GivenSettings& all,
+                                                  const SettingTable& table) {
+  SLF_CHECK(check_given(all, table));
   const Given given(all);
   const Preset preset = given.is("preset", "paper") ? Preset::kPaper : Preset::kDefault;
   if (given.has("effort") && preset == Preset::kPaper)
     return wrong("--effort is for --preset default");
   EncoderSettings settings = settings_of(preset, given.whole("effort", kDefaultEffort));
-  choose_fit(given, settings);
-  SLF_CHECK(refuse_idle(given, settings.fit));
+  choose_fit(given, settings, table);
   choose_pictures(given, settings.fit.pictures);
-  settings.search = search_of(given, settings.fit.method, settings.search);
-  for (const SettingRow& row : setting_rows())
+  settings.search = search_of(given, settings.fit.method, settings.search, table);
+  for (const SettingRow& row : table)
     if (const std::string* value = given.find(row.info.name); value != nullptr && row.apply)
       row.apply(settings, *value);
   SLF_CHECK(choose_scales(given, settings.fit.basis));
+  SLF_CHECK(refuse_idle(given, settings, table));
   // More slices than one need a base, whatever the preset has.
   if (given.has("slice-points") && !given.has("base-levels")) settings.base_levels = kAutomaticBase;
   return settings;

@@ -9,6 +9,7 @@
 #include "cameras.h"
 #include "failure.h"
 #include "module.h"
+#include "slf/settings.h"
 
 namespace slf::python {
 namespace {
@@ -110,27 +111,35 @@ Capture capture_of(const py::object& from) {
   return capture;
 }
 
-/// Types and ranges are checked in slf/_encoding.py.
-EncoderSettings settings_of(const py::dict& given) {
-  const auto preset =
-      given["preset"].cast<std::string>() == "paper" ? Preset::kPaper : Preset::kDefault;
-  EncoderSettings settings = slf::settings_of(preset, given["effort"].cast<int>());
-  if (const py::object q = given["q"]; !q.is_none()) settings.q = q.cast<double>();
-  if (const py::object loss = given["quality_loss"]; !loss.is_none())
-    settings.quality_loss = loss.cast<double>();
-  settings.target_bytes = given["target_bytes"].cast<std::uint64_t>();
-  settings.target_psnr = given["target_psnr"].cast<double>();
-  settings.grid_bits = given["grid_bits"].cast<int>();
-  settings.voxel_size = given["voxel_size"].cast<double>();
-  settings.normal_bits = given["normal_bits"].cast<int>();
-  settings.quality_layers = given["quality_layers"].cast<int>();
-  settings.threads = given["threads"].cast<int>();
+/// Names and values, by the table of settings.
+EncoderSettings settings_of(const py::dict& options, int threads) {
+  GivenSettings given;
+  for (const auto& [name, value] : options)
+    given.emplace_back(name.cast<std::string>(), value.cast<std::string>());
+  EncoderSettings settings = value_of(settings_from(given));
+  settings.threads = threads;
   return settings;
 }
 
+py::list settings_table() {
+  using namespace py::literals;
+  py::list table;
+  for (const SettingInfo& s : encoder_settings())
+    table.append(py::dict("name"_a = s.name, "low"_a = s.low, "high"_a = s.high,
+                          "words"_a = s.words, "initial"_a = s.initial, "help"_a = s.help,
+                          "flag"_a = s.kind == SettingInfo::kFlag));
+  return table;
+}
+
+std::string what_is_wrong(const std::string& name, const std::string& value) {
+  for (const SettingInfo& setting : encoder_settings())
+    if (setting.name == name) return wrong_value(setting, value);
+  return "is not a setting";
+}
+
 py::tuple encode_capture(const Capture& capture, const std::string& split, const py::dict& options,
-                         const py::object& progress) {
-  const EncoderSettings settings = settings_of(options);
+                         int threads, const py::object& progress) {
+  const EncoderSettings settings = settings_of(options, threads);
   Reporter reporter(progress);
   const Progress report = reporter.progress();
   Encoded encoded;
@@ -148,13 +157,13 @@ py::tuple encode_capture(const Capture& capture, const std::string& split, const
 }
 
 py::tuple encode_path(const std::string& path, const std::string& split, const py::dict& options,
-                      const py::object& progress) {
+                      int threads, const py::object& progress) {
   Capture capture;
   {
     const py::gil_scoped_release no_gil;
     capture = value_of(load_capture(path, {.points = {}, .points_needed = false}));
   }
-  return encode_capture(capture, split, options, progress);
+  return encode_capture(capture, split, options, threads, progress);
 }
 
 py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& components, int bits,
@@ -191,15 +200,18 @@ py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& co
 }  // namespace
 
 void add_encoding(py::module_& m) {
+  m.def("settings", &settings_table);
+  m.def("wrong_value", &what_is_wrong, py::arg("name"), py::arg("value"));
   m.def("encode_path", &encode_path, py::arg("path"), py::arg("split"), py::arg("options"),
-        py::arg("progress"));
+        py::arg("threads"), py::arg("progress"));
   m.def(
       "encode_capture",
-      [](const py::object& capture, const std::string& split, const py::dict& options,
+      [](const py::object& capture, const std::string& split, const py::dict& options, int threads,
          const py::object& progress) {
-        return encode_capture(capture_of(capture), split, options, progress);
+        return encode_capture(capture_of(capture), split, options, threads, progress);
       },
-      py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("progress"));
+      py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("threads"),
+      py::arg("progress"));
   m.def("pack", &pack_arrays, py::arg("positions"), py::arg("components"), py::arg("bits"),
         py::arg("origin"), py::arg("step"), py::arg("steps"), py::arg("groups"),
         py::arg("metadata"), py::arg("threads"));

@@ -5,6 +5,7 @@
 
 #include "capture/json.h"
 #include "encoder/parts/planned_scene.h"
+#include "encoder/setting_rows.h"
 
 namespace slf {
 namespace {
@@ -72,29 +73,19 @@ Result<Metadata, InputError> read_pairs(const JsonView& json, const char* name) 
 constexpr double kLarge = 1e300, kMostLight = 1e6, kMostGain = 100;
 
 Result<FitSettings, InputError> read_fit(const JsonView& json) {
-  FitSettings fit;
-  SLF_TRY(const int hierarchical, integer(json, "hierarchical", 0, 1));
-  fit.method = hierarchical != 0 ? FitMethod::kHierarchical : FitMethod::kPaper;
-  SLF_TRY(const auto basis, whole(json, "basis", 0, 10));
-  if (basis.size() != 5) return json.at("basis")->error("5 numbers are expected");
-  fit.basis = {static_cast<BasisId>(basis[0] != 0), int(basis[1]), int(basis[2]), int(basis[3]),
-               int(basis[4])};
-  SLF_TRY(const int reflected, integer(json, "reflected", 0, 1));
-  fit.frame = reflected != 0 ? FrameId::kReflected : FrameId::kGlobal;
-  SLF_TRY(fit.normal_cell_log2, integer(json, "normal_cell_log2", 0, 20));
-  SLF_TRY(const auto h, numbers(json, "blocks", 5, 0, 1e9));
-  fit.hierarchy = {int(h[0]), h[1], h[2], h[3], h[4]};
-  SLF_TRY(const auto e, numbers(json, "environment", 3, 0, 1e9));
-  fit.environment = {int(e[0]), e[1], e[2], {}};
+  EncoderSettings settings;
+  SLF_TRY(const auto pairs, read_pairs(json, "settings"));
+  if (const auto put = put_settings(pairs, {SettingPart::kFit}, settings); !put)
+    return json.at("settings")->error(put.error().message);
+  FitSettings& fit = settings.fit;
   SLF_TRY(const auto box, numbers(json, "box", 4, -kLarge, kLarge));
   fit.environment.known = {{box[0], box[1], box[2]}, box[3], {}};
   SLF_TRY(const auto light, numbers(json, "light", -kMostLight, kMostLight));
   for (const double x : light) fit.environment.known.light.push_back(static_cast<float>(x));
-  const bool lit = box[3] > 0 && e[0] > 0;
-  if (light.size() != (lit ? std::size_t(3 * (e[0] + 1) * (e[0] + 1)) : 0))
+  const int degree = fit.environment.degree;
+  const bool lit = box[3] > 0 && degree > 0;
+  if (light.size() != (lit ? std::size_t(3 * (degree + 1) * (degree + 1)) : 0))
     return json.at("light")->error("not of the environment's degree");
-  SLF_TRY(const auto p, numbers(json, "pictures", 6, 0, 1e9));
-  fit.pictures = {int(p[0]), int(p[1]), p[2], p[3], p[4], p[5]};
   return fit;
 }
 

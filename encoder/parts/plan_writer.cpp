@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "encoder/parts/planned_scene.h"
+#include "encoder/setting_rows.h"
 
 namespace slf {
 namespace {
@@ -48,24 +49,13 @@ std::string pairs(const std::vector<std::pair<std::string, std::string>>& all) {
 }
 
 std::string fit_text(const FitSettings& fit) {
-  const HierarchySettings& h = fit.hierarchy;
-  const EnvironmentSettings& e = fit.environment;
-  const PictureFitSettings& p = fit.pictures;
-  return "{\"hierarchical\": " + text(fit.method == FitMethod::kHierarchical) + ", \"basis\": " +
-         list(std::array<int, 5>{int(fit.basis.id), fit.basis.order, fit.basis.scales_theta,
-                                 fit.basis.scales_gamma, fit.basis.degree}) +
-         ", \"reflected\": " + text(fit.frame == FrameId::kReflected) +
-         ", \"normal_cell_log2\": " + text(fit.normal_cell_log2) + ",\n    \"blocks\": " +
-         list(std::array<double, 5>{double(h.block_log2), h.strength, h.growth, h.point_penalty,
-                                    h.point_growth}) +
-         ", \"environment\": " +
-         list(std::array<double, 3>{double(e.degree), e.radius, e.strength}) + ",\n    \"box\": " +
-         list(std::array<double, 4>{e.known.centre[0], e.known.centre[1], e.known.centre[2],
-                                    e.known.half}) +
-         ", \"light\": " + list(e.known.light) + ",\n    \"pictures\": " +
-         list(std::array<double, 6>{double(p.rounds), double(p.steps), p.mean_penalty, p.penalty,
-                                    p.growth, p.outlier}) +
-         "}";
+  EncoderSettings settings;
+  settings.fit = fit;
+  const KnownLight& known = fit.environment.known;
+  const Vec3& c = known.centre;
+  return "{\"settings\": " + pairs(kept_settings(settings, {SettingPart::kFit})) +
+         ",\n    \"box\": " + list(std::array<double, 4>{c[0], c[1], c[2], known.half}) +
+         ", \"light\": " + list(known.light) + "}";
 }
 
 std::string trust_text(const std::vector<CameraTrust>& trust) {

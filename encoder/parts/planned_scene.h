@@ -31,7 +31,7 @@ struct PlannedScene {
 };
 
 /// Of the JSON.
-inline constexpr int kPlanVersion = 2;
+inline constexpr int kPlanVersion = 3;
 
 /// Points of the sample that a plan is made on, about, with what is around them.
 inline constexpr std::size_t kPlanSample = 24000;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "slf/settings.h"
+
 #include <gtest/gtest.h>
 
-#include "slf/settings.h"
+#include <cmath>
+
+#include "encoder/setting_row_kinds.h"
 
 namespace slf::settings_test {
 namespace {
@@ -99,6 +103,82 @@ TEST(Settings, MistakesNameTheSetting) {
   EXPECT_EQ(error_of({{"preset", "best"}}), "--preset best is none of default|paper");
   EXPECT_EQ(error_of({{"functions", "100"}}), "--functions 100 is not a power of two");
   EXPECT_EQ(error_of({{"fit", "hierarchical"}, {"beta", "1"}}), "--beta is for --fit paper");
+}
+
+const SettingScope kOnOctrees = {"--geometry octree", [](const EncoderSettings& s) {
+                                   return s.geometry == GeometryCoder::kOctree;
+                                 }};
+
+/// The table and one row more, of a member that has none.
+SettingTable with_one_more() {
+  SettingTable table = setting_rows();
+  row_kinds::add(table, SettingPart::kGeometry, "Geometry", &kOnOctrees,
+                 {row_kinds::recorded(row_kinds::number("densify-from", SLF_AT(densify.from), 1, 4,
+                                                        "Pixels between points"),
+                                      "2")});
+  return table;
+}
+
+TEST(SettingTable, OneRowMoreIsReadCheckedRecordedAndKept) {
+  const SettingTable table = with_one_more();
+  const auto settings = settings_from({{"densify-from", "3.5"}}, table);
+  ASSERT_TRUE(settings);
+  EXPECT_EQ(settings->densify.from, 3.5);
+  EXPECT_EQ(settings_from({{"densify-from", "5"}}, table).error().message,
+            "--densify-from 5 is not in the range 1 to 4");
+  EXPECT_EQ(settings_from({{"geometry", "draco"}, {"densify-from", "3"}}, table).error().message,
+            "--densify-from is for --geometry octree");
+  EXPECT_EQ(recorded_settings(*settings, {SettingPart::kGeometry}, table),
+            (Metadata{{"densify_from", "3.5"}}));
+  EXPECT_TRUE(recorded_settings(EncoderSettings{}, {SettingPart::kGeometry}, table).empty());
+
+  EncoderSettings back;
+  const GivenSettings kept = kept_settings(*settings, {SettingPart::kGeometry}, table);
+  ASSERT_TRUE(put_settings(kept, {SettingPart::kGeometry}, back, table));
+  EXPECT_EQ(back.densify.from, 3.5);
+  EXPECT_FALSE(put_settings(kept, {SettingPart::kGeometry}, back)) << "another table's";
+}
+
+TEST(SettingTable, PlacesAreCheckedByTheirRanges) {
+  EXPECT_TRUE(check_ranges({}));
+  EXPECT_TRUE(check_ranges(settings_of(Preset::kPaper)));
+  const SettingTable table = with_one_more();
+  for (const double wrong : {0.5, 4.5, std::nan("")}) {
+    EncoderSettings settings;
+    settings.densify.from = wrong;
+    const auto checked = check_ranges(settings, table);
+    ASSERT_FALSE(checked) << wrong;
+    EXPECT_EQ(checked.error().code, Errc::kInvalidArgument);
+    EXPECT_EQ(checked.error().message.rfind("densify-from: ", 0), 0u) << checked.error().message;
+  }
+}
+
+TEST(SettingTable, EveryPlaceKeepsWhatItsRowReads) {
+  const auto all = {SettingPart::kStart,       SettingPart::kGeometry, SettingPart::kCoding,
+                    SettingPart::kObservation, SettingPart::kFit,      SettingPart::kTexture};
+  for (const SettingRow& row : setting_rows()) {
+    if (!row.apply || !row.value || row.info.kind == SettingInfo::kFlag) continue;
+    std::vector<std::string> values = row.info.words;
+    if (row.info.low < row.info.high)
+      values.insert(values.end(),
+                    {row_kinds::shown(row.info.low), row_kinds::shown(row.info.high)});
+    for (const std::string& value : values) {
+      if (value == "auto" && row.info.kind == SettingInfo::kWord) continue;
+      EncoderSettings settings;
+      row.apply(settings, value);
+      EXPECT_EQ(row.value(settings), value) << row.info.name;
+    }
+  }
+  for (const Preset preset : {Preset::kDefault, Preset::kPaper}) {
+    EncoderSettings back;
+    GivenSettings kept = kept_settings(settings_of(preset), all);
+    // What is nothing unless it is given cannot be put back.
+    for (const auto& [name, value] : kept)
+      if (!value.empty())
+        for (const SettingRow& row : setting_rows())
+          if (row.info.name == name) row.apply(back, value);
+    EXPECT_EQ(kept_settings(back, all), kept);
+  }
 }
 
 }  // namespace

@@ -96,11 +96,11 @@ TEST_F(TinyCaptureTest, OptionsOverrideThePresetWhateverTheirOrder) {
   };
   const auto paper = settings("--preset paper");
   EXPECT_EQ(paper.at("steps"), "uniform");
-  EXPECT_EQ(paper.at("penalise_dc"), "yes");
+  EXPECT_EQ(paper.at("penalise_dc"), "on");
   EXPECT_EQ(paper.at("coder"), "independent");
   const auto changed = settings("--steps by-norm --free-dc -q 8 --preset paper");
   EXPECT_EQ(changed.at("steps"), "by-norm");
-  EXPECT_EQ(changed.at("penalise_dc"), "no");
+  EXPECT_EQ(changed.at("penalise_dc"), "off");
   EXPECT_EQ(changed.at("q"), "8");
   EXPECT_EQ(changed.at("coder"), "independent");
 }

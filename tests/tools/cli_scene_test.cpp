@@ -261,8 +261,10 @@ TEST_F(SceneTest, ADamagedPlanIsRefusedByItsElement) {
   expect_failure(part("1/1", "x.slf"), 4, "plan", "rank");
   with("\"colour\": [", "\"colour\": [0,0,0,0,0,0,0,0,0], \"others\": [");
   expect_failure(part("1/1", "x.slf"), 4, "plan", "colours");
-  with("\"blocks\": [", "\"blocks\": [30,0,0,0,0], \"others\": [");
-  expect_failure(part("1/1", "x.slf"), 4, "plan", "fit");
+  with("[\"block-log2\", \"", "[\"block-log2\", \"9");
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "block-log2");
+  with("[\"block-growth\"", "[\"blocks-growth\"");
+  expect_failure(part("1/1", "x.slf"), 4, "plan.json", "block-growth is expected");
   with("\"trust\": [", "\"trust\": [[0,1,1000,1,1],");
   expect_failure(part("1/1", "x.slf"), 4, "plan.json", "trust");
   write("plan.json", whole.substr(0, whole.size() / 2));

@@ -73,7 +73,7 @@ TEST_F(Igc, ThePaperPresetReachesTheDecoder) {
     return std::count(igc->metadata.begin(), igc->metadata.end(),
                       std::pair<std::string, std::string>(key, value)) == 1;
   };
-  EXPECT_TRUE(has("penalise_dc", "1"));
+  EXPECT_TRUE(has("penalise-dc", "on"));
   EXPECT_TRUE(has("iterations", "1"));
   EXPECT_TRUE(has("lambda", "0.8"));
   EXPECT_TRUE(has("qp", "20"));

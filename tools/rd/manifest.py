@@ -58,9 +58,9 @@ def _check_string(item):
 
 
 def _check_option(name, item, codecs, at):
-    if name not in opt.OPTIONS:
-        raise at.refuse(f'there is no option "{name}"; there are {", ".join(opt.OPTIONS)}', name)
-    limits, takes = opt.OPTIONS[name]
+    if name not in opt.options():
+        raise at.refuse(f'there is no option "{name}"; there are {", ".join(opt.options())}', name)
+    limits, takes = opt.options()[name]
     problem = limits.problem(item.value) if not isinstance(item.value, (dict, list)) else "one value is expected"
     if problem:
         raise item.refuse(f"{name} {item.plain()}: {problem}")
@@ -76,7 +76,7 @@ def _check_options(located, codecs):
             raise options.refuse(f"{name} is in the grid as well", name)
     for name, values in (grid.value if grid else {}).items():
         _check_type(values, list, name)
-        if name not in opt.OPTIONS:
+        if name not in opt.options():
             _check_option(name, values, codecs, grid)
         _check_list(grid, name, lambda item: _check_option(name, item, codecs, grid))
 

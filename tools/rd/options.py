@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The codecs, their rate options and every option a manifest may set, with ranges.
 
-Ranges are those of `slf settings`, kept here so that an impossible manifest is refused before anything
-runs; tests/house/settings_table_test.py compares them.
+Ranges are those of `slf settings --json`, read once, so that an impossible manifest is refused before
+anything runs.
 """
+import json
+import os
+import pathlib
+import subprocess
 
 SLF = ("raht", "tmc", "tmc3")
 IGC = ("igc-hevc", "igc-hevc-intra", "igc-av1")
@@ -57,49 +61,54 @@ RATES = {"raht": ("quality", Number(0.05, 4096)), "tmc": ("texture-qp", Number(0
 
 X265_PRESETS = ("ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow")
 
-# name: (range, codecs that take it)
-OPTIONS = {
-    "grid-bits": (Either(Number(1, 21, whole=True), Choice("auto")), CODECS),
-    "delta": (Number(0, 90), CODECS),
-    "occlusion-resolution": (Number(0.05, 8), CODECS),
-    "depth-tolerance": (Number(0, 1000), CODECS),
-    "order": (Number(1, 4, whole=True), CODECS),
-    "functions": (Number(1, 4096, power_of_two=True), CODECS),
-    "lambda": (Number(0, 1e9), CODECS),
-    "beta": (Number(0, 1e9), CODECS),
-    "iterations": (Number(0, 100, whole=True), CODECS),
-    "neighbours": (Number(1, 64, whole=True), CODECS),
+# Settings of the coder that textures take as well; of the others, those that coefficients alone have.
+OF_TEXTURES_TOO = ("chroma-step", "steps", "colour")
+# The rate is a job's own.
+NOT_OPTIONS = ("preset", "quality", "quality-loss", "target-bytes", "target-psnr", "texture-qp", "texture-lossless",
+               "penalise-dc", "free-dc")
+# name: (range, codecs that take it), of what the program has in another form or for slf igc alone
+OWN = {
     "dc": (Choice("penalise", "free"), CODECS),
-    "linear": (Flag(), CODECS),
-    "fit": (Choice("paper", "hierarchical"), CODECS),
-    "fit-to": (Choice("points", "pictures"), CODECS),
-    "basis": (Choice("bspline", "harmonics", "auto"), CODECS),
-    "frame": (Choice("global", "reflected", "auto"), CODECS),
-    "cross-validate": (Choice("on", "off"), CODECS),
-    "check-cameras": (Choice("on", "off"), ("raht", "tmc")),
-    "effort": (Number(1, 8, whole=True), CODECS),
-    "degree": (Number(0, 10, whole=True), CODECS),
-    "block-log2": (Number(0, 21, whole=True), CODECS),
-    "block-strength": (Number(1e-6, 1e6), CODECS),
-    "block-growth": (Number(1, 10), CODECS),
-    "point-penalty": (Number(1e-6, 1e9), CODECS),
-    "point-growth": (Number(1, 10), CODECS),
-    "environment-degree": (Number(0, 16, whole=True), CODECS),
-    "environment-radius": (Either(Number(2, 1e6), Choice(0)), CODECS),
-    "predict": (Choice("on", "off"), ("raht",)),
-    "klt": (Choice("off", "functions", "joint"), ("raht",)),
-    "rdo": (Number(0, 1), ("raht",)),
-    "chroma-step": (Number(0.1, 10), ("raht", "tmc")),
-    "steps": (Choice("by-norm", "uniform"), ("raht", "tmc")),
-    "colour": (Choice("opponent", "none"), ("raht", "tmc")),
-    "coefficients": (Choice("vector", "independent"), ("raht",)),
-    "texture-bits": (Choice(8, 10, 12), ("tmc",)),
-    "texture-mode": (Choice("intra", "low-delay"), ("tmc",)),
+    "functions": (Number(1, 4096, power_of_two=True), CODECS),
     "texture-preset": (Choice(*X265_PRESETS), ("tmc",)),
     "chroma": (Choice(420, 444), IGC),
     "speed": (Choice(*X265_PRESETS), ("igc-hevc", "igc-hevc-intra")),
     "av1-speed": (Number(0, 8, whole=True), ("igc-av1",)),  # --speed as well, of another scale
 }
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build" / "bin" / "slf"
+_options = {}
+
+
+def load(slf):
+    """Takes the options of a program: one is loaded at a time."""
+    table = json.loads(subprocess.run([slf, "settings", "--json"], check=True, capture_output=True).stdout)
+    _options.clear()
+    _options.update({row["name"]: (_range(row), _codecs(row)) for row in table
+                     if row["name"] not in NOT_OPTIONS and row["kind"] not in ("text", "pair")}, **OWN)
+
+
+def options():
+    """name: (range, codecs that take it) of every option that a manifest may set."""
+    if not _options:
+        load(os.environ.get("SLF_PROGRAM", PROGRAM))
+    return _options
+
+
+def _range(row):
+    if row["kind"] == "flag":
+        return Flag()
+    words = [int(word) if word.isdigit() else word for word in row.get("words", [])]
+    parts = [Number(row["low"], row["high"], whole=row["kind"] == "whole")] if "low" in row else []
+    parts += [Choice(*words)] if words else []
+    return parts[0] if len(parts) == 1 else Either(*parts)
+
+
+def _codecs(row):
+    if row["group"] == "Coding":
+        return ("raht", "tmc") if row["name"] in OF_TEXTURES_TOO else ("raht",)
+    if row["group"].startswith("Texture"):
+        return ("tmc",)
+    return ("raht", "tmc") if row["name"] == "check-cameras" else CODECS
 
 
 def words(options):

@@ -110,7 +110,7 @@ class Planner:
                 self.notes += [note] if note not in self.notes else []
                 continue
             options = {k: v for k, v in {**settings["options"], **given}.items()
-                       if codec in opt.OPTIONS[k][1] and v is not False}  # a flag that is not given
+                       if codec in opt.options()[k][1] and v is not False}  # a flag that is not given
             for rate in settings["rates"][codec]:
                 job = {"codec": codec, "preset": preset, "options": options, "rate": rate, "slf_split": slf_split,
                        "deltas": settings["deltas"], "images": settings["images"] or settings["figure"] == "time",
@@ -157,6 +157,7 @@ class Planner:
 def make(files, slf, out, data=None, tmc3=None):
     """Plan of manifest files [(path, name)]. All manifests are checked before a capture is made."""
     planner = Planner(program(slf), out, data, tmc3)
+    opt.load(slf)
     manifests = [manifest.read(path, name) for path, name in files]
     seen = {}
     for located, settings in manifests:

@@ -11,7 +11,7 @@ of the library are slf.Error and its subclasses. Long functions let other thread
 from __future__ import annotations
 
 from . import _slf
-from ._encoding import encode, pack
+from ._encoding import encode, pack, settings
 from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError,
                       UnsupportedError)
 from ._field import LightField, info, read
@@ -21,12 +21,13 @@ from ._types import Camera, Capture, Encoded, Frame, Info
 
 __all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Frame',
            'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'Turntable',
-           'UnsupportedError', '__version__', 'encode', 'frames', 'info', 'pack', 'read']
+           'UnsupportedError', '__version__', 'encode', 'frames', 'info', 'pack', 'read',
+           'settings']
 
 __version__: str = _slf.version()
 
 # Where a user finds them, in messages and in help().
 for _name in ('Camera', 'Capture', 'Encoded', 'Frame', 'Frames', 'Info', 'LightField', 'Turntable', 'encode',
-              'frames', 'info', 'pack', 'read'):
+              'frames', 'info', 'pack', 'read', 'settings'):
     globals()[_name].__module__ = __name__
 del _name

@@ -4,60 +4,84 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import re
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, real, whole, whole_array, wrong
+from ._arguments import whole, whole_array, wrong
+from ._errors import ArgumentError, Error
 from ._types import Capture, Encoded, Vector
 
 
-def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: Optional[float] = None,
-           quality_loss: Optional[float] = None, split: str = '', preset: str = 'default', effort: int = 7,
-           target_bytes: int = 0, target_psnr: float = 0, grid_bits: int = 0, voxel_size: float = 0,
-           normal_bits: int = 0, quality_layers: int = 1, threads: int = 0,
-           progress: Optional[Callable[[str, float], object]] = None) -> Encoded:
+_Value = Union[str, int, float, bool, None]
+
+
+def settings() -> Dict[str, Dict[str, Any]]:
+    """The encoder's settings: for each name low and high, words, initial value and a sentence of help.
+
+    They are those of `slf settings`, and arguments of encode().
+    """
+    return {row.pop('name').replace('-', '_'): row for row in _slf.settings()}
+
+
+def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None, split: str = '',
+           threads: int = 0, progress: Optional[Callable[[str, float], object]] = None,
+           **settings: _Value) -> Encoded:
     """From photographs and points to a stream.
 
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
     levels, 0.05 to 4096, smaller is better; None is the largest that costs held-out input images
-    quality_loss dB of PSNR at most, 0.001 to 10 (None is 0.1); 16 where there are no images, nothing
-    is fitted to pictures, or of preset 'paper'. split: which images, as `slf encode --split`. preset:
-    'default' or 'paper'; effort: 1 to 8. target_bytes or target_psnr: in place of q. grid_bits 1 to 21, or voxel_size: 0 is what the photographs resolve. normal_bits:
-    0 or 4 to 12. quality_layers: 1 to 4, each at half of the step of the one before, so that quality
-    is a cut of the file (read(layers=...), max_bytes). progress(stage, fraction 0 to 1): now and then; what it raises ends the
-    encoding, as an interrupt (Ctrl-C) does.
+    quality_loss dB of PSNR at most, or 16 where nothing can be held out. split: which images, as
+    `slf encode --split`. settings: all that the program has, by its names with _ for -, as numbers,
+    words, True or False, None where it is not given: effort=3, target_bytes=50000,
+    surface='trained', grid_bits=9, quality_layers=3. slf.settings() lists them with their ranges.
+    progress(stage, fraction 0 to 1): now and then; what it raises ends the encoding, as an interrupt
+    (Ctrl-C) does.
     Raises InputError, ArgumentError, ValueError.
     """
-    if preset not in ('default', 'paper'):
-        raise wrong('preset', "preset is 'default' or 'paper'")
-    options: Dict[str, Any] = {
-        'q': None if q is None else real(q, 'q', 0.05, 4096),
-        'quality_loss': None if quality_loss is None else real(quality_loss, 'quality_loss', 0.001, 10),
-        'preset': preset,
-        'effort': whole(effort, 'effort', 1, 8),
-        'target_bytes': whole(target_bytes, 'target_bytes', 0, MOST_BYTES),
-        'target_psnr': real(target_psnr, 'target_psnr', 0, 100),
-        'grid_bits': whole(grid_bits, 'grid_bits', 0, 21),
-        'voxel_size': real(voxel_size, 'voxel_size', 0, 1e12),
-        'normal_bits': whole(normal_bits, 'normal_bits', 0, 12),
-        'quality_layers': whole(quality_layers, 'quality_layers', 1, 4),
-        'threads': whole(threads, 'threads')}
-    if quality_loss is not None and (q is not None or preset == 'paper' or target_bytes or target_psnr):
-        raise wrong('quality_loss',
-                    'quality_loss is of a q that is chosen: give neither q nor a target, nor preset paper')
-    if 0 < options['normal_bits'] < 4:
-        raise wrong('normal_bits', 'normal_bits is 0 or 4 to 12')
-    if options['grid_bits'] and options['voxel_size']:
-        raise wrong('voxel_size', 'voxel_size is in place of grid_bits: give one of them')
-    if isinstance(capture, Capture):
-        data, report = _slf.encode_capture(_in_bytes(capture), split, options, progress)
-    else:
-        data, report = _slf.encode_path(os.fspath(capture), split, options, progress)
+    options = dict(_option(name, value) for name, value in {'q': q, **settings}.items()
+                   if value is not None)
+    whole(threads, 'threads')
+    try:
+        if isinstance(capture, Capture):
+            data, report = _slf.encode_capture(_in_bytes(capture), split, options, threads, progress)
+        else:
+            data, report = _slf.encode_path(os.fspath(capture), split, options, threads, progress)
+    except ArgumentError as error:
+        raise _of_arguments(error) from None
     report['warnings'] = tuple(report['warnings'])
     return Encoded(data, **report)
+
+
+def _option(name: str, value: _Value) -> Tuple[str, str]:
+    """Name and text as the program has them."""
+    option = 'quality' if name == 'q' else name.replace('_', '-')
+    if isinstance(value, (bool, np.bool_)):
+        text = 'on' if value else 'off'
+    elif isinstance(value, (float, np.floating)):
+        text = repr(float(value))
+    else:
+        text = str(value)
+    what = _slf.wrong_value(option, text)
+    if what:
+        raise wrong(name, f'{name} {what}')
+    return option, text
+
+
+def _of_arguments(error: ArgumentError) -> Error:
+    """An error that begins with an option, --grid-bits, is of the argument grid_bits."""
+    found = re.match(r'--([a-z0-9-]+) ', str(error))
+    if not found:
+        return error
+    text = re.sub(r'--([a-z0-9-]+)', lambda option: _argument(option[1]), str(error))
+    return wrong(_argument(found[1]), text)
+
+
+def _argument(option: str) -> str:
+    return 'q' if option == 'quality' else option.replace('-', '_')
 
 
 def pack(positions: npt.ArrayLike, components: Optional[npt.ArrayLike] = None, *, bits: int = 0,

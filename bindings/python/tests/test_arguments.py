@@ -49,10 +49,21 @@ class ArgumentsTest(unittest.TestCase):
                 ('target_psnr', 'a'), ('grid_bits', 7.5), ('voxel_size', -1), ('normal_bits', 3),
                 ('normal_bits', 13), ('quality_layers', 2.5), ('threads', -1)]:
             self.refused(name, slf.encode, disc(), **{name: wrong})
-        self.refused('voxel_size', slf.encode, disc(), grid_bits=9, voxel_size=0.1)
+        self.refused('grid_bits', slf.encode, disc(), grid_bits=9, voxel_size=0.1)
+        self.refused('colour_space', slf.encode, disc(), colour_space='srgb')
         self.refused('quality_loss', slf.encode, disc(), q=4, quality_loss=0.1)
         self.refused('quality_loss', slf.encode, disc(), preset='paper', quality_loss=0.1)
         self.refused('points', slf.encode, slf.Capture([['a', 'b', 'c']]))
+
+    def test_encoding_takes_every_setting_of_the_program(self):
+        table = slf.settings()
+        for name in ('surface', 'effort', 'block_strength', 'texture_bits', 'penalise_dc'):
+            self.assertIn(name, table)
+        for name, row in table.items():
+            if row['initial'] and not row['flag'] and not name.startswith(('texture', 'lambda', 'beta', 'iterations', 'functions', 'order')):
+                slf.encode(disc(40), **{'grid_bits': 5, name: row['initial']})
+        fine, coarse = (slf.encode(disc(), q=1, grid_bits=7, klt=klt) for klt in ('off', 'joint'))
+        self.assertNotEqual(fine.data, coarse.data)
 
     def test_colours_images_and_steps_of_other_types_are_not_cast(self):
         grey = np.full((16, 16, 3), 200, np.uint8)

@@ -9,8 +9,8 @@
 
 #include "bitstream/deflate.h"
 #include "bitstream/inflate.h"
-#include "encoder/fit/environment.h"
 #include "encoder/fit_capture.h"
+#include "encoder/setting_rows.h"
 
 namespace slf {
 namespace {
@@ -19,13 +19,17 @@ constexpr std::size_t kLengthBytes = 4;
 constexpr std::size_t kMostText = std::size_t{1} << 24;
 constexpr int kMostSize = 8192, kMostCameras = 65536;
 
+/// What the decoder observes, fits and chooses from the images that it decoded, as the encoder of
+/// .slf would.
+constexpr std::initializer_list<SettingPart> kParts = {SettingPart::kObservation, SettingPart::kFit,
+                                                       SettingPart::kSearch};
+
 /// Writes lines.
 class LineWriter {
  public:
   void whole(const char* key, int value, int, int) { line(key, std::to_string(value)); }
-  void real(const char* key, double value) {
-    char buffer[32];
-    line(key, {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr});
+  void rows(const EncoderSettings& settings) {
+    for (const auto& [name, value] : kept_settings(settings, kParts)) line(name.c_str(), value);
   }
   void text(const char* key, std::string_view value) {
     if (value.find('\n') != std::string_view::npos) broken_ = key;
@@ -54,11 +58,10 @@ class LineReader {
     if (error != std::errc() || stop != given.data() + given.size() || value < low || value > high)
       fail(key);
   }
-  void real(const char* key, double& value) {
-    const std::string_view given = line(key);
-    const auto [stop, error] = std::from_chars(given.data(), given.data() + given.size(), value);
-    if (error != std::errc() || stop != given.data() + given.size() || !std::isfinite(value))
-      fail(key);
+  void rows(EncoderSettings& settings) {
+    GivenSettings kept = kept_settings(settings, kParts);
+    for (auto& [name, value] : kept) value = line(name.c_str());
+    if (const auto put = put_settings(kept, kParts, settings); !put && ok()) fail("settings");
   }
   void text(const char* key, std::string& value) { value = line(key); }
 
@@ -104,45 +107,9 @@ void settings_lines(V& v, P& s) {
   v.whole("qp", s.qp, 0, 63);
   choice(v, "chroma", s.chroma, 1);
   v.text("speed", s.speed);
-  auto& slf = s.slf;
-  v.real("delta", slf.observe.delta_degrees);
-  v.real("occlusion_resolution", slf.observe.occlusion_resolution);
-  v.real("depth_tolerance", slf.observe.depth_tolerance);
-  choice(v, "transfer", slf.observe.transfer, 1);
-  choice(v, "fit", slf.fit.method, 1);
-  choice(v, "basis", slf.fit.basis.id, 1);
-  choice(v, "frame", slf.fit.frame, 1);
-  v.whole("degree", slf.fit.basis.degree, 0, 10);
-  v.whole("block_log2", slf.fit.hierarchy.block_log2, 0, 21);
-  v.real("block_strength", slf.fit.hierarchy.strength);
-  v.real("block_growth", slf.fit.hierarchy.growth);
-  v.real("point_penalty", slf.fit.hierarchy.point_penalty);
-  v.real("point_growth", slf.fit.hierarchy.point_growth);
-  v.whole("environment_degree", slf.fit.environment.degree, 0, kMaxEnvironmentDegree);
-  v.real("environment_radius", slf.fit.environment.radius);
-  v.real("environment_strength", slf.fit.environment.strength);
-  v.whole("picture_rounds", slf.fit.pictures.rounds, 0, 20);
-  v.whole("picture_steps", slf.fit.pictures.steps, 1, 100);
-  v.real("picture_mean_penalty", slf.fit.pictures.mean_penalty);
-  v.real("picture_penalty", slf.fit.pictures.penalty);
-  v.real("picture_growth", slf.fit.pictures.growth);
-  v.real("picture_outlier", slf.fit.pictures.outlier);
-  // What the decoder chooses from the images that it decoded, as the encoder of .slf would.
-  choice(v, "search_frame", slf.search.frame, 1);
-  choice(v, "search_basis", slf.search.basis, 1);
-  choice(v, "search_block_strength", slf.search.strength, 1);
-  choice(v, "search_block_growth", slf.search.growth, 1);
-  choice(v, "search_point_penalty", slf.search.point_penalty, 1);
-  choice(v, "search_pictures", slf.search.pictures, 1);
-  v.whole("order", slf.fit.basis.order, 1, 4);
-  v.whole("scales_theta", slf.fit.basis.scales_theta, 0, 6);
-  v.whole("scales_gamma", slf.fit.basis.scales_gamma, 0, 6);
-  v.real("lambda", slf.fit.lambda);
-  v.real("beta", slf.fit.beta);
-  v.whole("iterations", slf.fit.iterations, 0, 100);
-  v.whole("neighbours", slf.fit.neighbours, 1, 64);
-  choice(v, "penalise_dc", slf.fit.penalise_dc, 1);
-  choice(v, "colour", slf.colour, 1);
+  choice(v, "transfer", s.slf.observe.transfer, 1);
+  choice(v, "colour", s.slf.colour, 1);
+  v.rows(s.slf);
 }
 
 /// The list's length, then one line each.
