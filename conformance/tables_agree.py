@@ -57,7 +57,7 @@ def visited(source, function, prefix):
 def check_sequence():
     """7.2."""
     sets = code("bitstream/parameter_sets.h")
-    table = section("**7.2 Sequence**", "**7.2.1 Later elements.**")
+    table = section("### 7.2 Sequence", "#### 7.2.1 ")
     text = dict(elements(table, "sps_"))
     coded = {}
     for function in ("sequence_parameter_set", "base_and_cut", "basis", "point_attributes", "group_layers", "plane_run"):
@@ -83,9 +83,9 @@ def check_reserved(table, sets):
 
 def check_slices():
     """7.3, 7.11."""
-    text = [pair for pair in elements(section("**7.3 Slices**", "**7.4 Geometry**"), "slice") if pair[0] != "slice_id"]
+    text = [pair for pair in elements(section("### 7.3 Slices", "### 7.4 Geometry"), "slice") if pair[0] != "slice_id"]
     agree("elements of 7.3", text, visited(code("bitstream/slice_headers.h"), "slice_table", "slice"))
-    text = elements(section("**7.11 Transform**", "## 8 Decoding"), "tr_")
+    text = elements(section("### 7.11 Transform", "## 8 Decoding"), "tr_")
     agree("elements of 7.11", text, visited(code("bitstream/transform_header.h"), "transform_header", "tr_"))
     headers = code("codec/frame_header.h")
     text = elements(section("| frame_unit( ) |", "Frames stand one after the other"), "frame_")
@@ -114,13 +114,13 @@ def check_tables():
     logistic = code("entropy/logistic.h")
     coded = [int(n) for n in re.findall(r"\b\d{5}\b", logistic)]
     agree("A-1 of the code", text, coded[coded.index(32768):][:len(text)])
-    sizes = [w for w in re.findall(r"^\| [0-4] \| (\w+) \|", section("Table 8-3", "**8.4.3"), re.M)]
+    sizes = [w for w in re.findall(r"^\| [0-4] \| (\w+) \|", section("Table 8-3", "#### 8.4.3 "), re.M)]
     shapes = dict(re.findall(r"using (Faces|Corner) = ContextShape<([\d, ]+)>", code("geometry/occupancy_states.h")))
     coded = [str(math.prod(map(int, shape.split(","))).bit_length() - 1) for shape in shapes.values()]
     agree("table 8-3 of the code", [size for size in sizes if size.isdigit()], coded)
     agree("table 8-3 of the text decoder", sizes, re.sub(r"self\.hash_bits", "hash", re.search(
         r"widths = \((.*?)\)", DECODER).group(1)).split(", "))
-    sizes = [int(w) for w in re.findall(r"^\| [3-5] \| (\d+) \|", section("Table 8-6", "**8.12.4"), re.M)]
+    sizes = [int(w) for w in re.findall(r"^\| [3-5] \| (\d+) \|", section("Table 8-6", "#### 8.12.4 "), re.M)]
     shapes = dict(shapes_of("geometry/occupancy_states.h"))
     agree("table 8-6 of the code", sizes, [shapes["ReferenceFaces"], shapes["ReferenceSiblings"]])
     widths = re.search(r"widths = (.*), 1 << self\.hash_bits\n", DECODER).group(1)
@@ -143,7 +143,7 @@ def shapes_of(name):
 
 def check_contexts():
     """What 8.7.2 says of the sizes of its tables."""
-    text = section("(*Informative*: contexts of the tables", "**8.7.3")
+    text = section("(*Informative*: contexts of the tables", "#### 8.7.3 ")
     sizes = [int(n) for n in re.findall(r"\b\d+\b(?! times| sets)", text)]
     vector = [size for name, size in shapes_of("attributes/vector_states.h") if name != "Set"]
     magnitude = [size // 48 for name, size in shapes_of("attributes/coefficient_magnitude_model.h") if name != "Set"]
@@ -174,7 +174,7 @@ def check_limits():
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
     first = re.findall(r"(?:Three|Two)\s+families\s+of\s+sets,\s+all\s+weights\s+(\d+)\s+at\s+first", SPEC)
     agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\(\[(\d+)\] \* 8\)", DECODER))
-    constants = [re.search(rf"{letter} = (0x\w{{16}})", section("**8.4.4", "**8.5")).group(1) for letter in "AB"]
+    constants = [re.search(rf"{letter} = (0x\w{{16}})", section("#### 8.4.4 ", "### 8.5 ")).group(1) for letter in "AB"]
     agree("constants of 8.4.4", constants, re.findall(r"0x\w{16}", re.search("HASH_A, HASH_B = .*", DECODER).group(0)))
     coded = code("geometry/occupancy_model.h")
     agree("constants of 8.4.4 in the code", [c.lower() for c in constants],

@@ -68,6 +68,17 @@ if command -v update-mime-database >/dev/null && command -v gio >/dev/null; then
   XDG_DATA_HOME=$work/data gio info -a standard::content-type nameless | grep -q 'model/vnd\.slf' || fail "gio does not know tiny.slf"
 fi
 
+say "thumbnails"
+exec=$(sed -n 's/^Exec=//p' "$root/usr/share/thumbnailers/slf.thumbnailer")
+exec=${exec/#slf/"$slf"} exec=${exec//%i/tiny.slf} exec=${exec//%o/thumbnail.png}
+${exec//%s/128}
+file thumbnail.png | grep -q '128 x 128' || fail "a thumbnail is not 128 pixels wide"
+
+if command -v lintian >/dev/null; then
+  say "lintian"
+  lintian --fail-on error --tag-display-limit 0 "${packages[@]}" >&2 || fail "lintian has errors"
+fi
+
 say "a C program by pkg-config"
 export PKG_CONFIG_PATH=$libdir/pkgconfig
 cat >use.c <<'C'

@@ -19,6 +19,7 @@ if(TARGET slf_program)
   # What desktops and `file -m` know files by. libmagic has no folder for entries of others.
   install(FILES tools/desktop/slf.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
           COMPONENT program)
+  install(FILES tools/desktop/slf.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers COMPONENT program)
   install(FILES tools/desktop/slf.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/slf COMPONENT program)
 endif()
 
