@@ -171,7 +171,8 @@ def moving(place):
             by_kind[' '.join(words[:-5])] = words[-5:]
         elif len(words) == 3 and all(word.endswith('%') for word in words):
             own, predicted = by_kind['by itself'], by_kind['predicted']
-            rows.append([f'{name}: {MOVING[name]}', f'{int(own[0]):,}', f'{int(predicted[0]):,}', *(word.replace('%', ' %').replace('-', '−') for word in words)])
+            changes = [word.replace('%', ' %').replace('-', '−') for word in words]
+            rows.append([f'{name}: {MOVING[name]}', f'{int(own[0]):,}', f'{int(predicted[0]):,}', *changes])
     return ['Clouds of one colour a point on a grid of 8 bits, step 16 (`tests/bench/bench_frames`): bytes a frame, coded by itself and predicted from the '
             'frame before, at the same step.', '',
             *table(['sequence', 'alone, bytes', 'predicted, bytes', 'all', 'geometry', 'values'], rows)]
