@@ -30,7 +30,7 @@ struct VectorStates {
     using Above = ContextShape<5, 5, 5, 5, 3>;   // sizes of three parents, the previous; axis
     using Beside = ContextShape<5, 5, 5, 3, 4>;  // sizes at three faces; axis; below
   };
-  /// Has it a value other than 0 from a run of functions on?
+  /// Is one of its values other than 0, in this run of functions or a later one?
   struct Rest {
     using Expected = ContextShape<kRuns, 48>;  // run; magnitude
     using Before = ContextShape<24, 5, 12>;    // sum so far; functions of the run; magnitude

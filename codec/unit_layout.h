@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 7.1 as a type: which units a stream has, and in which order. Whatever reads, writes, counts
+// Table 7-1 as a type: which units a stream has, and in which order. Whatever reads, writes, counts
 // or leaves out units walks this list.
 #pragma once
 
@@ -32,7 +32,7 @@ UnitLayout layout_of(const SequenceParameterSet& set);
 
 std::span<const UnitSlot> slots_of(const UnitLayout& layout, Owner owner);
 
-/// Are `units` units of an owner all that it has? A digest need not be there.
+/// Does an owner with `units` units have all of them? A digest need not be there.
 bool is_whole(std::span<const UnitSlot> slots, std::size_t units);
 
 /// The slot that the ids of a unit name.

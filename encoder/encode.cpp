@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "capture/density.h"
+#include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/choose_surface.h"
 #include "encoder/coding_parameters.h"

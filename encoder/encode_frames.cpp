@@ -10,6 +10,7 @@
 #include "capture/voxelise.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
+#include "encoder/check_settings.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "encoder/still_points.h"

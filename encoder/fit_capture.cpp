@@ -9,17 +9,13 @@
 #include "capture/spacing.h"
 #include "encoder/component_planes.h"
 #include "encoder/fit/fit_pictures.h"
-#include "encoder/fit/fit_settings.h"
 #include "encoder/refine/refine_geometry.h"
-#include "encoder/setting_rows.h"
 #include "geometry/surface_normals.h"
 #include "geometry/weight_classes.h"
 #include "lightfield/octahedral.h"
 
 namespace slf {
 namespace {
-
-InputError invalid(std::string what) { return {Errc::kInvalidArgument, std::move(what)}; }
 
 CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
   CodedNormals normals{bits, {}};
@@ -47,14 +43,6 @@ FitSettings in_spacings(FitSettings fit, std::span<const Voxel> positions, int g
   fit.normal_cell_log2 = spacing_log2;
   fit.hierarchy.block_log2 = std::min(fit.hierarchy.block_log2 + spacing_log2, 21);
   return fit;
-}
-
-Result<Done, InputError> check_settings(const EncoderSettings& s) {
-  SLF_CHECK(check_ranges(s));
-  SLF_CHECK(check_fit_settings(s.fit));
-  if (s.search.any() && s.fit.method != FitMethod::kHierarchical)
-    return invalid("cross-validation: of the hierarchical fit alone");
-  return Done{};
 }
 
 void fit_colours_alone(EncoderSettings& settings) {

@@ -14,9 +14,6 @@
 
 namespace slf {
 
-/// @errors kInvalidArgument: names the setting and its range.
-Result<Done, InputError> check_settings(const EncoderSettings& settings);
-
 /// Without photographs a point has a colour, whatever the direction.
 void fit_colours_alone(EncoderSettings& settings);
 

@@ -127,8 +127,12 @@ void add_coding(SettingTable& rows) {
                        "Steps of the second and third channel, over those of the first"),
                 "1"),
        on_or_off("predict", SLF_AT(predict),
-                 "Predict finer levels from coarser ones where that pays; paper: off"),
-       number("rdo", SLF_AT(rdo), 0, 1,
+                 "Predict finer levels from coarser ones where that pays; paper: off")});
+}
+
+void add_layers_and_slices(SettingTable& rows) {
+  add(rows, SettingPart::kCoding, "Coding", nullptr,
+      {number("rdo", SLF_AT(rdo), 0, 1,
               "Quantise by distortion and rate, 0 to 1; 0: to the nearest (paper)"),
        number("quality-layers", SLF_AT(quality_layers), 1, 4,
               "Layers in which coefficients are coded, each at half of the step of the one before: "
@@ -180,6 +184,7 @@ SettingTable all_rows() {
   add_start(rows);
   add_geometry(rows);
   add_coding(rows);
+  add_layers_and_slices(rows);
   add_fit_rows(rows);
   add_texture(rows);
   exclude(rows, {"grid-bits", "voxel-size"});

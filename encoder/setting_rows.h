@@ -32,8 +32,8 @@ enum class SettingPart : std::uint8_t {
 
 struct SettingRow {
   SettingInfo info;
-  /// Puts a value that wrong_value() accepts into its place. Empty: encoder/settings.cpp does more
-  /// with it than that.
+  /// Puts a value that wrong_value() accepts into its place. Empty: it
+  /// has no place, settings_from() looks at it by name.
   std::function<void(EncoderSettings&, const std::string&)> apply;
   /// What is in its place, as text that apply reads back; empty text: nothing was set. Empty: it
   /// has no place of its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 8.1 as types: what a decoder keeps between units, a value for each lifetime.
+// Table 8-1 as types: what a decoder keeps between units, a value for each lifetime.
 //
 //   of                      value                                     starts as
 //   a codeword              RangeDecoder                              8.3.1
@@ -9,8 +9,7 @@
 //                           ValueState: states and kept vectors       start_values()
 //   a slice                 NormalModel, and the normal before        new; 0
 //   the scene               SceneState                                the base; then slice 0
-//
-// A frame in time, which leaves a state to the next, would be one more.
+//   a frame in time         FrameState (codec/frame_state.h)          the frame before
 #pragma once
 
 #include <cstdint>

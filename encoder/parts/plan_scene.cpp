@@ -16,6 +16,7 @@
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/component_planes.h"
+#include "encoder/check_settings.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"

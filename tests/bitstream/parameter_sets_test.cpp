@@ -263,19 +263,6 @@ TEST(Spec_7_4_UnitHeaders, HaveASliceOnlyBelowTheBase) {
     }
 }
 
-TEST(Spec_7_4_UnitHeaders, AreNotWrittenWithWhatAReaderRefuses) {
-  const SequenceParameterSet set = cut_set();
-  SliceUnitHeader range, slice;
-  range.range = 100;
-  slice.range = 1;
-  slice.slice_id = kMaxSlices;
-  for (const SliceUnitHeader& wrong : {range, slice}) {
-    BitWriter out;
-    WriteSyntax write{out};
-    EXPECT_DEBUG_DEATH(unit_ids(write, wrong, UnitType::kGeometry, set), "ok");
-  }
-}
-
 TEST(Spec_7_7_Index, CountsAreBelievedOnlyIfTheBitsAreThere) {
   BitWriter out;
   out.ue(4000000000u);

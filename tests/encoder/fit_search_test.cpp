@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "encoder/check_settings.h"
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"

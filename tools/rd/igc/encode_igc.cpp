@@ -7,6 +7,7 @@
 #include "attributes/video/hevc_encoder.h"
 #include "base/stopwatch.h"
 #include "encoder/choose_surface.h"
+#include "encoder/check_settings.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
 #include "tools/rd/igc/av1_codec.h"

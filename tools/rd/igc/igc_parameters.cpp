@@ -9,6 +9,7 @@
 
 #include "bitstream/deflate.h"
 #include "bitstream/inflate.h"
+#include "encoder/check_settings.h"
 #include "encoder/fit_capture.h"
 #include "encoder/setting_rows.h"
 
