@@ -24,7 +24,8 @@ class BadCaptureTest : public TinyCaptureTest {
   }
   void expect_refused(int code, const std::string& file, const std::string& cause) {
     write("old.slf", "what was there");
-    const Ran ran = slf("encode tiny -o old.slf --grid-bits 5 --functions 8 --quiet");
+    const Ran ran =
+        slf("encode tiny -o old.slf --surface given --grid-bits 5 --functions 8 --quiet");
     expect_failure(ran, code, file, cause);
     EXPECT_TRUE(read("old.slf") == "what was there");
     EXPECT_TRUE(leftovers().empty());
@@ -128,7 +129,7 @@ TEST_F(BadCaptureTest, UnknownSplit) {
 }
 
 TEST_F(BadCaptureTest, OutputThatCannotBeWritten) {
-  const std::string options = " --grid-bits 5 --functions 8 --quiet";
+  const std::string options = " --surface given --grid-bits 5 --functions 8 --quiet";
   expect_failure(slf("encode tiny -o none/a.slf" + options), 7, "none/a.slf", "does not exist");
   expect_failure(slf("encode tiny -o tiny" + options), 7, "tiny", "directory");
   expect_failure(slf("encode tiny -o /dev/full" + options), 7, "/dev/full", "No space left");
@@ -139,7 +140,8 @@ TEST_F(BadCaptureTest, OutputThatCannotBeWritten) {
 TEST_F(BadCaptureTest, AFullDiskLeavesTheOldFile) {
   write("a.slf", "what was there");
   // A limit on the size of files stands for the disk: write() fails in the middle.
-  const Ran ran = slf("encode tiny -o a.slf --grid-bits 5 --functions 8 --quiet", "ulimit -f 1;");
+  const Ran ran = slf("encode tiny -o a.slf --surface given --grid-bits 5 --functions 8 --quiet",
+                      "ulimit -f 1;");
   expect_failure(ran, 7, "a.slf", "cannot be written");
   EXPECT_EQ(read("a.slf"), "what was there");
   EXPECT_TRUE(leftovers().empty());
@@ -156,7 +158,7 @@ class BadStreamTest : public TinyCaptureTest {
  protected:
   void SetUp() override {
     TinyCaptureTest::SetUp();
-    ASSERT_EQ(slf("encode tiny -o good.slf --grid-bits 5 --functions 8").code, 0);
+    ASSERT_EQ(slf("encode tiny -o good.slf --surface given --grid-bits 5 --functions 8").code, 0);
     good_ = read("good.slf");
   }
   void expect_refused(const std::string& stream, int code, const std::string& cause) {

@@ -87,7 +87,8 @@ TEST_F(TinyCaptureTest, SameBytesForAnyNumberOfThreads) {
 
 TEST_F(TinyCaptureTest, OptionsOverrideThePresetWhateverTheirOrder) {
   const auto settings = [&](const std::string& options) {
-    EXPECT_EQ(slf("encode tiny --grid-bits 5 -o a.slf " + options).code, 0) << options;
+    EXPECT_EQ(slf("encode tiny --surface given --grid-bits 5 -o a.slf " + options).code, 0)
+        << options;
     std::map<std::string, std::string> metadata;
     const auto info = parsed(slf("info a.slf --json").out);
     for (const auto& pair : info["metadata"]) metadata[pair["key"]] = pair["value"];

@@ -6,7 +6,7 @@ namespace slf::cli_eval_test {
 namespace {
 
 TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
-  const std::string how = " --grid-bits 6 --fit paper --functions 8";
+  const std::string how = " --surface given --grid-bits 6 --fit paper --functions 8";
   ASSERT_EQ(slf("encode tiny -o a.slf -q 64" + how).code, 0);
   ASSERT_EQ(slf("encode tiny -o fine.slf -q 0.05" + how).code, 0);
   const auto quality =

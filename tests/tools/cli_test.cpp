@@ -70,7 +70,8 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
 
 TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
   const Ran encoded =
-      slf("encode tiny -o a.slf --grid-bits 6 --fit paper --functions 32 --normal-bits 6 "
+      slf("encode tiny -o a.slf --surface given --grid-bits 6 --fit paper --functions 32 "
+          "--normal-bits 6 "
           "--metadata title=can --json");
   ASSERT_EQ(encoded.code, 0) << encoded.err;
   const auto report = parsed(encoded.out);
@@ -120,7 +121,7 @@ TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {
 }
 
 TEST_F(TinyCaptureTest, RendersOrbitsCamerasPairsAndSheets) {
-  ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6 --functions 8").code, 0);
+  ASSERT_EQ(slf("encode tiny -o a.slf --surface given --grid-bits 6 --functions 8").code, 0);
   const auto size_of = [&](const std::string& name) {  // IHDR: width and height, big endian
     const std::string png = read(name);
     EXPECT_EQ(png.rfind("\x89PNG", 0), 0u) << name;
@@ -167,7 +168,7 @@ TEST_F(CliTest, HelpThatCannotBeWrittenIsAFailedWrite) {
 }
 
 TEST_F(TinyCaptureTest, PartsOfAFileDecode) {
-  ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6").code, 0);
+  ASSERT_EQ(slf("encode tiny -o a.slf --surface given --grid-bits 6").code, 0);
   const auto points = [&](const std::string& options) {
     const Ran ran = slf("decode a.slf -o a.ply --json " + options);
     EXPECT_EQ(ran.code, 0) << ran.err;
@@ -184,7 +185,7 @@ TEST_F(TinyCaptureTest, PartsOfAFileDecode) {
 }
 
 TEST_F(TinyCaptureTest, ExportsSplatsAndPointsAndSaysWhatIsLost) {
-  ASSERT_EQ(slf("encode tiny -o a.slf --grid-bits 6").code, 0);
+  ASSERT_EQ(slf("encode tiny -o a.slf --surface given --grid-bits 6").code, 0);
   for (const char* file : {"a.ply", "a.glb", "a.spz"}) {
     const Ran ran = slf(std::string("export a.slf --json --degree 2 -o ") + file);
     ASSERT_EQ(ran.code, 0) << ran.err;
