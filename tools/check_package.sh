@@ -15,10 +15,16 @@ root=$work/root
 say() { echo "check_package: $*" >&2; }
 fail() { say "FAILED: $*"; exit 1; }
 
-say "making packages"
+say "making packages, twice: the same bytes"
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
 (cd "$build" && cpack -G DEB -B "$work/made" >"$work/cpack.log" 2>&1) || { cat "$work/cpack.log"; exit 1; }
 packages=("$work"/made/*.deb)
 ls -l "${packages[@]}" >&2
+(cd "$build" && cpack -G DEB -B "$work/again" >/dev/null 2>&1)
+for package in "${packages[@]}"; do
+  cmp "$package" "$work/again/${package##*/}" || fail "${package##*/} is not the same bytes when it is made again"
+done
+rm -r "$work/again"
 
 say "installing into an empty root"
 mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates"
