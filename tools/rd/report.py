@@ -19,7 +19,8 @@ img { max-width: 100%; display: block; margin: .6em 0 } .scroll { overflow-x: au
 code { font-size: 90% } summary { cursor: pointer; color: #1f5fa8 }
 """
 STAND_INS = ("The paper's real captures, Elephant and Fish (Wood et al. 2000), are not to be had. blender_can (Blender Cycles, the "
-             "paper's Can arrangement) and middlebury_dino (photographs of a dinosaur; Seitz et al. 2006) stand in for them. The "
+             "paper's Can arrangement) and middlebury_dino (photographs of a dinosaur; Seitz et al. 2006) stand in for them; whoever "
+             "has the raw data puts it into DATA/elephant and DATA/fish. The "
              "paper's meshes are not to be had either: synthetic Can and Die are those of slf synth, so decibels cannot be compared "
              "with the paper's; shapes of curves can.")
 
