@@ -94,7 +94,7 @@ def pictures(place):
     return ['Whole files. *Decode* is the program with `--dump`: all components, one thread, writing included.', '',
             *table(['capture', 'encoder', 'Q', 'points', 'bytes', 'bits/point', 'held out, inside dB', 'all dB', 'SSIM', 'input, inside dB',
                     'encode s', 'peak GiB', 'decode s'], rows),
-            *(['', 'Not measured in this run: ' + '; '.join(missing) + '.'] if missing else [])]
+            *(['', 'Not measured in this run:', '', *(f'* {name}' for name in missing)] if missing else [])]
 
 
 def splats(place):
