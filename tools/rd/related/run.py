@@ -43,7 +43,7 @@ RELATED = {
     "Volino, most frontal": (lambda s, p: Volino(s, p, "frontal"), [(64, 1), (64, 3), (32, 3), (32, 8), (16, 8)]),
     "Volino, spread": (lambda s, p: Volino(s, p, "spread"), [(128, 5), (128, 8), (64, 8), (32, 8)]),
     "RAHT-KLT": (RahtKlt, [(r,) for r in (384, 192, 96, 48)]),
-    "multi-view, predicted": (Multiview, [(r, 16) for r in (512, 256, 128, 64)]),
+    "multi-view, predicted": (Multiview, [(r, 16) for r in (512, 256, 128, 64)] + [(512, 32), (256, 32)]),
 }
 
 
