@@ -2,8 +2,8 @@
 """Miller, Rubin, Ponceleon 1998, "Lazy decompression of surface light fields": view maps as images, block by block a DCT.
 
 A map of SIDE x SIDE covers the hemisphere about a point's normal (equal area). A cell is the mean of what cameras saw in it, holes
-are filled from coarser cells, a decoder looks up bilinearly. 8 x 8 blocks, an orthonormal DCT, one step (the measure is squared error;
-JPEG's matrix was worse). Two ways of coding the same coefficients: each point by itself, its magnitudes in contexts of the point
+are filled from coarser cells, a decoder looks up bilinearly. 8 x 8 blocks, an orthonormal DCT, one step (the measure is squared
+error). Two ways of coding the same coefficients: each point by itself, its magnitudes in contexts of the point
 before it (as published), or each coefficient as a plane on the points by our RAHT (`spatial`)."""
 import numpy as np
 
