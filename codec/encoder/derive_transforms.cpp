@@ -77,7 +77,8 @@ class Derivation {
     const auto stride = static_cast<std::size_t>(
         std::max(1.0, std::ceil(vectors * static_cast<double>(n * n) / kMostWork)));
     s.scale = static_cast<double>(stride) * input_.scale;
-    std::vector<float> rows;
+    s.samples.resize(index(sampled_points(stride) * t.lanes), index(n));
+    float* to = s.samples.data();
     std::vector<double> of_plane(planes), roots(n);
     for (std::size_t j = 0; j < planes; ++j) of_plane[j] = weights[j * n / planes];
     for (std::size_t i = 0; i < n; ++i) roots[i] = std::sqrt(weights[i]);
@@ -102,12 +103,20 @@ class Derivation {
       for (std::size_t p = 0; p < points; p += p == 0 ? 1 : stride)
         for (std::size_t lane = 0; lane < t.lanes; ++lane)
           for (std::size_t i = 0; i < n; ++i)
-            rows.push_back(
+            *to++ =
                 static_cast<float>(values[p * planes + i * t.lanes + lane] *
-                                   (p == 0 ? std::sqrt(weights[i] / s.scale) : roots[i]) / step_));
+                                   (p == 0 ? std::sqrt(weights[i] / s.scale) : roots[i]) / step_);
     }
-    s.samples = Eigen::Map<const Samples>(rows.data(), index(rows.size() / n), index(n));
     return s;
+  }
+
+  /// The first point of each slice, and every stride-th of the others.
+  std::size_t sampled_points(std::size_t stride) const {
+    std::size_t sampled = 0;
+    for (const SliceCut& cut : input_.cuts)
+      if (const std::size_t points = cut.end - cut.begin; points > 0)
+        sampled += 1 + (points - 1 + stride - 1) / stride;
+    return sampled;
   }
 
   /// Channels that are not correlated, where they cost less than those given; in place.
@@ -129,11 +138,10 @@ class Derivation {
     const Square3 matrix = coded / double{1 << PlaneTransform::kColourBits};
     const Square3 inverse = matrix.inverse();
     double before = 0, after = 0;
-    Samples mixed(samples.rows(), n);
+    // Mixed twice, and not kept beside those given: they are most of what an encoder holds.
     for (Eigen::Index r = 0; r < rows; ++r) {
       const Eigen::Matrix<float, 3, Eigen::Dynamic> v = samples.middleRows(3 * r, 3);
       const Eigen::Matrix<float, 3, Eigen::Dynamic> m = inverse.cast<float>() * v;
-      mixed.middleRows(3 * r, 3) = m;
       for (Eigen::Index i = 0; i < 3; ++i)
         for (Eigen::Index k = 0; k < n; ++k) {
           before += cost(std::abs(double{v(i, k)}));
@@ -141,7 +149,11 @@ class Derivation {
         }
     }
     if (after >= before) return;
-    samples = std::move(mixed);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Eigen::Matrix<float, 3, Eigen::Dynamic> v = samples.middleRows(3 * r, 3);
+      const Eigen::Matrix<float, 3, Eigen::Dynamic> m = inverse.cast<float>() * v;
+      samples.middleRows(3 * r, 3) = m;
+    }
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t d = 0; d < 3; ++d)
         t.colour[i][d] = static_cast<std::int32_t>(coded(static_cast<int>(i), static_cast<int>(d)));

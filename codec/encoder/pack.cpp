@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/release.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/encoder/assemble.h"
@@ -43,18 +44,13 @@ Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
   return Done{};
 }
 
-}  // namespace
-
-Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
-                                                   const CodingParameters& parameters) {
-  return pack_frame(field, parameters, nullptr, nullptr);
-}
-
-Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field,
-                                                         const CodingParameters& parameters,
-                                                         FrameHeader* frame, GroupCoding* group) {
-  SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
-  SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
+/// What follows the sorting.
+/// @param field  without its components
+Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& field,
+                                                          SequenceParameterSet set,
+                                                          SortedField sorted,
+                                                          const CodingParameters& parameters,
+                                                          FrameHeader* frame, GroupCoding* group) {
   SLF_TRY(const SceneLayout layout,
           lay_out(sorted.morton, field.header.grid.bits, parameters));  // 7.3
   set_base(layout, set);
@@ -78,6 +74,29 @@ Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field
   if (parameters.index) boxes = boxes_of(layout);
   if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.13
   return assemble(set, units, boxes);                                                   // 7.1, 7.7
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
+                                                   const CodingParameters& parameters) {
+  return pack_frame(field, parameters, nullptr, nullptr);
+}
+
+Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field,
+                                                         const CodingParameters& parameters,
+                                                         FrameHeader* frame, GroupCoding* group) {
+  SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
+  SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
+  return pack_sorted(field, std::move(set), std::move(sorted), parameters, frame, group);
+}
+
+Result<std::vector<std::uint8_t>, InputError> pack_taken(LightField field,
+                                                         const CodingParameters& parameters) {
+  SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
+  SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
+  release(field.components);
+  return pack_sorted(field, std::move(set), std::move(sorted), parameters, nullptr, nullptr);
 }
 
 }  // namespace slf

@@ -37,4 +37,8 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
                                                              const FrameState& before,
                                                              FrameHeader& frame);
 
+/// pack of a field that nobody needs afterwards: its components are not held twice.
+Result<std::vector<std::uint8_t>, InputError> pack_taken(LightField field,
+                                                         const CodingParameters& parameters);
+
 }  // namespace slf

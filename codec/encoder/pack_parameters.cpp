@@ -161,6 +161,11 @@ void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& p) {
   SLF_CHECK(check_shapes(field, p));
+  return sequence_of_checked(field, p);
+}
+
+Result<SequenceParameterSet, InputError> sequence_of_checked(const LightField& field,
+                                                             const CodingParameters& p) {
   SLF_CHECK(check_parameters(field, p));
   const LightFieldHeader& h = field.header;
   SequenceParameterSet set;

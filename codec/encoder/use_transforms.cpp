@@ -34,7 +34,7 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
     for (const std::uint16_t k : transform.inverse.functions)
       parameters.step[k] = parameters.step[transform.inverse.functions[0]];
   }
-  SLF_TRY(set, sequence_of(field, parameters));
+  SLF_TRY(set, sequence_of_checked(field, parameters));
   set_base(layout, set);
   set.sps_transform_flag = 1;
   set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);

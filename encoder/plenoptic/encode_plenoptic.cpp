@@ -6,6 +6,7 @@
 #include "base/error_words.h"
 #include "base/release.h"
 #include "base/stopwatch.h"
+#include "codec/encoder/pack_frame.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/plenoptic/corrections.h"
@@ -130,7 +131,7 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
     parameters.geometry_level_ends = parameters.coefficient_level_ends;
   parameters.metadata = metadata_of(cloud, settings, record, nullptr);
   if (progress) progress("code", 0);
-  SLF_TRY(encoded.stream, pack(field_of_planes(cloud, record, shift), parameters));
+  SLF_TRY(encoded.stream, pack_taken(field_of_planes(cloud, record, shift), parameters));
   if (encoded.exact) SLF_CHECK(add_corrections(cloud, record, settings.threads, encoded));
   if (progress) progress("code", 1);
   return encoded;
@@ -158,12 +159,12 @@ Result<PlenopticEncoded, InputError> encode_view_maps(const PlenopticCloud& clou
   settings.fit.threads = settings.threads;
   Stopwatch watch;
   ChosenFit chosen;
-  SLF_TRY(const LightField field, fit_plenoptic(cloud, record, settings, chosen, progress));
+  SLF_TRY(LightField field, fit_plenoptic(cloud, record, settings, chosen, progress));
   encoded.seconds_fit = watch.lap();
   CodingParameters parameters = coding_parameters(field, settings);
   parameters.metadata = metadata_of(cloud, settings, record, &chosen);
   if (progress) progress("code", 0);
-  SLF_TRY(encoded.stream, pack(field, parameters));
+  SLF_TRY(encoded.stream, pack_taken(std::move(field), parameters));
   encoded.seconds_code = watch.lap();
   if (progress) progress("code", 1);
   return encoded;
