@@ -30,23 +30,21 @@ struct Foreign {
 };
 constexpr std::array kForeign = {
     Foreign{"", "# Bundle file",
-            "cameras of Bundler, which are not read: calibrate the photographs by COLMAP"},
-    Foreign{
-        ".xml", "<document",
-        "cameras of Metashape, which are not read: export them for COLMAP (File, Export, Export "
-        "Cameras), and the cloud or the mesh as PLY or OBJ"},
-    Foreign{".psx", "", "a project of Metashape: export its cameras for COLMAP (File, Export)"},
-    Foreign{".json", "\"sfm_data_version\"",
-            "cameras of openMVG, which are not read: openMVG_main_openMVG2Colmap writes a COLMAP "
-            "model of them"},
+            "cameras of Bundler: name the file x.out, with list.txt beside it"},
+    Foreign{".psx", "",
+            "a project of Metashape: export its cameras (File, Export, Export Cameras) as "
+            "cameras.xml, and the cloud or the mesh as PLY or OBJ"},
     Foreign{".nvm", "NVM_V3", "cameras of VisualSFM, which are not read: calibrate by COLMAP"},
     Foreign{".sfm", "",
             "cameras of Meshroom, which are not read: its node ExportColmap (or "
             "ConvertSfMFormat) writes a COLMAP model"},
-    Foreign{".rsproj", "", "a project of RealityScan: export its registration for COLMAP"},
-    Foreign{".rcproj", "", "a project of RealityCapture: export its registration for COLMAP"},
+    Foreign{".rsproj", "",
+            "a project of RealityScan: export its registration for COLMAP or as Bundler"},
+    Foreign{".rcproj", "",
+            "a project of RealityCapture: export its registration for COLMAP or as Bundler"},
     Foreign{".csv", "#name,x,y",
-            "cameras of RealityScan, which are not read: export its registration for COLMAP"},
+            "cameras of RealityScan, which are not read: export its registration for COLMAP or as "
+            "Bundler"},
     Foreign{".splat", "",
             "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
             "their PLY"},
@@ -106,9 +104,6 @@ std::string foreign_directory(const fs::path& directory) {
   if (fs::is_directory(directory / "keyframes", error))
     return "a capture of Polycam, which is not read: ns-process-data polycam (nerfstudio) makes a "
            "transforms.json of its raw export";
-  for (const char* name : {"cameras.xml", "bundle.out", "bundle/bundle.out", "sfm_data.json"})
-    if (const std::string known = foreign_file(directory / name); !known.empty())
-      return std::string(name) + " has " + known;
   for (const char* folder : {"", "images", "input"})
     if (const std::size_t found = photographs_in(directory / folder); found > 0)
       return std::to_string(found) + " photographs without cameras: " + kCalibrate;

@@ -7,6 +7,7 @@
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
+#include "capture/photograph_names.h"
 #include "capture/transforms_intrinsics.h"
 
 namespace slf {
@@ -39,11 +40,9 @@ Result<Done, InputError> read_pose(const JsonView& json, Camera& camera) {
   return Done{};
 }
 
-// The file that a path without extension stands for; the path itself if there is none.
+// The file that a path without extension stands for.
 std::string with_extension(const fs::path& root, const std::string& path) {
-  std::error_code error;
-  for (const char* extension : {"", ".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"})
-    if (fs::is_regular_file(root / (path + extension), error)) return path + extension;
+  if (auto found = picture_named(root, path)) return *std::move(found);
   return fs::path(path).has_extension() ? path : path + ".png";
 }
 

@@ -28,6 +28,14 @@ bool leads_outside(const fs::path& path, const fs::path& base) {
 
 }  // namespace
 
+void warn_of_left_out(const std::string& file, std::size_t left_out, std::size_t of,
+                      Import& import) {
+  if (left_out == 0) return;
+  import.capture.warnings.push_back(file + ": " + std::to_string(left_out) + " of " +
+                                    std::to_string(of) +
+                                    " cameras have no pose, or no lens: left out");
+}
+
 Result<std::filesystem::path, InputError> path_inside(const std::filesystem::path& root,
                                                       const std::string& relative,
                                                       const std::string& label) {

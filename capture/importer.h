@@ -41,6 +41,18 @@ Result<Import, InputError> import_transforms_splits(const std::filesystem::path&
 /// photographs. @param file  index.cams
 Result<Import, InputError> import_index_cams(const std::filesystem::path& file);
 
+/// Cameras of Bundler, with its points. Photographs are those of list.txt, beside the file or its
+/// folder, and give the sizes. @param file  bundle.out
+Result<Import, InputError> import_bundler(const std::filesystem::path& file);
+/// Cameras of openMVG, with the points of its structure. @param file  sfm_data.json
+Result<Import, InputError> import_openmvg(const std::filesystem::path& file);
+/// Cameras of Metashape. Photographs are found by their labels. @param file  XML
+Result<Import, InputError> import_metashape(const std::filesystem::path& file);
+
+/// A warning of cameras without a pose.
+void warn_of_left_out(const std::string& file, std::size_t left_out, std::size_t of,
+                      Import& import);
+
 /// Refuses an image or mask path that is empty or leads out of the capture.
 /// @param label  for messages
 /// @return the path, absolute and without "." and ".."

@@ -12,6 +12,7 @@
 #include "capture/mesh_formats.h"
 #include "capture/mesh_sampling.h"
 #include "capture/mesh_sides.h"
+#include "capture/photograph_names.h"
 #include "capture/read_scan.h"
 #include "capture/wkt.h"
 
@@ -38,6 +39,7 @@ Result<Import, InputError> import_json(const fs::path& file) {
   const JsonView json(document, file.string());
   if (json.find("frames")) return import_transforms_json(file);
   if (json.find("cameras")) return import_cameras_json(file);
+  if (json.find("sfm_data_version")) return import_openmvg(file);
   if (const std::string what = foreign_capture(file); !what.empty()) return json.error(what);
   return json.error("neither 'cameras' nor 'frames': not a capture");
 }
@@ -46,6 +48,8 @@ Result<Import, InputError> import_file(const fs::path& file) {
   const std::string extension = extension_of(file);
   if (extension == ".json") return import_json(file);
   if (extension == ".cams") return import_index_cams(file);
+  if (extension == ".out") return import_bundler(file);
+  if (extension == ".xml") return import_metashape(file);
   const std::string stem = file.stem().string();
   const bool colmap = stem == "cameras" || stem == "images" || stem == "points3D";
   if (colmap && (extension == ".bin" || extension == ".txt"))
@@ -76,6 +80,10 @@ Result<Import, InputError> import_directory(const fs::path& directory) {
   if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
   if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
   if (is_file(directory / "index.cams")) return import_index_cams(directory / "index.cams");
+  if (is_file(directory / "cameras.xml")) return import_metashape(directory / "cameras.xml");
+  for (const char* name : {"bundle.out", "bundle.rd.out", "bundle/bundle.out"})
+    if (is_file(directory / name)) return import_bundler(directory / name);
+  if (is_file(directory / "sfm_data.json")) return import_openmvg(directory / "sfm_data.json");
   const std::string what = foreign_capture(directory);
   return InputError{Errc::kInvalidInput, directory.string() +
                                              ": not a capture: no cameras.json, COLMAP model or "
@@ -207,7 +215,9 @@ Result<fs::path, InputError> image_file(const Import& import, std::size_t i,
                                         const fs::path& folder) {
   const std::string& label = import.labels[i];
   if (folder.empty()) return path_inside(import.capture.root, import.images[i], label);
-  SLF_TRY(const fs::path whole, path_inside(folder, import.capture.cameras[i].name, label));
+  const auto found = picture_named(folder, import.capture.cameras[i].name);
+  SLF_TRY(const fs::path whole,
+          path_inside(folder, found.value_or(import.capture.cameras[i].name), label));
   if (is_file(whole)) return whole;
   return path_inside(folder, fs::path(import.images[i]).filename().string(), label);
 }

@@ -113,9 +113,10 @@ struct CaptureOptions {
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
 /// model (cameras, images, points3D as .bin or .txt, in it, in sparse/0, sparse/1, ... or sparse),
-/// transforms.json, or index.cams of the surface light fields of Wood et al.; or one of those
-/// files; or a lone .ply, .las, .laz or .e57 (a cloud without cameras). Every value is checked as
-/// `docs/captures.md` lists; what is suspicious but usable becomes a warning.
+/// transforms.json, index.cams of the surface light fields of Wood et al., cameras.xml of
+/// Metashape, bundle.out of Bundler or sfm_data.json of openMVG; or one of those files; or a lone
+/// .ply, .las, .laz or .e57 (a cloud without cameras). Every value is checked as `docs/captures.md`
+/// lists; what is suspicious but usable becomes a warning.
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
@@ -151,14 +152,14 @@ Result<Done, InputError> write_png(const std::filesystem::path& file, const Imag
 /// @errors as read_mesh
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings = nullptr);
-/// PLY (its faces; none: a cloud), OBJ or GLB, by the name's extension; LAS, LAZ and E57 with the
-/// program `pdal` of PDAL where it is on PATH (docs/captures.md). Polygons are taken apart
+/// PLY (its faces; none: a cloud), OBJ, STL or GLB, by the name's extension; LAS; LAZ and E57 with
+/// the program `pdal` of PDAL where it is on PATH (docs/captures.md). Polygons are taken apart
 /// into fans; nodes of a GLB are put where they stand; materials, textures and points that no face
 /// has are left out.
-/// @errors kUnreadable. kUnsupported: a scan (LAS, LAZ, E57) without PDAL.
+/// @errors kUnreadable. kUnsupported: a scan (LAZ, E57) without PDAL.
 ///         kInvalidInput: names the file, the face or vertex and the cause: an index
 ///         that is no vertex, a coordinate that is not finite, a damaged file, no vertices.
-///         Bounded: OBJ and GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
+///         Bounded: OBJ, STL, GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
 Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings = nullptr);
 /// Binary little endian; positions are doubles where the cloud's origin is not 0, else floats.
