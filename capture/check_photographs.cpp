@@ -28,23 +28,24 @@ bool fits_turned(const ImageHeader& header, const Camera& camera) {
          static_cast<int>(header.size.width) == camera.height;
 }
 
-Result<ImageHeader, InputError> checked_header(const std::filesystem::path& file,
-                                               const Camera& camera) {
+Result<ImageHeader, InputError> header_of(const std::filesystem::path& file) {
   std::error_code error;  // a pipe would be waited for
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     return InputError{Errc::kInvalidInput, file.string() + ": is not a regular file"};
-  SLF_TRY(const ImageHeader header, read_image_header(file));
-  const int width = static_cast<int>(header.size.width);
-  const int height = static_cast<int>(header.size.height);
-  if (width == camera.width && height == camera.height) return header;
-  std::string cause = ": image of " + size_text(width, height) + " pixels, calibrated as " +
-                      size_text(camera.width, camera.height);
-  if (fits_turned(header, camera))
-    cause += "; it is stored on its side with EXIF orientation " +
-             std::to_string(header.orientation) +
-             ", which is not applied: store it upright (jpegtran, exiftran -a, mogrify "
-             "-auto-orient)";
-  return InputError{Errc::kInvalidInput, file.string() + cause};
+  return read_image_header(file);
+}
+
+bool fits(const ImageHeader& header, const Camera& camera) {
+  return static_cast<int>(header.size.width) == camera.width &&
+         static_cast<int>(header.size.height) == camera.height;
+}
+
+InputError other_size_than(const Camera& camera, const std::filesystem::path& file,
+                           const ImageHeader& header) {
+  return {Errc::kInvalidInput,
+          file.string() + ": image of " +
+              size_text(static_cast<int>(header.size.width), static_cast<int>(header.size.height)) +
+              " pixels, calibrated as " + size_text(camera.width, camera.height)};
 }
 
 /// Sizes tell which way a photograph was calibrated, unless turning it keeps them.
@@ -53,11 +54,21 @@ bool may_be_turned(const ImageHeader& header) {
   return header.orientation <= 4 || header.size.width == header.size.height;
 }
 
-void warn_of(const Capture& capture, std::size_t count, const char* what,
-             std::vector<std::string>& warnings) {
-  if (count == 0) return;
-  warnings.push_back(std::to_string(count) + " of " + std::to_string(capture.cameras.size()) +
-                     " photographs " + what);
+/// Photographs with something to be told of them, and the first of these.
+struct Noticed {
+  std::size_t count = 0;
+  std::string first;
+
+  void add(bool is, const std::filesystem::path& file) {
+    if (is && count++ == 0) first = file.filename().string();
+  }
+};
+
+void warn_of(const Noticed& noticed, const char* what, Capture& capture) {
+  if (noticed.count == 0) return;
+  capture.warnings.push_back(
+      std::to_string(noticed.count) + " of " + std::to_string(capture.cameras.size()) +
+      " photographs (" + (noticed.count > 1 ? "the first is " : "") + noticed.first + ") " + what);
 }
 
 struct Shares {
@@ -103,24 +114,34 @@ Result<std::vector<std::size_t>, InputError> masked_cameras(const Capture& captu
 }  // namespace
 
 Result<Done, InputError> check_photographs(Capture& capture) {
-  std::size_t turned = 0, coloured = 0;
+  Noticed ambiguous, coloured;
+  bool turned = false;
+  std::vector<int> orientation(capture.cameras.size(), 1);
   for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
     const Camera& camera = capture.cameras[i];
-    SLF_TRY(const ImageHeader header, checked_header(capture.image_files[i], camera));
-    turned += may_be_turned(header);
-    coloured += header.other_colour;
-    if (!capture.mask_files.empty() && !capture.mask_files[i].empty())
-      SLF_CHECK(checked_header(capture.mask_files[i], camera));
+    const auto& file = capture.image_files[i];
+    SLF_TRY(const ImageHeader header, header_of(file));
+    if (!fits(header, camera)) {
+      if (!fits_turned(header, camera)) return other_size_than(camera, file, header);
+      orientation[i] = header.orientation;
+      turned = true;
+    }
+    ambiguous.add(may_be_turned(header), file);
+    coloured.add(header.other_colour, file);
+    if (capture.mask_files.empty() || capture.mask_files[i].empty()) continue;
+    SLF_TRY(const ImageHeader mask, header_of(capture.mask_files[i]));
+    if (!fits(mask, camera)) return other_size_than(camera, capture.mask_files[i], mask);
   }
-  warn_of(capture, turned,
+  if (turned) capture.orientation = std::move(orientation);
+  warn_of(ambiguous,
           "have an EXIF orientation, which is ignored: a calibration of upright pictures (OpenCV, "
           "ffmpeg, browsers) does not fit them; store them upright (exiftran -a, mogrify "
           "-auto-orient)",
-          capture.warnings);
-  warn_of(capture, coloured,
+          capture);
+  warn_of(coloured,
           "have a colour profile or gamma other than sRGB's, which is ignored: convert them, or "
           "their colours are shown as if they were sRGB",
-          capture.warnings);
+          capture);
   return Done{};
 }
 

@@ -9,6 +9,7 @@
 #include "capture/image_formats.h"
 #include "capture/image_reduction.h"
 #include "capture/object_mask.h"
+#include "capture/upright.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -51,8 +52,12 @@ Result<Image, InputError> load(const Capture& capture, std::size_t i) {
     return other_size(camera.name, static_cast<std::uint32_t>(given.width),
                       static_cast<std::uint32_t>(given.height), camera);
   }
+  const int orientation = capture.orientation.empty() ? 1 : capture.orientation[i];
   ImageSize size;
-  SLF_TRY(Image image, read_image_reduced(capture.image_files[i], reduction, size));
+  // Pixels are put together as they are seen: a side may be no multiple of 2^reduction.
+  SLF_TRY(Image image,
+          read_image_reduced(capture.image_files[i], orientation == 1 ? reduction : 0, size));
+  if (orientation != 1) image = reduced(upright(std::move(image), orientation), reduction);
   if (!fits(image))
     return other_size(capture.image_files[i].string(), size.width, size.height, camera);
   image = without_opaque_alpha(std::move(image));

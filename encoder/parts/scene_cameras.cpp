@@ -81,6 +81,7 @@ Capture scene_cameras(const Capture& capture, const ScenePlan& plan, std::uint64
   for (std::size_t c = 0; c < capture.cameras.size(); ++c)
     cameras.cameras.push_back(reduced(moved(capture.cameras[c], by), plan.reduction[c]));
   cameras.image_files = capture.image_files;
+  cameras.orientation = capture.orientation;
   cameras.images = capture.images;
   cameras.mask_files = capture.mask_files;
   cameras.up = capture.up;

@@ -83,6 +83,9 @@ struct Capture {
   std::vector<Image> images;                       ///< [cameras], in place of the files; or empty
   std::vector<std::filesystem::path>
       mask_files;  ///< [cameras] or empty: docs/captures.md, Conventions
+  /// [cameras] or empty: EXIF orientations by which photographs are turned as they are read, where
+  /// only so turned they have the size of the calibration; else 1.
+  std::vector<int> orientation;
   /// [cameras] or empty: photographs and masks are made smaller as they are read, as reduced() has
   /// it; `cameras` are reduced already.
   std::vector<int> reduction;

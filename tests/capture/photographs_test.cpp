@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "capture/image_formats.h"
+#include "capture/image_reduction.h"
 #include "capture/object_mask.h"
+#include "capture/upright.h"
 #include "capture_formats.h"
 #include "slf/jpeg.h"
 
@@ -113,18 +115,71 @@ TEST(Photographs, AnOrientationIsNamedWhereItsSizeDoesNotTell) {
     const std::string turned = segment('\xE1', exif(6, big_endian));
     const auto square = with_photographs(jpeg_of(16, 16, turned), true);
     ASSERT_TRUE(square) << square.error().message;
-    EXPECT_THAT(square->warnings, ElementsAre(HasSubstr("2 of 2 photographs have an EXIF orient")));
+    EXPECT_THAT(square->warnings, ElementsAre(AllOf(HasSubstr("2 of 2 photographs"),
+                                                    HasSubstr("a.png) have an EXIF orient"))));
     // As stored: the calibration is that of the stored pixels.
     const auto stored = with_photographs(jpeg_of(16, 12, turned), false);
     ASSERT_TRUE(stored) << stored.error().message;
     EXPECT_THAT(stored->warnings, IsEmpty());
-    EXPECT_THAT(message_of(with_photographs(jpeg_of(12, 16, turned), false)),
-                AllOf(HasSubstr("12 x 16 pixels, calibrated as 16 x 12"),
-                      HasSubstr("EXIF orientation 6"), HasSubstr("store it upright")));
+    EXPECT_THAT(stored->orientation, IsEmpty());
     const auto upright = with_photographs(jpeg_of(16, 16, segment('\xE1', exif(1, false))), true);
     ASSERT_TRUE(upright) << upright.error().message;
     EXPECT_THAT(upright->warnings, IsEmpty());
   }
+  EXPECT_THAT(message_of(with_photographs(jpeg_of(12, 16, ""), false)),
+              HasSubstr("a.png: image of 12 x 16 pixels, calibrated as 16 x 12"));
+}
+
+// The letter F of 3 x 2 pixels' numbers, as each orientation stores it: row by row what is seen.
+TEST(Photographs, AreShownAsTheirOrientationSays) {
+  const auto shown = [](int orientation) {
+    Image stored{3, 2, 3, {}};
+    for (std::uint8_t i = 1; i <= 6; ++i) stored.data.insert(stored.data.end(), 3, i);
+    const Image image = upright(stored, orientation);
+    EXPECT_EQ(image.width, orientation >= 5 ? 2 : 3);
+    EXPECT_EQ(image.height, orientation >= 5 ? 3 : 2);
+    std::vector<int> pixels;
+    for (std::size_t i = 0; i < image.data.size(); i += 3) pixels.push_back(image.data[i]);
+    return pixels;
+  };
+  EXPECT_THAT(shown(1), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(shown(2), ElementsAre(3, 2, 1, 6, 5, 4));
+  EXPECT_THAT(shown(3), ElementsAre(6, 5, 4, 3, 2, 1));
+  EXPECT_THAT(shown(4), ElementsAre(4, 5, 6, 1, 2, 3));
+  EXPECT_THAT(shown(5), ElementsAre(1, 4, 2, 5, 3, 6));
+  EXPECT_THAT(shown(6), ElementsAre(4, 1, 5, 2, 6, 3));
+  EXPECT_THAT(shown(7), ElementsAre(6, 3, 5, 2, 4, 1));
+  EXPECT_THAT(shown(8), ElementsAre(3, 6, 2, 5, 1, 4));
+}
+
+TEST(Photographs, AreTurnedWhereOnlySoTheyHaveTheirCalibratedSize) {
+  Image seen{16, 12, 3, std::vector<std::uint8_t>(16 * 12 * 3, 20)};  // bright at the top left
+  for (std::size_t y = 0; y < 4; ++y)
+    for (std::size_t x = 0; x < 3 * 8; ++x) seen.data[y * 16 * 3 + x] = 220;
+  const Image stored = upright(seen, 8);  // turned to the left; 6 turns it back
+  const auto bytes = encode_jpeg(stored, 95);
+  ASSERT_TRUE(bytes);
+  const std::string whole(bytes->begin(), bytes->end());
+  const std::string file = whole.substr(0, 2) + segment('\xE1', exif(6, true)) + whole.substr(2);
+  // Files are read when they are needed, so the folder has to stay.
+  const TemporaryDirectory directory;
+  write_shared(directory.path());
+  for (const char* name : {"images/a.png", "images/b.png"}) write_text(directory / name, file);
+  auto capture = load_capture(directory.path());
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_THAT(capture->warnings, IsEmpty());
+  EXPECT_THAT(capture->orientation, ElementsAre(6, 6));
+  const auto image = load_image(*capture, 0);
+  ASSERT_TRUE(image) << image.error().message;
+  ASSERT_EQ(image->width, 16);
+  for (std::size_t i = 0; i < seen.data.size(); ++i)
+    ASSERT_NEAR(image->data[i], seen.data[i], 24) << i;  // of JPEG, at an edge
+  // Smaller ones are those of the upright picture: 5 x 4 blocks of 4 begin at its corner.
+  capture->reduction = {2, 2};
+  for (Camera& camera : capture->cameras) camera = reduced(camera, 2);
+  const auto small = load_image(*capture, 0);
+  ASSERT_TRUE(small) << small.error().message;
+  EXPECT_EQ(small->data, reduced(*image, 2).data);
 }
 
 TEST(Photographs, AColourProfileThatIsNotSrgbIsNamed) {
@@ -134,7 +189,8 @@ TEST(Photographs, AColourProfileThatIsNotSrgbIsNamed) {
   };
   const auto p3 = with_photographs(jpeg_of(16, 12, profile("Display P3")), false);
   ASSERT_TRUE(p3) << p3.error().message;
-  EXPECT_THAT(p3->warnings, ElementsAre(HasSubstr("2 of 2 photographs have a colour profile")));
+  EXPECT_THAT(p3->warnings, ElementsAre(AllOf(HasSubstr("2 of 2 photographs"),
+                                              HasSubstr("have a colour profile"))));
   for (const auto& srgb : {std::string("sRGB IEC61966-2.1"), std::string("s\0R\0G\0B\0", 8)}) {
     const auto plain = with_photographs(jpeg_of(16, 12, profile(srgb)), false);
     ASSERT_TRUE(plain) << plain.error().message;
