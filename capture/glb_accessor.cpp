@@ -61,9 +61,10 @@ double value_at(const std::uint8_t* bytes, std::uint64_t type, bool normalised) 
   }
 }
 
-/// The bytes of a view, all of them in its buffer.
-Result<std::span<const std::uint8_t>, InputError> bytes_of(const GlbData& data,
-                                                           const JsonView& view) {
+}  // namespace
+
+Result<std::span<const std::uint8_t>, InputError> glb_view_bytes(const GlbData& data,
+                                                                 const JsonView& view) {
   SLF_TRY(const JsonView index, view.at("buffer"));
   SLF_TRY(const JsonView buffer, glb_item(index, data.buffers, "buffer"));
   SLF_TRY(const double number, index.number());
@@ -76,8 +77,6 @@ Result<std::span<const std::uint8_t>, InputError> bytes_of(const GlbData& data,
     return view.error("reaches beyond its buffer");
   return content->subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
-
-}  // namespace
 
 Result<std::uint64_t, InputError> glb_number(const JsonView& json, const char* key,
                                              std::uint64_t otherwise, std::uint64_t most) {
@@ -114,7 +113,7 @@ Result<std::vector<double>, InputError> read_accessor(const GlbData& data, const
   }
   SLF_TRY(const JsonView index, accessor.at("bufferView"));
   SLF_TRY(const JsonView view, glb_item(index, data.buffer_views, "buffer view"));
-  SLF_TRY(const auto bytes, bytes_of(data, view));
+  SLF_TRY(const auto bytes, glb_view_bytes(data, view));
   SLF_TRY(const auto stride, glb_number(view, "byteStride", size, 252));
   if (stride < size) return view.error("byteStride is less than an element");
   const std::uint64_t needed = count == 0 ? 0 : (count - 1) * stride + size;  // < 2^41

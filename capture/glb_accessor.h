@@ -26,6 +26,10 @@ Result<std::uint64_t, InputError> glb_number(const JsonView& json, const char* k
 Result<JsonView, InputError> glb_item(const JsonView& json, const std::vector<JsonView>& list,
                                       const char* kind);
 
+/// The bytes of a view, all of them in its buffer.
+Result<std::span<const std::uint8_t>, InputError> glb_view_bytes(const GlbData& data,
+                                                                 const JsonView& view);
+
 /// [count][components], normalised integers as 0 .. 1 or -1 .. 1.
 /// @param type  "VEC3", ...: what it has to be
 /// @errors kInvalidInput: what is not within the chunk; sparse or compressed accessors; buffers

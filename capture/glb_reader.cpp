@@ -7,6 +7,7 @@
 #include "base/vec3.h"
 #include "capture/exact_positions.h"
 #include "capture/glb_accessor.h"
+#include "capture/glb_draco.h"
 #include "capture/gltf_transform.h"
 #include "capture/json_numbers.h"
 #include "capture/mesh_formats.h"
@@ -87,10 +88,11 @@ class SceneReader {
       SLF_TRY(const std::string name, item.string());
       const bool harmless = name.starts_with("KHR_materials_") ||
                             name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
-                            name == "KHR_mesh_quantization" || name == "KHR_lights_punctual";
-      const bool compresses = name == "KHR_draco_mesh_compression" ||
-                              name.find("meshopt_compression") != std::string::npos;
-      if (compresses) return item.error(name + " is not read: export the mesh without compression");
+                            name == "KHR_mesh_quantization" || name == "KHR_lights_punctual" ||
+                            name == "KHR_draco_mesh_compression";
+      if (name.find("meshopt_compression") != std::string::npos)
+        return item.error(name +
+                          " is not read: export the mesh without compression, or with Draco");
       if (!harmless) return item.error(shown(name) + " is an extension that is not supported");
     }
     return Done{};
@@ -115,27 +117,40 @@ class SceneReader {
   }
 
   Result<Done, InputError> add_primitive(const JsonView& primitive, const NodeMatrix& matrix) {
-    SLF_TRY(const auto mode, glb_number(primitive, "mode", 4, 6));
+    SLF_TRY(auto mode, glb_number(primitive, "mode", 4, 6));
     if (mode < 4) {
       ++other_primitives_;
       return mode == 0 ? keep_points(primitive, matrix) : Result<Done, InputError>(Done{});
     }
-    SLF_TRY(const JsonView attributes, primitive.at("attributes"));
-    SLF_TRY(const auto positions, attribute(attributes, "POSITION", "VEC3", 3));
-    SLF_TRY(const auto normals, attribute(attributes, "NORMAL", "VEC3", 3));
-    const std::size_t count = positions.size() / 3, base = positions_.size();
-    SLF_TRY(const auto indices, indices_of(primitive, count));
-    const auto triangles = triangles_of(mode, indices.size());
+    SLF_TRY(const DracoMesh given, content_of(primitive, mode));
+    const std::size_t count = given.positions.size() / 3, base = positions_.size();
+    const auto triangles = triangles_of(mode, given.indices.size());
     if (mesh_.triangles.size() + triangles.size() > kMostTriangles || base + count > kMostVertices)
       return primitive.error("the scene has more than 2^24 triangles or 2^25 vertices");
-    add_vertices(matrix, positions, normals);
+    add_vertices(matrix, given.positions, given.normals);
     const bool swap = mirrors(matrix);
     const auto vertex = [&](std::size_t corner) {
-      return static_cast<std::uint32_t>(base + static_cast<std::size_t>(indices[corner]));
+      return static_cast<std::uint32_t>(base + static_cast<std::size_t>(given.indices[corner]));
     };
     for (const auto& t : triangles)
       mesh_.triangles.push_back({vertex(t[0]), vertex(t[swap ? 2 : 1]), vertex(t[swap ? 1 : 2])});
     return Done{};
+  }
+
+  /// @param mode  receives 4 where it was compressed: strips come taken apart
+  Result<DracoMesh, InputError> content_of(const JsonView& primitive, std::uint64_t& mode) {
+    SLF_TRY(auto compressed, draco_mesh_of(data_, primitive));
+    if (compressed) {
+      SLF_CHECK(count_numbers(compressed->positions.size(), primitive));
+      mode = 4;
+      return *std::move(compressed);
+    }
+    DracoMesh content;
+    SLF_TRY(const JsonView attributes, primitive.at("attributes"));
+    SLF_TRY(content.positions, attribute(attributes, "POSITION", "VEC3", 3));
+    SLF_TRY(content.normals, attribute(attributes, "NORMAL", "VEC3", 3));
+    SLF_TRY(content.indices, indices_of(primitive, content.positions.size() / 3));
+    return content;
   }
 
   /// For a scene that has no triangles.
@@ -160,9 +175,14 @@ class SceneReader {
   Result<std::vector<double>, InputError> numbers_of(const JsonView& accessor, const char* type,
                                                      std::size_t components) {
     SLF_TRY(auto numbers, read_accessor(data_, accessor, type, components));
-    numbers_read_ += numbers.size();
-    if (numbers_read_ > kMostNumbers) return accessor.error("is used too often");
+    SLF_CHECK(count_numbers(numbers.size(), accessor));
     return numbers;
+  }
+
+  Result<Done, InputError> count_numbers(std::size_t count, const JsonView& of) {
+    numbers_read_ += count;
+    if (numbers_read_ > kMostNumbers) return of.error("is used too often");
+    return Done{};
   }
 
   /// Without indices the vertices come as they are used.

@@ -96,7 +96,7 @@ fs::path geometry_file(const Import& import) {
   if (!import.cloud_file.empty() && is_file(import.cloud_file)) return import.cloud_file;
   for (const char* name :
        {"points.ply", "points.laz", "points.las", "points.e57", "mesh.ply", "mesh.obj", "mesh.glb",
-        "fused.ply", "meshed-poisson.ply", "meshed-delaunay.ply"})
+        "mesh.stl", "fused.ply", "meshed-poisson.ply", "meshed-delaunay.ply"})
     if (is_file(import.capture.root / name)) return import.capture.root / name;
   if (!import.points_file.empty()) return import.points_file;
   return import.cloud_file;

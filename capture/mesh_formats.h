@@ -18,6 +18,10 @@ namespace slf {
 /// @errors kInvalidInput: names the line.
 Result<Mesh, InputError> parse_obj(const std::string& name, std::span<const std::uint8_t> text);
 
+/// STL, binary or ASCII, without normals.
+/// @errors kInvalidInput: names the facet or the line.
+Result<Mesh, InputError> parse_stl(const std::string& name, std::span<const std::uint8_t> file);
+
 /// glTF 2.0 in its binary form, everything in the one file: the triangles of the default scene.
 /// @errors kInvalidInput: names the place in the JSON chunk.
 Result<Mesh, InputError> parse_glb(const std::string& name, std::span<const std::uint8_t> file,

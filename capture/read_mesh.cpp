@@ -13,7 +13,7 @@ namespace slf {
 
 namespace {
 
-constexpr std::uint64_t kMostBytesOfMesh = std::uint64_t{1} << 31;  // of an OBJ or GLB file
+constexpr std::uint64_t kMostBytesOfMesh = std::uint64_t{1} << 31;  // of an OBJ, GLB or STL file
 
 Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
                                            std::vector<std::string>* warnings) {
@@ -22,15 +22,15 @@ Result<Mesh, InputError> read_by_extension(const std::filesystem::path& file,
     SLF_TRY(Scan scan, read_scan(file, warnings));
     return std::move(scan.points);
   }
-  if (extension == ".stl" || extension == ".fbx" || extension == ".dae" || extension == ".3mf" ||
-      extension == ".usdz")
+  if (extension == ".fbx" || extension == ".dae" || extension == ".3mf" || extension == ".usdz")
     return InputError{Errc::kInvalidInput,
                       file.string() + ": " + extension.substr(1) +
                           " is not read: export the mesh as PLY, OBJ or GLB (MeshLab, Blender)"};
-  if (extension != ".obj" && extension != ".glb" && extension != ".gltf")
+  if (extension != ".obj" && extension != ".glb" && extension != ".gltf" && extension != ".stl")
     return read_ply_mesh(file, true, warnings);
   SLF_TRY(const auto bytes, read_file(file, kMostBytesOfMesh));
   if (extension == ".obj") return parse_obj(file.string(), bytes);
+  if (extension == ".stl") return parse_stl(file.string(), bytes);
   if (extension == ".gltf") return parse_gltf(file, bytes, warnings);
   return parse_glb(file.string(), bytes, warnings);
 }

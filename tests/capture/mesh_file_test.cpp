@@ -59,6 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, MeshFormat,
                                          Format{"ply_little", "cube.ply", cube_ply_binary(false)},
                                          Format{"ply_big", "cube.ply", cube_ply_binary(true)},
                                          Format{"obj", "cube.OBJ", cube_obj()},
+                                         Format{"stl_binary", "cube.stl", cube_stl_binary()},
+                                         Format{"stl_ascii", "cube.STL", cube_stl_ascii()},
                                          Format{"glb", "cube.glb", cube_glb()}),
                          [](const auto& tested) { return tested.param.name; });
 
@@ -202,15 +204,65 @@ TEST(MeshFile, AGlbOfPointsIsACloud) {
 }
 
 TEST(MeshFile, CompressionAndOtherFormatsAreNamedWithAWayOut) {
-  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-    const auto glb =
-        cube_glb(replaced(kCubeGltf, "\"asset\"",
-                          std::string("\"extensionsRequired\": [\"") + name + "\"], \"asset\""));
-    expect_refused("a.glb", glb, name);
-    expect_refused("a.glb", glb, "without compression");
-  }
-  expect_refused("a.stl", "solid", "export the mesh as PLY, OBJ or GLB");
+  const auto glb = cube_glb(replaced(
+      kCubeGltf, "\"asset\"", "\"extensionsRequired\": [\"EXT_meshopt_compression\"], \"asset\""));
+  expect_refused("a.glb", glb, "EXT_meshopt_compression");
+  expect_refused("a.glb", glb, "without compression");
+  expect_refused("a.fbx", "x", "export the mesh as PLY, OBJ or GLB");
 }
+
+TEST(MeshFile, CornersOfAnStlThatAgreeAreOneVertex) {
+  for (const std::string& stl : {cube_stl_binary("solid of a program"),
+                                 replaced(cube_stl_ascii(), "-0.500000", "-5.0e-1")}) {
+    const auto mesh = mesh_in("a.stl", stl);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->vertices.positions.size(), 8u);
+    EXPECT_TRUE(mesh->vertices.normals.empty());
+  }
+}
+
+TEST(MeshFile, StlThatIsWrongIsNamedWithItsPlace) {
+  std::string nan = cube_stl_binary();
+  nan.replace(84 + 50 * 3 + 12, 4, ByteString().put(std::nanf("")).bytes);
+  expect_refused("a.stl", nan, "facet 3: a corner is not finite");
+  expect_refused("a.stl", cube_stl_binary() + "x", "no STL");
+  expect_refused("a.stl", replaced(cube_stl_ascii(), "-0.500000", "-0,500000"), "line 4");
+  expect_refused("a.stl", replaced(cube_stl_ascii(), " endloop", "  vertex 1 2 3\n endloop"),
+                 "three vertices");
+  expect_refused("a.stl", "solid nothing\nendsolid\n", "no points");
+}
+
+#if SLF_WITH_DRACO
+TEST(MeshFile, DracoInAGlbGivesTheSameClosedCube) {
+  for (const char* digits : kCubeDraco) {
+    const auto mesh = mesh_in("a.glb", cube_glb_draco(from_hex(digits)));
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->triangles.size(), 12u);
+    EXPECT_EQ(mesh->vertices.positions.size(), 8u);
+    EXPECT_NEAR(signed_volume(*mesh), 1, 1e-6);
+    EXPECT_NEAR(bounding_box(*mesh).min[0], -0.5, 1e-6);
+  }
+}
+
+TEST(MeshFile, DracoInAGlbIsHeldAgainstItsAccessorsAndItsBytes) {
+  for (const char* digits : kCubeDraco) {
+    const std::string draco = from_hex(digits);
+    expect_refused("a.glb", cube_glb_draco(draco, "7"), "more faces or points than the accessors");
+    std::string other = draco;
+    other[7] = 0;
+    expect_refused("a.glb", cube_glb_draco(other), "KHR_draco_mesh_compression: no mesh of Draco");
+    for (std::size_t at = 0; at < draco.size(); ++at) {
+      EXPECT_FALSE(mesh_in("a.glb", cube_glb_draco(draco.substr(0, at))));
+      for (const int value : {0, 1, 127, 255}) {
+        other = draco;
+        other[at] = static_cast<char>(value);
+        const auto mesh = mesh_in("a.glb", cube_glb_draco(other));
+        EXPECT_TRUE(!mesh || mesh->triangles.size() <= 12);
+      }
+    }
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace slf::mesh_file_test

@@ -66,6 +66,37 @@ inline std::string cube_obj() {
   return text;
 }
 
+/// Two triangles of every face; normals of the file are wrong on purpose.
+template <class Triangle>
+void for_each_cube_triangle(const Triangle& triangle) {
+  for (const auto& f : kCubeFaces)
+    for (const std::size_t k : std::initializer_list<std::size_t>{1, 2})
+      triangle(std::array{kCubeCorners[f[0]], kCubeCorners[f[k]], kCubeCorners[f[k + 1]]});
+}
+
+/// @param title  of its header: some begin with "solid"
+inline std::string cube_stl_binary(const std::string& title = "a cube") {
+  ByteString out;
+  out.text(title + std::string(80 - title.size(), '\0')).put(std::uint32_t{12});
+  for_each_cube_triangle([&](const auto& corners) {
+    out.put(0.0f).put(0.0f).put(1.0f);
+    for (const auto& corner : corners)
+      for (const float x : corner) out.put(x);
+    out.put(std::uint16_t{0});
+  });
+  return out.bytes;
+}
+
+inline std::string cube_stl_ascii() {
+  std::string text = "solid cube\r\n";
+  for_each_cube_triangle([&](const auto& corners) {
+    text += "facet normal 0 0 1\n outer loop\n";
+    for (const auto& corner : corners) text += line_of("  vertex", corner);
+    text += " endloop\nendfacet\n";
+  });
+  return text + "endsolid cube\n";
+}
+
 inline std::string glb_of(std::string json, std::string binary) {
   while (json.size() % 4 != 0) json += ' ';
   while (binary.size() % 4 != 0) binary += '\0';
@@ -102,6 +133,37 @@ inline std::string cube_glb_binary() {
 
 inline std::string cube_glb(const std::string& json = kCubeGltf) {
   return glb_of(json, cube_glb_binary());
+}
+
+/// The corners of cube_glb by Draco 1.5.5 with 8 bits: edgebreaker and sequential.
+inline constexpr std::array<const char*, 2> kCubeDraco{
+    "445241434f02020101000000080c000b0000035f4b0b01011001ff000001000903000002010101010103552d0108ad"
+    "0a068c35750a338300000000ff000000000000000000803f000000400000004008",
+    "445241434f0202010000000c0801000102000203040506040607000305000504020107020706030206030605000407"
+    "000701010100090300000200010100030301280118030010b2501029120000000000ff000000000000000000803f00"
+    "0000400000004008"};
+
+inline std::string from_hex(const std::string& digits) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+  return bytes;
+}
+
+/// Corners and indices are in the buffer, compressed; accessors say how many.
+inline std::string cube_glb_draco(const std::string& draco, const std::string& corners = "8") {
+  const std::string size = std::to_string(draco.size());
+  const std::string json = R"({"asset": {"version": "2.0"}, "scene": 0,
+ "extensionsRequired": ["KHR_draco_mesh_compression"], "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0, "scale": [0.5, 0.5, 0.5], "translation": [-0.5, -1, -1.5]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions":
+  {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
+ "accessors": [{"componentType": 5126, "count": )" +
+                           corners + R"(, "type": "VEC3"},
+               {"componentType": 5123, "count": 36, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": )" +
+                           size + R"(}], "buffers": [{"byteLength": )" + size + "}]}";
+  return glb_of(json, draco);
 }
 
 inline Result<Mesh, InputError> mesh_in(const std::string& name, const std::string& bytes) {
