@@ -9,6 +9,7 @@
 #include "capture/child_process.h"
 #include "capture/file_names.h"
 #include "capture/json.h"
+#include "capture/las_reader.h"
 #include "capture/ply_reader.h"
 
 namespace slf {
@@ -142,6 +143,7 @@ bool is_scan(const std::filesystem::path& file) {
 Result<Scan, InputError> read_scan(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings) {
   if (!is_file(file)) return InputError{Errc::kUnreadable, file.string() + ": no such file"};
+  if (is_plain_las(file)) return read_las(file, warnings);
   SLF_TRY(const Summary summary, summary_of(file));
   SLF_TRY(Mesh points, read_points(file, summary, "uint16_t", warnings));
   if (has_eight_bits(points.vertices))
