@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photographs: PNG (its CRCs are not checked while fuzzing where libpng is built so) and JPEG.
+// Photographs: PNG (its CRCs are not checked while fuzzing where libpng is built so), JPEG, PPM.
 #include "capture/image_formats.h"
+#include "capture/netpbm.h"
 #include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -15,5 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int r = 0; r <= slf::kMostJpegReduction; ++r)
       slf::fuzz::accept(slf::decode_jpeg("fuzz.jpg", file, r, read));
   }
+  if (slf::is_netpbm(file) && small(slf::netpbm_size(file)))
+    slf::fuzz::accept(slf::decode_netpbm("fuzz.ppm", file));
   return 0;
 }

@@ -140,6 +140,61 @@ def cameras():
     return {"ours": ours, "blender": blender, "nerf": nerf}
 
 
+def other_cameras():
+    """One camera of Bundler (with its list.txt), Metashape and openMVG, each with a lens that bends."""
+    bundle = (b"# Bundle file v0.3\n2 1\n5 0.1 0\n1 0 0\n0 -1 0\n0 0 -1\n0 0 -3\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n"
+              b"0 0 0\n9 8 7\n1 0 3 0.5 0.5\n")
+    numbers = {"f": 5, "cx": 0.1, "cy": 0, "k1": 0.01, "k2": 0, "k3": 0.001, "p1": 0.01, "b1": 0.1}
+    xml = ('<?xml version="1.0"?><document version="2.0.0"><chunk><sensors><sensor id="0" type="frame"><resolution width="4" '
+           'height="4"/><calibration class="adjusted">' + "".join(f"<{k}>{v}</{k}>" for k, v in numbers.items()) +
+           '</calibration></sensor></sensors><components><component id="1"><transform><rotation>1 0 0 0 1 0 0 0 1</rotation>'
+           '<translation>1 2 3</translation><scale>2</scale></transform></component></components><cameras><group><camera id="0" '
+           'sensor_id="0" component_id="1" label="a"><transform>1 0 0 0 0 1 0 0 0 0 1 -3 0 0 0 1</transform></camera></group>'
+           '<camera id="1" sensor_id="0" label="b"/></cameras></chunk></document>')
+
+    def keyed(key, data):
+        return {"key": key, "value": {"ptr_wrapper": {"data": data}}}
+    mvg = {"sfm_data_version": "0.3",
+           "views": [keyed(0, {"local_path": "", "filename": "a.png", "id_view": 0, "id_intrinsic": 0, "id_pose": 0})],
+           "intrinsics": [keyed(0, {"value0": {"width": 4, "height": 4, "focal_length": 5, "principal_point": [2, 2]},
+                                    "disto_t2": [0.1, 0, 0.001, 0, 0]})],
+           "extrinsics": [{"key": 0, "value": {"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "center": [0, 0, -3]}}],
+           "structure": [{"key": 0, "value": {"X": [0, 0, 0]}}]}
+    return {"bundler": bundle + MARK + b"a.png\nb.png 0 5\n", "metashape": xml.encode(), "openmvg": json.dumps(mvg).encode()}
+
+
+def plenoptic():
+    """Two points with three views each."""
+    names = [f"{c}{v}" for v in range(3) for c in ("r", "g", "b")]
+    head = ("ply\nformat binary_little_endian 1.0\ncomment view 0 1 2 3\ncomment view 1 4 5 6\ncomment view 2 7 8 9\n"
+            "element vertex 2\n" + "".join(f"property float {k}\n" for k in "xyz") +
+            "".join(f"property uchar {k}\n" for k in names) + "end_header\n")
+    return head.encode() + b"".join(struct.pack("<3f9B", i, 0, 1, *range(9)) for i in range(2))
+
+
+def stl():
+    """A triangle, binary and ASCII."""
+    facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    return {"binary.stl": bytes(80) + struct.pack("<I", 1) + facet,
+            "ascii.stl": b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                         b"endfacet\nendsolid a\n"}
+
+
+def glb_draco():
+    """A cube that Draco 1.5.5 compressed."""
+    body = bytes.fromhex("445241434f02020101000000080c000b0000035f4b0b01011001ff000001000903000002010101010103552d0108ad0a068c35750a"
+                         "338300000000ff000000000000000000803f000000400000004008")
+    draco = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(body)}], "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+             "bufferViews": [{"buffer": 0, "byteLength": len(body)}],
+             "accessors": [{"componentType": 5126, "count": 8, "type": "VEC3"}, {"componentType": 5123, "count": 36, "type": "SCALAR"}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": draco}]}]}
+    text = json.dumps(scene, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
 def colmap():
     """A model of one camera, one image, one point, as text and as binary."""
     text = MARK.join([b"1 PINHOLE 4 4 5 5 2 2\n", b"1 1 0 0 0 0 0 3 1 a.png\n2 2 1\n",
@@ -205,10 +260,14 @@ def seeds(program):
     made["ply"]["little"] = ply("binary_little_endian", b"".join(values[:3]) + struct.pack("<B3i", 3, 0, 1, 2))
     made["ply"]["big"] = ply("binary_big_endian", b"".join(values[3:]) + struct.pack(">B3i", 3, 0, 1, 2))
     made["obj"]["triangle"] = b"v 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -1 -2 -3 1\n"
-    made["glb"]["triangle"] = glb()
+    made["obj"].update(stl())
+    made["ply"]["plenoptic"] = plenoptic()
+    made["glb"] = {"triangle": glb(), "draco": glb_draco()}
     made["image"] = {"grey.png": png(8, 0, 1), "rgb16.png": png(16, 2, 3), "rgba.png": png(8, 6, 4),
-                     "palette.png": png(8, 3, 1, bytes(range(12))), "grey.jpg": jpeg()}
+                     "palette.png": png(8, 3, 1, bytes(range(12))), "grey.jpg": jpeg(),
+                     "text.ppm": b"P3 # a comment\n2 1 255\n9 8 7 255 0 1\n", "grey16.pgm": b"P5\n2 2\n65535\n" + bytes(range(8))}
     made["cameras"] = {name: json.dumps(value).encode() for name, value in cameras().items()}
+    made["cameras"].update(other_cameras())
     made["colmap"] = colmap()
     made["splats"] = splats()
     if program:
