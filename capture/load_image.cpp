@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One photograph of a capture, its mask in the alpha channel.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -71,6 +74,20 @@ Result<Image, InputError> load(const Capture& capture, std::size_t i) {
   return with_mask(image, mask);
 }
 
+/// Display values times the photograph's gains.
+Image with_gains(Image image, const Capture& capture, std::size_t camera) {
+  if (camera >= capture.gains.size()) return image;
+  std::array<std::array<std::uint8_t, 256>, 3> table{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t v = 0; v < 256; ++v)
+      table[k][v] = static_cast<std::uint8_t>(
+          std::lround(std::clamp(double(v) * double(capture.gains[camera][k]), 0.0, 255.0)));
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < image.data.size(); i += channels)
+    for (std::size_t k = 0; k < 3; ++k) image.data[i + k] = table[k][image.data[i + k]];
+  return image;
+}
+
 }  // namespace
 
 Result<Image, InputError> load_image(const Capture& capture, int camera) {
@@ -81,11 +98,14 @@ Result<Image, InputError> load_image(const Capture& capture, int camera) {
     return InputError{Errc::kInvalidArgument, "camera " + std::to_string(camera) +
                                                   ": the capture has " +
                                                   std::to_string(capture.cameras.size())};
-  if (!capture.cache) return load(capture, i);
-  if (const auto kept = capture.cache->find(camera)) return *kept;
+  if (!capture.cache) {
+    SLF_TRY(Image image, load(capture, i));
+    return with_gains(std::move(image), capture, i);
+  }
+  if (const auto kept = capture.cache->find(camera)) return with_gains(*kept, capture, i);
   SLF_TRY(Image image, load(capture, i));
   capture.cache->keep(camera, std::make_shared<const Image>(image));
-  return image;
+  return with_gains(std::move(image), capture, i);
 }
 
 }  // namespace slf

@@ -13,6 +13,7 @@
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_splats.h"
 #include "encoder/encode_to_target.h"
+#include "encoder/fit/match_exposure.h"
 #include "encoder/fit_capture.h"
 #include "slf/encoder.h"
 
@@ -77,6 +78,23 @@ void warn_of_points(Job& job) {
         "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
 }
 
+void report_fit(Job& job) {
+  Encoded& encoded = job.encoded;
+  encoded.fit = job.fit.chosen;
+  encoded.cameras = job.fit.cameras;
+  for (const CameraTrust& trust : encoded.cameras)
+    if (trust.verdict != CameraVerdict::kKept)
+      encoded.warnings.push_back(job.capture.cameras[std::size_t(trust.camera)].name + ": " +
+                                 reason_of(trust));
+  encoded.observations = job.fit.observations;
+  encoded.unobserved_points = job.fit.unobserved_points;
+  encoded.seconds_observe = job.fit.seconds_observe;
+  encoded.seconds_choose = job.fit.seconds_choose;
+  encoded.seconds_fit = job.fit.seconds_fit;
+  encoded.pictures = job.fit.pictures;
+  encoded.seconds_pictures = job.fit.seconds_pictures;
+}
+
 /// Splats with what became of the surface before they were chosen.
 Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
   SurfaceReport& report = splats.surface;
@@ -105,8 +123,14 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   Stopwatch watch;
   SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
                                     may_be_splats(given)));
+  std::optional<Capture> of_points;  // a mesh that other points took the place of hides nothing
+  if (encoded.surface.kept != Surface::kGiven && !capture.mesh.triangles.empty()) {
+    of_points = capture;
+    of_points->mesh = {};
+  }
+  const Capture& seen = of_points ? *of_points : capture;
   if (encoded.surface.kept == Surface::kSplats) {
-    SLF_TRY(Encoded splats, encode_splats(capture, start, cameras, given, progress));
+    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress));
     return with_choice(std::move(splats), encoded.surface);
   }
   encoded.points = job.cloud.positions.size();
@@ -117,27 +141,15 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   encoded.seconds_voxelise = watch.lap() - encoded.surface.seconds();
   SLF_TRY(job.fit,  // paper II, III-A
           cameras.empty() ? colours_alone(job.cloud)
-                          : fit_capture(capture, cameras, job.cloud, settings, progress,
+                          : fit_capture(seen, cameras, job.cloud, settings, progress,
                                         chooses_step(settings, cameras.size())));
   if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
-  encoded.fit = job.fit.chosen;
-  encoded.cameras = job.fit.cameras;
-  for (const CameraTrust& trust : encoded.cameras)
-    if (trust.verdict != CameraVerdict::kKept)
-      encoded.warnings.push_back(capture.cameras[std::size_t(trust.camera)].name + ": " +
-                                 reason_of(trust));
-  encoded.observations = job.fit.observations;
-  encoded.unobserved_points = job.fit.unobserved_points;
-  encoded.seconds_observe = job.fit.seconds_observe;
-  encoded.seconds_choose = job.fit.seconds_choose;
-  encoded.seconds_fit = job.fit.seconds_fit;
-  encoded.pictures = job.fit.pictures;
-  encoded.seconds_pictures = job.fit.seconds_pictures;
+  report_fit(job);
   SLF_CHECK(resolve_step(job));
   watch.lap();
   if (progress) progress("code", 0);
   const auto code_with = [&](double q) { return code(job, q); };
-  SLF_CHECK(has_target(settings) ? code_to_target(settings, capture, cameras, code_with, encoded)
+  SLF_CHECK(has_target(settings) ? code_to_target(settings, seen, cameras, code_with, encoded)
                                  : code_with(settings.q));
   encoded.seconds_code = watch.lap();
   if (progress) progress("code", 1);
@@ -151,11 +163,30 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
   SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));
   const auto encode_all =
       settings.surface == Surface::kSplats && !cameras.empty() ? encode_splats : encode_from;
-  if (!points) return encode_all(capture, StartId::kPoints, cameras, settings, progress);
-  Capture started = capture;
-  started.cloud = std::move(points->cloud);
-  started.mesh = {};
-  return encode_all(started, points->start, cameras, settings, progress);
+  const StartId start = points ? points->start : StartId::kPoints;
+  std::optional<Capture> changed;
+  if (points) {
+    changed = capture;
+    changed->cloud = std::move(points->cloud);
+    changed->mesh = {};
+  }
+  const MatchExposure mode =
+      start == StartId::kVolume ? MatchExposure::kOff : settings.match_exposure;
+  SLF_TRY(ExposureReport exposure,
+          match_exposure(changed ? *changed : capture, cameras, mode, settings.threads));
+  EncoderSettings recorded = settings;
+  if (!exposure.gains.empty()) {
+    if (!changed) changed = capture;
+    changed->gains = exposure.gains;
+    recorded.metadata.emplace_back("exposure", "matched");
+  }
+  SLF_TRY(Encoded encoded,
+          encode_all(changed ? *changed : capture, start, cameras, recorded, progress));
+  if (settings.match_exposure == MatchExposure::kOn && exposure.gains.empty() && !cameras.empty())
+    encoded.warnings.push_back(
+        "exposure is not matched: photographs have no points in common to compare");
+  encoded.exposure = std::move(exposure);
+  return encoded;
 }
 
 }  // namespace slf

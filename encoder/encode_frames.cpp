@@ -8,9 +8,9 @@
 
 #include "base/stopwatch.h"
 #include "capture/voxelise.h"
+#include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
-#include "encoder/check_settings.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "encoder/still_points.h"
@@ -27,6 +27,7 @@ Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings&
                                       const FrameSettings& f) {
   if (frames == 0) return of_frames("there are none");
   if (has_target(s)) return of_frames("a target of bytes or PSNR is of one light field alone");
+  if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
   if (s.quality_layers > 1) return of_frames("they have one quality layer");
   if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
     return of_frames("they are coded by the octree and vector coders");

@@ -38,7 +38,13 @@ void add_observation(SettingTable& rows) {
            "depth-tolerance", SLF_AT(observe.depth_tolerance), 0, 1000,
            "Hidden if deeper than the depth buffer by more, in point spacings; 0: strict"))});
   add(rows, SettingPart::kStart, "Observation (paper III-A)", nullptr,
-      {on_or_off("check-cameras", SLF_AT(check_cameras),
+      {choice("match-exposure", SLF_AT(match_exposure),
+              Words<MatchExposure>{{"on", MatchExposure::kOn},
+                                   {"off", MatchExposure::kOff},
+                                   {"auto", MatchExposure::kAuto}},
+              "Multiply R, G, B of each photograph so that all see the same points alike; auto: "
+              "where most of them differ; off in preset paper"),
+       on_or_off("check-cameras", SLF_AT(check_cameras),
                  "Leave out input images that the others contradict (another object, a wrong "
                  "pose), and correct those of another exposure; off in preset paper")});
 }

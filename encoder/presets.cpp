@@ -59,6 +59,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
     settings.q = kPlainQ;
     settings.surface = Surface::kGiven;
     settings.densify.mode = Densify::kOff;
+    settings.match_exposure = MatchExposure::kOff;
     settings.check_cameras = false;
     settings.grid_bits = 9;
     settings.fit = {};

@@ -2,12 +2,16 @@
 // slf encode: photographs and points, or a coloured cloud, to an .slf file.
 #include <array>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "tools/capture_input.h"
 #include "tools/describe.h"
+#include "tools/describe_exposure.h"
 #include "tools/encode_frames.h"
 #include "tools/encode_options.h"
 #include "tools/encode_splats.h"
+#include "tools/interrupt.h"
 #include "tools/measure_file.h"
 #include "tools/output.h"
 #include "tools/plenoptic_options.h"
@@ -62,6 +66,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
+  json["exposure"] = exposure_json(e.exposure);
   json["camera_check"] = camera_check_json(e, input.capture);
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
@@ -73,19 +78,21 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                              {"pull", e.pictures.pull},
                              {"held_out_before", e.pictures.held_out_before},
                              {"held_out_after", e.pictures.held_out_after}});
-  json["seconds"] = {{"load", load},
-                     {"surface", e.surface.seconds()},
-                     {"voxelise", e.seconds_voxelise},
-                     {"observe", e.seconds_observe},
-                     {"choose", e.seconds_choose},
-                     {"fit", e.seconds_fit},
-                     {"pictures", e.seconds_pictures},
-                     {"quality", e.step.seconds},
-                     {"code", e.seconds_code},
-                     {"measure", pictures.seconds},
-                     {"total", load + e.surface.seconds() + e.seconds_voxelise + e.seconds_observe +
-                                   e.seconds_choose + e.seconds_fit + e.seconds_pictures +
-                                   e.step.seconds + e.seconds_code}};
+  json["seconds"] = {
+      {"load", load},
+      {"exposure", e.exposure.seconds},
+      {"surface", e.surface.seconds()},
+      {"voxelise", e.seconds_voxelise},
+      {"observe", e.seconds_observe},
+      {"choose", e.seconds_choose},
+      {"fit", e.seconds_fit},
+      {"pictures", e.seconds_pictures},
+      {"quality", e.step.seconds},
+      {"code", e.seconds_code},
+      {"measure", pictures.seconds},
+      {"total", load + e.exposure.seconds + e.surface.seconds() + e.seconds_voxelise +
+                    e.seconds_observe + e.seconds_choose + e.seconds_fit + e.seconds_pictures +
+                    e.step.seconds + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   json["warnings"] = e.warnings;
@@ -97,7 +104,8 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load,
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  std::string out = surface_text(e.surface) + density_text(e.grid, e.density);
+  std::string out =
+      exposure_text(e.exposure) + surface_text(e.surface) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
@@ -110,24 +118,40 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load,
   if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
     out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
   out += text(
-      "seconds       load %.2f, surface %.2f, voxelise %.2f, observe %.2f, choose %.2f, fit %.2f, "
+      "seconds       load %.2f, exposure %.2f, surface %.2f, voxelise %.2f, observe %.2f, choose "
+      "%.2f, fit %.2f, "
       "pictures %.2f, quality %.2f, code %.2f, measure %.2f\n",
-      load, e.surface.seconds(), e.seconds_voxelise, e.seconds_observe, e.seconds_choose,
-      e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code, pictures.seconds);
+      load, e.exposure.seconds, e.surface.seconds(), e.seconds_voxelise, e.seconds_observe,
+      e.seconds_choose, e.seconds_fit, e.seconds_pictures, e.step.seconds, e.seconds_code,
+      pictures.seconds);
   out += text("peak memory   %.0f MiB\n", peak_memory_mib());
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));
   return out;
 }
 
-Outcome run_encode(const EncodeOptions& given) {
+/// A training that leaves checkpoints is interrupted between two of them, not in one.
+Progress interruptible(Progress draw) {
+  return [draw = std::move(draw)](const char* stage, double fraction) {
+    if (interrupt_pending()) exit_cancelled();
+    if (draw) draw(stage, fraction);
+  };
+}
+
+Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
+  if (scene.resume && scene.work.empty())
+    return Failure{kUsage, "encode: --resume needs --work, the directory of the earlier run"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_TRY(EncoderSettings settings, resolved(given));
+  settings.work = scene.work;
+  settings.resume = scene.resume;
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   if (is_splat_file(given.capture)) return encode_splats(given, std::move(settings));
   ProgressLine line(given.common.quiet);
-  const Progress progress = line.callback();
+  std::optional<DeferInterrupts> defer;
+  if (!scene.work.empty()) defer.emplace();
+  const Progress progress = defer ? interruptible(line.callback()) : line.callback();
   SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
   SLF_TRY(const Encoded encoded,
@@ -137,7 +161,9 @@ Outcome run_encode(const EncodeOptions& given) {
   SLF_CHECK(save(given.output, encoded.stream.data(), encoded.stream.size()));
   FilePictures pictures;
   if (!input.cameras.empty() && (given.common.json || !given.common.quiet)) {
-    SLF_TRY(pictures, measure_file(encoded, input.capture, input.cameras, given.common.threads));
+    Capture matched = input.capture;
+    matched.gains = encoded.exposure.gains;
+    SLF_TRY(pictures, measure_file(encoded, matched, input.cameras, given.common.threads));
   }
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
@@ -172,7 +198,8 @@ void add_encode(CLI::App& program, Run& run) {
         return Failure{kUsage,
                        "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
                            o->encode.capture + " has no views"};
-      return o->scene.in_parts() ? encode_scene(o->encode, o->scene) : run_encode(o->encode);
+      return o->scene.in_parts() ? encode_scene(o->encode, o->scene)
+                                 : run_encode(o->encode, o->scene);
     };
   });
 }

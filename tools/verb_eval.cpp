@@ -200,6 +200,9 @@ void add_inputs(CLI::App& verb, EvalOptions& o) {
                   "The capture (see slf encode --help), or the plenoptic cloud")
       ->type_name("")
       ->required();
+  verb.add_flag("--match-exposure", o.settings.match_exposure,
+                "Give each rendering the exposure and white balance of its photograph first; "
+                "points are judged as they are");
 }
 
 }  // namespace

@@ -67,10 +67,12 @@ Progress interruptible(const std::filesystem::path& directory, ProgressLine& lin
 /// A scene that moves: a directory with an entry for every frame.
 Outcome run_moving(const SynthOptions& given, synth::MovingSettings settings) {
   const synth::SynthSettings& s = given.settings;
-  if (given.plenoptic > 0 || s.mesh || s.disturb.any() || s.houses != 0 || s.cameras != 0)
-    return Failure{kUsage, "synth: " + s.scene +
-                               " moves: it has no --plenoptic, --mesh, --noise, --hull, "
-                               "--houses, --cameras"};
+  if (given.plenoptic > 0 || s.mesh || s.disturb.any() || s.exposure_drift > 0 || s.houses != 0 ||
+      s.cameras != 0)
+    return Failure{kUsage,
+                   "synth: " + s.scene +
+                       " moves: it has no --plenoptic, --mesh, --noise, --hull, --exposure-drift, "
+                       "--houses, --cameras"};
   settings.scene = s.scene;
   if (given.frames != 0) settings.frames = given.frames;
   settings.threads = given.common.threads;
@@ -144,7 +146,8 @@ void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
                   "Push points outwards by 0 to so many spacings, slowly varying, as a visual hull")
       ->capture_default_str()
       ->check(range(0, 20));
-  verb.add_option("--seed", d.seed, "Of --noise, --hull, --plenoptic and the terrace")
+  verb.add_option("--seed", d.seed,
+                  "Of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
       ->capture_default_str();
 }
 
@@ -200,6 +203,11 @@ void add_synth(CLI::App& program, Run& run) {
       ->check(whole_range(1, 8));
   add_motions(*verb, *o);
   add_disturbances(*verb, s.disturb);
+  verb->add_option("--exposure-drift", s.exposure_drift,
+                   "Exposure of photographs differs by up to this share, each channel's by half as "
+                   "much again; not of the terrace")
+      ->capture_default_str()
+      ->check(range(0, 0.5));
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
   verb->add_option("--plenoptic", o->plenoptic,
                    "Write one PLY whose points have the colours of so many views, a quarter of the "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "base/error_sum.h"
 #include "capture/quantile.h"
@@ -115,6 +116,26 @@ Image error_map(const Image& photograph, const Image& rendering) {
   return map;
 }
 
+/// The rendering with R, G, B times what brings it nearest to the photograph.
+Rendering with_exposure_of(const Image& photograph, Rendering over_black,
+                           const std::vector<std::uint8_t>& object) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < object.size(); ++i) {
+      if (!object[i] || over_black.coverage[i] < 128) continue;
+      const double drawn = over_black.image.data[3 * i + k];
+      products += drawn * double(photograph.data[3 * i + k]);
+      squares += drawn * drawn;
+    }
+    if (!(squares > 0)) continue;
+    for (std::size_t i = 0; i < object.size(); ++i) {
+      std::uint8_t& value = over_black.image.data[3 * i + k];
+      value = std::uint8_t(std::lround(std::min(double(value) * products / squares, 255.0)));
+    }
+  }
+  return over_black;
+}
+
 /// `camera`'s photograph against what is drawn over black.
 Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const Capture& capture,
                                                  int camera_index, const CapturedSurface& surface,
@@ -123,13 +144,15 @@ Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const 
   const auto index = static_cast<std::size_t>(camera_index);
   const Camera& camera = capture.cameras[index];
   const auto start = std::chrono::steady_clock::now();
-  const Rendering over_black = draw(moved(camera, capture.origin));
+  Rendering over_black = draw(moved(camera, capture.origin));
   const auto end = std::chrono::steady_clock::now();
   const CapturedView view =
       captured_view(capture, surface, camera, loaded, settings.depth_tolerance);
   const bool has_mask = index < capture.mask_files.size() && !capture.mask_files[index].empty();
   const auto background = picture_background(loaded, view.object, has_mask);
   const Image photograph = over_background(loaded, background);
+  if (settings.match_exposure)
+    over_black = with_exposure_of(photograph, std::move(over_black), view.object);
   const Image rendering = over_background(over_black, background);
   PictureErrors errors = compare(photograph, rendering, over_black.coverage, view);
   errors.seconds = std::chrono::duration<double>(end - start).count();

@@ -124,6 +124,7 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
   for (const Surface surface : {Surface::kMended, Surface::kTrained, Surface::kSplats})
     if (settings.surface == surface) return refused(std::string("--surface ") + word_of(surface));
+  if (settings.match_exposure == MatchExposure::kOn) return refused("--match-exposure on");
   if (settings.densify.mode == Densify::kOn) return refused("--densify on");
   if (settings.preset == Preset::kPaper) return refused("--preset paper");
   if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");

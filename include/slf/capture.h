@@ -89,6 +89,8 @@ struct Capture {
   /// [cameras] or empty: photographs and masks are made smaller as they are read, as reduced() has
   /// it; `cameras` are reduced already.
   std::vector<int> reduction;
+  /// [cameras] or empty: factors of R, G, B that load_image multiplies display values by.
+  std::vector<std::array<float, 3>> gains;
   std::shared_ptr<ImageCache> cache;               ///< what load_image keeps; or none
   std::map<std::string, std::vector<int>> splits;  ///< "dense", "evaluation", ...: camera indices
   UpAxis up = UpAxis::kPlusZ;
@@ -133,7 +135,7 @@ Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 /// (alpha = mask; an alpha that is 255 everywhere is none). 16-bit and grey files are converted.
 /// Size equals the camera's, or it is an error. Thread-safe on a const capture. Reduced ones: each
 /// pixel is the mean of those that it takes the place of, its alpha the least of theirs; JPEG is
-/// decoded to that size.
+/// decoded to that size. Colours are multiplied by Capture::gains, rounded, 255 at most.
 /// @errors those of read_image; kInvalidInput: another size
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 

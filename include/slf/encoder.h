@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "slf/camera_trust.h"
 #include "slf/capture.h"
 #include "slf/error.h"
+#include "slf/exposure.h"
 #include "slf/fit.h"
 #include "slf/surface.h"
 #include "slf/types.h"
@@ -119,12 +121,19 @@ struct EncoderSettings {
   int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
   double voxel_size = 0;  ///< > 0: instead of grid_bits
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
-  Surface surface = Surface::kAuto;         ///< kGiven without cameras, kAuto of meshes too
+  Surface surface = Surface::kAuto;         ///< kGiven without cameras
   /// > 0: training ends after about so long, with steps as small as at its end; files then differ
   /// from run to run
   double surface_seconds = 0;
+  /// Directory where trainings leave what they would need to go on, now and then; empty: nowhere.
+  /// Not with surface_seconds.
+  std::filesystem::path work;
+  bool resume = false;        ///< trainings go on from what is in `work`; else it is made anew
   int surface_memory = 1024;  ///< 16 or more, MiB: photographs of a training are halved to fit
   ObserveSettings observe;
+  /// Photographs are given one exposure and white balance before anything else; not without
+  /// points, nor in parts or frames.
+  MatchExposure match_exposure = MatchExposure::kAuto;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;  ///< changes fit; not without cameras
@@ -190,6 +199,7 @@ struct Encoded {
   Grid grid;        ///< with the bits and the step that were given or chosen
   Density density;  ///< what the photographs resolve; all of it where grid_bits was 0
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
+  ExposureReport exposure;           ///< what became of the photographs
   SurfaceReport surface;             ///< what became of the capture's points before anything else
   ChosenFit fit;                     ///< of a capture with cameras
   PictureFit pictures;               ///< where fit.settings.pictures has rounds

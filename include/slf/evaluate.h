@@ -20,6 +20,10 @@ struct EvaluateSettings {
   std::vector<double> deltas_degrees{10};  ///< δ′, at least one, each 0 .. 90
   bool images = true;                      ///< image quality too (renders every camera)
   double depth_tolerance = 2.5;            ///< of what hides a point, in spacings of the points
+  /// R, G, B of each rendering are multiplied by what brings it nearest to its photograph, in least
+  /// squares where both show the object: photographs of any exposure and white balance are then
+  /// judged by their patterns. Points are judged as they are.
+  bool match_exposure = false;
   int threads = 0;
   /// Where given: called once for every camera, from several threads, with one image of three times
   /// the photograph's width: photograph, rendering, and 128 + 4 (rendering - photograph), clamped.

@@ -32,6 +32,32 @@ TEST_F(TinyCaptureTest, AnImageOfAnotherExposureIsCorrectedAndSaidSo) {
   EXPECT_FALSE(off["settings"].contains("cameras_gain_corrected"));
 }
 
+TEST_F(TinyCaptureTest, PhotographsOfManyExposuresAreMatchedAndSaidSo) {
+  const std::string how = "encode tiny -o a.slf --grid-bits 5 --effort 1 --surface given --json";
+  EXPECT_FALSE(parsed(slf(how).out)["exposure"]["matched"].get<bool>());
+  ASSERT_EQ(slf("synth can -o tiny --size 48x48 --points 3000 --circles 5 --per-circle 40 "
+                "--supersampling 1 --exposure-drift 0.2")
+                .code,
+            0);
+  const auto pictures = [&](const std::string& more) {
+    const Ran ran = slf("eval a.slf tiny --json " + more);
+    return parsed(ran.out)["held_out"]["image"]["psnr"].get<double>();
+  };
+  const auto off = parsed(slf(how + " --match-exposure off").out);
+  EXPECT_FALSE(off["exposure"]["matched"].get<bool>());
+  EXPECT_FALSE(off["settings"].contains("exposure"));
+  const double before = pictures("--match-exposure");
+  const auto on = parsed(slf(how).out);
+  EXPECT_TRUE(on["exposure"]["matched"].get<bool>());
+  EXPECT_EQ(on["settings"]["exposure"], "matched");
+  EXPECT_LT(on["exposure"]["differ_matched"], 0.5 * on["exposure"]["differ"].get<double>());
+  const double after = pictures("--match-exposure");
+  EXPECT_GT(after, before);
+  EXPECT_GT(after, pictures("") + 1);
+  expect_failure(slf("encode tiny -o b.slf --memory 1G --match-exposure on"), 2, "match-exposure",
+                 "");
+}
+
 TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
   const auto report = parsed(slf("encode tiny -o a.slf --effort 1 --json").out);
   EXPECT_EQ(report["settings"]["grid"], "auto");

@@ -108,7 +108,7 @@ def _codecs(row):
         return ("raht", "tmc") if row["name"] in OF_TEXTURES_TOO else ("raht",)
     if row["group"].startswith("Texture"):
         return ("tmc",)
-    return ("raht", "tmc") if row["name"] == "check-cameras" else CODECS
+    return ("raht", "tmc") if row["name"] in ("match-exposure", "check-cameras") else CODECS
 
 
 def words(options):

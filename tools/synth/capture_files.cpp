@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "slf/parallel.h"
+#include "tools/synth/exposure_drift.h"
 #include "tools/synth/trace.h"
 
 namespace slf::synth {
@@ -94,9 +95,9 @@ Result<Done, InputError> prepare_capture(const fs::path& directory, const std::s
   return write_json(directory, cameras_json(scene, {}));
 }
 
-Result<Done, InputError> write_images(const Subject& subject, const Rings& rings, int supersampling,
-                                      int threads, const fs::path& directory,
-                                      const Progress& progress) {
+Result<Done, InputError> write_images(const Subject& subject, const Rings& rings,
+                                      const PhotographSettings& settings, int threads,
+                                      const fs::path& directory, const Progress& progress) {
   const std::size_t count = rings.cameras.size();
   std::vector<std::optional<InputError>> errors(count);
   parallel_ranges(
@@ -104,7 +105,9 @@ Result<Done, InputError> write_images(const Subject& subject, const Rings& rings
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const Camera& camera = rings.cameras[i];
-          const Image image = trace_image(subject, camera, supersampling);
+          Image image = trace_image(subject, camera, settings.supersampling);
+          if (settings.exposure_drift > 0)
+            expose(image, drawn_gains(settings.seed, i, settings.exposure_drift));
           const auto written = write_png(directory / camera.name, image);
           if (!written) errors[i] = written.error();
         }

@@ -2,6 +2,7 @@
 // The files of a synthetic capture, and how a directory of ours is known.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -17,9 +18,16 @@ namespace slf::synth {
 Result<Done, InputError> prepare_capture(const std::filesystem::path& directory,
                                          const std::string& scene, bool force);
 
+struct PhotographSettings {
+  int supersampling = 2;
+  double exposure_drift = 0;  ///< SynthSettings
+  std::uint64_t seed = 1;     ///< of the drift
+};
+
 /// A photograph for every camera, under its name.
-Result<Done, InputError> write_images(const Subject& subject, const Rings& rings, int supersampling,
-                                      int threads, const std::filesystem::path& directory,
+Result<Done, InputError> write_images(const Subject& subject, const Rings& rings,
+                                      const PhotographSettings& settings, int threads,
+                                      const std::filesystem::path& directory,
                                       const Progress& progress);
 
 /// cameras.json, with the splits: to be written last.

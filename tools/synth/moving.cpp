@@ -131,7 +131,7 @@ Result<Done, InputError> write_captures(const MovingSettings& s, const MovingSce
     SLF_CHECK(write_ply(place / "points.ply", moved_cloud(scene, samples, i, s.threads)));
     const MovingFrame frame(scene, i, s.threads);
     const Rings now = turned_rings(rings, s.camera_turn * i * std::numbers::pi / 180);
-    SLF_CHECK(write_images(frame, now, s.supersampling, s.threads, place,
+    SLF_CHECK(write_images(frame, now, {s.supersampling}, s.threads, place,
                            part_of(progress, i, s.frames)));
     SLF_CHECK(write_cameras(place, s.scene, now));
   }

@@ -42,6 +42,9 @@ std::optional<InputError> check(const SynthSettings& s) {
   if (!(d.noise_scale >= 0 && d.noise_scale <= 1000))
     return refused("noise scale: 0 to 1000 point spacings");
   if (!(d.hull >= 0 && d.hull <= 20)) return refused("hull: 0 to 20 point spacings");
+  if (!(s.exposure_drift >= 0 && s.exposure_drift <= 0.5))
+    return refused("exposure drift: 0 to 0.5");
+  if (terrace && s.exposure_drift > 0) return refused("the terrace has no exposure drift");
   if (!terrace && (s.houses != 0 || s.cameras != 0))
     return refused("houses and cameras are of the terrace; can, die and vase have circles");
   if (terrace && s.mesh) return refused("the terrace has no mesh; can and vase have one");
@@ -107,8 +110,10 @@ Result<Done, InputError> synthesise(const SynthSettings& settings, const fs::pat
           prepare_capture(directory, settings.scene, settings.force));
   SLF_CHECK(write_points(*scene, settings, directory));
   if (settings.mesh) SLF_CHECK(write_mesh(*scene, directory));
-  SLF_TRY([[maybe_unused]] const Done images, write_images(*scene, rings, settings.supersampling,
-                                                           settings.threads, directory, progress));
+  SLF_TRY([[maybe_unused]] const Done images,
+          write_images(*scene, rings,
+                       {settings.supersampling, settings.exposure_drift, settings.disturb.seed},
+                       settings.threads, directory, progress));
   return write_cameras(directory, settings.scene, rings);
 }
 

@@ -23,8 +23,11 @@ struct SynthSettings {
   int supersampling = 2;    ///< rays per pixel and axis, 1 .. 8
   DisturbSettings disturb;  ///< of the cloud; the photographs stay those of the scene.
                             ///< Its seed is the terrace's too
-  bool mesh = false;        ///< mesh.obj as well; of the can and the vase
-  bool force = false;       ///< write into a foreign directory that is not empty
+  /// Photographs differ in exposure by up to this share, and half as much again in each channel;
+  /// 0 .. 0.5, not of the terrace.
+  double exposure_drift = 0;
+  bool mesh = false;   ///< mesh.obj as well; of the can and the vase
+  bool force = false;  ///< write into a foreign directory that is not empty
 };
 
 /// Writes a capture: points.ply, cameras.json, images/NNNN.png (see docs/captures.md). Existing

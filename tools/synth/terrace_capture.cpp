@@ -51,8 +51,8 @@ Result<Done, InputError> synthesise_terrace(const SynthSettings& settings,
                          settings.width, settings.height);
   SLF_CHECK(prepare_capture(directory, settings.scene, settings.force));
   SLF_CHECK(write_points(terrace, settings, directory, progress));
-  SLF_CHECK(
-      write_images(terrace, views, settings.supersampling, settings.threads, directory, progress));
+  SLF_CHECK(write_images(terrace, views, {settings.supersampling}, settings.threads, directory,
+                         progress));
   return write_cameras(directory, settings.scene, views);
 }
 
