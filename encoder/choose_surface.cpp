@@ -140,13 +140,9 @@ Result<VoxelCloud, InputError> only_trained(const SurfaceChoice& job) {
   return taken(job, trained);
 }
 
-Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
-  if (job.report.start == StartId::kVolume) {
-    job.report.untrained = training_obstacle(job.capture, job.cameras);
-    return only_trained(job);
-  }
-  const bool by_photographs = !job.cameras.empty() && job.capture.mesh.triangles.empty();
-  const Surface asked = by_photographs ? job.settings.surface : Surface::kGiven;
+/// A capture with points, its own or a mesh's.
+Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
+  const Surface asked = job.cameras.empty() ? Surface::kGiven : job.settings.surface;
   if (asked == Surface::kGiven) return given_or_mended(job, RefineGeometry::kOff);
   if (asked == Surface::kMended) return given_or_mended(job, RefineGeometry::kOn);
   job.report.untrained = training_obstacle(job.capture, job.cameras);
@@ -162,6 +158,28 @@ Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
     return before;
   }
   return best_of(job, std::move(before));
+}
+
+/// Points of a mesh are judged as a cloud's are. Where they stay as they are, the mesh itself is
+/// put on the grid.
+Result<VoxelCloud, InputError> chosen_from_mesh(const SurfaceChoice& job) {
+  Capture points = job.capture;
+  points.mesh = {};
+  SLF_TRY(VoxelCloud cloud, chosen_from_points({points, job.cameras, job.settings, job.report,
+                                                job.progress, job.splats}));
+  if (job.report.kept != Surface::kGiven) return cloud;
+  return voxelise_capture(job.capture, job.cameras, job.settings);
+}
+
+Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
+  if (job.report.start == StartId::kVolume) {
+    job.report.untrained = training_obstacle(job.capture, job.cameras);
+    return only_trained(job);
+  }
+  const bool mesh = !job.capture.mesh.triangles.empty();
+  return mesh && !job.cameras.empty() && job.settings.surface != Surface::kGiven
+             ? chosen_from_mesh(job)
+             : chosen_from_points(job);
 }
 
 }  // namespace

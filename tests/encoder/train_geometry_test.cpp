@@ -197,6 +197,35 @@ TEST_F(TrainGeometryTest, WhatPredictsHeldOutPhotographsIsKept) {
   EXPECT_GT(report.trained_psnr, report.before_psnr + 1);
 }
 
+/// A mesh that is too fat everywhere, and a sample of it.
+TEST_F(TrainGeometryTest, ARoughMeshIsJudgedAsACloudIsAndAnExactOneStays) {
+  Capture capture = with(traced_->exact);
+  capture.mesh = synth::make_scene("vase")->mesh();
+  ASSERT_FALSE(capture.mesh.triangles.empty());
+  EXPECT_EQ(chosen(capture, traced_->cameras).kept, Surface::kGiven);
+  const auto push = [](PointCloud& cloud, double by) {
+    for (std::size_t p = 0; p < cloud.positions.size(); ++p)
+      for (std::size_t a = 0; a < 3; ++a) cloud.positions[p][a] += float(by) * cloud.normals[p][a];
+  };
+  push(capture.mesh.vertices, 4 * traced_->step);
+  push(capture.cloud, 4 * traced_->step);
+  EncoderSettings settings = settings_of(Preset::kDefault, 1);
+  settings.surface = Surface::kAuto;
+  settings.q = 16;  // no splats
+  const auto coded = encode(capture, traced_->cameras, settings);
+  ASSERT_TRUE(coded) << coded.error().message;
+  EXPECT_NE(coded->surface.kept, Surface::kGiven);
+  const auto field = decode(coded->stream);
+  ASSERT_TRUE(field);
+  PointCloud cloud;
+  for (const Voxel& v : field->positions) {
+    const Vec3 at = field->header.grid.world(v);
+    cloud.positions.push_back({float(at[0]), float(at[1]), float(at[2])});
+  }
+  EXPECT_LT(share_within(2, capture.cloud), 0.3);
+  EXPECT_GT(share_within(2, cloud), 0.7);
+}
+
 TEST_F(TrainGeometryTest, FewCamerasAndFewPointsAreLeftAloneAndSaid) {
   const std::span<const int> one(traced_->cameras.data(), 1), four(traced_->cameras.data(), 4);
   EXPECT_EQ(training_obstacle(with(traced_->exact), one), "too few cameras");
