@@ -49,6 +49,8 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   training.voxel_size = job.settings.voxel_size;
   training.iterations = kIterations;
   training.threads = job.settings.threads;
+  training.work = job.settings.work;
+  training.resume = job.settings.resume;
   training.seconds = share * job.settings.surface_seconds;
   training.photograph_bytes = double(job.settings.surface_memory) * (1 << 20);
   training.is_volume = job.report.start == StartId::kVolume;

@@ -26,6 +26,8 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   TrainGeometrySettings training;
   training.iterations = kSplatIterations;
   training.threads = settings.threads;
+  training.work = settings.work;
+  training.resume = settings.resume;
   training.seconds = settings.surface_seconds;
   training.photograph_bytes = double(settings.surface_memory) * (1 << 20);
   training.is_volume = start == StartId::kVolume;

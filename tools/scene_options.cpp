@@ -35,7 +35,8 @@ void add_work(CLI::App& verb, SceneOptions& o) {
       ->transform(byte_range(std::int64_t{1} << 28, std::int64_t{1} << 50));
   verb.add_option("--work", o.work,
                   "Directory for points, depth maps and slices that are done; parts may share it. "
-                  "None: FILE.work, removed at the end")
+                  "None: FILE.work, removed at the end. Without parts: for what a training needs "
+                  "to go on")
       ->type_name("DIR");
   verb.add_option("--log", o.log, "File that a line is added to for every slice, and every minute")
       ->type_name("FILE");

@@ -19,10 +19,10 @@ struct SceneOptions {
   std::string part;  ///< "i/n", from 1
   bool resume = false, dry_run = false;
 
-  /// A scene is coded in slices, each with what is near to it.
+  /// A scene is coded in slices, each with what is near to it. --work and --resume alone are of a
+  /// training.
   bool in_parts() const {
-    return memory > 0 || !plan.empty() || !part.empty() || !work.empty() || !log.empty() ||
-           resume || dry_run;
+    return memory > 0 || !plan.empty() || !part.empty() || !log.empty() || dry_run;
   }
 };
 

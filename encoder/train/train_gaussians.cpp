@@ -71,7 +71,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   training.spread = training.together = training.decided = 0;
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
   TrainedSurfels surfels = first_surfels(start, settings);
-  train_surfels(start.views, training, surfels);
+  SLF_CHECK(train_surfels(start.views, training, surfels));
   SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));
   Gaussians out = gaussians_of(surfels);
   out.up = capture.up;

@@ -74,7 +74,7 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
   if (!trained.empty()) start.settings.from = kTrainedBefore;
   TrainedSurfels& surfels = out.surfels;
   surfels = !trained.empty() ? std::move(trained) : first_surfels(start, settings);
-  train_surfels(views, start.settings, surfels);
+  SLF_CHECK(train_surfels(views, start.settings, surfels));
   if (surfels.size() < kLeastPoints) return out;
   Lattice lattice;
   out.pixel = sharpest_pixel(capture, cameras, surfels);

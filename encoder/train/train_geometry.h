@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -21,6 +22,8 @@ struct TrainGeometrySettings {
   std::size_t surfels = 0;  ///< most; 0: as the photographs resolve
   double seconds = 0;       ///< > 0: of training, about; results then depend on the machine
   double photograph_bytes = double(1 << 30);  ///< most, as floats: they are halved to fit
+  std::filesystem::path work = {};            ///< TrainSettings
+  bool resume = false;
   int threads = 0;
 };
 

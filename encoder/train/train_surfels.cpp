@@ -2,10 +2,14 @@
 #include "encoder/train/train_surfels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
+#include <utility>
 
+#include "base/sha256.h"
 #include "base/stopwatch.h"
 #include "encoder/train/adam.h"
 #include "encoder/train/chance.h"
@@ -13,6 +17,7 @@
 #include "encoder/train/grow_surfels.h"
 #include "encoder/train/picture_loss.h"
 #include "encoder/train/surface_pull.h"
+#include "encoder/train/training_checkpoint.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -96,65 +101,152 @@ void pull_opacities(float weight, const TrainedSurfels& surfels,
   }
 }
 
+/// Bytes of a training that decide what comes out of it.
+TrainingDigest digest_of(std::span<const TrainingView> views, const TrainSettings& settings,
+                         const TrainedSurfels& surfels) {
+  Sha256 hash;
+  const auto add = [&](const auto* values, std::size_t count) {
+    hash.update({reinterpret_cast<const std::uint8_t*>(values), count * sizeof *values});
+  };
+  const std::array numbers = {double(settings.iterations), settings.from,
+                              double(settings.surfels),    double(settings.levels),
+                              double(settings.structure),  double(settings.spread),
+                              double(settings.together),   double(settings.decided),
+                              double(views.size()),        double(surfels.size())};
+  add(numbers.data(), numbers.size());
+  for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
+  for (const TrainingView& view : views) {
+    const TrainingCamera& c = view.camera;
+    const std::array whole = {view.index, c.width, c.height, int(c.gaussian)};
+    const std::array lens = {c.fx, c.fy, c.cx, c.cy, c.depth};
+    add(whole.data(), whole.size());
+    add(lens.data(), lens.size());
+    for (const Float3& row : c.rotation) add(row.data(), row.size());
+    for (const Float3* at : {&c.translation, &c.centre, &view.background})
+      add(at->data(), at->size());
+    add(view.picture.value.data(), view.picture.value.size());
+  }
+  return hash.finish();
+}
+
+/// A training between two iterations.
+class Training {
+ public:
+  Training(std::span<const TrainingView> views, const TrainSettings& settings,
+           TrainedSurfels& surfels)
+      : views_(views),
+        settings_(settings),
+        surfels_(surfels),
+        coarser_(pyramid(views, settings.levels, settings.threads)),
+        pixel_(training_pixel(views)),
+        order_(views.size()),
+        iteration_(int(settings.from * settings.iterations)) {
+    adam_.resize(surfels.size());
+    use_.resize(surfels.size());
+  }
+
+  int iteration() const { return iteration_; }
+
+  TrainingState state() const { return {iteration_, drawn_views_, surfels_, adam_, use_}; }
+  void go_on_from(TrainingState state) {
+    for (; iteration_ < state.iteration; ++iteration_) order_.next();
+    drawn_views_ = state.drawn_views;
+    surfels_ = std::move(state.surfels);
+    adam_ = std::move(state.adam);
+    use_ = std::move(state.use);
+  }
+
+  /// @param done  share of the schedule, below 1
+  void step(double done) {
+    const std::size_t level = level_at(done, coarser_.size() + 1);
+    const std::size_t index = order_.next();
+    const TrainingView& view = level == 0 ? views_[index] : coarser_[level - 1][index];
+    const SurfelTiles tiles = tile_surfels(surfels_, view.camera, settings_.threads);
+    draw_surfels(tiles, view, settings_.threads, drawn_);
+    // Similarity every second time, at twice the weight: it takes most of the loss's time.
+    picture_loss(view, drawn_.picture, iteration_ % 2 == 0 ? 2 * settings_.structure : 0,
+                 settings_.threads, buffers_, loss_);
+    const float focal = std::max(view.camera.fx, view.camera.fy);
+    const auto projected = surfel_gradients(tiles, view, drawn_, loss_.gradient,
+                                            settings_.spread * focal * focal, settings_.threads);
+    gradients_.assign(surfels_.size(), {});
+    add_surfel_gradients(surfels_, view.camera, tiles, projected, gradients_, settings_.threads);
+    pull(done);
+    use_.add(tiles, projected);
+    adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), settings_.threads,
+              adam_, surfels_);
+    ++drawn_views_;
+    if (done >= kGrowFirst && done < kGrowLast && iteration_ % kGrowEvery == kGrowEvery - 1) grow();
+    ++iteration_;
+  }
+
+ private:
+  void pull(double done) {
+    if (done > kPullFirst) {
+      // Anew where a checkpoint may be, too: it has no neighbours.
+      if (neighbours_.index.size() != surfels_.size() * SurfelNeighbours::kCount ||
+          iteration_ % kGrowEvery == 0)
+        neighbours_ = surfel_neighbours(surfels_, settings_.threads);
+      pull_together(neighbours_, settings_.together, float(pixel_), settings_.threads, surfels_,
+                    gradients_);
+    }
+    if (done > kDecideFirst) pull_opacities(settings_.decided, surfels_, gradients_);
+  }
+
+  void grow() {
+    GrowSettings grow;
+    grow.most = settings_.surfels;
+    grow.smallest = float(kSmallest * pixel_);
+    grow.all_seen = drawn_views_ >= views_.size();
+    grow_surfels(grow, use_, adam_, surfels_);
+    drawn_views_ = 0;
+  }
+
+  std::span<const TrainingView> views_;
+  const TrainSettings& settings_;
+  TrainedSurfels& surfels_;
+  std::vector<std::vector<TrainingView>> coarser_;
+  double pixel_;
+  AdamState adam_;
+  SurfelUse use_;
+  std::vector<TrainedSurfel> gradients_;
+  SurfelNeighbours neighbours_;
+  DrawnSurfels drawn_;
+  LossBuffers buffers_;
+  PictureLoss loss_;
+  Order order_;
+  std::size_t drawn_views_ = 0;
+  int iteration_;
+};
+
 }  // namespace
 
-void train_surfels(std::span<const TrainingView> views, const TrainSettings& settings,
-                   TrainedSurfels& surfels) {
-  const auto coarser = pyramid(views, settings.levels, settings.threads);
-  const double pixel = training_pixel(views);
-  AdamState state;
-  state.resize(surfels.size());
-  SurfelUse use;
-  use.resize(surfels.size());
-  std::vector<TrainedSurfel> gradients;
-  SurfelNeighbours neighbours;
-  DrawnSurfels drawn;
-  LossBuffers buffers;
-  PictureLoss loss;
-  Order order(views.size());
-  std::size_t drawn_views = 0;
-  Stopwatch watch;
+Result<Done, InputError> train_surfels(std::span<const TrainingView> views,
+                                       const TrainSettings& settings, TrainedSurfels& surfels) {
+  std::optional<TrainingCheckpoint> checkpoint;
+  if (!settings.work.empty() && settings.seconds == 0)
+    checkpoint.emplace(settings.work, digest_of(views, settings, surfels));
+  Training training(views, settings, surfels);
+  if (checkpoint && settings.resume)
+    if (auto state = checkpoint->read(settings.iterations)) training.go_on_from(*std::move(state));
+  Stopwatch watch, saved;
+  double unsaved = 0;           // seconds
   double late = settings.from;  // where the schedule is by the clock
-  for (int i = int(settings.from * settings.iterations); i < settings.iterations; ++i) {
+  while (training.iteration() < settings.iterations) {
+    const int i = training.iteration();
     if (settings.seconds > 0) late += (1 - settings.from) * watch.lap() / settings.seconds;
     const double done = std::max(double(i) / settings.iterations, late);
-    if (done >= 1) return;
-    const std::size_t level = level_at(done, coarser.size() + 1);
-    const std::size_t index = order.next();
-    const TrainingView& view = level == 0 ? views[index] : coarser[level - 1][index];
-    const SurfelTiles tiles = tile_surfels(surfels, view.camera, settings.threads);
-    draw_surfels(tiles, view, settings.threads, drawn);
-    // Similarity every second time, at twice the weight: it takes most of the loss's time.
-    picture_loss(view, drawn.picture, i % 2 == 0 ? 2 * settings.structure : 0, settings.threads,
-                 buffers, loss);
-    const float focal = std::max(view.camera.fx, view.camera.fy);
-    const auto projected = surfel_gradients(tiles, view, drawn, loss.gradient,
-                                            settings.spread * focal * focal, settings.threads);
-    gradients.assign(surfels.size(), {});
-    add_surfel_gradients(surfels, view.camera, tiles, projected, gradients, settings.threads);
-    if (done > kPullFirst &&
-        (neighbours.index.size() != surfels.size() * SurfelNeighbours::kCount ||
-         i % kGrowEvery == 0))
-      neighbours = surfel_neighbours(surfels, settings.threads);
-    if (done > kPullFirst)
-      pull_together(neighbours, settings.together, float(pixel), settings.threads, surfels,
-                    gradients);
-    if (done > kDecideFirst) pull_opacities(settings.decided, surfels, gradients);
-    use.add(tiles, projected);
-    adam_step(gradients, rates_at(done, pixel * std::pow(2.0, double(level))), settings.threads,
-              state, surfels);
-    ++drawn_views;
-    const bool grows = done >= kGrowFirst && done < kGrowLast;
-    if (grows && i % kGrowEvery == kGrowEvery - 1) {
-      GrowSettings grow;
-      grow.most = settings.surfels;
-      grow.smallest = float(kSmallest * pixel);
-      grow.all_seen = drawn_views >= views.size();
-      grow_surfels(grow, use, state, surfels);
-      drawn_views = 0;
+    if (done >= 1) return Done{};
+    unsaved += saved.lap();
+    if (checkpoint && i % kGrowEvery == 0 && unsaved >= settings.checkpoint_every) {
+      SLF_CHECK(checkpoint->write(training.state()));
+      unsaved = 0;
     }
-    if (settings.progress && i % 50 == 0 && !settings.progress(done)) return;
+    training.step(done);
+    if (settings.progress && i % 50 == 0 && !settings.progress(done)) return Done{};
   }
+  if (checkpoint) SLF_CHECK(checkpoint->write(training.state()));
+  return Done{};
 }
 
 }  // namespace slf

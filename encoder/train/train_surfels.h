@@ -2,12 +2,14 @@
 // Surfels that photographs train: through the renderer, coarse to fine.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "encoder/train/trained_surfel.h"
 #include "encoder/train/training_view.h"
+#include "slf/error.h"
 
 namespace slf {
 
@@ -22,6 +24,10 @@ struct TrainSettings {
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
   double seconds = 0;       ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
+  /// Where the training leaves what it would need to go on; empty: nowhere. Not with `seconds`.
+  std::filesystem::path work = {};
+  bool resume = false;          ///< goes on from there, to the bytes of a training in one go
+  double checkpoint_every = 2;  ///< seconds, about
   /// Called now and then with the share that is done; false: no more.
   std::function<bool(double)> progress;
 };
@@ -45,8 +51,9 @@ std::size_t surfels_for(const SurfacePoints& points, double pixel);
 /// Adam on photographs in an order that is drawn once. Surfels that are pulled the most split,
 /// those that nothing shows go.
 /// @param views  of full size
+/// @errors kUnwritable: settings.work
 /// The same for any number of threads. O(iterations (pixels + surfels)).
-void train_surfels(std::span<const TrainingView> views, const TrainSettings& settings,
-                   TrainedSurfels& surfels);
+Result<Done, InputError> train_surfels(std::span<const TrainingView> views,
+                                       const TrainSettings& settings, TrainedSurfels& surfels);
 
 }  // namespace slf

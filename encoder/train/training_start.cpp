@@ -54,6 +54,8 @@ Result<TrainingStart, InputError> training_start(const Capture& capture,
   training.iterations = settings.iterations;
   training.threads = settings.threads;
   training.seconds = settings.seconds;
+  training.work = settings.work;
+  training.resume = settings.resume;
   training.surfels = settings.surfels > 0 ? settings.surfels
                                           : surfels_for(start.points, training_pixel(start.views));
   if (progress)

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
       start_surfels(points, surface.spacing, *views, settings.surfels / 2, kSolidOpacity, 0);
   std::printf("%zu points, %zu photographs, %zu of at most %zu surfels at first: %.1f s\n",
               points.size(), views->size(), surfels.size(), settings.surfels, watch.lap());
-  train_surfels(*views, settings, surfels);
+  if (!train_surfels(*views, settings, surfels)) return 1;
   std::printf("%zu surfels, %d iterations: %.1f s\n", surfels.size(), settings.iterations,
               watch.lap());
   if (argc > 5)
