@@ -14,7 +14,7 @@
 namespace slf {
 namespace {
 
-// Measured: docs/decisions/032-photograph-exposure.md.
+// Measured: docs/decisions/033-photograph-exposure.md.
 constexpr double kLeastDifference = 0.03;  // of most pairs, log
 constexpr double kMostLeft = 0.5;          // of it, with gains
 constexpr std::size_t kLeastPairs = 2;     // for each photograph: of fewer, gains explain anything
