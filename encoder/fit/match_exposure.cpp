@@ -15,9 +15,9 @@ namespace slf {
 namespace {
 
 // Measured: docs/decisions/033-photograph-exposure.md.
-constexpr double kLeastDifference = 0.03;  // of most pairs, log
+constexpr double kLeastDifference = 0.04;  // of most pairs, log
 constexpr double kMostLeft = 0.5;          // of it, with gains
-constexpr std::size_t kLeastPairs = 2;     // for each photograph: of fewer, gains explain anything
+constexpr std::size_t kLeastPairs = 3;     // for each photograph: of fewer, gains explain anything
 
 constexpr std::size_t kComparedPoints = 30'000;  // points that are looked at
 constexpr double kMostCompared = 600'000;        // of them, about: bounds time and memory
