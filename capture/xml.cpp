@@ -10,6 +10,7 @@ namespace slf {
 namespace {
 
 constexpr int kMostNesting = 32;
+constexpr std::size_t kMostElements = std::size_t{1} << 20;  // 120 bytes each, of 4 in a file
 constexpr std::string_view kSpace = " \t\r\n";
 
 class XmlParser {
@@ -31,6 +32,7 @@ class XmlParser {
   /// From its "<" to behind its end.
   Result<XmlElement, InputError> element(int depth) {
     if (depth >= kMostNesting) return invalid("elements are nested too deep");
+    if (++elements_ > kMostElements) return invalid("more than 1,048,576 elements");
     XmlElement result;
     result.line = line();
     advance(1);
@@ -154,7 +156,7 @@ class XmlParser {
 
   const std::string& file_;
   std::string_view text_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, elements_ = 0;
   mutable std::size_t counted_ = 0, line_ = 1;
 };
 

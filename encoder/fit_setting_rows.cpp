@@ -8,6 +8,9 @@ namespace slf {
 
 const SettingScope kPaperFit = {
     "--fit paper", [](const EncoderSettings& s) { return s.fit.method == FitMethod::kPaper; }};
+const SettingScope kHierarchicalFit = {"--fit hierarchical", [](const EncoderSettings& s) {
+                                         return s.fit.method == FitMethod::kHierarchical;
+                                       }};
 const SettingScope kSplines = {"--basis bspline", [](const EncoderSettings& s) {
                                  return s.fit.basis.id == BasisId::kBspline;
                                }};
@@ -16,9 +19,6 @@ namespace {
 
 using namespace row_kinds;
 
-const SettingScope kHierarchical = {"--fit hierarchical", [](const EncoderSettings& s) {
-                                      return s.fit.method == FitMethod::kHierarchical;
-                                    }};
 const SettingScope kHarmonics = {"--basis harmonics", [](const EncoderSettings& s) {
                                    return s.fit.basis.id == BasisId::kHarmonics;
                                  }};
@@ -130,7 +130,7 @@ void add_hierarchy(SettingTable& rows) {
                "global")),
        inner(number("normal-cell-log2", SLF_AT(fit.normal_cell_log2), 0, 20,
                     "Cells that normals of mirrored directions are averaged in"))});
-  add(rows, SettingPart::kFit, group, &kHierarchical,
+  add(rows, SettingPart::kFit, group, &kHierarchicalFit,
       {words_of_fit("cross-validate", {"on", "off"}, "on",
                     "Choose what no option gives of --frame, --block-strength, --block-growth, "
                     "--point-penalty by predicting held-out input images"),

@@ -8,6 +8,8 @@ namespace slf {
 
 /// Where a basis or a fit is the paper's alone. Given without --fit and --basis, these choose it.
 extern const SettingScope kPaperFit, kSplines;
+/// What the default preset has alone.
+extern const SettingScope kHierarchicalFit;
 
 void add_fit_rows(SettingTable& rows);
 

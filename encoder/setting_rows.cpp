@@ -38,15 +38,15 @@ void add_start(SettingTable& rows) {
             "Fit in linear light (sRGB decoded); default: display values"),
        words_of_fit("preset", {"default", "paper"}, "default",
                     "Where all other settings start from; paper: the paper as written"),
-       other({"effort",
-              SettingInfo::kWhole,
-              1,
-              kMostEffort,
-              {},
-              std::to_string(kDefaultEffort),
-              "Time for bytes: 1 is quickest, 8 looks furthest (docs/cli.md)",
-              "",
-              {}})});
+       in(kHierarchicalFit, other({"effort",
+                                   SettingInfo::kWhole,
+                                   1,
+                                   kMostEffort,
+                                   {},
+                                   std::to_string(kDefaultEffort),
+                                   "Time for bytes: 1 is quickest, 8 looks furthest (docs/cli.md)",
+                                   "",
+                                   {}}))});
 }
 
 void add_geometry(SettingTable& rows) {

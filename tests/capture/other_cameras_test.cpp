@@ -83,6 +83,16 @@ TEST(Metashape, ItsTangentialTermsAreThoseOfOpenCvTheOtherWayRound) {
   EXPECT_THAT(capture->cameras[0].distortion, ElementsAre(0, 0, 0.02, 0.01));
 }
 
+TEST(Metashape, AFileOfManySmallElementsIsRefusedBeforeItTakesItsMemory) {
+  std::string elements;
+  for (int i = 0; i < (1 << 20) + 100; ++i) elements += "<a/>";
+  const auto capture = load_with([&](const fs::path& p) {
+    write_metashape(p, replaced(kMetashapeXml, "<chunk ", elements + "<chunk "));
+  });
+  ASSERT_FALSE(capture);
+  EXPECT_THAT(capture.error().message, HasSubstr("more than 1,048,576 elements"));
+}
+
 TEST(Metashape, WhatIsNotReadIsNamedWithItsLine) {
   EXPECT_THAT(metashape_refusal("type=\"frame\"", "type=\"fisheye\""),
               AllOf(HasSubstr("line 6"), HasSubstr("fisheye")));
