@@ -149,7 +149,7 @@ TEST_F(StartingPointsTest, PhotographsAndCamerasBecomeALightField) {
   EXPECT_GT(encoded->points, 1000u);
 }
 
-TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
+TEST_F(StartingPointsTest, AMeshIsTrainedWhereItIsAskedFor) {
   Capture capture = traced_->capture;
   const float side = 0.9f * float(traced_->radius);
   for (int corner = 0; corner < 8; ++corner)
@@ -164,13 +164,10 @@ TEST_F(StartingPointsTest, AMeshStaysUnlessTrainingIsAskedFor) {
   ASSERT_TRUE(sampled);
   capture.cloud = *std::move(sampled);
   EncoderSettings settings = settings_of(Preset::kDefault, 1);
-  for (const Surface surface : {Surface::kAuto, Surface::kTrained}) {
-    settings.surface = surface;
-    const auto encoded = encode(capture, traced_->cameras, settings);
-    ASSERT_TRUE(encoded) << encoded.error().message;
-    EXPECT_EQ(encoded->surface.kept,
-              surface == Surface::kAuto ? Surface::kGiven : Surface::kTrained);
-  }
+  settings.surface = Surface::kTrained;
+  const auto encoded = encode(capture, traced_->cameras, settings);
+  ASSERT_TRUE(encoded) << encoded.error().message;
+  EXPECT_EQ(encoded->surface.kept, Surface::kTrained);
 }
 
 TEST_F(StartingPointsTest, PointsThatAreAnywhereAreNoSurfaceAsGiven) {
