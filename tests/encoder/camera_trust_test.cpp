@@ -51,6 +51,7 @@ class CameraTrustTest : public testing::Test {
 
   static EncoderSettings settings() {
     EncoderSettings s = settings_of(Preset::kDefault, 5);
+    s.surface = Surface::kGiven;
     s.grid_bits = kBits;
     s.q = 4;
     return s;

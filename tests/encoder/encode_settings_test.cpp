@@ -9,6 +9,7 @@ class EncodeSettings : public EndToEnd {
  protected:
   static Result<Encoded, InputError> encoded_to(std::uint64_t bytes, double psnr) {
     EncoderSettings settings;
+    settings.surface = Surface::kGiven;
     settings.grid_bits = 6;
     settings.target_bytes = bytes;
     settings.target_psnr = psnr;
@@ -54,6 +55,7 @@ TEST(Effort, WhereGeometryIsMendedTheFrameIsSearchedAndBelowTheDefaultNothingEls
 
 TEST_F(EncodeSettings, StepsOfBsplinesAreInverseToTheNorms) {
   EncoderSettings settings;
+  settings.surface = Surface::kGiven;
   settings.fit = {};
   settings.search = FitSearch::none();
   settings.transform = TransformMode::kNone;
