@@ -149,7 +149,8 @@ struct CheckSyntax {
   }
 };
 
-/// Writes what was checked before. See WriteSyntax.
+/// Writes what was checked before: parameter sets, slice tables and indices, which tests write
+/// wrong on purpose. See WriteSyntax.
 struct WriteUnchecked {
   BitWriter& out;
 
