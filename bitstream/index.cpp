@@ -80,7 +80,7 @@ Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set) {
 
 std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set) {
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   write.ue("index_num_units", index.entries.size(), Range{0, 0xFFFFFFFE});
   for (const IndexEntry& entry : index.entries) index_entry(write, entry, set);
   index_boxes(write, index.boxes, set.sps_base_levels);

@@ -47,7 +47,7 @@ Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::u
 
 std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set) {
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   sequence_parameter_set(write, set);
   return out.take();
 }

@@ -19,7 +19,7 @@ Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
 std::vector<std::uint8_t> write_slice_table(const SliceTable& table,
                                             const SequenceParameterSet& set) {
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   slice_table(write, table, set.sps_base_levels);
   return out.take();
 }

@@ -3,7 +3,6 @@
 // order of the spec's syntax tables: v.u(4, "sps_level", s.sps_level, {0, 15});
 #pragma once
 
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -149,9 +148,8 @@ struct CheckSyntax {
   }
 };
 
-/// Writes what was checked before: parameter sets, slice tables and indices, which tests write
-/// wrong on purpose. See WriteSyntax.
-struct WriteUnchecked {
+/// Writes. Values are within range: CheckSyntax.
+struct WriteSyntax {
   BitWriter& out;
 
   template <class T>
@@ -175,54 +173,6 @@ struct WriteUnchecked {
   void resize(const char*, const std::vector<T>&, std::uint64_t) {}
   void require(bool, Errc, const char*) {}
   bool ok() const { return true; }
-};
-
-/// Writes. What a reader would refuse is a mistake of ours: builds with assertions stop at it.
-class WriteSyntax {
- public:
-  explicit WriteSyntax(BitWriter& out) : out_(out) {}
-
-  template <class T>
-  void u(int n, const char* name, const T& value, Range range) {
-    check_.u(n, name, value, range);
-    write().u(n, name, value, range);
-  }
-  template <class T>
-  void ue(const char* name, const T& value, Range range) {
-    check_.ue(name, value, range);
-    write().ue(name, value, range);
-  }
-  template <class T>
-  void se(const char* name, const T& value, Range range) {
-    check_.se(name, value, range);
-    write().se(name, value, range);
-  }
-  template <class T>
-  void s8(const char* name, const T& value, Range range) {
-    check_.s8(name, value, range);
-    write().s8(name, value, range);
-  }
-  void f64(const char* name, double value, bool positive) {
-    check_.f64(name, value, positive);
-    write().f64(name, value, positive);
-  }
-  template <class T>
-  void resize(const char* name, const std::vector<T>& list, std::uint64_t size) {
-    require(list.size() == size, Errc::kOutOfRange, name);
-  }
-  void require(bool condition, Errc code, const char* name) {
-    check_.require(condition, code, name);
-    assert(check_.ok());
-  }
-  bool ok() const { return true; }
-
- private:
-  WriteUnchecked write() {
-    assert(check_.ok());
-    return {out_};
-  }
-  BitWriter& out_;
-  CheckSyntax check_;
 };
 
 }  // namespace slf

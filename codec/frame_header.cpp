@@ -125,7 +125,7 @@ std::vector<std::uint8_t> frame_payload(FrameHeader header, std::span<const std:
   if (header.frame_lattice_flag != 0)
     for (auto& size : header.motion.lattice_size) --size;
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   frame_unit(write, header);
   std::vector<std::uint8_t> payload = out.take();
   payload.insert(payload.end(), vectors.begin(), vectors.end());

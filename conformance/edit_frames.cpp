@@ -19,7 +19,7 @@ Bytes changed_header(const Bytes& payload, const std::function<void(FrameHeader&
     for (auto& size : header.motion.lattice_size) --size;
   edit(header);
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   frame_unit(write, header);
   Bytes made = out.take();
   made.insert(made.end(), vectors.begin(), vectors.end());

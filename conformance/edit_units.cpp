@@ -57,7 +57,7 @@ void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
   PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, before);
   part.header.cu_matrix_bytes = bytes.value_or(static_cast<std::uint32_t>(matrix.size()));
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   slice_unit_header(write, part.header, unit.type, after);
   out.append(matrix);
   out.append(part.payload);
@@ -70,7 +70,7 @@ void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
   if (part.header.cu_prediction.size() != modes.size()) return;
   part.header.cu_prediction.assign(modes.begin(), modes.end());
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   slice_unit_header(write, part.header, unit.type, set);
   out.append(part.payload);
   unit.payload = out.take();

@@ -45,7 +45,7 @@ void edit_textures(Units& units,
   Bytes pictures(rest.begin(), rest.end());
   edit(planes, pictures);
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   slice_unit_header(write, part.header, unit.type, set);
   out.align();
   texture_header(write, planes);

@@ -50,7 +50,7 @@ void add_transforms(std::vector<RefusedCase>& cases) {
       transform_header(parse, header, groups);
       edit(header);
       BitWriter out;
-      WriteUnchecked write{out};
+      WriteSyntax write{out};
       transform_header(write, header, groups);
       units[1].payload = out.take();
     });

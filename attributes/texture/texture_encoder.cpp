@@ -49,7 +49,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_texture(
     if (planes[j].tx_picture_flag) pictures.push_back(j);
   }
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   texture_header(write, planes);
   out.align();
   if (pictures.empty()) return out.take();

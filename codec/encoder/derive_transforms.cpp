@@ -280,7 +280,7 @@ std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
   header.tr_colour_flag = t.colour != PlaneTransform::kNoColour;
   header.tr_colour = t.colour;
   BitWriter out;
-  WriteUnchecked write{out};
+  WriteSyntax write{out};
   transform_header(write, header, num_groups);
   return out.take();
 }

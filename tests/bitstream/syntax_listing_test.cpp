@@ -4,7 +4,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "bitstream/slice_headers.h"
 #include "slf/encoder.h"
 #include "slf/syntax_listing.h"
 #include "tests/codec/field_support.h"
@@ -90,18 +89,6 @@ TEST(SyntaxListing, ADamagedStreamGivesTheErrorOfTheDecoder) {
   const auto cut = list_syntax(std::span(stream).first(stream.size() - 1));
   ASSERT_FALSE(cut);
   EXPECT_STREQ(cut.error().element, "unit_payload");
-}
-
-TEST(WriteSyntax, StopsAtWhatAReaderRefuses) {
-  const SequenceParameterSet set;
-  for (const UnitType type : {UnitType::kGeometry, UnitType::kCoefficients}) {
-    SliceUnitHeader header;
-    header.slice_id = 0;
-    header.range = 100;
-    BitWriter out;
-    WriteSyntax write{out};
-    EXPECT_DEBUG_DEATH(unit_ids(write, header, type, set), "ok");
-  }
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ inline Bytes joined_units(Frame units, const std::function<void(FrameHeader&)>& 
     if (edit) edit(header);
     for (auto& size : header.motion.lattice_size) --size;
     BitWriter out;
-    WriteUnchecked write{out};
+    WriteSyntax write{out};
     frame_unit(write, header);
     units[at].payload = out.take();
     units[at].payload.insert(units[at].payload.end(), rest.begin(), rest.end());
