@@ -106,8 +106,34 @@ struct ParseSyntax {
   std::uint64_t last_begin_ = 0;
 };
 
-/// Checks what a caller gives before it is written: a reader would refuse what this does. See
-/// ParseSyntax.
+/// Writes. Values are within range: CheckSyntax.
+struct WriteSyntax {
+  BitWriter& out;
+
+  template <class T>
+  void u(int n, const char*, const T& value, Range) {
+    out.u(n, static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void ue(const char*, const T& value, Range) {
+    out.ue(static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void se(const char*, const T& value, Range) {
+    out.se(value);
+  }
+  template <class T>
+  void s8(const char*, const T& value, Range) {
+    out.u(8, static_cast<std::uint8_t>(value));
+  }
+  void f64(const char*, double value, bool) { out.f64(value); }
+  template <class T>
+  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
+  void require(bool, Errc, const char*) {}
+  bool ok() const { return true; }
+};
+
+/// Checks what is about to be written: a reader would refuse what this does. See ParseSyntax.
 struct CheckSyntax {
   const char* element = nullptr;  ///< the first that is wrong; nullptr: none
   std::int64_t found = 0;
@@ -146,33 +172,6 @@ struct CheckSyntax {
     found = value;
     range = allowed;
   }
-};
-
-/// Writes. Values are within range: CheckSyntax.
-struct WriteSyntax {
-  BitWriter& out;
-
-  template <class T>
-  void u(int n, const char*, const T& value, Range) {
-    out.u(n, static_cast<std::uint64_t>(value));
-  }
-  template <class T>
-  void ue(const char*, const T& value, Range) {
-    out.ue(static_cast<std::uint64_t>(value));
-  }
-  template <class T>
-  void se(const char*, const T& value, Range) {
-    out.se(value);
-  }
-  template <class T>
-  void s8(const char*, const T& value, Range) {
-    out.u(8, static_cast<std::uint8_t>(value));
-  }
-  void f64(const char*, double value, bool) { out.f64(value); }
-  template <class T>
-  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
-  void require(bool, Errc, const char*) {}
-  bool ok() const { return true; }
 };
 
 }  // namespace slf
