@@ -14,7 +14,7 @@ constexpr double kWidest = 8;  // tangents: no lens of this model looks further 
 constexpr double kMostMiss = 1, kMostShare = 1.0 / 2000;  // pixels; of the longer side
 constexpr double kSeenMiss = 0.1;
 
-/// What is added to r.
+/// By how much the lens moves a point outwards from r.
 double bend(const RadialTerms& k, double r) {
   const double s = r * r;
   return r * s * (k[0] + s * (k[1] + s * (k[2] + s * k[3])));

@@ -6,9 +6,9 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 
 #include "encoder/fit_setting_rows.h"
+#include "encoder/setting_row_kinds.h"
 #include "encoder/setting_rows.h"
 
 namespace slf {
@@ -18,10 +18,7 @@ using Outcome = Result<Done, InputError>;
 
 InputError wrong(const std::string& what) { return {Errc::kInvalidArgument, what}; }
 
-std::string shown(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
-}
+using row_kinds::shown;
 
 /// All of the text as one number.
 template <class T>

@@ -2,8 +2,6 @@
 """Checks of arguments: what is wrong is named, and nothing is rounded or cut."""
 from __future__ import annotations
 
-import math
-import numbers
 import operator
 from typing import Any, Tuple, Type, TypeVar
 
@@ -31,14 +29,6 @@ def whole(value: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
         number = low - 1
     if not low <= number <= high:
         raise wrong(name, f'{name} is a whole number of {low} to {high}, not {value!r:.40}')
-    return number
-
-
-def real(value: Any, name: str, low: float, high: float) -> float:
-    """A number of any type; nan is out of every range."""
-    number = float(value) if isinstance(value, numbers.Real) else math.nan
-    if not low <= number <= high:
-        raise wrong(name, f'{name} is a number of {low:g} to {high:g}, not {value!r:.40}')
     return number
 
 
