@@ -38,9 +38,21 @@ int zeroed_buffer(de265_decoder_context*, de265_image_spec* spec, de265_image* i
             kReadBeyond,
         1);
     if (samples == nullptr) return 0;
-    de265_set_image_plane(image, plane, samples, stride, samples);
+    const int row_bytes = stride * static_cast<int>(bytes);
+    de265_set_image_plane(image, plane, samples, row_bytes, samples);
   }
   return 1;
+}
+
+/// Where a stream has SAO, libde265 decodes into pictures that its own functions allocate and that
+/// a decoder's do not reach: those become these. Freed as before, by free() of the planes.
+void zero_internal_buffers() {
+  static const bool done = [] {
+    const auto* functions = de265_get_default_image_allocation_functions();
+    const_cast<de265_image_allocation*>(functions)->get_buffer = zeroed_buffer;  // not const there
+    return true;
+  }();
+  static_cast<void>(done);
 }
 
 void free_buffer(de265_decoder_context*, de265_image* image, void*) {
@@ -48,6 +60,7 @@ void free_buffer(de265_decoder_context*, de265_image* image, void*) {
 }
 
 Decoder new_decoder() {
+  zero_internal_buffers();
   Decoder decoder(de265_new_decoder());
   de265_image_allocation allocation{zeroed_buffer, free_buffer};
   if (decoder) de265_set_image_allocation_functions(decoder.get(), &allocation, nullptr);

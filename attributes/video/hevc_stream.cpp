@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
+#include "attributes/video/hevc_references.h"
 #include "base/error_place.h"
 #include "bitstream/bit_reader.h"
 
@@ -14,6 +16,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kHeaderBytes = 2;
 constexpr std::size_t kMostUnitBytes = 0x7FFFFFFF;  // libde265 counts in int
+constexpr std::size_t kMostHeaderBytes = 1024;  // of a slice, to its references: 49 of 80 bits each
 constexpr int kMostPadding = 63;  // samples of the coded size beyond the window: the largest block
 
 // nal_unit_type, H.265 table 7-1.
@@ -41,7 +44,7 @@ std::size_t start_code(Bytes stream, std::size_t from) {
 }
 
 /// Without emulation prevention bytes: 00 00 03 stands for 00 00. H.265 7.3.1.1.
-std::vector<std::uint8_t> raw_payload(Bytes unit) {
+std::vector<std::uint8_t> raw_payload(Bytes unit, std::size_t most = SIZE_MAX) {
   std::vector<std::uint8_t> raw;
   int zeros = 0;
   for (const std::uint8_t byte : unit.subspan(kHeaderBytes)) {
@@ -49,6 +52,7 @@ std::vector<std::uint8_t> raw_payload(Bytes unit) {
       zeros = 0;
       continue;
     }
+    if (raw.size() == most) break;
     zeros = byte == 0 ? zeros + 1 : 0;
     raw.push_back(byte);
   }
@@ -82,7 +86,8 @@ void expect(BitReader& in, std::uint64_t value, std::uint64_t expected, const ch
   if (value != expected) in.fail(Errc::kOutOfRange, element);
 }
 
-void check_picture_format(BitReader& in, const HevcFormat& expected) {
+/// @return coded width and height
+std::array<std::uint64_t, 2> check_picture_format(BitReader& in, const HevcFormat& expected) {
   const auto chroma = static_cast<std::uint64_t>(expected.chroma);
   expect(in, in.ue("chroma_format_idc"), chroma, "chroma_format_idc");
   if (chroma == 3)
@@ -100,10 +105,12 @@ void check_picture_format(BitReader& in, const HevcFormat& expected) {
   const auto depth = static_cast<std::uint64_t>(expected.bits - 8);
   expect(in, in.ue("bit_depth_luma_minus8"), depth, "bit_depth_luma_minus8");
   expect(in, in.ue("bit_depth_chroma_minus8"), depth, "bit_depth_chroma_minus8");
+  return {width, height};
 }
 
 /// Sizes of blocks: what libde265 would otherwise complain of on standard error.
-void check_blocks(BitReader& in) {
+/// @return log2 of the largest
+int check_blocks(BitReader& in) {
   const std::uint64_t coding_min = in.ue("log2_min_luma_coding_block_size_minus3") + 3;
   const std::uint64_t coding_max = coding_min + in.ue("log2_diff_max_min_luma_coding_block_size");
   const std::uint64_t transform_min = in.ue("log2_min_luma_transform_block_size_minus2") + 2;
@@ -112,15 +119,16 @@ void check_blocks(BitReader& in) {
   if (coding_max > 6 || coding_max < 4 || transform_min >= coding_min ||
       transform_max > std::min<std::uint64_t>(coding_max, 5)) {
     in.fail(Errc::kOutOfRange, "log2_min_luma_coding_block_size_minus3");
-    return;
+    return 0;
   }
   for (const char* depth :
        {"max_transform_hierarchy_depth_inter", "max_transform_hierarchy_depth_intra"})
     if (in.ue(depth) > coding_max - transform_min) in.fail(Errc::kOutOfRange, depth);
+  return static_cast<int>(coding_max);
 }
 
-/// H.265 7.3.2.2, as far as the coding tools.
-Result<Done> check_sps(Bytes unit, const HevcFormat& expected) {
+/// H.265 7.3.2.2, as far as the reference pictures.
+Result<Done> check_sps(Bytes unit, const HevcFormat& expected, HevcReferences& references) {
   const std::vector<std::uint8_t> raw = raw_payload(unit);
   BitReader in(raw);
   in.u(4, "sps_video_parameter_set_id");
@@ -128,23 +136,33 @@ Result<Done> check_sps(Bytes unit, const HevcFormat& expected) {
   in.u(1, "sps_temporal_id_nesting_flag");
   if (sub_layers_minus1 > 6) in.fail(Errc::kOutOfRange, "sps_max_sub_layers_minus1");
   if (in.ok()) skip_profile_tier_level(in, sub_layers_minus1);
-  in.ue("sps_seq_parameter_set_id");
-  check_picture_format(in, expected);
-  if (in.ue("log2_max_pic_order_cnt_lsb_minus4") > 12)
-    in.fail(Errc::kOutOfRange, "log2_max_pic_order_cnt_lsb_minus4");
+  const std::uint64_t id = in.ue("sps_seq_parameter_set_id");
+  if (id > 15) in.fail(Errc::kOutOfRange, "sps_seq_parameter_set_id");
+  const auto size = check_picture_format(in, expected);
+  const std::uint64_t count_bits = in.ue("log2_max_pic_order_cnt_lsb_minus4") + 4;
+  if (count_bits > 16) in.fail(Errc::kOutOfRange, "log2_max_pic_order_cnt_lsb_minus4");
   const bool each = in.u(1, "sps_sub_layer_ordering_info_present_flag") != 0;
   for (int layer = each ? 0 : sub_layers_minus1; layer <= sub_layers_minus1 && in.ok(); ++layer)
     for (const char* element : {"sps_max_dec_pic_buffering_minus1", "sps_max_num_reorder_pics",
                                 "sps_max_latency_increase_plus1"})
       in.ue(element);
-  if (in.ok()) check_blocks(in);
+  const int block_log2 = in.ok() ? check_blocks(in) : 0;
   // Tools that no encoder of ours uses and whose code in a decoder need not be reachable.
   expect(in, in.u(1, "scaling_list_enabled_flag"), 0, "scaling_list_enabled_flag");
   in.u(1, "amp_enabled_flag");
   in.u(1, "sample_adaptive_offset_enabled_flag");
   expect(in, in.u(1, "pcm_enabled_flag"), 0, "pcm_enabled_flag");
+  HevcSequence sequence;
+  if (in.ok()) {
+    const auto blocks = [&](std::uint64_t n) { return ((n - 1) >> block_log2) + 1; };
+    sequence.count_bits = static_cast<int>(count_bits);
+    const std::uint64_t count = blocks(size[0]) * blocks(size[1]);
+    sequence.address_bits = static_cast<int>(std::bit_width(count - 1));
+    read_reference_sets(in, sequence);
+  }
   // Of the NAL unit as a whole: bytes left out of it would have to be counted.
   if (!in.ok()) return Error{in.error().code, in.error().element};
+  references.take_sequence(id, std::move(sequence));
   return Done{};
 }
 
@@ -156,7 +174,8 @@ struct UnitCounts {
   }
 };
 
-Result<Done> check_unit(Bytes unit, const HevcFormat& expected, UnitCounts& counts) {
+Result<Done> check_unit(Bytes unit, const HevcFormat& expected, UnitCounts& counts,
+                        HevcReferences& references) {
   const Error damaged{Errc::kOutOfRange, "hevc_nal_unit", 0};
   // forbidden_zero_bit, nuh_layer_id 0, nuh_temporal_id_plus1 not 0; payload.
   if (unit.size() <= kHeaderBytes || unit.size() > kMostUnitBytes || (unit[0] & 0x81) != 0 ||
@@ -164,7 +183,7 @@ Result<Done> check_unit(Bytes unit, const HevcFormat& expected, UnitCounts& coun
     return damaged;
   const int type = unit_type(unit);
   if (is_skipped(type)) return Done{};
-  if (type == kSps) SLF_CHECK(check_sps(unit, expected));
+  if (type == kSps) SLF_CHECK(check_sps(unit, expected, references));
   counts.vps += type == kVps;
   counts.sps += type == kSps;
   counts.pps += type == kPps;
@@ -173,7 +192,9 @@ Result<Done> check_unit(Bytes unit, const HevcFormat& expected, UnitCounts& coun
     counts.pictures += unit[kHeaderBytes] >> 7;  // first_slice_segment_in_pic_flag
   }
   if (!counts.within(expected.pictures)) return Error{Errc::kOutOfRange, "hevc_pictures", 0};
-  return Done{};
+  if (type == kPps) return references.take_picture_parameters(raw_payload(unit, kMostHeaderBytes));
+  if (!is_picture(type)) return Done{};
+  return references.take_slice(type, (unit[1] & 7) - 1, raw_payload(unit, kMostHeaderBytes));
 }
 
 }  // namespace
@@ -182,6 +203,7 @@ Result<std::vector<Bytes>> split_hevc(Bytes stream, const HevcFormat& expected) 
   if (!is_sound(expected)) return Error{Errc::kOutOfRange, "hevc_format", 0};
   std::vector<Bytes> units;
   UnitCounts counts;
+  HevcReferences references;
   std::size_t at = start_code(stream, 0);
   if (at == stream.size()) return Error{Errc::kTruncated, "hevc_start_code", 0};
   if (std::any_of(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(at),
@@ -192,7 +214,7 @@ Result<std::vector<Bytes>> split_hevc(Bytes stream, const HevcFormat& expected) 
     at = start_code(stream, begin);
     Bytes unit = stream.subspan(begin, at - begin);
     while (!unit.empty() && unit.back() == 0) unit = unit.first(unit.size() - 1);  // B.1
-    SLF_CHECK(counted_from(8 * begin, check_unit(unit, expected, counts)));
+    SLF_CHECK(counted_from(8 * begin, check_unit(unit, expected, counts, references)));
     if (!is_skipped(unit_type(unit))) units.push_back(unit);
   }
   return units;

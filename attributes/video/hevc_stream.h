@@ -21,8 +21,9 @@ using HevcFormat = VideoFormat;
 /// @errors kTruncated: an SPS ends early, or the stream has no NAL unit.
 ///         kOutOfRange: bytes outside NAL units; a unit type not of version 1 or of another layer;
 ///         an SPS whose size, chroma or depth is not the expected one, or with PCM blocks or
-///         scaling lists; more pictures, or more parameter sets of a kind, than expected pictures.
-/// Source: ITU-T H.265 clauses 7.3.1, 7.3.2.2, B.2. O(stream).
+///         scaling lists; more pictures, or more parameter sets of a kind, than expected pictures;
+///         a slice that refers to a picture that is not there.
+/// Source: ITU-T H.265 clauses 7.3.1, 7.3.2.2, 8.3, B.2. O(stream).
 Result<std::vector<std::span<const std::uint8_t>>> split_hevc(std::span<const std::uint8_t> stream,
                                                               const HevcFormat& expected);
 

@@ -2,6 +2,10 @@
 // Video codec adapters: what goes in comes out, and nothing hostile gets through.
 #include <thread>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "attributes/video/hevc_decoder.h"
 #include "attributes/video/hevc_encoder.h"
 #include "attributes/video/hevc_stream.h"
@@ -37,6 +41,13 @@ Decoded decoded(const Bytes& stream, const HevcFormat& format) {
     out.pictures.push_back(picture);
   });
   return out;
+}
+
+/// What new memory holds from now on, where the C library can be told so; 0: as it comes.
+void fill_memory([[maybe_unused]] int value) {
+#ifdef M_PERTURB
+  mallopt(M_PERTURB, value);
+#endif
 }
 
 class HevcRoundTrip : public testing::TestWithParam<VideoCase> {};
@@ -176,6 +187,59 @@ TEST(HevcDecoder, DamageGivesAnErrorOrPicturesOfTheExpectedFormat) {
     }
   }
   EXPECT_GT(2 * refused, tried);
+}
+
+/// Where the units of a stream begin, behind their start codes.
+std::vector<std::size_t> beginnings(const Bytes& stream, const HevcFormat& format) {
+  std::vector<std::size_t> begin;
+  const auto units = split_hevc(stream, format);
+  if (units)
+    for (const auto& unit : *units)
+      begin.push_back(static_cast<std::size_t>(unit.data() - stream.data()));
+  return begin;
+}
+
+TEST(HevcDecoder, AReferenceToAPictureThatIsNotThereIsRefusedBeforeItIsDecoded) {
+  SLF_NEEDS_HEVC();
+  const Bytes stream = encoded(kSmall, {});
+  const auto begin = beginnings(stream, kSmall);  // VPS, SPS, PPS, four pictures
+  ASSERT_EQ(begin.size(), 7u);
+  Bytes cut = stream;
+  const auto at = [&](std::size_t unit) {
+    return cut.begin() + static_cast<std::ptrdiff_t>(begin[unit]) - 3;
+  };
+  cut.erase(at(4), at(5));
+  const Decoded out = decoded(cut, kSmall);
+  ASSERT_FALSE(out.result);
+  EXPECT_STREQ(out.result.error().element, "short_term_ref_pic_set");
+  EXPECT_EQ(out.result.error().bit_offset / 8, begin[4]);  // where the third picture is now
+  EXPECT_TRUE(out.pictures.empty());
+}
+
+TEST(HevcDecoder, DamageGivesTheSameSamplesWhateverTheMemoryHeld) {
+  SLF_NEEDS_HEVC();
+  const HevcFormat format{96, 80, 8, k400, 6};
+  const Bytes stream = encoded(format, {.qp = 30, .preset = "medium"});
+  const auto begin = beginnings(stream, format);
+  ASSERT_EQ(begin.size(), 9u);
+  std::size_t accepted = 0;
+  for (std::size_t unit = 3; unit < begin.size(); ++unit)
+    for (std::size_t bit = 8 * 3; bit < 8 * 7; ++bit) {  // of slice headers
+      Bytes damaged = stream;
+      auto& byte = damaged[begin[unit] + bit / 8];
+      byte = static_cast<std::uint8_t>(byte ^ 1 << bit % 8);
+      fill_memory(0x55);
+      const Decoded once = decoded(damaged, format);
+      fill_memory(0xAA);
+      const Decoded again = decoded(damaged, format);
+      fill_memory(0);
+      ASSERT_EQ(bool{once.result}, bool{again.result}) << "unit " << unit << " bit " << bit;
+      if (!once.result) continue;
+      ++accepted;
+      for (std::size_t i = 0; i < once.pictures.size(); ++i)
+        ASSERT_EQ(once.pictures[i].planes, again.pictures[i].planes) << unit << " bit " << bit;
+    }
+  EXPECT_GT(accepted, 10u);
 }
 
 TEST(HevcDecoder, BytesThatAreNoStreamAreRefused) {

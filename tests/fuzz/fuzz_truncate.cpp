@@ -18,9 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   slf::fuzz::accept(true);
   const auto asked = slf::decode(stream, options);
   if (!asked) return 0;
-  // libde265 gives other pixels each time where prediction names a picture that is not there.
-  const auto info = slf::read_info(stream);
-  if (info && info->profile == 2) return 0;
   const auto same = slf::decode(*cut, options);
   if (!same || same->positions != asked->positions || same->components != asked->components ||
       same->normals.octahedral != asked->normals.octahedral)
