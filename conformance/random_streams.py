@@ -21,23 +21,24 @@ from random_stream import RandomStream, text
 
 
 def decoded_by_text(request):
-    """The arrays, or None where the text decoder refuses."""
+    """The arrays by name, or None where the text decoder refuses."""
     try:
         sequence, _, positions, components, normals = text.decode(*request)
     except text.Refused:
         return None
-    return [positions, components] + ([normals] if sequence.normal_bits else [])
+    arrays = {"positions": positions, "components": components}
+    return {**arrays, "octahedral": normals} if sequence.normal_bits else arrays
 
 
 def decoded_by(command, folder, request):
-    """The arrays of the other decoder, None where it refuses; its exit code."""
+    """The arrays of the other decoder by name, None where it refuses; its exit code."""
     data, levels, groups, layers, region = request
     (folder / "stream.slf").write_bytes(data)
     for old in folder.glob("*.npy"):
         old.unlink()
     options = ["--levels", str(levels)] * bool(levels) + ["--groups", str(groups)] * bool(groups)
     options += ["--layers", str(layers)] * bool(layers)
-    options += ["--region", ",".join(map(str, region))] * bool(region)
+    options += ["--region=" + ",".join(map(str, region))] * bool(region)     # as run.py
     words = []
     for word in shlex.split(command):
         words += options if word == "{options}" else [
@@ -45,15 +46,19 @@ def decoded_by(command, folder, request):
     done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True)
     if done.returncode:
         return None, done.returncode
-    names = [folder / f"{name}.npy" for name in ("positions", "components", "octahedral")]
-    return [np.load(name) for name in names if name.exists()], 0
+    try:
+        return {file.stem: np.load(file) for file in folder.glob("*.npy")}, 0
+    except ValueError:                      # no array
+        return {}, 0
 
 
 def same(ours, others):
-    """Whether two lists of arrays are equal."""
+    """Whether both gave the same arrays, no more and no fewer; those of no numbers need not be there."""
     if ours is None or others is None:
         return ours is others
-    return all(a.size == b.size and (a.ravel() == b.ravel()).all() for a, b in zip(ours, others))
+    ours, others = [{name: array for name, array in arrays.items() if array.size} for arrays in (ours, others)]
+    return ours.keys() == others.keys() and all(
+        array.shape == others[name].shape and (array == others[name]).all() for name, array in ours.items())
 
 
 def main():
