@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/level.h"
 #include "bitstream/sequence_parameter_set.h"
 #include "bitstream/syntax.h"
 #include "slf/error.h"
@@ -125,7 +126,7 @@ void group_layers(V& v, Set& s) {
 template <class V, class Set>
 void sequence_parameter_set(V& v, Set& s) {
   v.u(4, "sps_profile", s.sps_profile, defined(0, kTextureProfile));
-  v.u(4, "sps_level", s.sps_level, defined(0, 0));
+  v.u(4, "sps_level", s.sps_level, defined(0, std::int64_t{kLevels.size() - 1}));
   v.u(5, "sps_grid_bits_minus1", s.sps_grid_bits_minus1, defined(0, 20));
   v.u(1, "sps_unit_grid_flag", s.sps_unit_grid_flag, Range{0, 1});
   if (!s.sps_unit_grid_flag) {

@@ -10,7 +10,7 @@
 namespace slf {
 
 /// Spec 7.1.2: streams of this major version are read whose minor version is kLeastMinor or later.
-inline constexpr int kVersionMajor = 0, kVersionMinor = 7;
+inline constexpr int kVersionMajor = 0, kVersionMinor = 8;
 inline constexpr int kLeastMinor = 7;
 
 /// Profiles that allow one tool more than the main one.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bitstream/index.h"
+#include "bitstream/level.h"
 #include "codec/split_frames.h"
 
 namespace slf {
@@ -23,7 +24,8 @@ const char* misplaced(UnitType type, UnitType expected) {
 /// Spec 7.1: every unit is the next of its owner's slots.
 class Collector {
  public:
-  explicit Collector(const SequenceParameterSet& set) : set_(set) {
+  explicit Collector(const SequenceParameterSet& set)
+      : set_(set), limits_(level_limits(set.sps_level)) {
     scene_.stream.set = set;
     scene_.stream.layout = layout_of(set);
     head_ = scene_.stream.slots(Owner::kHead);
@@ -33,6 +35,7 @@ class Collector {
 
   Result<Done> add(const Unit& unit) {
     ++units_;
+    if (unit.payload.size() > limits_.unit_bytes) return at(unit, "unit_length");  // 9
     if (is_head(unit.type)) return add_head(unit);
     if (unit.type == UnitType::kFrame) return check_frame(unit);
     if (unit.type == UnitType::kEnd) return check_end(unit);
@@ -70,6 +73,9 @@ class Collector {
     if (unit.type != UnitType::kSlices) return Done{};
     SLF_TRY(scene_.stream.table, in_unit(unit, parse_slice_table(unit.payload, set_)));
     scene_.stream.table.offset = unit.offset;
+    const std::uint64_t rows = scene_.stream.table.num_points() + scene_.stream.num_cells();
+    if (!limits_.admits(rows, set_.sps_num_functions))  // 9
+      return of_sequence(Errc::kOutOfRange, "sps_level");
     scene_.slices.resize(scene_.stream.table.slices.size());
     return Done{};
   }
@@ -109,6 +115,7 @@ class Collector {
 
   SceneUnits scene_;
   const SequenceParameterSet& set_;
+  const LevelLimits& limits_;
   std::span<const UnitSlot> head_, base_, slice_;
   std::size_t heads_ = 0;  // units of the head so far
   std::size_t units_ = 0;  // of all

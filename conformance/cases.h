@@ -63,6 +63,7 @@ std::vector<Case> attribute_cases();  ///< among them
 std::vector<Case> texture_cases();    ///< among them: planes as pictures
 std::vector<Case> frame_cases();      ///< among them: light fields that move
 std::vector<Case> growth_cases();     ///< among them: what later versions add
+std::vector<Case> level_cases();      ///< among them
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -76,6 +77,7 @@ std::vector<RefusedCase> refused_cases();
 std::vector<RefusedCase> refused_scenes();        ///< among them
 std::vector<RefusedCase> refused_units();         ///< among them
 std::vector<RefusedCase> refused_growth();        ///< among them
+std::vector<RefusedCase> refused_levels();        ///< among them
 std::vector<RefusedCase> refused_layers();        ///< among them
 std::vector<RefusedCase> refused_apart();         ///< among them
 std::vector<RefusedCase> refused_textures();      ///< among them
@@ -83,5 +85,6 @@ std::vector<RefusedCase> refused_transforms();    ///< among them
 std::vector<RefusedCase> refused_first_frames();  ///< among them
 /// Streams of frames of which those before one may be decoded, and that one is refused.
 std::vector<RefusedCase> refused_frames();
+RefusedCase refused_frame_rate();  ///< among them
 
 }  // namespace slf::conformance

@@ -31,7 +31,7 @@ def order(clause):
 def clauses_of(text):
     """The numbered clauses of 7 and 8, the finest: those that others are parts of are not listed."""
     heads = re.findall(r"^(?:#+ |\*\*)([78]\.\d+(?:\.\d+)?)([ *].*)", text, re.M)
-    found = {clause for clause, rest in heads if "informative" not in rest} | {"3.3"}
+    found = {clause for clause, rest in heads if "informative" not in rest} | {"3.3", "9"}
     return sorted((c for c in found if not any(other.startswith(c + ".") for other in found)), key=order)
 
 

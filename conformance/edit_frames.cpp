@@ -28,7 +28,9 @@ Bytes changed_header(const Bytes& payload, const std::function<void(FrameHeader&
 
 }  // namespace
 
-FrameWriter::FrameWriter(const CodingParameters& parameters) : parameters_(parameters) {
+FrameWriter::FrameWriter(const CodingParameters& parameters, std::uint32_t level)
+    : parameters_(parameters) {
+  group_.level = level;
   parameters_.base_levels = 0;
   parameters_.max_slice_points = kMostSlicePoints;
   parameters_.index = false;

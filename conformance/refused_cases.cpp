@@ -143,6 +143,7 @@ std::vector<RefusedCase> refused_cases() {
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));
   for (RefusedCase& growth : refused_growth()) cases.push_back(std::move(growth));
+  for (RefusedCase& level : refused_levels()) cases.push_back(std::move(level));
   for (RefusedCase& layers : refused_layers()) cases.push_back(std::move(layers));
   for (RefusedCase& apart : refused_apart()) cases.push_back(std::move(apart));
   for (RefusedCase& texture : refused_textures()) cases.push_back(std::move(texture));

@@ -156,11 +156,16 @@ def check_limits():
     sets = code("bitstream/sequence_parameter_set.h")
     shifts = {name: int(power) for name, power in re.findall(r"kMax(\w+) = 1u << (\d+)", sets)}
     shifts["BasePoints"] = int(re.search(r"kMostBaseWeight = std::uint64_t\{1\} << (\d+)", code("geometry/weight_classes.h"))[1])
-    lattice = int(re.search(r"K ≤ 4096, 2\^(\d+) points of a lattice", SPEC)[1])
+    lattice = int(re.search(r"4096 functions, 2\^(\d+) points of a lattice", SPEC)[1])
     agree("points of a lattice", lattice, int(re.search(r"kMostLattice = 1 << (\d+)", code("codec/frame_header.h"))[1]))
     points, slices, cells, weight = map(int, re.search(
-        r"Level 0: 2\^(\d+) points a slice, 2\^(\d+) slices, 2\^(\d+) base cells that weigh 2\^(\d+) together", SPEC).groups())
+        r"at most 2\^(\d+) points a slice, 2\^(\d+) slices, 2\^(\d+) base cells that weigh 2\^(\d+) together", SPEC).groups())
     agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)
+    rows = re.findall(r"^\| (?:rows|values|bytes|points a second) .*\| 2\^(\d+) \| 2\^(\d+) \|", section("Table 9-1", "## Annex A"), re.M)
+    levels = [[f"1u << {power}" for power in level] for level in zip(*rows)]
+    agree("table 9-1", levels, [re.findall(r"1u << \d+", line) for line in re.findall(r"^    \{1u.*\}", code("bitstream/level.h"), re.M)])
+    agree("table 9-1 of the text decoder", [[power.replace("1u", "1") for power in level] for level in levels],
+          [re.findall(r"1 << \d+", level) for level in re.search(r"LEVELS = .*?\* 4, \((.*?)\), \((.*?)\)\)", DECODER).groups()])
     version = re.search(r"Version \*\*(\d+)\.(\d+)\*\*", SPEC).groups()
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
     least = re.search(r"\| if \(unit_type = 1\) sps_version_major, sps_version_minor \|[^|]*\| (\d+); (\d+) ", SPEC).groups()

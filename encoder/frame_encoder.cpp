@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "bitstream/level.h"
 #include "codec/decoder/frame_chain.h"
 #include "codec/encoder/pack_frame.h"
 #include "codec/encoder/pack_parameters.h"
@@ -59,6 +60,16 @@ FrameColours colours_of(const LightField& field, int threads) {
   return colours;
 }
 
+/// Spec 9: the lowest level with room for frames of twice as many points, 30 of them a second.
+std::uint32_t level_of_group(const LightField& field) {
+  const std::uint64_t points = 2 * field.num_points();
+  for (std::uint32_t level = 1; level < kLevels.size(); ++level)
+    if (kLevels[level].admits(points, static_cast<std::uint64_t>(field.header.num_functions)) &&
+        30 * points <= kLevels[level].points_a_second)
+      return level;
+  return 0;
+}
+
 }  // namespace
 
 struct FrameEncoder::Impl {
@@ -68,6 +79,7 @@ struct FrameEncoder::Impl {
   double time = 0;
   std::vector<std::uint8_t> header;  // of all frames, as it is coded
   GroupCoding group;
+  bool outgrown = false;  // a frame was more than the level promised: no more promises
   FrameChain chain;
   FrameColours before;  // as decoded
 
@@ -92,8 +104,34 @@ struct FrameEncoder::Impl {
     return write_sequence_parameter_set(set);
   }
 
+  /// Is the frame what the level of its group promised?
+  bool within_level(const LightField& field, const FrameHeader& frame, std::size_t bytes) const {
+    const LevelLimits& most = level_limits(group.set.sps_level);
+    const auto points = static_cast<double>(field.num_points());
+    const bool slow = !frame.predicted() || points <= static_cast<double>(most.points_a_second) *
+                                                          (frame.frame_time - time);
+    return group.set.sps_level == 0 ||
+           (slow && bytes <= most.unit_bytes &&
+            most.admits(field.num_points(),
+                        static_cast<std::uint64_t>(field.header.num_functions)));
+  }
+
+  /// A frame that is too much for the level of its group begins one that has none.
   Result<std::vector<std::uint8_t>, InputError> code(const LightField& field, FrameHeader& frame) {
-    if (!frame.predicted()) return pack_frame(field, parameters, &frame, &group);
+    SLF_TRY(std::vector<std::uint8_t> bytes, code_in_level(field, frame));
+    if (within_level(field, frame, bytes.size())) return bytes;
+    outgrown = true;
+    frame.frame_predicted_flag = 0;
+    return code_in_level(field, frame);
+  }
+
+  Result<std::vector<std::uint8_t>, InputError> code_in_level(const LightField& field,
+                                                              FrameHeader& frame) {
+    if (!frame.predicted()) {
+      group.level = outgrown ? 0 : level_of_group(field);
+      frame.motion = {};
+      return pack_frame(field, parameters, &frame, &group);
+    }
     const FrameColours now = colours_of(field, parameters.threads);
     frame.motion = choose_motion(now.points(), before.points(), field.header.grid.bits);
     return pack_predicted(field, parameters, group, chain.state(), frame);

@@ -33,6 +33,7 @@ import hevc
 SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
 INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, FILLER, END = 6, 7, 8, 9, 10, 11, 14, 15
 MAX_VALUES = 1 << 28
+LEVELS = ((math.inf,) * 4, (1 << 20, 1 << 26, 1 << 24, 1 << 22), (1 << 24, 1 << 30, 1 << 28, 1 << 25))    # table 9-1
 
 
 class Refused(Exception):
@@ -238,7 +239,7 @@ class Sequence:
             return value
 
         profile = checked(4, lambda v: v <= 2, "sps_profile", Unsupported)
-        checked(4, lambda v: v == 0, "sps_level", Unsupported)
+        self.level = checked(4, lambda v: v <= 2, "sps_level", Unsupported)
         self.grid_bits = checked(5, lambda v: v <= 20, "sps_grid_bits_minus1", Unsupported) + 1
         self.origin, self.step = [0.0] * 3, 1.0
         if not reader.u(1, "sps_unit_grid_flag"):
@@ -1747,6 +1748,7 @@ class Reference:
         """8.12.2, 8.12.4, 8.12.5: cells of every level, means of every level, states by unit."""
         sequence, part = light_field.sequence, light_field.parts[0] if light_field.parts else None
         self.cells, self.means, self.states = [], [], light_field.left
+        self.time = light_field.frame.time
         if part is None or not part.known:
             return
         codes = [morton(*node) for node in part.octree.nodes]
@@ -2331,6 +2333,7 @@ class LightField:
         """7.1: all units behind the sequence."""
         for number, (unit_type, payload, _) in enumerate(units[1:], 1):
             require(unit_type != SEQUENCE, "unit_type")
+            require(len(payload) <= LEVELS[self.sequence.level][2], "unit_length")              # 9
             if unit_type == SLICES:
                 self.read_slices(payload)
             elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT):
@@ -2362,11 +2365,22 @@ class LightField:
         require(not self.slices, "unit_type (slices)")
         require(len(sequence.transforms) == sequence.num_transforms, "sps_num_transforms_minus1")
         self.slices = Slices(sequence, payload)
+        self.check_level()
         self.base = Part(sequence, self.slices, None, None) if sequence.base_levels else None
         self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
         self.fresh_octree = OctreeState(sum(self.slices.points))
         if self.reference:
             self.parts[0].moved = Moved(self.reference, self.frame, sequence.grid_bits)
+
+    def check_level(self):
+        """9: the limits of table 9-1 that the slices unit is held to."""
+        sequence, points = self.sequence, sum(self.slices.points)
+        rows, values, _, rate = LEVELS[sequence.level]
+        count = points + (sum(self.slices.cells) if sequence.base_levels else 0)
+        require(count <= rows, "sps_level (rows)")
+        require(count * max(3 * sequence.functions, 1) <= values, "sps_level (values)")
+        if self.reference and sequence.level:
+            require(points <= rate * (self.frame.time - self.reference.time), "frame_time (points a second)")
 
     def check_whole(self):
         """7.1: before the end unit nothing is missing that was not left out."""

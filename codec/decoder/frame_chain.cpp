@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bitstream/level.h"
 #include "codec/decoder/decode_units.h"
 
 namespace slf {
@@ -17,6 +18,13 @@ Error moved(Error error, std::uint64_t offset) {
 
 /// The reference has no points, or not all of its geometry.
 bool lacks_cells(const FrameState& reference, int bits) { return reference.cells.levels() != bits; }
+
+/// Spec 9: points a second of its level. Seconds: since the reference.
+bool in_time(const StreamHeader& stream, double seconds) {
+  const std::uint64_t most = level_limits(stream.set.sps_level).points_a_second;
+  return static_cast<double>(stream.table.num_points()) <= static_cast<double>(most) * seconds ||
+         stream.set.sps_level == 0;
+}
 
 }  // namespace
 
@@ -54,6 +62,8 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
                                                 const DecodeOptions& options, FrameState& kept) {
   SLF_TRY(const OpenStream opened,
           open_predicted(stream, frame, *group_, options.limits.max_memory));
+  if (!in_time(opened.scene.stream, frame.header.frame_time - time_))
+    return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_time");
   Motion motion = frame.header.motion;
   const int bits = opened.scene.stream.grid_bits();
   if (lacks_cells(state_, bits))
@@ -77,6 +87,7 @@ Result<LightField> FrameChain::decode(std::span<const std::uint8_t> stream, cons
   auto field = predicted ? decode_predicted(stream, frame, options, kept)
                          : decode_intra(stream, frame, options, kept);
   state_ = field ? std::move(kept) : FrameState{};
+  time_ = frame.header.frame_time;
   if (field) return field;
   return moved(field.error(), error_is_of_group_ ? group_offset_ : begins);
 }

@@ -40,6 +40,7 @@ class FrameChain {
   bool error_is_of_group_ = false;       // counts from there, not from the bytes given
   std::optional<GroupRequest> request_;  // what it was asked for
   FrameState state_;
+  double time_ = 0;  // of the frame that was decoded last, in seconds
 };
 
 }  // namespace slf

@@ -17,6 +17,33 @@ Index index_of(std::span<const CodedUnit> units, std::span<const std::uint8_t> e
   return index;
 }
 
+/// The greatest payload.
+std::uint64_t most_bytes(std::span<const CodedUnit> units, std::size_t others) {
+  std::uint64_t most = others;
+  for (const CodedUnit& unit : units) most = std::max<std::uint64_t>(most, unit.payload.size());
+  return most;
+}
+
+/// Spec 9: the lowest level that promises something and admits these units; what was promised to
+/// frames that come stays.
+std::uint32_t level_of(const SequenceParameterSet& set, std::span<const CodedUnit> units,
+                       std::uint64_t unit_bytes) {
+  const CodedUnit* slices = nullptr;
+  for (const CodedUnit& unit : units) {
+    if (unit.type == UnitType::kFrame) return set.sps_level;
+    if (unit.type == UnitType::kSlices) slices = &unit;
+  }
+  if (slices == nullptr) return 0;
+  const auto table = parse_slice_table(slices->payload, set);
+  if (!table) return 0;
+  const std::uint64_t cells = set.sps_base_levels > 0 ? table->num_cells() : 0;
+  for (std::uint32_t level = 1; level < kLevels.size(); ++level)
+    if (kLevels[level].admits(table->num_points() + cells, set.sps_num_functions) &&
+        unit_bytes <= kLevels[level].unit_bytes)
+      return level;
+  return 0;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> end_payload(std::size_t units_before) {
@@ -25,13 +52,15 @@ std::vector<std::uint8_t> end_payload(std::size_t units_before) {
   return end.take();
 }
 
-std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
-                                   std::span<const CodedUnit> units,
+std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const CodedUnit> units,
                                    const std::optional<std::vector<CellBox>>& boxes) {
   const auto end = end_payload(units.size() + (boxes ? 2 : 1));
+  std::vector<std::uint8_t> index;
+  if (boxes) index = write_index(index_of(units, end, *boxes), set);
+  set.sps_level = level_of(set, units, most_bytes(units, index.size()));
   std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
   append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set));
-  if (boxes) append_unit(stream, UnitType::kIndex, write_index(index_of(units, end, *boxes), set));
+  if (boxes) append_unit(stream, UnitType::kIndex, index);
   for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
   append_unit(stream, UnitType::kEnd, end);
   return stream;

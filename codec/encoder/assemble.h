@@ -14,10 +14,9 @@ namespace slf {
 /// The payload of the end unit. Spec 7.10
 std::vector<std::uint8_t> end_payload(std::size_t units_before);
 
-/// Signature, sequence, index, the units, end.
+/// Signature, sequence, index, the units, end. sps_level becomes the lowest that admits them.
 /// @param boxes  of the index, [slices] or none; nullopt: no index
-std::vector<std::uint8_t> assemble(const SequenceParameterSet& set,
-                                   std::span<const CodedUnit> units,
+std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const CodedUnit> units,
                                    const std::optional<std::vector<CellBox>>& boxes);
 
 /// Spec 7.1: units of slices in the order of the layout, each of all slices, behind `units`: a

@@ -14,6 +14,7 @@ namespace slf {
 
 /// What the frames of a group have in common.
 struct GroupCoding {
+  std::uint32_t level = 0;  ///< sps_level of the next, given
   SequenceParameterSet set;
   PlaneGroups groups;
   std::vector<std::uint32_t> steps;
