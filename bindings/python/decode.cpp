@@ -9,6 +9,7 @@ namespace slf::python {
 namespace {
 
 std::shared_ptr<const Stream> open(const py::object& source) {
+  if (RangesView::is(source)) return std::make_shared<Stream>(std::make_shared<RangesView>(source));
   return std::make_shared<Stream>(std::make_shared<BytesView>(source));
 }
 

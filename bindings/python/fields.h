@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "failure.h"
 #include "module.h"
+#include "ranges.h"
 #include "slf/slf.h"
 
 namespace slf::python {
@@ -34,25 +35,30 @@ struct ReleaseField {
   void operator()(slf_field* field) const { slf_release_field(field); }
 };
 
-/// An open stream, and the memory that it is in.
+/// An open stream, and the memory that it is in, or what it is read through.
 class Stream {
  public:
+  explicit Stream(std::shared_ptr<RangesView> ranges) : ranges_(std::move(ranges)) {
+    const slf_reader reader{sizeof reader, 0, ranges_->size(), ranges_.get(), &Stream::read_at};
+    open([&](slf_stream** stream, slf_error* error) {
+      return slf_open_reader(&reader, nullptr, stream, error);
+    });
+  }
   explicit Stream(std::shared_ptr<const BytesView> view) : Stream(view, view->bytes()) {}
   /// @param bytes  some of the view's
   Stream(std::shared_ptr<const BytesView> view, std::span<const std::uint8_t> bytes)
       : view_(std::move(view)) {
-    slf_error error = SLF_ERROR_INIT;
-    slf_stream* stream = nullptr;
-    slf_code code;
-    {
-      const py::gil_scoped_release no_gil;
-      code = slf_open(bytes.data(), bytes.size(), nullptr, &stream, &error);
-    }
-    check(code, error);
-    stream_.reset(stream);
+    open([&](slf_stream** stream, slf_error* error) {
+      return slf_open(bytes.data(), bytes.size(), nullptr, stream, error);
+    });
   }
 
   const slf_stream* get() const { return stream_.get(); }
+
+  /// What a source's own exception was, if it could not be read.
+  void rethrow() const {
+    if (ranges_) ranges_->rethrow();
+  }
 
   py::dict info() const {
     slf_info i{};
@@ -80,6 +86,25 @@ class Stream {
   }
 
  private:
+  static int read_at(void* user, std::uint64_t offset, void* to, std::size_t bytes) {
+    const std::span out(static_cast<std::uint8_t*>(to), bytes);
+    return static_cast<RangesView*>(user)->read(offset, out) ? 0 : 1;
+  }
+
+  template <class Open>
+  void open(const Open& opened) {
+    slf_error error = SLF_ERROR_INIT;
+    slf_stream* stream = nullptr;
+    slf_code code;
+    {
+      const py::gil_scoped_release no_gil;
+      code = opened(&stream, &error);
+    }
+    rethrow();
+    check(code, error);
+    stream_.reset(stream);
+  }
+
   py::tuple metadata(std::uint32_t pairs) const {
     py::tuple all(pairs);
     for (std::uint32_t i = 0; i < pairs; ++i) {
@@ -98,6 +123,7 @@ class Stream {
   }
 
   std::shared_ptr<const BytesView> view_;
+  std::shared_ptr<RangesView> ranges_;
   std::unique_ptr<slf_stream, ReleaseStream> stream_;
 };
 
@@ -132,6 +158,7 @@ class Field {
       const py::gil_scoped_release no_gil;
       code = decode(&field, &error);
     }
+    stream_->rethrow();
     check(code, error);
     field_.reset(field);
     shape_.size = sizeof shape_;

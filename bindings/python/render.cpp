@@ -9,9 +9,11 @@
 #include "cameras.h"
 #include "failure.h"
 #include "module.h"
+#include "ranges.h"
 #include "slf/decoder.h"
 #include "slf/frames.h"
 #include "slf/gaussian_renderer.h"
+#include "slf/part_decoder.h"
 
 namespace slf::python {
 namespace {
@@ -31,7 +33,31 @@ DecodeOptions decode_options(const Part& part) {
   return options;
 }
 
+/// No more is read than is asked for, unless that is all.
+LightField decoded_in_parts(RangesView& ranges, const DecodeOptions& options) {
+  const StreamSource source{ranges.size(), [&](std::uint64_t offset, std::span<std::uint8_t> to) {
+                              return ranges.read(offset, to);
+                            }};
+  const py::gil_scoped_release no_gil;
+  if (const auto beginning = value_of(read_beginning(source, options.limits)))
+    if (auto field = value_of(decode_part(source, *beginning, options))) return *std::move(field);
+  if (source.bytes > options.limits.max_memory)
+    throw failure_of(Error{Errc::kLimitExceeded, "max_memory"});
+  std::vector<std::uint8_t> all(static_cast<std::size_t>(source.bytes));
+  if (!source.read(0, all)) throw failure_of(Error{Errc::kUnreadable, "stream"});
+  return value_of(decode(all, options));
+}
+
 LightField decoded(const py::object& source, const Part& part) {
+  if (RangesView::is(source)) {
+    RangesView ranges(source);
+    try {
+      return decoded_in_parts(ranges, decode_options(part));
+    } catch (const Failure&) {
+      ranges.rethrow();
+      throw;
+    }
+  }
   const BytesView view(source);
   const py::gil_scoped_release no_gil;
   return value_of(decode(view.bytes(), decode_options(part)));

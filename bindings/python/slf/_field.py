@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _slf
 from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole
 from ._notebook import Turntable, png
+from ._ranges import FileRanges, Ranges, UrlRanges, ranges_of, whole_of
 from ._types import Box, Camera, Frame, Info, Source, Vector
 
 
@@ -22,13 +23,22 @@ def _bytes(source: Source) -> Data:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
     if isinstance(source, (str, os.PathLike)):
-        with open(source, 'rb') as file:
-            return file.read()
+        ranges = ranges_of(source)
+        assert ranges is not None
+        return whole_of(ranges)
     read_all = getattr(source, 'read', None)
     data = read_all() if callable(read_all) else None
     if not isinstance(data, (bytes, bytearray, memoryview)):
-        raise TypeError(f'a path, bytes or a binary file are needed, not {type(source).__name__}')
+        raise TypeError(f'a path, an address, bytes or a binary file are needed, not {type(source).__name__}')
     return data
+
+
+def _in_parts(source: Source) -> Union[Data, Ranges]:
+    """What no more is read of than is needed, where that can be."""
+    ranges = ranges_of(source)
+    if ranges is None:
+        return _bytes(source)
+    return ranges if not isinstance(ranges, UrlRanges) or ranges.ranges else whole_of(ranges)
 
 
 def _info(fields: Dict[str, Any]) -> Info:
@@ -36,15 +46,19 @@ def _info(fields: Dict[str, Any]) -> Info:
 
 
 def info(source: Source) -> Info:
-    """Headers of a file or of bytes; nothing is decoded. Raises DamagedError, UnsupportedError."""
-    return _info(_slf.info(_bytes(source)))
+    """Headers of a file, an address or bytes; nothing is decoded.
+
+    Of a file with an index, as `slf encode` writes it, no more is read than its beginning: damage
+    behind it is not seen. Raises DamagedError, UnsupportedError; OSError of a file.
+    """
+    return _info(_slf.info(_in_parts(source)))
 
 
 class LightField:
     """A decoded light field. Arrays are read when first asked for, and are not to be written to."""
 
     def __init__(self, field: _slf.Field, make_renderer: Callable[[], _slf.Renderer],
-                 made_by: Tuple[Callable[..., LightField], Tuple[Any, ...]],
+                 made_by: Callable[[], Tuple[Callable[..., LightField], Tuple[Any, ...]]],
                  frame: Optional[Frame] = None) -> None:
         self._field = field
         self._make_renderer = make_renderer
@@ -57,7 +71,7 @@ class LightField:
 
     def __reduce__(self) -> Tuple[Callable[..., LightField], Tuple[Any, ...]]:
         """Pickled as the bytes of its stream, and decoded again."""
-        return self._made_by
+        return self._made_by()
 
     def __repr__(self) -> str:
         return f'<slf.LightField of {len(self)} points, {self.header.functions} functions>'
@@ -202,7 +216,7 @@ def _fixed(array: npt.NDArray[_Any]) -> npt.NDArray[_Any]:
     return array
 
 
-def _voxels(data: Data, region: Box) -> Tuple[int, ...]:
+def _voxels(data: Union[Data, Ranges], region: Box) -> Tuple[int, ...]:
     """A box of the world in voxels, as `slf decode --region` has it."""
     header = _info(_slf.info(data))
     corners = np.sort(np.asarray(region, float), axis=0)
@@ -215,16 +229,19 @@ def _voxels(data: Data, region: Box) -> Tuple[int, ...]:
 def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
          max_bytes: int = 0, region: Optional[Box] = None, threads: int = 0,
          max_memory: int = 0) -> LightField:
-    """Decodes a file, or bytes (which are not copied, and not to be changed after).
+    """Decodes a file, what an address (https://...) gives, or bytes, which are not to be changed after.
 
     levels: of the octree, 1 to Info.bits, fewer are a coarser cloud; groups: of planes; layers: of
     quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
     region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
     max_memory: bytes that decoding may take, 0 is 2**30.
+    Where less than all is asked for, no more of a file is read than that takes, and of a server that
+    gives ranges no more is fetched; damage in the rest is not seen.
     A light field that moves gives its first frame (frames() has all).
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
-    data = _bytes(source)
+    less = any((levels, groups, layers, max_bytes)) or region is not None
+    data = _in_parts(source) if less else _bytes(source)
     part: Dict[str, Any] = {
         'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
         'layers': whole(layers, 'layers'),
@@ -235,11 +252,13 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     return _decoded(data, part)
 
 
-def _decoded(data: Data, part: Dict[str, Any]) -> LightField:
+def _decoded(data: Union[Data, Ranges], part: Dict[str, Any]) -> LightField:
     return LightField(_slf.Field(data, **part), lambda: _slf.Renderer(data, **part),
-                      (_decoded, (_kept(data), part)))
+                      lambda: (_decoded, (_kept(data), part)))
 
 
-def _kept(data: Data) -> Data:
+def _kept(data: Union[Data, Ranges]) -> Data:
     """Bytes that can be pickled."""
+    if isinstance(data, (FileRanges, UrlRanges)):
+        return whole_of(data)
     return bytes(data) if isinstance(data, memoryview) else data

@@ -45,7 +45,7 @@ class Frames(Sequence[LightField]):
             return [self[i] for i in range(*place.indices(len(self)))]
         at = range(len(self))[place]
         return LightField(self._frames.decode(at), lambda: self._pictures.renderer(at),
-                          (_frame, (_kept(self._data), self._part, at)), self.list[at])
+                          lambda: (_frame, (_kept(self._data), self._part, at)), self.list[at])
 
     def __reduce__(self) -> Tuple[Callable[..., Frames], Tuple[Any, ...]]:
         """Pickled as the bytes of its stream."""

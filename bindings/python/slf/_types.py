@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from ._arguments import pixels
 
-#: A path, bytes, or a file that is open for reading bytes.
+#: A path, an address (http:// or https://), bytes, or a file that is open for reading bytes.
 Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview, IO[bytes]]
 Vector = Tuple[float, float, float]
 Box = Tuple[Sequence[float], Sequence[float]]
