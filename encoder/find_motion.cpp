@@ -2,7 +2,9 @@
 #include "encoder/find_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "encoder/motion_model.h"
 #include "geometry/morton.h"
@@ -10,7 +12,7 @@
 namespace slf {
 namespace {
 
-constexpr int kAffineRounds = 8, kLatticeRounds = 5;
+constexpr int kAffineRounds = 8, kLatticeRounds = 8, kFineRounds = 4, kWidestLattice = 8;
 constexpr std::size_t kAffinePlaces = 6000, kLatticePlaces = 20000;
 
 std::vector<Match> match_all(const CoarseFrame& now, MatchedFrame& before,
@@ -24,24 +26,32 @@ std::vector<Match> match_all(const CoarseFrame& now, MatchedFrame& before,
 
 }  // namespace
 
-Motion find_motion(const FramePoints& now, const FramePoints& before, int bits) {
+std::vector<Motion> find_motions(const FramePoints& now, const FramePoints& before, int bits) {
   if (now.codes.empty() || before.codes.empty()) return {};
   MotionModel motion(bits);
-  const int lattice_log2 = std::clamp(bits - 4, 3, 8);
   for (int dropped = std::max(bits - 4, 0); dropped >= 0; --dropped) {
     const CoarseFrame coarse = coarsen(now, dropped);
     MatchedFrame there(before, dropped);
     for (int round = 0; round < kAffineRounds; ++round)
       motion.fit_affine(match_all(coarse, there, motion, kAffinePlaces));
   }
+  std::vector<Motion> found = {motion.rounded()};
   for (int dropped = std::max(bits - 6, 0); dropped >= 0; --dropped) {
     const CoarseFrame coarse = coarsen(now, dropped);
     MatchedFrame there(before, dropped);
-    if (dropped == std::max(bits - 6, 0)) motion.begin_lattice(coarse, lattice_log2);
+    if (dropped == std::max(bits - 6, 0))
+      motion.begin_lattice(coarse, std::clamp(bits - 3, 3, kWidestLattice));
     for (int round = 0; round < kLatticeRounds; ++round)
       motion.fit_lattice(match_all(coarse, there, motion, kLatticePlaces));
+    if (dropped > 0) continue;
+    found.push_back(motion.rounded());
+    if (motion.lattice_log2() == 3) continue;
+    motion.refine_lattice(coarse);
+    for (int round = 0; round < kFineRounds; ++round)
+      motion.fit_lattice(match_all(coarse, there, motion, kLatticePlaces));
+    found.push_back(motion.rounded());
   }
-  return motion.rounded();
+  return found;
 }
 
 namespace {
@@ -74,18 +84,18 @@ double mismatch(const FramePoints& now, const FramePoints& before, const Referen
 
 Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits) {
   const ReferenceLevel index(before.codes);
-  const Motion found = find_motion(now, before, bits);
-  Motion affine = found;
-  affine.lattice_log2 = 0;
-  affine.lattice_first = affine.lattice_size = {};
-  affine.lattice.clear();
   // A motion with more to code is taken where it foretells this much better.
-  constexpr double kAffineCost = 1.002, kLatticeCost = 1.02;
-  const double none = mismatch(now, before, index, {}, bits),
-               by_affine = kAffineCost * mismatch(now, before, index, affine, bits),
-               by_lattice = kLatticeCost * mismatch(now, before, index, found, bits);
-  if (none <= by_affine && none <= by_lattice) return {};
-  return by_affine <= by_lattice ? affine : found;
+  constexpr std::array<double, 3> kCost = {1.002, 1.04, 1.07};
+  Motion best;
+  double least = mismatch(now, before, index, best, bits);
+  std::vector<Motion> found = find_motions(now, before, bits);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double with = kCost[i] * mismatch(now, before, index, found[i], bits);
+    if (with >= least) continue;
+    least = with;
+    best = std::move(found[i]);
+  }
+  return best;
 }
 
 }  // namespace slf

@@ -17,13 +17,13 @@ struct FramePoints {
   std::span<const std::array<float, 3>> colours;
 };
 
-/// Where the points of `now` were in `before`: an affine motion, and a lattice where that is not
-/// all. Coarse to fine, the nearest in place and colour. Displacements of up to an eighth of the
-/// grid are found.
+/// Where the points of `now` were in `before`: an affine motion, then with a lattice added, then
+/// with one of half the distance. Coarse to fine, the nearest in place and colour. Displacements of
+/// up to an eighth of the grid are found. None where a frame has no points.
 /// The same for any thread count. O(points), 125 cells around each of 20,000 of them.
-Motion find_motion(const FramePoints& now, const FramePoints& before, int bits);
+std::vector<Motion> find_motions(const FramePoints& now, const FramePoints& before, int bits);
 
-/// The same, or its affine part, or none: what foretells places and colours best. Informative.
+/// One of these, or none: what foretells places and colours best. Informative.
 Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits);
 
 }  // namespace slf

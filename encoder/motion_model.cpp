@@ -8,7 +8,7 @@ namespace {
 
 /// How stiff the lattice is: a difference of neighbours costs as much as two points that miss by
 /// it.
-constexpr double kStiffness = 2;
+constexpr double kStiffness = 0.2;
 constexpr int kSolverRounds = 60;
 
 }  // namespace
@@ -26,6 +26,16 @@ void MotionModel::begin_lattice(const CoarseFrame& points, int log2) {
   lattice_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
                       static_cast<std::size_t>(size_[2]),
                   Place::Zero());
+}
+
+void MotionModel::refine_lattice(const CoarseFrame& points) {
+  const MotionModel wide = *this;
+  begin_lattice(points, log2_ - 1);
+  std::size_t k = 0;
+  for (int z = 0; z < size_[2]; ++z)
+    for (int y = 0; y < size_[1]; ++y)
+      for (int x = 0; x < size_[0]; ++x, ++k)
+        lattice_[k] = wide.added(side_ * Place(first_[0] + x, first_[1] + y, first_[2] + z));
 }
 
 void MotionModel::fit_affine(const std::vector<Match>& matches) {

@@ -18,14 +18,19 @@ class MotionModel {
   explicit MotionModel(int bits) : centre_(Place::Constant(std::ldexp(0.5, bits))) {}
 
   Place affine(const Place& p) const { return matrix_ * (p - centre_) + shift_; }
-  Place at(const Place& p) const {
-    Place d = affine(p);
-    if (side_ > 0) for_corners(p, [&](std::size_t i, double w) { d += w * lattice_[i]; });
+  Place at(const Place& p) const { return side_ > 0 ? Place(affine(p) + added(p)) : affine(p); }
+  /// What the lattice adds to the affine part.
+  Place added(const Place& p) const {
+    Place d = Place::Zero();
+    for_corners(p, [&](std::size_t i, double w) { d += w * lattice_[i]; });
     return d;
   }
+  int lattice_log2() const { return log2_; }
 
   /// A lattice over all places of `points`.
   void begin_lattice(const CoarseFrame& points, int log2);
+  /// One of half the distance in its place, which is the same motion.
+  void refine_lattice(const CoarseFrame& points);
 
   template <class Step>
   void for_corners(const Place& p, const Step& step) const {
