@@ -62,6 +62,8 @@ std::vector<Case> layer_cases();      ///< among them
 std::vector<Case> attribute_cases();  ///< among them
 std::vector<Case> texture_cases();    ///< among them: planes as pictures
 std::vector<Case> frame_cases();      ///< among them: light fields that move
+std::vector<Case> limit_cases();      ///< among them: limits that are hard to come to
+std::vector<Case> ordinary_cases();   ///< among them: what small streams do not show
 std::vector<Case> growth_cases();     ///< among them: what later versions add
 std::vector<Case> level_cases();      ///< among them
 

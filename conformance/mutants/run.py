@@ -30,7 +30,7 @@ import text_agrees  # noqa: E402
 
 SOURCE = (SUITE.parent / "spec" / "decoder.py").read_text(encoding="utf-8")
 LIST, CHECKS = HERE / "mutants.txt", HERE / "checks.txt"
-SLOWEST = 8                                # seconds of a processor for one stream
+SLOWEST = 20                               # seconds of a processor for one stream
 
 
 class Mutant:
@@ -174,7 +174,7 @@ LIKELY = "small-noise small-vector deep-scene small-independent small-alone smal
 def all_streams(most):
     """Names and cases of the streams but those of Draco, which are not decoded, the cheapest first."""
     cases = {}
-    for folder in [f for part in ("streams", "refused") for f in (SUITE / part).iterdir() if f.name != "draco"]:
+    for folder in [f for part in ("streams", "refused", "refused_frames") for f in (SUITE / part).iterdir() if f.name != "draco"]:
         text = (folder / "case.json").read_text(encoding="utf-8")
         cost = (folder / "stream.slf").stat().st_size * max(1, text.count('"levels"'))     # of decoding, about
         if cost <= most:
