@@ -17,6 +17,7 @@ constexpr int kRadius = 5;
 constexpr double kSigma = 1.5;
 constexpr float kC1 = 0.01f * 0.01f, kC2 = 0.03f * 0.03f;
 constexpr Float3 kLuma = {0.299f, 0.587f, 0.114f};
+constexpr float kSquareScale = 4;
 constexpr std::size_t kRowsAtOnce = 16;
 
 using Window = std::array<float, 2 * kRadius + 1>;
@@ -130,28 +131,32 @@ double add_structure(const TrainingView& view, const PlanarPicture& drawn, float
   return std::accumulate(sums.begin(), sums.end(), 0.0) / double(count);
 }
 
-SLF_MULTIVERSION_LANES double absolute_error(const float* drawn, const float* photograph,
-                                             std::size_t count, float weight, float* gradient) {
+/// Sum of absolute |error| + squared error^2
+SLF_MULTIVERSION_LANES double pixel_errors(const float* drawn, const float* photograph,
+                                           std::size_t count, float absolute, float squared,
+                                           float* gradient) {
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float error = drawn[i] - photograph[i];
-    sum += double(std::abs(error));
-    gradient[i] = error > 0 ? weight : error < 0 ? -weight : 0;
+    sum += double(absolute * std::abs(error) + squared * error * error);
+    gradient[i] = (error > 0 ? absolute : error < 0 ? -absolute : 0) + 2 * squared * error;
   }
   return sum;
 }
 
 }  // namespace
 
-void picture_loss(const TrainingView& view, const PlanarPicture& drawn, float structure,
+void picture_loss(const TrainingView& view, const PlanarPicture& drawn, const LossShares& shares,
                   int threads, LossBuffers& buffers, PictureLoss& loss) {
   loss.gradient.width = drawn.width;
   loss.gradient.height = drawn.height;
   loss.gradient.value.resize(drawn.value.size());
+  const float structure = shares.structure, pixels = (1 - structure) / 3;
   const double errors =
-      absolute_error(drawn.value.data(), view.picture.value.data(), drawn.value.size(),
-                     (1 - structure) / 3, loss.gradient.value.data());
-  loss.value = double(1 - structure) * errors / double(drawn.value.size());
+      pixel_errors(drawn.value.data(), view.picture.value.data(), drawn.value.size(),
+                   pixels * (1 - shares.squared), pixels * shares.squared * kSquareScale,
+                   loss.gradient.value.data());
+  loss.value = 3 * errors / double(drawn.value.size());
   if (!(structure > 0)) return;
   const double similar = add_structure(view, drawn, structure, threads, buffers, loss.gradient);
   loss.value += double(structure) * (1 - similar);

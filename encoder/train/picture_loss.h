@@ -8,8 +8,10 @@
 
 namespace slf {
 
-/// (1 - structure) * mean |error| over channels + structure * (1 - SSIM of the luma), Kerbl et al.
-/// (2023) with one channel in place of three.
+/// (1 - structure) * mean over channels of (1 - squared) |error| + squared 4 error^2
+/// + structure * (1 - SSIM of the luma): Kerbl et al. (2023) with one channel in place of three,
+/// and a share of squares, by which errors from 1/8 on weigh more. Highlights have these;
+/// magnitudes alone make medians of them.
 struct PictureLoss {
   double value = 0;        ///< mean over the picture's pixels
   PlanarPicture gradient;  ///< of the sum over pixels, by the drawn picture
@@ -21,9 +23,14 @@ struct LossBuffers {
   std::vector<std::vector<float>> moments;
 };
 
-/// @param structure  0 .. 1; 0 saves three quarters of the time
+/// Shares of the loss, each 0 .. 1.
+struct LossShares {
+  float structure = 0;  ///< 0 saves three quarters of the time
+  float squared = 0;    ///< of what is not structure
+};
+
 /// The same for any number of threads. O(pixels).
-void picture_loss(const TrainingView& view, const PlanarPicture& drawn, float structure,
+void picture_loss(const TrainingView& view, const PlanarPicture& drawn, const LossShares& shares,
                   int threads, LossBuffers& buffers, PictureLoss& loss);
 
 }  // namespace slf

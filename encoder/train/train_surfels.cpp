@@ -110,9 +110,10 @@ TrainingDigest digest_of(std::span<const TrainingView> views, const TrainSetting
   };
   const std::array numbers = {double(settings.iterations), settings.from,
                               double(settings.surfels),    double(settings.levels),
-                              double(settings.structure),  double(settings.spread),
-                              double(settings.together),   double(settings.decided),
-                              double(views.size()),        double(surfels.size())};
+                              double(settings.structure),  double(settings.squared),
+                              double(settings.spread),     double(settings.together),
+                              double(settings.decided),    double(views.size()),
+                              double(surfels.size())};
   add(numbers.data(), numbers.size());
   for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
   for (const TrainingView& view : views) {
@@ -164,8 +165,9 @@ class Training {
     const SurfelTiles tiles = tile_surfels(surfels_, view.camera, settings_.threads);
     draw_surfels(tiles, view, settings_.threads, drawn_);
     // Similarity every second time, at twice the weight: it takes most of the loss's time.
-    picture_loss(view, drawn_.picture, iteration_ % 2 == 0 ? 2 * settings_.structure : 0,
-                 settings_.threads, buffers_, loss_);
+    const LossShares shares = {iteration_ % 2 == 0 ? 2 * settings_.structure : 0,
+                               settings_.squared};
+    picture_loss(view, drawn_.picture, shares, settings_.threads, buffers_, loss_);
     const float focal = std::max(view.camera.fx, view.camera.fy);
     const auto projected = surfel_gradients(tiles, view, drawn_, loss_.gradient,
                                             settings_.spread * focal * focal, settings_.threads);

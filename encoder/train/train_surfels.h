@@ -19,6 +19,7 @@ struct TrainSettings {
   std::size_t surfels = 0;  ///< most; 0: one for some 64 pixels of the surface
   int levels = 3;           ///< of photographs: the whole size, and so many halves less one
   float structure = 0.2f;   ///< share of SSIM in the loss
+  float squared = 0;        ///< share of squared errors in what is left, else absolute ones
   float spread = 1e-3f;     ///< weight of the squared spread in depth, pixels
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third

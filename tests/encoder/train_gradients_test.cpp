@@ -192,16 +192,16 @@ TEST(TrainGradientsTest, LossIsThatOfDifferences) {
   draw_surfels(tile_surfels(s.surfels, s.view.camera, 1), s.view, 1, drawn);
   LossBuffers buffers;
   PictureLoss loss, more, less;
-  picture_loss(s.view, drawn.picture, 0.5f, 1, buffers, loss);
+  picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, 1, buffers, loss);
   const auto pixels = double(drawn.picture.pixels());
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < drawn.picture.value.size(); i += 17) {
     constexpr float kStep = 1e-2f;
     PlanarPicture moved = drawn.picture;
     moved.value[i] += kStep;
-    picture_loss(s.view, moved, 0.5f, 1, buffers, more);
+    picture_loss(s.view, moved, {0.5f, 0.4f}, 1, buffers, more);
     moved.value[i] -= 2 * kStep;
-    picture_loss(s.view, moved, 0.5f, 1, buffers, less);
+    picture_loss(s.view, moved, {0.5f, 0.4f}, 1, buffers, less);
     if (std::abs(drawn.picture.value[i] - s.view.picture.value[i]) < kStep) continue;  // a kink
     const double difference = pixels * (more.value - less.value) / (2 * double(kStep));
     apart += std::pow(difference - double(loss.gradient.value[i]), 2);
