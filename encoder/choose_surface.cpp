@@ -11,6 +11,7 @@
 #include "encoder/refine/held_out.h"
 #include "encoder/refine/refine_geometry.h"
 #include "encoder/train/train_geometry.h"
+#include "encoder/trial_file.h"
 
 namespace slf {
 namespace {
@@ -18,6 +19,12 @@ namespace {
 constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the place of another
 constexpr double kPerfect = 48;     // dB: errors of a grey level; what is gained there is nothing
 constexpr double kDense = 3;  // pixels: points that lie farther apart leave holes, exact or not
+// dB of look_of: what a glance at splats may be below a quick fit. blender_can has -2.0, a lattice
+// of rods 0.0, a translucent die +1.0.
+constexpr double kPromise = 1;
+// dB of worth that splats gain more than a surface does by the photographs that a trial has not
+// seen and by the iterations that follow: a lattice 0.4, a die 0.6. docs/decisions/035
+constexpr double kGoesOn = 0.5;
 constexpr int kIterations = 2500;
 constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
 
@@ -27,7 +34,7 @@ struct SurfaceChoice {
   const EncoderSettings& settings;
   SurfaceReport& report;
   const Progress& progress;
-  bool splats;  // may be chosen
+  SplatTrial* splats;  // not null: they may be chosen
 };
 
 /// The capture's points, or mended ones where photographs gain.
@@ -60,12 +67,13 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   return trained;
 }
 
-Result<double, InputError> judged(const SurfaceChoice& job, const CameraParts& parts,
-                                  const VoxelCloud& cloud) {
+Result<DrawnQuality, InputError> judged(const SurfaceChoice& job, const CameraParts& parts,
+                                        const VoxelCloud& cloud) {
   Stopwatch watch;
-  auto psnr = surface_psnr(job.capture, parts.matched, parts.held_out, cloud, job.settings.threads);
+  auto quality =
+      quick_quality(job.capture, parts.matched, parts.held_out, cloud, job.settings.threads);
   job.report.seconds_judge += watch.lap();
-  return psnr;
+  return quality;
 }
 
 Result<VoxelCloud, InputError> on_grid(const TrainedGeometry& trained) {
@@ -80,18 +88,49 @@ Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeom
   return on_grid(trained);
 }
 
-/// Whether splats predict photographs so much better than any surface that they are taken.
-/// @param points  of the best surface
+SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
+  return {job.capture, job.report.start, parts.matched, parts.held_out, job.settings, job.progress};
+}
+
+/// Whether a file of splats is worth more than one of the best surface: both are made, of some
+/// photographs, and judged by the others. Where a quick fit says so already, the second is not.
+/// @param quick  of the surface, after a quick fit
 Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const CameraParts& parts,
-                                           std::size_t points) {
+                                           const VoxelCloud& surface, const DrawnQuality& quick) {
   if (!job.splats) return false;
   Stopwatch watch;
-  SLF_TRY(const auto judged, judge_splats(job.capture, job.report.start, parts.matched,
-                                          parts.held_out, job.settings, job.progress));
+  SLF_TRY(SplatTrial trial, try_splats(splat_job(job, parts)));
   job.report.seconds_train += watch.lap();
-  job.report.splats_psnr = judged.psnr;
-  job.report.splats_bytes = judged.bytes;
-  return splats_win(job.report, points);
+  SurfaceReport& report = job.report;
+  report.as_splats = trial.file;
+  if (trial.file.bytes == 0) return false;
+  *job.splats = std::move(trial);
+  if (splats_win(report, surface.positions.size())) return true;
+  if (look_of(report.as_splats) < look_of(quick)) return false;
+  SLF_TRY(report.as_surface, try_surface(job.capture, parts.matched, parts.held_out, surface,
+                                         job.settings, job.progress));
+  report.seconds_judge += watch.lap();
+  return worth_of(report.as_splats) + kGoesOn > worth_of(report.as_surface);
+}
+
+/// Points that lie where photographs agree are left alone, but for things that are thin or let
+/// light through: there splats that are trained for a moment draw photographs almost as well as a
+/// quick fit, or better.
+Result<bool, InputError> exact_yields(const SurfaceChoice& job, const VoxelCloud& exact) {
+  if (!job.splats) return false;
+  const CameraParts parts = split_for_mending(job.cameras);
+  SLF_TRY(const DrawnQuality quick, judged(job, parts, exact));
+  Stopwatch watch;
+  SLF_TRY(const SplatTrial glance, glance_at_splats(splat_job(job, parts)));
+  job.report.seconds_train += watch.lap();
+  if (look_of(glance.file) < look_of(quick) - kPromise) return false;
+  job.report.before_psnr = quick.psnr;
+  return splats_are_better(job, parts, exact, quick);
+}
+
+VoxelCloud no_surface(const SurfaceChoice& job) {
+  job.report.kept = Surface::kSplats;
+  return {};
 }
 
 /// The points lie so close that nothing is missing between them.
@@ -110,16 +149,15 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
     job.report.untrained = cloud.error().message;
     return before;
   }
-  SLF_TRY(job.report.before_psnr, judged(job, parts, before));
-  SLF_TRY(job.report.trained_psnr, judged(job, parts, *cloud));
+  SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
+  SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
+  job.report.before_psnr = before_quality.psnr;
+  job.report.trained_psnr = trained_quality.psnr;
   const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
   if (job.report.before_psnr > kPerfect) return before;
-  SLF_TRY(const bool better,
-          splats_are_better(job, parts, (pays ? *cloud : before).positions.size()));
-  if (better) {
-    job.report.kept = Surface::kSplats;
-    return VoxelCloud{};
-  }
+  SLF_TRY(const bool better, splats_are_better(job, parts, pays ? *cloud : before,
+                                               pays ? trained_quality : before_quality));
+  if (better) return no_surface(job);
   if (!pays) return before;
   SLF_TRY(const TrainedGeometry by_all,
           trained_by(job, job.cameras, std::move(trained.surfels), kAgain));
@@ -156,6 +194,8 @@ Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
   SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
   if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
   if (job.report.mended.exact && is_dense(choose_density(job.capture, job.cameras))) {
+    SLF_TRY(const bool yields, exact_yields(job, before));
+    if (yields) return no_surface(job);
     job.report.untrained = "the points lie where photographs agree";
     return before;
   }
@@ -241,7 +281,7 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress,
-                                              bool splats) {
+                                              SplatTrial* splats) {
   report = {};
   report.start = start;
   report.points_before = capture.cloud.positions.size();

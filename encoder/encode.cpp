@@ -101,8 +101,8 @@ Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
   report.mended = chosen.mended;
   report.before_psnr = chosen.before_psnr;
   report.trained_psnr = chosen.trained_psnr;
-  report.splats_psnr = chosen.splats_psnr;
-  report.splats_bytes = chosen.splats_bytes;
+  report.as_splats = chosen.as_splats;
+  report.as_surface = chosen.as_surface;
   report.seconds_train += chosen.seconds_train;
   report.seconds_judge += chosen.seconds_judge;
   return splats;
@@ -121,8 +121,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
+  SplatTrial trial;
   SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
-                                    may_be_splats(given)));
+                                    may_be_splats(given) ? &trial : nullptr));
   std::optional<Capture> of_points;  // a mesh that other points took the place of hides nothing
   if (encoded.surface.kept != Surface::kGiven && !capture.mesh.triangles.empty()) {
     of_points = capture;
@@ -130,7 +131,7 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   }
   const Capture& seen = of_points ? *of_points : capture;
   if (encoded.surface.kept == Surface::kSplats) {
-    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress));
+    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress, std::move(trial)));
     return with_choice(std::move(splats), encoded.surface);
   }
   encoded.points = job.cloud.positions.size();
@@ -161,8 +162,7 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress) {
   SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));
-  const auto encode_all =
-      settings.surface == Surface::kSplats && !cameras.empty() ? encode_splats : encode_from;
+  const bool splats = settings.surface == Surface::kSplats && !cameras.empty();
   const StartId start = points ? points->start : StartId::kPoints;
   std::optional<Capture> changed;
   if (points) {
@@ -180,8 +180,9 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
     changed->gains = exposure.gains;
     recorded.metadata.emplace_back("exposure", "matched");
   }
-  SLF_TRY(Encoded encoded,
-          encode_all(changed ? *changed : capture, start, cameras, recorded, progress));
+  const Capture& seen = changed ? *changed : capture;
+  SLF_TRY(Encoded encoded, splats ? encode_splats(seen, start, cameras, recorded, progress)
+                                  : encode_from(seen, start, cameras, recorded, progress));
   if (settings.match_exposure == MatchExposure::kOn && exposure.gains.empty() && !cameras.empty())
     encoded.warnings.push_back(
         "exposure is not matched: photographs have no points in common to compare");

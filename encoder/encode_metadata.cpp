@@ -55,10 +55,11 @@ Metadata surface_metadata(const SurfaceReport& r) {
                            {"refine_psnr_before", hundredths(mended.held_out_before)},
                            {"refine_psnr_after", hundredths(mended.held_out_after)}});
   if (r.kept == Surface::kTrained) out.emplace_back("surfels", std::to_string(r.surfels));
-  if (r.before_psnr > 0)
-    out.insert(out.end(), {{"surface_psnr_before", hundredths(r.before_psnr)},
-                           {"surface_psnr_trained", hundredths(r.trained_psnr)}});
-  if (r.splats_psnr > 0) out.emplace_back("surface_psnr_splats", hundredths(r.splats_psnr));
+  if (r.before_psnr > 0) out.emplace_back("surface_psnr_before", hundredths(r.before_psnr));
+  if (r.trained_psnr > 0) out.emplace_back("surface_psnr_trained", hundredths(r.trained_psnr));
+  if (r.as_splats.bytes > 0) out.emplace_back("surface_psnr_splats", hundredths(r.as_splats.psnr));
+  if (r.as_surface.bytes > 0)
+    out.emplace_back("surface_psnr_fitted", hundredths(r.as_surface.psnr));
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "encoder/encode_splats.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -10,21 +11,24 @@
 #include "encoder/encode_to_target.h"
 #include "encoder/judge_surface.h"
 #include "encoder/train/train_gaussians.h"
+#include "encoder/trial_file.h"
+#include "slf/decoder.h"
 #include "slf/encode_gaussians.h"
 #include "slf/gaussian_renderer.h"
 
 namespace slf {
 namespace {
 
-constexpr int kSplatIterations = 3000;
+constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIterations = 600;
+constexpr std::array kTrialSteps = {kGaussianQ, 10.0, 14.0, 20.0};
 // dB, of splats, which are judged as they will be drawn, over a surface that is judged by a quick
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
 constexpr double kSplatGain = 3.5;
 constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than splats may take
 
-TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start) {
+TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations) {
   TrainGeometrySettings training;
-  training.iterations = kSplatIterations;
+  training.iterations = iterations;
   training.threads = settings.threads;
   training.work = settings.work;
   training.resume = settings.resume;
@@ -32,6 +36,45 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   training.photograph_bytes = double(settings.surface_memory) * (1 << 20);
   training.is_volume = start == StartId::kVolume;
   return training;
+}
+
+/// What a decoder draws of the splats.
+Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capture,
+                                    std::span<const int> held_out,
+                                    const EncoderSettings& settings) {
+  SLF_TRY(const EncodedGaussians file, encode_gaussians(splats, settings));
+  DecodeOptions options;
+  options.threads = settings.threads;
+  options.limits = DecodeLimits::none();
+  const auto decoded = decode(file.stream, options);
+  if (!decoded) return InputError{decoded.error().code, "a trial file does not decode"};
+  SLF_TRY(const Gaussians shown, gaussians_of(*decoded, settings.threads));
+  const GaussianRenderer renderer(shown, {.background = {0, 0, 0}, .threads = 1});
+  SLF_TRY(const DrawnQuality quality,
+          pictures_quality(
+              capture, held_out, [&](const Camera& camera) { return renderer.render(camera); },
+              settings.threads));
+  return TrialFile{quality.psnr, quality.ssim, file.stream.size()};
+}
+
+/// @param steps  one of which is taken
+Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations,
+                                     std::span<const double> steps) {
+  SplatTrial best;
+  SLF_TRY(best.surfels, train_gaussian_surfels(job.capture, job.fitted,
+                                               training_of(job.settings, job.start, iterations), {},
+                                               job.progress));
+  const Gaussians splats = gaussians_of(best.surfels);
+  if (splats.size() == 0) return best;
+  EncoderSettings coding = job.settings;
+  for (const double q : steps) {
+    coding.q = q;
+    SLF_TRY(const TrialFile file, coded(splats, job.capture, job.held_out, coding));
+    if (best.file.bytes > 0 && worth_of(file) <= worth_of(best.file)) break;
+    best.file = file;
+    best.q = q;
+  }
+  return best;
 }
 
 }  // namespace
@@ -47,31 +90,22 @@ bool may_be_splats(const EncoderSettings& settings) {
 
 bool splats_win(const SurfaceReport& report, std::size_t points) {
   const double best = std::max(report.before_psnr, report.trained_psnr);
-  return report.splats_psnr > best + kSplatGain &&
-         double(report.splats_bytes) < kSurfaceBytes * double(points);
+  return report.as_splats.psnr > best + kSplatGain &&
+         double(report.as_splats.bytes) < kSurfaceBytes * double(points);
 }
 
-Result<JudgedSplats, InputError> judge_splats(const Capture& capture, StartId start,
-                                              std::span<const int> fitted,
-                                              std::span<const int> held_out,
-                                              const EncoderSettings& settings,
-                                              const Progress& progress) {
-  SLF_TRY(const Gaussians splats,
-          train_gaussians(capture, fitted, training_of(settings, start), progress));
-  if (splats.size() == 0) return JudgedSplats{};
-  SLF_TRY(const EncodedGaussians coded, encode_gaussians(splats, settings));
-  const GaussianRenderer renderer(splats, {.background = {0, 0, 0}, .threads = 1});
-  SLF_TRY(const double psnr,
-          pictures_psnr(
-              capture, held_out, [&](const Camera& camera) { return renderer.render(camera); },
-              settings.threads));
-  return JudgedSplats{psnr, coded.stream.size()};
+Result<SplatTrial, InputError> try_splats(const SplatJob& job) {
+  return tried(job, kTrialIterations, kTrialSteps);
+}
+
+Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job) {
+  return tried(job, kGlanceIterations, std::span(kTrialSteps).first(1));
 }
 
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings,
-                                          const Progress& progress) {
+                                          const EncoderSettings& settings, const Progress& progress,
+                                          SplatTrial trial) {
   const std::string obstacle =
       cameras.empty() ? "there are no photographs" : training_obstacle(capture, cameras);
   if (!obstacle.empty())
@@ -81,12 +115,16 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  SLF_TRY(const Gaussians splats,
-          train_gaussians(capture, cameras, training_of(settings, start), progress));
+  SLF_TRY(const TrainedSurfels surfels,
+          train_gaussian_surfels(capture, cameras, training_of(settings, start, kSplatIterations),
+                                 std::move(trial.surfels), progress));
+  Gaussians splats = gaussians_of(surfels);
+  splats.up = capture.up;
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};
   EncoderSettings coding = settings;
+  if (trial.q != kAutomaticQ) coding.q = trial.q;
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
   if (progress) progress("code", 0);

@@ -5,36 +5,47 @@
 #include <cstddef>
 #include <span>
 
+#include "encoder/train/trained_surfel.h"
 #include "slf/encoder.h"
 
 namespace slf {
 
-/// What splats of some cameras are worth to others.
-struct JudgedSplats {
-  double psnr = 0;        ///< dB, as surface_psnr; 0: photographs agree on no splat
-  std::size_t bytes = 0;  ///< of the file
+/// Splats of some cameras, and what they are to others.
+struct SplatTrial {
+  TrialFile file;          ///< bytes 0: photographs agree on no splat
+  double q = kAutomaticQ;  ///< with which they are worth most
+  TrainedSurfels surfels;  ///< to go on from
 };
 
-/// @param start  where the capture's points are from
+/// What splats are tried with.
+struct SplatJob {
+  const Capture& capture;
+  StartId start;  ///< where the capture's points are from
+  std::span<const int> fitted, held_out;
+  const EncoderSettings& settings;
+  const Progress& progress;
+};
+
 /// @errors those of train_gaussians, encode_gaussians and load_image
-Result<JudgedSplats, InputError> judge_splats(const Capture& capture, StartId start,
-                                              std::span<const int> fitted,
-                                              std::span<const int> held_out,
-                                              const EncoderSettings& settings,
-                                              const Progress& progress);
+Result<SplatTrial, InputError> try_splats(const SplatJob& job);
+
+/// The same after few iterations, with one step.
+Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job);
 
 /// Whether no setting asks for what only a surface has, or for bytes that splats take another way.
 bool may_be_splats(const EncoderSettings& settings);
 
-/// Whether splats are so much better than the best surface, at no more bytes, that they are taken.
+/// Whether splats are so much better than the best surface after a quick fit, at no more bytes,
+/// that no fit makes it up.
 /// @param points  of that surface
 bool splats_win(const SurfaceReport& report, std::size_t points);
 
 /// @param start  where the capture's points are from
+/// @param trial  to go on from, of some of the cameras; without surfels: from the points
 /// @errors kInvalidInput: photographs train nothing; those of train_gaussians, encode_gaussians
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings,
-                                          const Progress& progress);
+                                          const EncoderSettings& settings, const Progress& progress,
+                                          SplatTrial trial = {});
 
 }  // namespace slf

@@ -10,19 +10,31 @@
 
 namespace slf {
 
-/// PSNR of all pixels of the held-out cameras' pictures, drawn from view maps of low degree that
-/// are fitted to the others, dB. What the surface does not cover counts as what stands behind it.
-/// @errors those of observe, fit_view_maps and load_image
-Result<double, InputError> surface_psnr(const Capture& capture, std::span<const int> fitted,
-                                        std::span<const int> held_out, const VoxelCloud& cloud,
-                                        int threads);
+/// Of all pixels of some photographs' pictures. What is not drawn counts as what stands behind it.
+struct DrawnQuality {
+  double psnr = 0;  ///< dB
+  double ssim = 0;
+};
 
-/// PSNR of all pixels of photographs of a capture against what `draw` draws of their cameras (in
-/// the capture's own coordinates) over black, dB.
+/// Of the held-out cameras' pictures, drawn from view maps of low degree that are fitted to the
+/// others.
+/// @errors those of observe, fit_view_maps and load_image
+Result<DrawnQuality, InputError> quick_quality(const Capture& capture, std::span<const int> fitted,
+                                               std::span<const int> held_out,
+                                               const VoxelCloud& cloud, int threads);
+
+/// Of a surface that was decoded.
+/// @errors those of load_image
+Result<DrawnQuality, InputError> surface_quality(const Capture& capture,
+                                                 std::span<const int> cameras,
+                                                 const LightField& field, int threads);
+
+/// Of photographs of a capture against what `draw` draws of their cameras (in the capture's own
+/// coordinates) over black.
 /// @param draw  called by several threads
 /// @errors those of load_image
-Result<double, InputError> pictures_psnr(const Capture& capture, std::span<const int> cameras,
-                                         const std::function<Rendering(const Camera&)>& draw,
-                                         int threads);
+Result<DrawnQuality, InputError> pictures_quality(
+    const Capture& capture, std::span<const int> cameras,
+    const std::function<Rendering(const Camera&)>& draw, int threads);
 
 }  // namespace slf

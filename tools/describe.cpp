@@ -253,9 +253,16 @@ nlohmann::ordered_json surface_json(const SurfaceReport& r) {
   json["held_out_psnr_splats"] = nullptr;
   if (r.before_psnr > 0) {
     json["held_out_psnr_before"] = r.before_psnr;
-    json["held_out_psnr_trained"] = r.trained_psnr;
-    if (r.splats_psnr > 0) json["held_out_psnr_splats"] = r.splats_psnr;
+    if (r.trained_psnr > 0) json["held_out_psnr_trained"] = r.trained_psnr;
   }
+  const auto trial = [](const TrialFile& file) {
+    return nlohmann::ordered_json{{"psnr", file.psnr}, {"ssim", file.ssim}, {"bytes", file.bytes}};
+  };
+  if (r.as_splats.bytes > 0) {
+    json["held_out_psnr_splats"] = r.as_splats.psnr;
+    json["trial_splats"] = trial(r.as_splats);
+  }
+  if (r.as_surface.bytes > 0) json["trial_surface"] = trial(r.as_surface);
   return json;
 }
 
@@ -264,9 +271,15 @@ std::string surface_text(const SurfaceReport& r) {
   if (r.start == StartId::kHull) from = " of the outlines' hull";
   if (r.start == StartId::kVolume) from = " anywhere before the cameras";
   if (r.before_psnr > 0)
-    judged = text("held-out photographs drawn with %.2f dB trained, %.2f %s", r.trained_psnr,
-                  r.before_psnr, r.mended.outcome == RefineReport::kMended ? "mended" : "given");
-  if (r.splats_psnr > 0) judged += text("; splats %.2f", r.splats_psnr);
+    judged = text("held-out photographs drawn with %.2f dB %s", r.before_psnr,
+                  r.mended.outcome == RefineReport::kMended ? "mended" : "given");
+  if (r.trained_psnr > 0) judged += text(", %.2f trained", r.trained_psnr);
+  if (r.as_splats.bytes > 0) judged += text("; splats %.2f", r.as_splats.psnr);
+  if (r.as_surface.bytes > 0)
+    judged +=
+        text(";\n              a file of %s bytes %.2f, SSIM %.3f; splats %s bytes, SSIM %.3f",
+             grouped(r.as_surface.bytes).c_str(), r.as_surface.psnr, r.as_surface.ssim,
+             grouped(r.as_splats.bytes).c_str(), r.as_splats.ssim);
   if (r.kept == Surface::kSplats)
     return text("surface       none: %s splats, trained from %s points%s%s%s\n",
                 grouped(r.surfels).c_str(), grouped(r.points_before).c_str(), from.c_str(),

@@ -25,6 +25,12 @@ enum class StartId : std::uint8_t {
   kVolume,  ///< points anywhere in what the cameras look at
 };
 
+/// A file of some photographs, for others, all of their pixels; bytes 0: none was made.
+struct TrialFile {
+  double psnr = 0, ssim = 0;
+  std::size_t bytes = 0;
+};
+
 /// What became of the capture's points before anything else. PSNRs are of input photographs that
 /// were held out, all of their pixels, drawn from a quick fit to the others; 0: not judged.
 struct SurfaceReport {
@@ -36,8 +42,8 @@ struct SurfaceReport {
   std::size_t points_before = 0, points_after = 0;
   double before_psnr = 0;  ///< of the points as given, or mended where those are better
   double trained_psnr = 0;
-  double splats_psnr = 0;        ///< of splats, where they may be chosen
-  std::size_t splats_bytes = 0;  ///< of their file then, about
+  TrialFile as_splats;   ///< where they may be chosen and were tried
+  TrialFile as_surface;  ///< of the best surface, where splats are near it: by its whole fit
   double seconds_train = 0, seconds_judge = 0;
 
   double seconds() const { return mended.seconds + seconds_train + seconds_judge; }

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "capture/surface_points.h"
+#include "encoder/choose_surface.h"
 #include "encoder/encode_splats.h"
+#include "encoder/trial_file.h"
 #include "slf/decoder.h"
 #include "slf/gaussian_renderer.h"
 #include "traced_scene.h"
@@ -37,7 +39,7 @@ TEST(EncodeSplats, TranslucentThingsAreCodedAsSplatsWithoutBeingAsked) {
   ASSERT_TRUE(coded) << coded.error().message;
   const SurfaceReport& report = coded->surface;
   EXPECT_EQ(report.kept, Surface::kSplats);
-  EXPECT_GT(report.splats_psnr, std::max(report.before_psnr, report.trained_psnr) + 3.5);
+  EXPECT_GT(report.as_splats.psnr, std::max(report.before_psnr, report.trained_psnr) + 3.5);
   EXPECT_TRUE(has_gaussians(decode(coded->stream)->header));
   EncoderSettings settings;
   EXPECT_TRUE(may_be_splats(settings));
@@ -49,14 +51,51 @@ TEST(EncodeSplats, WinBySoMuchAtNoMoreBytes) {
   SurfaceReport report;
   report.before_psnr = 25;
   report.trained_psnr = 27;
-  report.splats_psnr = 30.6;
-  report.splats_bytes = 50'000;
+  report.as_splats.psnr = 30.6;
+  report.as_splats.bytes = 50'000;
   EXPECT_TRUE(splats_win(report, 100'000));
   EXPECT_FALSE(splats_win(report, 80'000)) << "a surface is smaller";
-  report.splats_psnr = 30.4;
+  report.as_splats.psnr = 30.4;
   EXPECT_FALSE(splats_win(report, 100'000)) << "the surface's fit will gain that";
   report.trained_psnr = 24;
   EXPECT_TRUE(splats_win(report, 100'000));
+}
+
+/// What is chosen where points lie where they should.
+SurfaceReport chosen_from_exact(const char* scene) {
+  const test::TracedScene traced(scene, 5, 10, 80, 6000);
+  Capture capture = traced.capture;
+  capture.cloud = traced.exact;
+  SurfaceReport report;
+  SplatTrial trial;
+  const auto cloud = choose_surface(capture, traced.cameras, settings_of(Preset::kDefault, 4),
+                                    StartId::kPoints, report, {}, &trial);
+  EXPECT_TRUE(cloud) << (cloud ? "" : cloud.error().message);
+  EXPECT_EQ(report.kept == Surface::kSplats, cloud && cloud->positions.empty());
+  EXPECT_EQ(report.as_splats.bytes > 0, !trial.surfels.empty());
+  return report;
+}
+
+TEST(EncodeSplats, ExactPointsThatAFitDrawsWellStay) {
+  EXPECT_EQ(chosen_from_exact("can").kept, Surface::kGiven);
+}
+
+TEST(EncodeSplats, ExactPointsThatLetLightThroughAreComparedByFilesOfBoth) {
+  const SurfaceReport report = chosen_from_exact("die");
+  ASSERT_GT(report.as_splats.bytes, 0u);
+  ASSERT_GT(report.as_surface.bytes, 0u);
+  const double more = worth_of(report.as_splats) - worth_of(report.as_surface);
+  EXPECT_EQ(report.kept == Surface::kSplats, more > -0.5) << more;
+}
+
+TEST(TrialFile, IsWorthWhatPicturesShowLessWhatItTakes) {
+  const TrialFile file{26, 0.9, 40'000};
+  EXPECT_NEAR(worth_of(file) - worth_of({26, 0.9, 80'000}), 0.5, 1e-9);
+  EXPECT_NEAR(worth_of({27, 0.9, 40'000}) - worth_of(file), 0.5, 1e-9);
+  EXPECT_NEAR(worth_of({26, 0.99, 40'000}) - worth_of(file), 5, 1e-9) << "a tenth of the error";
+  EXPECT_GT(worth_of({25.5, 0.907, 26'900}), worth_of({26.2, 0.839, 16'200})) << "die: splats";
+  EXPECT_LT(worth_of({24.8, 0.922, 103'800}), worth_of({27.9, 0.936, 86'300})) << "can: surface";
+  EXPECT_TRUE(std::isfinite(worth_of({50, 1, 1})));
 }
 
 }  // namespace

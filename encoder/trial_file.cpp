@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/trial_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "encoder/choose_step.h"
+#include "encoder/coding_parameters.h"
+#include "encoder/fit_capture.h"
+#include "slf/decoder.h"
+
+namespace slf {
+namespace {
+
+constexpr double kDoubling = 0.5;  // dB that twice the bytes have to gain: docs/decisions/035
+
+}  // namespace
+
+double look_of(const DrawnQuality& drawn) {
+  return (drawn.psnr - 10 * std::log10(std::max(1 - drawn.ssim, 1e-6))) / 2;
+}
+
+double look_of(const TrialFile& file) { return look_of(DrawnQuality{file.psnr, file.ssim}); }
+
+double worth_of(const TrialFile& file) {
+  return look_of(file) - kDoubling * std::log2(double(std::max<std::size_t>(file.bytes, 1)));
+}
+
+Result<TrialFile, InputError> try_surface(const Capture& capture, std::span<const int> fitted,
+                                          std::span<const int> held_out, const VoxelCloud& cloud,
+                                          const EncoderSettings& settings,
+                                          const Progress& progress) {
+  EncoderSettings trial = settings;
+  const bool frame = trial.search.frame;
+  const std::size_t points = trial.search.points;
+  trial.search = FitSearch::none();
+  trial.search.frame = frame;
+  trial.search.points = points;
+  SLF_TRY(CaptureFit fit,
+          fit_capture(capture, fitted, cloud, trial, progress, chooses_step(trial, fitted.size())));
+  trial.fit = fit.chosen.settings;
+  SLF_TRY(const StepAndOrigin step,
+          choose_step(trial, fit, cloud.grid, cloud.positions.size(), fitted.size()));
+  // With all photographs there is more that a step can lose: of a die it is a third.
+  trial.q = std::max(step.q / 2, kPlainQ);
+  fit.held_out.reset();
+  const LightField field = quantise_grid(cloud, std::move(fit), capture.origin, capture.up, trial);
+  SLF_TRY(const auto stream, pack(field, coding_parameters(field, trial)));
+  DecodeOptions options;
+  options.threads = trial.threads;
+  options.limits = DecodeLimits::none();
+  const auto decoded = decode(stream, options);
+  if (!decoded) return InputError{decoded.error().code, "a trial file does not decode"};
+  SLF_TRY(const DrawnQuality quality, surface_quality(capture, held_out, *decoded, trial.threads));
+  return TrialFile{quality.psnr, quality.ssim, stream.size()};
+}
+
+}  // namespace slf
