@@ -2,7 +2,6 @@
 #include "encoder/encode_splats.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 
@@ -20,7 +19,6 @@ namespace slf {
 namespace {
 
 constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIterations = 600;
-constexpr std::array kTrialSteps = {kGaussianQ, 10.0, 14.0, 20.0};
 // dB, of splats, which are judged as they will be drawn, over a surface that is judged by a quick
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
 constexpr double kSplatGain = 3.5;
@@ -57,24 +55,15 @@ Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capt
   return TrialFile{quality.psnr, quality.ssim, file.stream.size()};
 }
 
-/// @param steps  one of which is taken
-Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations,
-                                     std::span<const double> steps) {
-  SplatTrial best;
-  SLF_TRY(best.surfels, train_gaussian_surfels(job.capture, job.fitted,
-                                               training_of(job.settings, job.start, iterations), {},
-                                               job.progress));
-  const Gaussians splats = gaussians_of(best.surfels);
-  if (splats.size() == 0) return best;
-  EncoderSettings coding = job.settings;
-  for (const double q : steps) {
-    coding.q = q;
-    SLF_TRY(const TrialFile file, coded(splats, job.capture, job.held_out, coding));
-    if (best.file.bytes > 0 && worth_of(file) <= worth_of(best.file)) break;
-    best.file = file;
-    best.q = q;
-  }
-  return best;
+Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations) {
+  SplatTrial trial;
+  SLF_TRY(trial.surfels, train_gaussian_surfels(job.capture, job.fitted,
+                                                training_of(job.settings, job.start, iterations),
+                                                {}, job.progress));
+  const Gaussians splats = gaussians_of(trial.surfels);
+  if (splats.size() == 0) return trial;
+  SLF_TRY(trial.file, coded(splats, job.capture, job.held_out, job.settings));
+  return trial;
 }
 
 }  // namespace
@@ -95,11 +84,11 @@ bool splats_win(const SurfaceReport& report, std::size_t points) {
 }
 
 Result<SplatTrial, InputError> try_splats(const SplatJob& job) {
-  return tried(job, kTrialIterations, kTrialSteps);
+  return tried(job, kTrialIterations);
 }
 
 Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job) {
-  return tried(job, kGlanceIterations, std::span(kTrialSteps).first(1));
+  return tried(job, kGlanceIterations);
 }
 
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
@@ -124,7 +113,6 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};
   EncoderSettings coding = settings;
-  if (trial.q != kAutomaticQ) coding.q = trial.q;
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
   if (progress) progress("code", 0);

@@ -13,7 +13,6 @@ namespace slf {
 /// Splats of some cameras, and what they are to others.
 struct SplatTrial {
   TrialFile file;          ///< bytes 0: photographs agree on no splat
-  double q = kAutomaticQ;  ///< with which they are worth most
   TrainedSurfels surfels;  ///< to go on from
 };
 
@@ -29,7 +28,7 @@ struct SplatJob {
 /// @errors those of train_gaussians, encode_gaussians and load_image
 Result<SplatTrial, InputError> try_splats(const SplatJob& job);
 
-/// The same after few iterations, with one step.
+/// The same after few iterations.
 Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job);
 
 /// Whether no setting asks for what only a surface has, or for bytes that splats take another way.
