@@ -9,9 +9,8 @@
 
 namespace slf {
 
-/// Spec 7.1.2: streams of this major version are read whose minor version is kLeastMinor or later.
-inline constexpr int kVersionMajor = 0, kVersionMinor = 8;
-inline constexpr int kLeastMinor = 7;
+/// Spec 7.1.2: streams of this major version are read.
+inline constexpr int kVersionMajor = 1, kVersionMinor = 0;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;

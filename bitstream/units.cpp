@@ -31,7 +31,6 @@ Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::siz
 Result<Done> check_version(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kVersionBytes) return Error{Errc::kTruncated, "sps_version_major"};
   if (bytes[0] != kVersionMajor) return Error{Errc::kUnsupported, "sps_version_major"};
-  if (bytes[1] < kLeastMinor) return Error{Errc::kUnsupported, "sps_version_minor", 8};
   return Done{};
 }
 

@@ -117,9 +117,7 @@ std::vector<RefusedCase> refused_growth() {
     cases.push_back({id, purpose, {clause}, std::move(stream)});
   };
   add("version-major", "a newer major version", "7.1.2", of_version(bare, kVersionMajor + 1, 0));
-  add("version-minor", "a minor version before the rules of growth", "7.1.2",
-      of_version(bare, kVersionMajor, kLeastMinor - 1));
-  add("version-of-drafts", "a stream of 0.6, whose length stood where the major version does",
+  add("version-of-drafts", "a stream of draft 0.6, whose length stood where the major version does",
       "7.1.2", kDraft);
   add("truncated-in-version", "ends inside the version", "7.1.2",
       Bytes(bare.begin(), bare.begin() + 10));

@@ -73,7 +73,7 @@ def unit(unit_type, payload):
         length += bytes([left & 127 | (128 if left > 127 else 0)])
         left >>= 7
     length += bytes([left]) if left else b""
-    version = bytes([0, 8]) if unit_type == text.SEQUENCE else b""      # 7.1.2
+    version = bytes([1, 0]) if unit_type == text.SEQUENCE else b""      # 7.1.2
     body = bytes([unit_type]) + version + length + payload
     return body + zlib.crc32(body).to_bytes(4, "big")
 

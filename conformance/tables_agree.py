@@ -78,7 +78,7 @@ def check_reserved(table, sets):
     text = {name for row in rows for name in re.findall(r"\bsps_\w+", re.sub(r"^ if \(.*?\)", "", row[0]))}
     agree("reserved values of 7.2", sorted(text), sorted(re.findall(r'"(sps_\w+)", [\w.]+,\s+defined\(', sets)))
     agree("reserved values of 7.2 in the text decoder", sorted(text), sorted(
-        set(re.findall(r'"(sps_\w+)", Unsupported', DECODER)) - {"sps_version_major", "sps_version_minor"}))
+        set(re.findall(r'"(sps_\w+)", Unsupported', DECODER)) - {"sps_version_major"}))
 
 
 def check_slices():
@@ -168,17 +168,16 @@ def check_limits():
           [re.findall(r"1 << \d+", level) for level in re.search(r"LEVELS = .*?\* 4, \((.*?)\), \((.*?)\)\)", DECODER).groups()])
     version = re.search(r"Version \*\*(\d+)\.(\d+)\*\*", SPEC).groups()
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
-    least = re.search(r"\| if \(unit_type = 1\) sps_version_major, sps_version_minor \|[^|]*\| (\d+); (\d+) ", SPEC).groups()
-    agree("least version", least, (version[0], re.search(r"kLeastMinor = (\d+)", sets).group(1)))
-    agree("least version of the text decoder", least, re.search(
-        r'== (\d+), "sps_version_major", Unsupported\)\s+require\(data\[position \+ 2\] >= (\d+)', DECODER).groups())
+    major = re.search(r"\| if \(unit_type = 1\) sps_version_major, sps_version_minor \|[^|]*\| (\d+); 0 ", SPEC).group(1)
+    agree("major version", major, version[0])
+    agree("major version of the text decoder", major, re.search(r'== (\d+), "sps_version_major", Unsupported', DECODER).group(1))
     agree("bytes of an extension", int(re.search(r"\| the bytes that are left \| 2\^(\d+) bytes", SPEC)[1]),
           int(re.search(r"kMostExtensionBytes = 1 << (\d+)", code("bitstream/parameter_sets.cpp"))[1]))
     first = re.search(r"the\s+weights\s+of\s+the\s+N\s+contexts\s+are ⌊(\d+) / N⌋,\s+the\s+others\s+0\.", SPEC).group(1)
     agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
     agree("first weights of 8.3.5 in the code", True, first in "".join(map(code, ("entropy/mixed_bit.h", "entropy/context_bit.h"))))
-    first = re.findall(r"(?:Three|Two)\s+families\s+of\s+sets,\s+all\s+weights\s+(\d+)\s+at\s+first", SPEC)
-    agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\(\[(\d+)\] \* 8\)", DECODER))
+    first = re.findall(r"(?:Three|Two)\s+families\s+of\s+sets,\s+all\s+weights\s+(?:of the first two\s+)?(\d+)\s+at\s+first", SPEC)
+    agree("first weights of 8.4.2 and 8.4.6", first, re.findall(r"\[Mixer\(\[(\d+)\] \* 8\) for", DECODER))
     constants = [re.search(rf"{letter} = (0x\w{{16}})", section("#### 8.4.4 ", "### 8.5 ")).group(1) for letter in "AB"]
     agree("constants of 8.4.4", constants, re.findall(r"0x\w{16}", re.search("HASH_A, HASH_B = .*", DECODER).group(0)))
     coded = code("geometry/occupancy_model.h")

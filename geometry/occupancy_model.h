@@ -19,6 +19,7 @@
 #include "geometry/occupancy_history.h"
 #include "geometry/occupancy_node.h"
 #include "geometry/occupancy_rows.h"
+#include "geometry/occupancy_slabs.h"
 #include "geometry/occupancy_states.h"
 #include "geometry/occupancy_window.h"
 #include "geometry/octree_levels.h"
@@ -44,15 +45,18 @@ class OccupancyModel {
 
   /// only: do most nodes of the level have one child only? Spec 8.4.1; the encoder's.
   template <class Coder>
-  void start_level(Coder& coder, int level, bool only = false) {
+  void start_level(Coder& coder, const OctreeLevel& nodes, int level, bool only = false) {
     history_.start_level(level);
     level_ = static_cast<std::uint32_t>(level);
+    sparse_ = nodes.neighbours.size() < 12 * nodes.size();  // spec 8.4.8
     only_ = coder.raw(1, only) != 0;
     if (only_ && states_.only_rows.empty())
       states_.only_rows = std::vector<EightLanes>(states_.rows.size());
   }
-  /// nodes: of the level, all coded.
-  void finish_level(const OctreeLevel& nodes) { history_.finish_level(nodes.morton); }
+  void finish_level(const OctreeLevel& nodes) {
+    history_.finish_level(nodes.morton);
+    slabs_.finish_level(nodes.morton, static_cast<int>(level_));
+  }
 
   /// Codes the occupancy of node n. The nodes before it are known, those from n on have 0. The
   /// encoder passes the occupancy, the decoder 0; both get it back: 1 .. 255.
@@ -67,30 +71,25 @@ class OccupancyModel {
       coded = reference_ != nullptr ? code_children<true>(coder, view, nodes, n, occupancy)
                                     : code_children<false>(coder, view, nodes, n, occupancy);
     history_.store(static_cast<std::uint8_t>(coded));
-    constexpr std::uint32_t kFirst = OccupancyStates::kFirstRate,
-                            kLast = OccupancyStates::kLastRate;
-    states_.rate =
-        static_cast<std::int32_t>(kFirst - std::min(++states_.num_nodes >> 13, kFirst - kLast));
+    states_.count_node();
     return static_cast<std::uint8_t>(coded);
   }
 
  private:
-  using Node = OccupancyNode;
   using States = OccupancyStates;
 
   /// Rows of table 8-3; the first of only children alone (8.4.6).
   enum Hashed { kByNeighbours, kByColumns, kByCells };
 
   static constexpr unsigned kOnly = 256;  // as the second argument of group()
-  /// From here on what the rows say is not asked to be confirmed. Found on the clouds of
-  /// docs/decisions/001.
+  /// From here on rows need no contexts. Found on the clouds of docs/decisions/001.
   static constexpr std::int32_t kCertain = 1152;
   static constexpr std::uint64_t kFactorA = 0x9E3779B97F4A7C15u, kFactorB = 0xC2B2AE3D27D4EB4Fu;
 
   template <bool kPredicted, class Coder>
   unsigned code_children(Coder& coder, const NodeView& view, const OctreeLevel& nodes,
                          std::size_t n, unsigned occupancy) {
-    Node node = node_contexts<kPredicted>(view);
+    OccupancyNode node = node_contexts<kPredicted>(view);
     const SelectedRows rows = rows_of(view, nodes, n, states_.rows);
     node.by_rows = rows.logistic();
     unsigned coded = 0;
@@ -106,6 +105,7 @@ class OccupancyModel {
     else
       code_child<kPredicted>(7, coder, node, coded, occupancy);
     rows.update(0xFF, coded, states_.rate);
+    if (!kPredicted && sparse_) slabs_.store(view.cell, coded);
     return coded;
   }
 
@@ -117,10 +117,7 @@ class OccupancyModel {
     const std::uint32_t by_columns = group(kByColumns, view.columns * kFactorA, kOnly, 3);
     const std::uint32_t by_cells =
         group(kByCells, view.occupied * kFactorA + view.unknown * kFactorB, kOnly, 3);
-    const auto beside = [&](unsigned d) {  // towards a lower coordinate: coded before
-      return only_child((view.neighbours >> d & 1) != 0 ? nodes.occupancy[nodes.neighbour(n, d)]
-                                                        : 0);
-    };
+    const auto beside = [&](unsigned d) { return only_child(view.known[d]); };  // coded before
     ContextBit* const by_beside =
         &states_.beside[States::Places::index(beside(4), beside(10), beside(12), 0)];
     ContextBit* const by_latest = &states_.latest[States::Places::index(
@@ -135,22 +132,25 @@ class OccupancyModel {
           &states_.hashed[kByColumns][by_columns + place],
           &states_.hashed[kByCells][by_cells + place]};
       const SelectedContexts<5> contexts(selected);
-      const EightLanes seventh(std::array<std::int16_t, 8>{0, 0, 0, 0, 0, 0, by_rows[place]});
-      const Mixed<2> mixed(
-          contexts.inputs().saturating_plus(seventh),
+      const OccupancySlabs::Place slab = slabs_.place(place, view.cell);
+      const EightLanes last(
+          std::array<std::int16_t, 8>{0, 0, 0, 0, 0, 0, by_rows[place], slab.input});
+      const Mixed<3> mixed(
+          contexts.inputs().saturating_plus(last),
           {&states_.place_by_class[States::PlaceByClass::index(place, view.neighbours_class)],
-           &states_.place_by_level[States::PlaceByLevel::index(place, level_)]});
+           &states_.place_by_level[States::PlaceByLevel::index(place, level_)],
+           &states_.place_by_slab[States::PlaceBySlab::index(slab.axis, slab.sixteenth())]});
       bit = by_branch(coder.bit(mixed.p1(), bit));
       mixed.update(bit, states_.rate);
       contexts.update(bit);
+      slab.update(bit);
       decided |= 1u << place;
       ones |= bit << place;
       return bit;
     };
     unsigned coded = 0;
     if (code_place(0, std::has_single_bit(occupancy)) != 0) {
-      const unsigned child = only_child(occupancy);
-      unsigned place = 1;
+      unsigned child = only_child(occupancy), place = 1;
       for (unsigned axis = 3; axis-- > 0;) place = 2 * place | code_place(place, child >> axis & 1);
       coded = 1u << (place & 7);
     }
@@ -195,17 +195,19 @@ class OccupancyModel {
   }
 
   template <bool kPredicted>
-  Node node_contexts(const NodeView& view) {
-    Node node;
+  OccupancyNode node_contexts(const NodeView& view) {
+    OccupancyNode node;
     node.neighbours_class = view.neighbours_class;
     node.columns = view.columns * kFactorA;
     node.columns_group = group(kByColumns, node.columns, 0, 4);
+    const std::uint64_t slabs = sparse_ ? slabs_.children(view.cell) : 0;
     SLF_UNROLL_8
     for (unsigned c = 0; c < 8; ++c) {
       OccupancyChild& child = node.child[c];
       const Surroundings around = surroundings(view.occupied, view.unknown, c);
       child.occupied = static_cast<unsigned>(std::popcount(around.occupied));
       child.corner = corner_of(view.neighbours, c);
+      child.slabs = slabs >> 8 * c & 255;
       if (c < 6) prefetch(&states_.corner[States::Corner::index(child.corner, 1u << c)]);
       child.cells = around.occupied * kFactorA + (around.unknown << 3 | c) * kFactorB;
       if (c < 4) child.group = group(kByCells, child.cells, 0, 3);
@@ -229,7 +231,7 @@ class OccupancyModel {
 
   /// c: a constant where the function becomes a part of its caller.
   template <bool kPredicted, class Coder>
-  SLF_OWN_CALL void code_child(unsigned c, Coder& coder, Node& node, unsigned& coded,
+  SLF_OWN_CALL void code_child(unsigned c, Coder& coder, OccupancyNode& node, unsigned& coded,
                                unsigned occupancy) {
     const unsigned given = occupancy >> c & 1u;
     const std::int32_t by_rows = node.by_rows[c];
@@ -245,7 +247,8 @@ class OccupancyModel {
 
   /// coded: the siblings before c. bit: the encoder's.
   template <bool kPredicted, class Coder>
-  unsigned by_contexts(unsigned c, Coder& coder, const Node& node, unsigned coded, unsigned bit) {
+  unsigned by_contexts(unsigned c, Coder& coder, const OccupancyNode& node, unsigned coded,
+                       unsigned bit) {
     const OccupancyChild& child = node.child[c];
     const unsigned siblings = 1u << c | coded;  // 1 .. 255: which child, the ones before it
     const unsigned occupied = child.occupied + static_cast<unsigned>(std::popcount(coded));
@@ -253,7 +256,6 @@ class OccupancyModel {
     const unsigned in_columns = c < 4 ? siblings : (coded & 8) << 1 | 1u << (c & 3) | coded >> 4;
     const unsigned in_cells = c < 4 ? coded : coded >> (c - 3);
     const std::array<ContextBit*, 3> selected = {
-        // spec table 8-3
         &states_.corner[States::Corner::index(child.corner, siblings)],
         &states_.hashed[kByColumns][node.columns_group + in_columns],
         &states_.hashed[kByCells][child.group + in_cells]};
@@ -273,11 +275,13 @@ class OccupancyModel {
       mixed.update(bit, states_.rate);
       there.update(bit);
     } else {
-      const EightLanes fifth(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows});
-      const Mixed<3> mixed(contexts.inputs().saturating_plus(fifth),
+      ContextBit none, &by_slabs = sparse_ ? states_.slabs[child.slabs << 8 | siblings] : none;
+      const EightLanes more(std::array<std::int16_t, 8>{0, 0, 0, 0, by_rows, by_slabs.logistic()});
+      const Mixed<3> mixed(contexts.inputs().saturating_plus(more),
                            {by_siblings, by_density, by_sum});
       bit = by_branch(coder.bit(mixed.p1(), bit));
       mixed.update(bit, states_.rate);
+      by_slabs.update(bit);
     }
     contexts.update(bit);
     return bit;
@@ -286,9 +290,10 @@ class OccupancyModel {
   const MovedReference* reference_ = nullptr;
   ReferenceView in_reference_;
   OccupancyHistory history_;
+  OccupancySlabs slabs_;
   SelectedRows::List selected_;
   std::uint32_t level_ = 0;
-  bool only_ = false;
+  bool only_ = false, sparse_ = false;
   OccupancyStates states_;
 };
 

@@ -11,6 +11,7 @@ namespace slf {
 struct OccupancyChild {
   unsigned occupied;  ///< number of cells around it, outside the node
   unsigned corner;
+  unsigned slabs;              ///< what they say of it
   std::uint64_t cells;         ///< hash of the cells around it outside the node
   std::uint32_t group;         ///< of 8 contexts by those cells and all but its last 3 siblings
   std::uint32_t in_reference;  ///< hashed context by the cells around it in the reference

@@ -6,6 +6,7 @@ namespace slf {
 OccupancyStates::OccupancyStates(std::uint64_t points)
     : hashed_bits(hashed_bits_of(points)),
       corner(Corner::kCount),
+      slabs(Slabs::kCount),
       beside(Places::kCount),
       latest(Places::kCount),
       rows(kRows) {

@@ -23,6 +23,7 @@ struct OccupancyStates {
 
   // Tables that are not hashed. Spec table 8-3.
   using Corner = ContextShape<128, 256>;       // of the node; siblings
+  using Slabs = ContextShape<64, 256>;         // what the child's say; siblings
   using Places = ContextShape<10, 10, 10, 8>;  // of only children, three axes; place (table 8-4)
   // Sets of weights.
   using BySiblings = ContextShape<8, 256>;   // class of the node's neighbours; siblings
@@ -30,6 +31,7 @@ struct OccupancyStates {
   using ByRows = ContextShape<16>;           // what the rows say of the child, in halves
   using PlaceByClass = ContextShape<8, 8>;   // place; class of the node's neighbours
   using PlaceByLevel = ContextShape<8, 22>;  // place; level
+  using PlaceBySlab = ContextShape<4, 16>;  // axis, 3: none; what the node's slab says, in quarters
 
   // Rows. Spec table 8-5.
   using CellRows = ContextShape<64>;            // cell of the window
@@ -54,7 +56,7 @@ struct OccupancyStates {
   std::uint32_t num_nodes = 0;
   std::int32_t rate = kFirstRate;
   int hashed_bits;  ///< log2 of the number of contexts of a hashed table
-  std::vector<ContextBit> corner, beside, latest;
+  std::vector<ContextBit> corner, slabs, beside, latest;
   std::array<std::vector<ContextBit>, kHashed> hashed;
   std::vector<EightLanes> rows, only_rows;  // the latter empty until a level asks for them
   WeightSets by_siblings{BySiblings::kCount, kFirstWeight};
@@ -62,12 +64,18 @@ struct OccupancyStates {
   WeightSets by_rows{ByRows::kCount, kFirstWeight};
   WeightSets place_by_class{PlaceByClass::kCount, kFirstWeight};
   WeightSets place_by_level{PlaceByLevel::kCount, kFirstWeight};
+  WeightSets place_by_slab{PlaceBySlab::kCount, 0};
   // Empty until a frame is predicted.
   std::vector<ContextBit> reference_faces, reference_siblings, reference_cells;
   WeightSets by_reference{0, 0};
 
   /// Before a frame that is predicted.
   void add_reference();
+  /// The rate sinks as nodes are coded.
+  void count_node() {
+    rate =
+        static_cast<std::int32_t>(kFirstRate - std::min(++num_nodes >> 13, kFirstRate - kLastRate));
+  }
 
   static constexpr int hashed_bits_of(std::uint64_t points) {
     return std::clamp(static_cast<int>(std::bit_width(points)) + 4, 10, kMostHashedBits);
@@ -79,10 +87,11 @@ struct OccupancyStates {
       sizeof(EightLanes) * (2 * (kPredictedRows - kRows) + ByReference::kCount);
   /// Of what states for so many points hold.
   static constexpr std::size_t bytes(std::uint64_t points) {
-    return sizeof(ContextBit) * (Corner::kCount + 2 * Places::kCount +
+    return sizeof(ContextBit) * (Corner::kCount + Slabs::kCount + 2 * Places::kCount +
                                  (std::size_t{kHashed} << hashed_bits_of(points))) +
-           sizeof(EightLanes) * (2 * kRows + BySiblings::kCount + ByDensity::kCount +
-                                 ByRows::kCount + PlaceByClass::kCount + PlaceByLevel::kCount);
+           sizeof(EightLanes) *
+               (2 * kRows + BySiblings::kCount + ByDensity::kCount + ByRows::kCount +
+                PlaceByClass::kCount + PlaceByLevel::kCount + PlaceBySlab::kCount);
   }
 };
 

@@ -29,7 +29,7 @@ inline Result<Done> OctreeDecoder::decode_levels(RangeDecoder& given, int end,
                                                  bool all_neighbours) {
   RangeDecoder decoder = given;  // in registers
   for (; level_ < end; ++level_) {
-    model_.start_level(decoder, level_);
+    model_.start_level(decoder, nodes_, level_);
     std::uint64_t children = 0;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       nodes_.occupancy[n] = model_.code(decoder, nodes_, n, 0);

@@ -54,7 +54,7 @@ std::vector<std::uint8_t> OctreeEncoder::encode(int end, std::span<const std::ui
   RangeEncoder encoder;
   for (; level_ < end; ++level_) {
     const auto occupancy = occupancies(morton_, nodes_.size(), depth_ - level_);
-    model_.start_level(encoder, level_, most_have_one_child(occupancy));
+    model_.start_level(encoder, nodes_, level_, most_have_one_child(occupancy));
     for (std::size_t n = 0; n < nodes_.size(); ++n)
       nodes_.occupancy[n] = model_.code(encoder, nodes_, n, occupancy[n]);
     model_.finish_level(nodes_);

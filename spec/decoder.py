@@ -141,8 +141,7 @@ def behind_version(data, position):
         return position + 1
     if position + 3 > len(data):
         return None
-    require(data[position + 1] == 0, "sps_version_major", Unsupported)
-    require(data[position + 2] >= 7, "sps_version_minor", Unsupported)
+    require(data[position + 1] == 1, "sps_version_major", Unsupported)
     return position + 3
 
 
@@ -1039,9 +1038,10 @@ class OctreeState:
         self.hash_bits = min(18, max(points.bit_length() + 4, 10))
         widths = (15, self.hash_bits, self.hash_bits)
         self.tables = [MixedContexts(1 << bits) for bits in widths]
+        self.by_slabs = MixedContexts(64 * 256)             # 8.4.8
         self.mixers = [Mixer([900] * 8) for _ in range(3)]
         self.only_tables = [MixedContexts(size) for size in (8000, 8000, 1 << self.hash_bits)]      # 8.4.6
-        self.only_mixers = [Mixer([900] * 8) for _ in range(2)]
+        self.only_mixers = [Mixer([900] * 8) for _ in range(2)] + [Mixer([0] * 8)]       # the third: 8.4.8
         self.rows, self.only_rows = Rows(), Rows()
         self.nodes_coded, self.reference_tables = 0, []
 
@@ -1054,7 +1054,7 @@ class OctreeState:
 
     def copy(self):
         """8.1: as that of Contexts."""
-        return copied(self, tables=copied_all(self.tables), mixers=copied_all(self.mixers),
+        return copied(self, tables=copied_all(self.tables), by_slabs=self.by_slabs.copy(), mixers=copied_all(self.mixers),
                       only_tables=copied_all(self.only_tables), only_mixers=copied_all(self.only_mixers),
                       rows=self.rows.copy(), only_rows=self.only_rows.copy(),
                       reference_tables=copied_all(self.reference_tables))
@@ -1065,6 +1065,38 @@ def lone(occupancy):
     if not occupancy:
         return 8
     return occupancy.bit_length() - 1 if occupancy & occupancy - 1 == 0 else 9
+
+
+class Slabs:
+    """8.4.8: what the nodes of a level that share a coordinate have in common."""
+
+    SLOTS = 4096
+
+    def __init__(self):
+        """8.4.8: new at the start of every level."""
+        self.sparse = True
+        self.only = [MixedContexts(self.SLOTS) for _ in range(3)]
+        self.halves = [MixedContexts(self.SLOTS) for _ in range(3)]
+
+    def of_node(self, node):
+        """8.4.8: the context of each axis for the only child of a node."""
+        return [(table, x % self.SLOTS) for table, x in zip(self.only, node)]
+
+    def of_children(self, node):
+        """8.4.8: the number t of each child."""
+        def says(axis, half):
+            context = self.halves[axis].contexts[(2 * node[axis] + half) % self.SLOTS]
+            return min(max(INPUT[context] + 1024 >> 9, 0), 3)
+
+        return [sum(says(axis, child[axis]) << 2 * axis for axis in range(3)) for child in CHILDREN]
+
+    def learn(self, node, coded):
+        """8.4.8: which halves of a node hold a child."""
+        for axis in range(3):
+            for half in range(2):
+                there = any(coded >> c & 1 and child[axis] == half for c, child in enumerate(CHILDREN))
+                contexts, i = self.halves[axis].contexts, (2 * node[axis] + half) % self.SLOTS
+                contexts[i] = NEXT[contexts[i]][there]
 
 
 class Octree:
@@ -1079,7 +1111,8 @@ class Octree:
         """8.4.1: the children of all nodes of a level."""
         adjacent = self.all_neighbours()
         occupancies = [0] * len(self.nodes)                 # 0: not coded yet
-        history = [{} for _ in range(3)]
+        history, slabs = [{} for _ in range(3)], Slabs()
+        slabs.sparse = sum(map(len, adjacent)) < 12 * len(self.nodes)
         following, state = [], self.state
         only = decoder.raw(1)
         for i, (x, y, z) in enumerate(self.nodes):
@@ -1091,7 +1124,7 @@ class Octree:
                 else:
                     unknown |= WINDOW[d][255]
             entries = self.history_entries(x, y, z)
-            around_node = neighbours, occupied, unknown
+            around_node, node = (neighbours, occupied, unknown), ((x, y, z), slabs)
             latest = [table.get(k, 0) for table, k in zip(history, entries)]
             beside = [occupancies[adjacent[i][d]] if d in adjacent[i] else 0 for d in LOWER]
             known = {d: occupancies[j] or 256 for d, j in adjacent[i].items()}
@@ -1099,8 +1132,8 @@ class Octree:
             there = self.moved.there((x, y, z), self.level, occupied, unknown) if self.moved else None
             rows = self.select_rows((x, y, z), around_node, known, further, there)
             rate = 8 - min(state.nodes_coded >> 13, 4)
-            coded = self.decode_only(decoder, around_node, latest, beside, rows, rate) if only else 0
-            coded = coded or self.decode_node(decoder, around_node, self.columns(latest), rows, rate, there)
+            coded = self.decode_only(decoder, node, around_node, latest, beside, rows, rate) if only else 0
+            coded = coded or self.decode_node(decoder, node, around_node, self.columns(latest), rows, rate, there)
             state.nodes_coded += 1
             for table, entry in zip(history, entries):
                 table[entry] = coded
@@ -1140,10 +1173,11 @@ class Octree:
         rows.append(hashed_row(12, neighbours))
         return rows, slow
 
-    def decode_node(self, decoder, around_node, columns, rows, rate, there=None):
+    def decode_node(self, decoder, node, around_node, columns, rows, rate, there=None):
         """8.4.1: eight decisions, the last of which may be implied."""
-        coded, state = 0, self.state
+        coded, state, (place, slabs) = 0, self.state, node
         by_rows = state.rows.logistic(rows[0])
+        by_slabs = slabs.of_children(place)
         for c in range(8):
             if c == 7 and coded == 0:
                 coded = 128
@@ -1152,26 +1186,33 @@ class Octree:
                 coded |= decoder.decide(SQUASH[min(max(by_rows[c], -2047), 2047) + 2815]) << c
                 continue
             indices, sets = self.predict(c, coded, around_node, columns, by_rows[c])
-            behind = []
+            behind = [(state.by_slabs, by_slabs[c] * 256 + (1 << c | coded))] if slabs.sparse else []
             if there:
                 more, chosen = there.predict(c, coded, state.hash_bits)
                 behind, sets = list(zip(state.reference_tables, more)), (*sets, chosen)
             weights = [mixer.select(k) for mixer, k in zip(state.mixers, sets)]
             coded |= decide_mixed(decoder, list(zip(state.tables, indices)), weights, rate, [by_rows[c]], behind) << c
         state.rows.learn(*rows, by_rows, [coded >> c & 1 for c in range(8)], rate)
+        if slabs.sparse and not there:
+            slabs.learn(place, coded)
         return coded
 
-    def decode_only(self, decoder, around_node, latest, beside, rows, rate):
+    def decode_only(self, decoder, node, around_node, latest, beside, rows, rate):
         """8.4.6: the occupancy of a node of one child, 0 of another."""
         state, place, decided = self.state, 1, [None] * 8
         tables = state.only_tables + state.tables[1:]
         first, sets = self.predict_only(around_node, latest, beside)
         by_rows = state.only_rows.logistic(rows[0])
+        by_slab = node[1].of_node(node[0])
 
         def decide(p):
-            weights = [mixer.select(k) for mixer, k in zip(state.only_mixers, sets(p))]
+            axis = 3 - p.bit_length() if p else 3           # 3: none
+            slab = [by_slab[axis]] if p else []
+            x = INPUT[slab[0][0].contexts[slab[0][1]]] if p else 0
+            chosen = *sets(p), 16 * axis + min(max(x + 2048 >> 8, 0), 15)
+            weights = [mixer.select(k) for mixer, k in zip(state.only_mixers, chosen)]
             contexts = [(table, i + p) for table, i in zip(tables, first)]
-            decided[p] = decide_mixed(decoder, contexts, weights, rate, [by_rows[p]])
+            decided[p] = decide_mixed(decoder, contexts, weights, rate, [by_rows[p]], slab)
             return decided[p]
 
         if decide(0):

@@ -47,7 +47,7 @@ constexpr double kCellOfAtlas = 60;
 
 constexpr double kCoefficientStates = sizeof(VectorStates);  // a group
 constexpr double kIndependentStates = 300;                   // a plane
-constexpr double kHistory = 3 << 18;  // of columns, while an octree is decoded
+constexpr double kHistory = (3 << 18) + (3 << 14);  // of columns and slabs, of an octree at work
 
 class Model {
  public:

@@ -104,13 +104,13 @@ TEST(Spec_7_1_1_UnitTypes, AreRefusedWhereTheIndexAloneShowsThem) {
 TEST(Spec_7_1_2_Version, IsLookedAtBeforeAnythingElse) {
   const Bytes whole = base_stream(true);
   for (int major = 0; major < 256; ++major)
-    for (const int minor : {0, kLeastMinor - 1, kLeastMinor, 255}) {
+    for (const int minor : {0, 1, 255}) {
       Bytes stream(whole.begin(), whole.begin() + 11);
       stream[9] = static_cast<std::uint8_t>(major);
       stream[10] = static_cast<std::uint8_t>(minor);
       const auto decoded = decode(stream);
       ASSERT_FALSE(decoded);
-      const bool known = major == kVersionMajor && minor >= kLeastMinor;
+      const bool known = major == kVersionMajor;
       EXPECT_EQ(decoded.error().code, known ? Errc::kTruncated : Errc::kUnsupported);
     }
 }

@@ -12,7 +12,7 @@ function code(wanted) { return (error) => error instanceof SlfError && error.cod
 
 test('info says what the headers say', () => {
   const info = decoder.info(harmonics.bytes);
-  assert.equal(info.version, '0.8');
+  assert.equal(info.version, '1.0');
   assert.equal(info.points, harmonics.expect[0].points);
   assert.equal(info.basis, 'harmonics');
   assert.equal(info.bytes, harmonics.bytes.length);
