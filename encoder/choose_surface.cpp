@@ -34,7 +34,7 @@ struct SurfaceChoice {
   const EncoderSettings& settings;
   SurfaceReport& report;
   const Progress& progress;
-  SplatTrial* splats;  // not null: they may be chosen
+  bool splats;  // they may be chosen
 };
 
 /// The capture's points, or mended ones where photographs gain.
@@ -99,12 +99,10 @@ Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const Camer
                                            const VoxelCloud& surface, const DrawnQuality& quick) {
   if (!job.splats) return false;
   Stopwatch watch;
-  SLF_TRY(SplatTrial trial, try_splats(splat_job(job, parts)));
-  job.report.seconds_train += watch.lap();
   SurfaceReport& report = job.report;
-  report.as_splats = trial.file;
-  if (trial.file.bytes == 0) return false;
-  *job.splats = std::move(trial);
+  SLF_TRY(report.as_splats, try_splats(splat_job(job, parts)));
+  report.seconds_train += watch.lap();
+  if (report.as_splats.bytes == 0) return false;
   if (splats_win(report, surface.positions.size())) return true;
   if (look_of(report.as_splats) < look_of(quick)) return false;
   SLF_TRY(report.as_surface, try_surface(job.capture, parts.matched, parts.held_out, surface,
@@ -121,9 +119,9 @@ Result<bool, InputError> exact_yields(const SurfaceChoice& job, const VoxelCloud
   const CameraParts parts = split_for_mending(job.cameras);
   SLF_TRY(const DrawnQuality quick, judged(job, parts, exact));
   Stopwatch watch;
-  SLF_TRY(const SplatTrial glance, glance_at_splats(splat_job(job, parts)));
+  SLF_TRY(const TrialFile glance, glance_at_splats(splat_job(job, parts)));
   job.report.seconds_train += watch.lap();
-  if (look_of(glance.file) < look_of(quick) - kPromise) return false;
+  if (look_of(glance) < look_of(quick) - kPromise) return false;
   job.report.before_psnr = quick.psnr;
   return splats_are_better(job, parts, exact, quick);
 }
@@ -281,7 +279,7 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress,
-                                              SplatTrial* splats) {
+                                              bool splats) {
   report = {};
   report.start = start;
   report.points_before = capture.cloud.positions.size();

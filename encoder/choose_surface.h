@@ -22,15 +22,12 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
 /// The cloud on the grid, of the surface that settings.surface asks for.
 /// @param start   where the capture's points are from: those of a volume have to be trained
 /// @param report  receives what became of the points
-/// @param splats  not null: they may be chosen. report.kept is kSplats then, the cloud is empty,
-/// and
-///                this receives what to go on from
+/// @param splats  they may be chosen: report.kept is kSplats then, and the cloud is empty
 /// @errors those of voxelise_capture, refine_geometry, train_geometry, quick_quality, try_splats
-/// and
-///         try_surface
+///         and try_surface
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress,
-                                              SplatTrial* splats = nullptr);
+                                              bool splats = false);
 
 }  // namespace slf

@@ -121,9 +121,8 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
-  SplatTrial trial;
   SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
-                                    may_be_splats(given) ? &trial : nullptr));
+                                    may_be_splats(given)));
   std::optional<Capture> of_points;  // a mesh that other points took the place of hides nothing
   if (encoded.surface.kept != Surface::kGiven && !capture.mesh.triangles.empty()) {
     of_points = capture;
@@ -131,7 +130,7 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   }
   const Capture& seen = of_points ? *of_points : capture;
   if (encoded.surface.kept == Surface::kSplats) {
-    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress, std::move(trial)));
+    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress));
     return with_choice(std::move(splats), encoded.surface);
   }
   encoded.points = job.cloud.positions.size();

@@ -55,15 +55,12 @@ Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capt
   return TrialFile{quality.psnr, quality.ssim, file.stream.size()};
 }
 
-Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations) {
-  SplatTrial trial;
-  SLF_TRY(trial.surfels, train_gaussian_surfels(job.capture, job.fitted,
-                                                training_of(job.settings, job.start, iterations),
-                                                {}, job.progress));
-  const Gaussians splats = gaussians_of(trial.surfels);
-  if (splats.size() == 0) return trial;
-  SLF_TRY(trial.file, coded(splats, job.capture, job.held_out, job.settings));
-  return trial;
+Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
+  SLF_TRY(const Gaussians splats,
+          train_gaussians(job.capture, job.fitted, training_of(job.settings, job.start, iterations),
+                          job.progress));
+  if (splats.size() == 0) return TrialFile{};
+  return coded(splats, job.capture, job.held_out, job.settings);
 }
 
 }  // namespace
@@ -83,18 +80,18 @@ bool splats_win(const SurfaceReport& report, std::size_t points) {
          double(report.as_splats.bytes) < kSurfaceBytes * double(points);
 }
 
-Result<SplatTrial, InputError> try_splats(const SplatJob& job) {
+Result<TrialFile, InputError> try_splats(const SplatJob& job) {
   return tried(job, kTrialIterations);
 }
 
-Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job) {
+Result<TrialFile, InputError> glance_at_splats(const SplatJob& job) {
   return tried(job, kGlanceIterations);
 }
 
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings, const Progress& progress,
-                                          SplatTrial trial) {
+                                          const EncoderSettings& settings,
+                                          const Progress& progress) {
   const std::string obstacle =
       cameras.empty() ? "there are no photographs" : training_obstacle(capture, cameras);
   if (!obstacle.empty())
@@ -104,11 +101,9 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  SLF_TRY(const TrainedSurfels surfels,
-          train_gaussian_surfels(capture, cameras, training_of(settings, start, kSplatIterations),
-                                 std::move(trial.surfels), progress));
-  Gaussians splats = gaussians_of(surfels);
-  splats.up = capture.up;
+  SLF_TRY(
+      const Gaussians splats,
+      train_gaussians(capture, cameras, training_of(settings, start, kSplatIterations), progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};

@@ -5,16 +5,9 @@
 #include <cstddef>
 #include <span>
 
-#include "encoder/train/trained_surfel.h"
 #include "slf/encoder.h"
 
 namespace slf {
-
-/// Splats of some cameras, and what they are to others.
-struct SplatTrial {
-  TrialFile file;          ///< bytes 0: photographs agree on no splat
-  TrainedSurfels surfels;  ///< to go on from
-};
 
 /// What splats are tried with.
 struct SplatJob {
@@ -25,11 +18,12 @@ struct SplatJob {
   const Progress& progress;
 };
 
+/// A file of splats of some cameras, for others. bytes 0: photographs agree on no splat.
 /// @errors those of train_gaussians, encode_gaussians and load_image
-Result<SplatTrial, InputError> try_splats(const SplatJob& job);
+Result<TrialFile, InputError> try_splats(const SplatJob& job);
 
 /// The same after few iterations.
-Result<SplatTrial, InputError> glance_at_splats(const SplatJob& job);
+Result<TrialFile, InputError> glance_at_splats(const SplatJob& job);
 
 /// Whether no setting asks for what only a surface has, or for bytes that splats take another way.
 bool may_be_splats(const EncoderSettings& settings);
@@ -40,11 +34,10 @@ bool may_be_splats(const EncoderSettings& settings);
 bool splats_win(const SurfaceReport& report, std::size_t points);
 
 /// @param start  where the capture's points are from
-/// @param trial  to go on from, of some of the cameras; without surfels: from the points
 /// @errors kInvalidInput: photographs train nothing; those of train_gaussians, encode_gaussians
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings, const Progress& progress,
-                                          SplatTrial trial = {});
+                                          const EncoderSettings& settings,
+                                          const Progress& progress);
 
 }  // namespace slf

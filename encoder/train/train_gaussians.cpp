@@ -13,9 +13,8 @@
 namespace slf {
 namespace {
 
-constexpr float kThickness = 1e-2f;    // of the lesser deviation: pictures see none
-constexpr float kSquared = 0.5f;       // of a loss of magnitudes highlights are outliers
-constexpr double kSplatsBefore = 0.5;  // of the iterations, with some of the photographs
+constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
+constexpr float kSquared = 0.5f;     // of a loss of magnitudes highlights are outliers
 constexpr std::size_t kJudgedPerRange = 64;
 
 }  // namespace
@@ -63,30 +62,19 @@ Gaussians gaussians_of(const TrainedSurfels& surfels) {
   return out;
 }
 
-Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture,
-                                                          std::span<const int> cameras,
-                                                          const TrainGeometrySettings& settings,
-                                                          TrainedSurfels before,
-                                                          const Progress& progress) {
+Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
+                                              const TrainGeometrySettings& settings,
+                                              const Progress& progress) {
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
-  if (start.views.empty()) return TrainedSurfels{};
+  if (start.views.empty()) return Gaussians{};
   for (TrainingView& view : start.views) view.camera.gaussian = true;
   TrainSettings& training = start.settings;
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
-  if (!before.empty()) training.from = kSplatsBefore;
-  TrainedSurfels surfels = !before.empty() ? std::move(before) : first_surfels(start, settings);
+  TrainedSurfels surfels = first_surfels(start, settings);
   SLF_CHECK(train_surfels(start.views, training, surfels));
   SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));
-  return surfels;
-}
-
-Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
-                                              const TrainGeometrySettings& settings,
-                                              const Progress& progress) {
-  SLF_TRY(const TrainedSurfels surfels,
-          train_gaussian_surfels(capture, cameras, settings, {}, progress));
   Gaussians out = gaussians_of(surfels);
   out.up = capture.up;
   return out;

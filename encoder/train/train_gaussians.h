@@ -21,15 +21,6 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
                                               const TrainGeometrySettings& settings,
                                               const Progress& progress = {});
 
-/// The surfels of train_gaussians.
-/// @param before  trained by some of the cameras: the second half of the iterations is done, with
-///                all of them; or empty
-Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture,
-                                                          std::span<const int> cameras,
-                                                          const TrainGeometrySettings& settings,
-                                                          TrainedSurfels before = {},
-                                                          const Progress& progress = {});
-
 /// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
 /// @errors those of load_image

@@ -9,7 +9,6 @@
 #include "encoder/choose_surface.h"
 #include "encoder/encode_splats.h"
 #include "encoder/judge_surface.h"
-#include "encoder/train/train_gaussians.h"
 #include "encoder/trial_file.h"
 #include "slf/decoder.h"
 #include "slf/gaussian_renderer.h"
@@ -69,12 +68,10 @@ SurfaceReport chosen_from_exact(const char* scene) {
   Capture capture = traced.capture;
   capture.cloud = traced.exact;
   SurfaceReport report;
-  SplatTrial trial;
   const auto cloud = choose_surface(capture, traced.cameras, settings_of(Preset::kDefault, 4),
-                                    StartId::kPoints, report, {}, &trial);
+                                    StartId::kPoints, report, {}, true);
   EXPECT_TRUE(cloud) << (cloud ? "" : cloud.error().message);
   EXPECT_EQ(report.kept == Surface::kSplats, cloud && cloud->positions.empty());
-  EXPECT_EQ(report.as_splats.bytes > 0, !trial.surfels.empty());
   return report;
 }
 
@@ -88,25 +85,6 @@ TEST(EncodeSplats, ExactPointsThatLetLightThroughAreComparedByFilesOfBoth) {
   ASSERT_GT(report.as_surface.bytes, 0u);
   const double more = worth_of(report.as_splats) - worth_of(report.as_surface);
   EXPECT_EQ(report.kept == Surface::kSplats, more > -0.5) << more;
-}
-
-TEST(TrainGaussians, GoOnFromATrialWithMorePhotographs) {
-  const test::TracedScene traced("vase", 5, 10, 96, 6000);
-  Capture capture = traced.capture;
-  capture.cloud = traced.exact;
-  const std::span<const int> all = traced.cameras;
-  const auto psnr = [&](const TrainedSurfels& surfels) {
-    const Gaussians splats = gaussians_of(surfels);
-    const GaussianRenderer renderer(splats, {.background = {0, 0, 0}, .threads = 1});
-    const auto drawn = pictures_quality(
-        capture, all, [&](const Camera& camera) { return renderer.render(camera); }, 0);
-    return drawn ? drawn->psnr : 0;
-  };
-  const auto trial = train_gaussian_surfels(capture, all.first(30), {.iterations = 300});
-  ASSERT_TRUE(trial);
-  const auto more = train_gaussian_surfels(capture, all, {.iterations = 600}, *trial);
-  ASSERT_TRUE(more);
-  EXPECT_GT(psnr(*more), psnr(*trial) + 0.3);
 }
 
 TEST(TrialFile, IsWorthWhatPicturesShowLessWhatItTakes) {
