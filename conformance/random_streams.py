@@ -19,6 +19,8 @@ import numpy as np
 
 from random_stream import RandomStream, text
 
+ARRAYS = "positions", "components", "octahedral"        # others, as matrices, are the decoder's own
+
 
 def decoded_by_text(request):
     """The arrays by name, or None where the text decoder refuses."""
@@ -47,7 +49,7 @@ def decoded_by(command, folder, request):
     if done.returncode:
         return None, done.returncode
     try:
-        return {file.stem: np.load(file) for file in folder.glob("*.npy")}, 0
+        return {file.stem: np.load(file) for file in folder.glob("*.npy") if file.stem in ARRAYS}, 0
     except ValueError:                      # no array
         return {}, 0
 

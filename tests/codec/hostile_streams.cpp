@@ -55,6 +55,7 @@ Bytes cube(std::int32_t side, int bits, int functions, std::int32_t spacing = 1)
 }
 
 void set_points(Units& units, std::uint32_t points) {
+  conformance::edit_sequence(units, [](auto& s) { s.sps_level = 0; });  // which has no limit
   const auto set = *parse_sequence_parameter_set(units[0].payload);
   auto& payload = conformance::first_of(units, UnitType::kSlices).payload;
   SliceTable table = *parse_slice_table(payload, set);

@@ -63,8 +63,7 @@ TEST(EncodeSplats, WinBySoMuchAtNoMoreBytes) {
 }
 
 /// What is chosen where points lie where they should.
-SurfaceReport chosen_from_exact(const char* scene) {
-  const test::TracedScene traced(scene, 5, 10, 80, 6000);
+SurfaceReport chosen_from_exact(const test::TracedScene& traced) {
   Capture capture = traced.capture;
   capture.cloud = traced.exact;
   SurfaceReport report;
@@ -76,11 +75,11 @@ SurfaceReport chosen_from_exact(const char* scene) {
 }
 
 TEST(EncodeSplats, ExactPointsThatAFitDrawsWellStay) {
-  EXPECT_EQ(chosen_from_exact("can").kept, Surface::kGiven);
+  EXPECT_EQ(chosen_from_exact({"can", 4, 8, 64, 4000}).kept, Surface::kGiven);
 }
 
 TEST(EncodeSplats, ExactPointsThatLetLightThroughAreComparedByFilesOfBoth) {
-  const SurfaceReport report = chosen_from_exact("die");
+  const SurfaceReport report = chosen_from_exact({"die", 5, 10, 80, 6000});
   ASSERT_GT(report.as_splats.bytes, 0u);
   ASSERT_GT(report.as_surface.bytes, 0u);
   const double more = worth_of(report.as_splats) - worth_of(report.as_surface);
