@@ -12,7 +12,7 @@ namespace {
 /// @param points  of each slice, of one base cell each where there are several
 Bytes head(std::uint32_t level, int functions, const std::vector<std::uint32_t>& points) {
   CodingParameters p;
-  if (functions > 0) p = with_steps(static_cast<std::size_t>(functions), 8);
+  if (functions > 0) p = with_steps(functions, 8);
   p.base_levels = points.size() > 1 ? 2 : 0;
   return edited(packed_bare(field(lattice(2, 3, 2), 10, functions), p),
                 [&](std::vector<EditableUnit>& units) {
