@@ -10,7 +10,8 @@
 
 namespace slf {
 
-/// Of all pixels of some photographs' pictures. What is not drawn counts as what stands behind it.
+/// Quality over all pixels of some photographs' pictures. What is not drawn counts as what stands
+/// behind it.
 struct DrawnQuality {
   double psnr = 0;  ///< dB
   double ssim = 0;
@@ -23,7 +24,7 @@ Result<DrawnQuality, InputError> quick_quality(const Capture& capture, std::span
                                                std::span<const int> held_out,
                                                const VoxelCloud& cloud, int threads);
 
-/// Of a surface that was decoded.
+/// The same for a surface that was decoded.
 /// @errors those of load_image
 Result<DrawnQuality, InputError> surface_quality(const Capture& capture,
                                                  std::span<const int> cameras,

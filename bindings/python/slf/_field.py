@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _slf
 from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole
 from ._notebook import Turntable, png
-from ._ranges import FileRanges, Ranges, UrlRanges, ranges_of, whole_of
+from ._ranges import FileRanges, Ranges, UrlRanges, is_address, ranges_of, whole_of
 from ._types import Box, Camera, Frame, Info, Source, Vector
 
 
@@ -22,10 +22,11 @@ Data = Union[bytes, bytearray, memoryview]
 def _bytes(source: Source) -> Data:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
+    if is_address(source):
+        return whole_of(UrlRanges(str(source)))
     if isinstance(source, (str, os.PathLike)):
-        ranges = ranges_of(source)
-        assert ranges is not None
-        return whole_of(ranges)
+        with open(source, 'rb') as file:
+            return file.read()
     read_all = getattr(source, 'read', None)
     data = read_all() if callable(read_all) else None
     if not isinstance(data, (bytes, bytearray, memoryview)):
@@ -48,8 +49,8 @@ def _info(fields: Dict[str, Any]) -> Info:
 def info(source: Source) -> Info:
     """Headers of a file, an address or bytes; nothing is decoded.
 
-    Of a file with an index, as `slf encode` writes it, no more is read than its beginning: damage
-    behind it is not seen. Raises DamagedError, UnsupportedError; OSError of a file.
+    If a file has an index, as `slf encode` writes it, only its beginning is read: damage behind it
+    is not seen. Raises DamagedError, UnsupportedError; OSError of a file.
     """
     return _info(_slf.info(_in_parts(source)))
 

@@ -70,9 +70,14 @@ class UrlRanges:
 Ranges = Union[FileRanges, UrlRanges]
 
 
+def is_address(source: Any) -> bool:
+    """Is it one that UrlRanges takes?"""
+    return isinstance(source, str) and re.match('https?://', source) is not None
+
+
 def ranges_of(source: Any) -> Optional[Ranges]:
     """A source that can be read in parts; None of any other. OSError of a path or an address."""
-    if isinstance(source, str) and re.match('https?://', source):
+    if is_address(source):
         return UrlRanges(source)
     if isinstance(source, (str, os.PathLike)):
         return FileRanges(source)
