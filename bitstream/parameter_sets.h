@@ -101,12 +101,12 @@ void basis(V& v, Set& s) {
   } else {
     v.u(4, "sps_degree", s.sps_degree, defined(0, 10));
   }
-  v.u(3, "sps_frame_idc", s.sps_frame_idc, defined(0, 1));
+  v.u(3, "sps_directions_idc", s.sps_directions_idc, defined(0, 1));
   v.u(3, "sps_colour_idc", s.sps_colour_idc, defined(0, 1));
   v.u(2, "sps_transfer_idc", s.sps_transfer_idc, defined(0, 1));
   v.s8("sps_gamma_min", s.sps_gamma_min, Range{-127, 127});
   v.s8("sps_gamma_max", s.sps_gamma_max, Range{s.sps_gamma_min, 127});
-  if (s.sps_frame_idc == 1)
+  if (s.sps_directions_idc == 1)
     v.u(5, "sps_normal_cell_log2", s.sps_normal_cell_log2, Range{0, s.sps_grid_bits_minus1});
   point_attributes(v, s);
   v.require(!v.ok() || s.sps_num_functions == s.functions_of_basis() + s.functions_of_attributes(),

@@ -57,7 +57,7 @@ struct SequenceParameterSet {
   std::uint32_t sps_basis_flag = 0;
   std::uint32_t sps_basis_idc = 0, sps_order_minus1 = 1, sps_scales_theta = 0, sps_scales_gamma = 0;
   std::uint32_t sps_degree = 0;
-  std::uint32_t sps_frame_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
+  std::uint32_t sps_directions_idc = 0, sps_colour_idc = 0, sps_transfer_idc = 0;
   std::int32_t sps_gamma_min = -127, sps_gamma_max = 127;
   std::uint32_t sps_normal_cell_log2 = 0;
   std::uint32_t sps_num_attributes = 0;

@@ -88,7 +88,7 @@ Result<std::uint64_t, InputError> glb_number(const JsonView& json, const char* k
   return static_cast<std::uint64_t>(value);
 }
 
-Result<JsonView, InputError> glb_item(const JsonView& json, const std::vector<JsonView>& list,
+Result<JsonView, InputError> glb_item(const JsonView& json, const JsonItems& list,
                                       const char* kind) {
   SLF_TRY(const double value, json.number());
   if (!(value >= 0 && value < static_cast<double>(list.size())) || value != std::floor(value))

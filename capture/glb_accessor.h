@@ -13,7 +13,7 @@ namespace slf {
 
 /// The arrays that accessors lead through.
 struct GlbData {
-  std::vector<JsonView> accessors, buffer_views, buffers;
+  JsonItems accessors, buffer_views, buffers;
   GltfBuffers contents;
 };
 
@@ -23,7 +23,7 @@ Result<std::uint64_t, InputError> glb_number(const JsonView& json, const char* k
                                              std::uint64_t otherwise, std::uint64_t most);
 
 /// The item of `list` that a number names.
-Result<JsonView, InputError> glb_item(const JsonView& json, const std::vector<JsonView>& list,
+Result<JsonView, InputError> glb_item(const JsonView& json, const JsonItems& list,
                                       const char* kind);
 
 /// The bytes of a view, all of them in its buffer.

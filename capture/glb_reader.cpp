@@ -17,8 +17,10 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kMostTriangles = std::size_t{1} << 24, kMostVertices = std::size_t{1} << 25;
-constexpr std::size_t kMostNumbers = std::size_t{1}
-                                     << 28;  // nodes can share what the file has once
+// Nodes can share what the file has once: a scene has at most so many numbers for each byte of its
+// buffers, and for small ones so many more.
+constexpr std::size_t kMostNumbers = std::size_t{1} << 28, kNumbersPerByte = 256;
+constexpr std::size_t kNumbersOfSmall = std::size_t{1} << 22;
 constexpr int kMostDepth = 64;
 
 /// [3.7.2.1] Corners of triangles from a primitive's indices; empty for points and lines.
@@ -34,9 +36,9 @@ std::vector<std::array<std::size_t, 3>> triangles_of(std::uint64_t mode, std::si
   return triangles;
 }
 
-Result<std::vector<JsonView>, InputError> list_of(const JsonView& json, const char* key) {
+Result<JsonItems, InputError> list_of(const JsonView& json, const char* key) {
   const auto found = json.find(key);
-  if (!found) return std::vector<JsonView>{};
+  if (!found) return JsonItems{};
   return found->items();
 }
 
@@ -181,7 +183,9 @@ class SceneReader {
 
   Result<Done, InputError> count_numbers(std::size_t count, const JsonView& of) {
     numbers_read_ += count;
-    if (numbers_read_ > kMostNumbers) return of.error("is used too often");
+    const std::size_t most =
+        std::min(kMostNumbers, kNumbersOfSmall + kNumbersPerByte * data_.contents.bytes());
+    if (numbers_read_ > most) return of.error("is used too often");
     return Done{};
   }
 
@@ -224,7 +228,7 @@ class SceneReader {
   std::span<const std::uint8_t> binary_;
   std::filesystem::path folder_;
   GlbData data_;
-  std::vector<JsonView> meshes_, nodes_;
+  JsonItems meshes_, nodes_;
   std::vector<bool> reached_;
   bool has_normals_ = true;
   std::size_t numbers_read_ = 0;

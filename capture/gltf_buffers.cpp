@@ -59,7 +59,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   return bytes;
 }
 
-Result<GltfBuffers, InputError> GltfBuffers::load(const std::vector<JsonView>& buffers,
+Result<GltfBuffers, InputError> GltfBuffers::load(const JsonItems& buffers,
                                                   std::span<const std::uint8_t> binary,
                                                   const std::filesystem::path& folder) {
   GltfBuffers result;
@@ -92,6 +92,13 @@ std::optional<std::span<const std::uint8_t>> GltfBuffers::of(std::size_t buffer)
   if (in_chunk_[buffer]) return binary_;
   if (own_[buffer]) return std::span<const std::uint8_t>(*own_[buffer]);
   return std::nullopt;
+}
+
+std::size_t GltfBuffers::bytes() const {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < own_.size(); ++i)
+    if (const auto buffer = of(i)) sum += buffer->size();
+  return sum;
 }
 
 }  // namespace slf

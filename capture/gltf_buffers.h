@@ -22,12 +22,13 @@ class GltfBuffers {
   /// @param binary   the chunk of a GLB, kept by reference; empty: there is none
   /// @param folder   where files of a .gltf are; empty: none are read
   /// @errors kInvalidInput: a data URI that is damaged, a path out of the folder; kUnreadable
-  static Result<GltfBuffers, InputError> load(const std::vector<JsonView>& buffers,
+  static Result<GltfBuffers, InputError> load(const JsonItems& buffers,
                                               std::span<const std::uint8_t> binary,
                                               const std::filesystem::path& folder);
 
   /// Nothing where the buffer is a file that is not read.
   std::optional<std::span<const std::uint8_t>> of(std::size_t buffer) const;
+  std::size_t bytes() const;  ///< of all of them
 
  private:
   std::span<const std::uint8_t> binary_;

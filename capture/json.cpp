@@ -22,7 +22,7 @@ std::string item_path(const std::string& path, std::size_t index) {
 
 std::optional<std::string> name_that_occurs_twice(const JsonValue& object) {
   std::vector<std::string_view> names;
-  for (const auto& member : object.members) names.push_back(member.name);
+  for (const auto& member : object.members()) names.push_back(member.name);
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   return twice == names.end() ? std::nullopt : std::optional<std::string>(*twice);
@@ -37,29 +37,21 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   std::string path;   // where
 
   bool null() override { return add({}) != nullptr; }
-  bool boolean(bool value) override {
-    JsonValue v;
-    v.kind = JsonValue::Kind::kBoolean;
-    v.boolean = value;
-    return add(std::move(v)) != nullptr;
-  }
+  bool boolean(bool value) override { return add({value}) != nullptr; }
   bool number_integer(number_integer_t value) override { return add_number(double(value)); }
   bool number_unsigned(number_unsigned_t value) override { return add_number(double(value)); }
   bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
   bool string(string_t& value) override {
-    JsonValue v;
-    v.kind = JsonValue::Kind::kString;
-    v.string = std::move(value);
-    return add(std::move(v)) != nullptr;
+    return add({std::make_unique<std::string>(std::move(value))}) != nullptr;
   }
   bool binary(binary_t&) override { return false; }  // does not occur in text
-  bool start_object(std::size_t) override { return open(JsonValue::Kind::kObject); }
-  bool start_array(std::size_t) override { return open(JsonValue::Kind::kArray); }
+  bool start_object(std::size_t) override { return open({std::make_unique<JsonValue::Members>()}); }
+  bool start_array(std::size_t) override { return open({std::make_unique<JsonValue::Items>()}); }
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    open_.back()->members.push_back({std::move(name), {}});
+    members_of(*open_.back()).push_back({std::move(name), {}});
     return true;
   }
 
@@ -74,29 +66,29 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
+  static JsonValue::Members& members_of(JsonValue& object) {
+    return *std::get<std::unique_ptr<JsonValue::Members>>(object.content);
+  }
+
   // Where the next value goes: the last member's value, a new item, or the root.
   JsonValue* add(JsonValue value) {
     if (open_.empty()) return &(root = std::move(value));
     JsonValue& parent = *open_.back();
-    if (parent.kind == JsonValue::Kind::kObject)
-      return &(parent.members.back().value = std::move(value));
-    return &parent.items.emplace_back(std::move(value));
+    if (parent.kind() == JsonValue::Kind::kObject)
+      return &(members_of(parent).back().value = std::move(value));
+    return &std::get<std::unique_ptr<JsonValue::Items>>(parent.content)
+                ->emplace_back(std::move(value));
   }
 
   bool add_number(double value) {
     if (!std::isfinite(value)) return fail("a number is not finite");
-    JsonValue v;
-    v.kind = JsonValue::Kind::kNumber;
-    v.number = value;
-    return add(std::move(v)) != nullptr;
+    return add({value}) != nullptr;
   }
 
   // Pointers to open values stay valid: while one is open nothing is added to its parent.
-  bool open(JsonValue::Kind kind) {
+  bool open(JsonValue value) {
     if (open_.size() == kMaxDepth) return fail("nested too deeply");
-    JsonValue v;
-    v.kind = kind;
-    open_.push_back(add(std::move(v)));
+    open_.push_back(add(std::move(value)));
     return true;
   }
   bool close() {
@@ -109,11 +101,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool fail(std::string why, bool in_last = false) {
     cause = std::move(why);
     for (const JsonValue* value : open_) {
-      if (value->kind == JsonValue::Kind::kArray) {
+      if (value->kind() == JsonValue::Kind::kArray) {
         const bool inside = in_last || value != open_.back();
-        path = item_path(path, value->items.size() - (inside ? 1 : 0));
-      } else if (!value->members.empty()) {
-        path = member_path(path, value->members.back().name);
+        path = item_path(path, value->items().size() - (inside ? 1 : 0));
+      } else if (!value->members().empty()) {
+        path = member_path(path, value->members().back().name);
       }
     }
     return false;
@@ -146,6 +138,16 @@ InputError wrong_kind(const JsonView& view, JsonValue::Kind wanted, JsonValue::K
 
 }  // namespace
 
+std::span<const JsonValue> JsonValue::items() const {
+  const auto* items = std::get_if<std::unique_ptr<Items>>(&content);
+  return items == nullptr ? std::span<const JsonValue>{} : **items;
+}
+
+std::span<const JsonMember> JsonValue::members() const {
+  const auto* members = std::get_if<std::unique_ptr<Members>>(&content);
+  return members == nullptr ? std::span<const JsonMember>{} : **members;
+}
+
 Result<JsonValue, InputError> parse_json(const std::string& file,
                                          std::span<const std::uint8_t> text) {
   TreeBuilder tree;
@@ -165,7 +167,7 @@ InputError JsonView::error(const std::string& cause) const {
 }
 
 std::optional<JsonView> JsonView::find(const std::string& name) const {
-  for (const auto& member : value_->members)
+  for (const auto& member : value_->members())
     if (member.name == name) return JsonView(member.value, file_, member_path(path_, name));
   return std::nullopt;
 }
@@ -177,43 +179,41 @@ Result<JsonView, InputError> JsonView::at(const std::string& name) const {
 }
 
 Result<double, InputError> JsonView::number() const {
-  if (value_->kind == JsonValue::Kind::kNumber) return value_->number;
-  return wrong_kind(*this, JsonValue::Kind::kNumber, value_->kind);
+  if (const auto* content = std::get_if<double>(&value_->content)) return *content;
+  return wrong_kind(*this, JsonValue::Kind::kNumber, value_->kind());
 }
 
 Result<bool, InputError> JsonView::boolean() const {
-  if (value_->kind == JsonValue::Kind::kBoolean) return bool{value_->boolean};
-  return wrong_kind(*this, JsonValue::Kind::kBoolean, value_->kind);
+  if (const auto* content = std::get_if<bool>(&value_->content)) return bool{*content};
+  return wrong_kind(*this, JsonValue::Kind::kBoolean, value_->kind());
 }
 
 Result<std::string, InputError> JsonView::string() const {
-  if (value_->kind == JsonValue::Kind::kString) return value_->string;
-  return wrong_kind(*this, JsonValue::Kind::kString, value_->kind);
+  if (const auto* content = std::get_if<std::unique_ptr<std::string>>(&value_->content))
+    return **content;
+  return wrong_kind(*this, JsonValue::Kind::kString, value_->kind());
 }
 
-Result<std::vector<JsonView>, InputError> JsonView::items() const {
-  if (value_->kind != JsonValue::Kind::kArray)
-    return wrong_kind(*this, JsonValue::Kind::kArray, value_->kind);
-  std::vector<JsonView> views;
-  for (std::size_t i = 0; i < value_->items.size(); ++i)
-    views.push_back(JsonView(value_->items[i], file_, item_path(path_, i)));
-  return views;
+Result<JsonItems, InputError> JsonView::items() const {
+  if (value_->kind() != JsonValue::Kind::kArray)
+    return wrong_kind(*this, JsonValue::Kind::kArray, value_->kind());
+  return JsonItems(value_->items(), file_, path_);
 }
 
-Result<std::vector<JsonView>, InputError> JsonView::items(std::size_t count) const {
-  SLF_TRY(auto views, items());
-  if (views.size() == count) return views;
-  return error(std::to_string(count) + " items are expected, not " + std::to_string(views.size()));
+Result<JsonItems, InputError> JsonView::items(std::size_t count) const {
+  SLF_TRY(auto found, items());
+  if (found.size() == count) return found;
+  return error(std::to_string(count) + " items are expected, not " + std::to_string(found.size()));
 }
 
 Result<Done, InputError> JsonView::expect_object() const {
-  if (value_->kind == JsonValue::Kind::kObject) return Done{};
-  return wrong_kind(*this, JsonValue::Kind::kObject, value_->kind);
+  if (value_->kind() == JsonValue::Kind::kObject) return Done{};
+  return wrong_kind(*this, JsonValue::Kind::kObject, value_->kind());
 }
 
 std::vector<std::pair<std::string, JsonView>> JsonView::members() const {
   std::vector<std::pair<std::string, JsonView>> views;
-  for (const auto& member : value_->members)
+  for (const auto& member : value_->members())
     views.emplace_back(member.name, JsonView(member.value, file_, member_path(path_, member.name)));
   return views;
 }

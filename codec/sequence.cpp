@@ -28,7 +28,7 @@ LightFieldHeader header_of(const SequenceParameterSet& set) {
                   static_cast<int>(set.sps_order_minus1) + 1,
                   static_cast<int>(set.sps_scales_theta), static_cast<int>(set.sps_scales_gamma),
                   static_cast<int>(set.sps_degree)};
-  header.frame = static_cast<FrameId>(set.sps_frame_idc);
+  header.directions = static_cast<Directions>(set.sps_directions_idc);
   header.colour = static_cast<ColourTransform>(set.sps_colour_idc);
   header.transfer = static_cast<Transfer>(set.sps_transfer_idc);
   header.gamma_min_q7 = set.sps_gamma_min;

@@ -65,11 +65,11 @@ Case basis() {
 }
 
 Case harmonics() {
-  Case c = case_of("harmonics", "spherical harmonics in the reflected frame, a group per degree",
+  Case c = case_of("harmonics", "spherical harmonics of reflected directions, a group per degree",
                    {"6.3", "6.4", "7.2"}, field(small_sphere(), 5, 9), with_steps(9, 16));
   c.field.header.has_basis = true;
   c.field.header.basis = {BasisId::kHarmonics, 2, 0, 0, 2};
-  c.field.header.frame = FrameId::kReflected;
+  c.field.header.directions = Directions::kReflected;
   c.field.header.normal_cell_log2 = 1;
   c.field.header.colour = ColourTransform::kOpponent;
   c.parameters.group = {0, 1, 1, 1, 2, 2, 2, 2, 2};

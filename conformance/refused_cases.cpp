@@ -79,9 +79,10 @@ void add_headers(std::vector<RefusedCase>& cases) {
       [](auto& s) { s.sps_basis_idc = 1, s.sps_degree = 11; });
   add("degree-does-not-match", "a degree that gives another number of functions",
       [](auto& s) { s.sps_basis_idc = 1, s.sps_degree = 2; });
-  add("frame-idc", "an unknown frame", [](auto& s) { s.sps_frame_idc = 2; });
-  add("normal-cell", "normals of cells as large as the grid",
-      [](auto& s) { s.sps_frame_idc = 1, s.sps_normal_cell_log2 = s.sps_grid_bits_minus1 + 1; });
+  add("frame-idc", "unknown directions", [](auto& s) { s.sps_directions_idc = 2; });
+  add("normal-cell", "normals of cells as large as the grid", [](auto& s) {
+    s.sps_directions_idc = 1, s.sps_normal_cell_log2 = s.sps_grid_bits_minus1 + 1;
+  });
   add("colour-idc", "an unknown colour transform", [](auto& s) { s.sps_colour_idc = 6; });
   add("gamma-range", "a gamma range that descends",
       [](auto& s) { s.sps_gamma_min = 10, s.sps_gamma_max = -10; });

@@ -216,7 +216,7 @@ void add_headers(std::vector<Case>& cases) {
   });
   add("header-order-2", "B-splines of order 2 over both axes, reflected", [](auto& h) {
     h.basis = {BasisId::kBspline, 2, 2, 2};
-    h.frame = FrameId::kReflected;
+    h.directions = Directions::kReflected;
     h.up = UpAxis::kMinusX;
     h.normal_cell_log2 = 2;
   });

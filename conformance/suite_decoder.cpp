@@ -90,9 +90,9 @@ std::string basis_of(const LightFieldHeader& h) {
 
 /// The keys that mean something with a basis alone.
 std::string directions_of(const LightFieldHeader& h) {
-  const bool reflected = h.frame == slf::FrameId::kReflected;
+  const bool reflected = h.directions == slf::Directions::kReflected;
   std::string text = R"(, "basis": )" + basis_of(h);
-  text += std::string(R"(, "frame": ")") + (reflected ? "reflected" : "global") + '"';
+  text += std::string(R"(, "directions": ")") + (reflected ? "reflected" : "world") + '"';
   if (reflected) text += R"(, "normal_cell": )" + std::to_string(1 << h.normal_cell_log2);
   const bool opponent = h.colour == slf::ColourTransform::kOpponent;
   text += std::string(R"(, "colour": {"transform": ")") + (opponent ? "opponent" : "none") + "\"}";

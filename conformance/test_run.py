@@ -120,7 +120,7 @@ for option in ("levels", "groups", "region"):
 for fault in ("no_header", "header_is_no_json", "partial", "points", "header_grid", "header_up", "header_right_handed",
               "header_metres_per_unit", "header_num_functions", "header_shift", "header_has_basis", "header_normal_bits"):
     check(fault, failures(fault, cases=FEW), FEW)
-for key in ("basis", "frame", "normal_cell", "colour", "transfer", "gamma_range"):
+for key in ("basis", "directions", "normal_cell", "colour", "transfer", "gamma_range"):
     check(f"header_{key}", failures(f"header_{key}", cases=FEW), {f"streams/{REFLECTED}"})
 check("never_refuses", failures("never_refuses", cases=FEW | REFUSED), REFUSED)
 check("dies_on_error", failures("dies_on_error", cases=FEW | REFUSED), REFUSED)

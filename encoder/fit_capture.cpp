@@ -95,7 +95,7 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   Stopwatch watch;
   const FitSettings& chosen = fit.chosen.settings;
   const VoxelCloud& cloud = of.cloud;
-  const Observations seen = in_frame(std::move(world), chosen.frame, cloud.positions,
+  const Observations seen = in_local(std::move(world), chosen.directions, cloud.positions,
                                      chosen.normal_cell_log2, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
@@ -173,13 +173,14 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
   header.grid = moved(cloud.grid, origin);
   header.basis = settings.fit.basis;
   header.num_functions = header.basis.num_functions();
-  header.frame = settings.fit.frame;
+  header.directions = settings.fit.directions;
   header.colour = settings.colour;
   header.transfer = settings.observe.transfer;
   header.up = up;
   header.gamma_min_q7 = fit.gamma_min_q7;
   header.gamma_max_q7 = fit.gamma_max_q7;
-  if (header.frame == FrameId::kReflected) header.normal_cell_log2 = settings.fit.normal_cell_log2;
+  if (header.directions == Directions::kReflected)
+    header.normal_cell_log2 = settings.fit.normal_cell_log2;
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
   header.shift = shift;
   if (shift.empty())

@@ -119,21 +119,22 @@ void add_hierarchy(SettingTable& rows) {
            "B-spline wavelets (paper), or spherical harmonics, for the hierarchical fit; "
            "auto: by cross-validation"),
        searched(
-           &FitSearch::frame,
-           recorded(
-               choice_or_auto(
-                   "frame", SLF_AT(fit.frame),
-                   Words<FrameId>{{"global", FrameId::kGlobal}, {"reflected", FrameId::kReflected}},
-                   "auto",
-                   "Directions in world axes (paper), or mirrored at the surface; auto: by "
-                   "cross-validation"),
-               "global")),
+           &FitSearch::directions,
+           recorded(choice_or_auto(
+                        "directions", SLF_AT(fit.directions),
+                        Words<Directions>{{"world", Directions::kWorld},
+                                          {"reflected", Directions::kReflected}},
+                        "auto",
+                        "Directions of the world (paper), or mirrored at the surface; auto: by "
+                        "cross-validation"),
+                    "world")),
        inner(number("normal-cell-log2", SLF_AT(fit.normal_cell_log2), 0, 20,
                     "Cells that normals of mirrored directions are averaged in"))});
   add(rows, SettingPart::kFit, group, &kHierarchicalFit,
-      {words_of_fit("cross-validate", {"on", "off"}, "on",
-                    "Choose what no option gives of --frame, --block-strength, --block-growth, "
-                    "--point-penalty by predicting held-out input images"),
+      {words_of_fit(
+           "cross-validate", {"on", "off"}, "on",
+           "Choose what no option gives of --directions, --block-strength, --block-growth, "
+           "--point-penalty by predicting held-out input images"),
        in(kHarmonics, number("degree", SLF_AT(fit.basis.degree), 0, 10, "Degree of the harmonics")),
        recorded(number("block-log2", SLF_AT(fit.hierarchy.block_log2), 0, 21,
                        "Side of the finest blocks, 2^n spacings of points")),
@@ -179,7 +180,7 @@ void add_pictures(SettingTable& rows) {
 void add_search(SettingTable& rows) {
   const char* help = "By cross-validation";
   add(rows, SettingPart::kSearch, "Cross-validation", nullptr,
-      {inner(on_or_off("search-frame", SLF_AT(search.frame), help)),
+      {inner(on_or_off("search-directions", SLF_AT(search.directions), help)),
        inner(on_or_off("search-basis", SLF_AT(search.basis), help)),
        inner(on_or_off("search-block-strength", SLF_AT(search.strength), help)),
        inner(on_or_off("search-block-growth", SLF_AT(search.growth), help)),

@@ -12,9 +12,9 @@ namespace {
 struct Effort {
   int degree, environment_degree;
   int picture_rounds, picture_steps;
-  std::size_t frame_points;   ///< cross-validation of the frame alone, on so many; 0: none
-  std::size_t search_points;  ///< of all that FitSearch has but the basis; 0: none
-  bool surface;               ///< mended or trained, where photographs disagree
+  std::size_t direction_points;  ///< cross-validation of the directions alone, on so many; 0: none
+  std::size_t search_points;     ///< of all that FitSearch has but the basis; 0: none
+  bool surface;                  ///< mended or trained, where photographs disagree
   /// DensifySettings::from. (Q = 48 and 64, effort 5, a can of 20,000 points, 2.3 pixels: 29,160 B
   /// 23.86 dB without, 35,927 B 28.08 with. blender_can, 1.85: 37,304 B 26.53 and 33,506 B 26.99,
   /// for 2.4 times the points and 1.7 times the seconds.)
@@ -44,8 +44,8 @@ void set_effort(int effort, EncoderSettings& settings) {
     settings.search.points = e.search_points;
   } else {
     settings.search = FitSearch::none();
-    settings.search.frame = e.frame_points > 0;
-    if (e.frame_points > 0) settings.search.points = e.frame_points;
+    settings.search.directions = e.direction_points > 0;
+    if (e.direction_points > 0) settings.search.points = e.direction_points;
   }
 }
 

@@ -117,11 +117,11 @@ Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
     const char* of = "--fit hierarchical";
     SLF_CHECK(refuse(given, "basis", "harmonics", of));
     SLF_CHECK(refuse(given, "basis", "auto", of));
-    SLF_CHECK(refuse(given, "frame", "auto", of));
+    SLF_CHECK(refuse(given, "directions", "auto", of));
   }
   if (given.is("cross-validate", "off")) {
     SLF_CHECK(refuse(given, "basis", "auto", "--cross-validate on"));
-    SLF_CHECK(refuse(given, "frame", "auto", "--cross-validate on"));
+    SLF_CHECK(refuse(given, "directions", "auto", "--cross-validate on"));
   }
   for (const SettingRow& row : table)
     if (row.scope != nullptr && given.has(row.info.name) && !row.scope->holds(settings))
@@ -134,7 +134,7 @@ bool is_of_paper(const SettingRow& row) {
   return scope == &kPaperFit || scope == &kSplines || row.info.name == "order";
 }
 
-/// Each fit has a basis and a frame of its own. Settings that only the paper's has choose it.
+/// Each fit has a basis and directions of its own. Settings that only the paper's has choose it.
 void choose_fit(const Given& given, EncoderSettings& settings, const SettingTable& table) {
   FitSettings& fit = settings.fit;
   const bool of_paper =
@@ -147,7 +147,7 @@ void choose_fit(const Given& given, EncoderSettings& settings, const SettingTabl
   if (start.method != fit.method) {
     fit.method = start.method;
     fit.basis = start.basis;
-    fit.frame = start.frame;
+    fit.directions = start.directions;
     fit.pictures = start.pictures;
     settings.search = FitSearch{};
   }
@@ -169,7 +169,7 @@ FitSearch search_of(const Given& given, FitMethod method, FitSearch of_preset,
                     const SettingTable& table) {
   const bool asked = given.has("cross-validate")
                          ? given.is("cross-validate", "on")
-                         : given.is("basis", "auto") || given.is("frame", "auto");
+                         : given.is("basis", "auto") || given.is("directions", "auto");
   const bool on = asked || (!given.has("cross-validate") && of_preset.any());
   if (method != FitMethod::kHierarchical || !on) return FitSearch::none();
   FitSearch search = of_preset;

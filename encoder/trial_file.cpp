@@ -32,10 +32,10 @@ Result<TrialFile, InputError> try_surface(const Capture& capture, std::span<cons
                                           const EncoderSettings& settings,
                                           const Progress& progress) {
   EncoderSettings trial = settings;
-  const bool frame = trial.search.frame;
+  const bool directions = trial.search.directions;
   const std::size_t points = trial.search.points;
   trial.search = FitSearch::none();
-  trial.search.frame = frame;
+  trial.search.directions = directions;
   trial.search.points = points;
   SLF_TRY(CaptureFit fit,
           fit_capture(capture, fitted, cloud, trial, progress, chooses_step(trial, fitted.size())));

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/multiversion.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/nodes.h"
 #include "slf/parallel.h"
 

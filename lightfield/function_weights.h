@@ -28,7 +28,7 @@ class FunctionWeights {
 
   /// Floats that functions() needs to hold: W and some more.
   std::size_t stride() const { return table_.stride(); }
-  /// The W functions along a direction of any length > 0 in the frame of the points, gamma clamped
+  /// The W functions along a direction of any length > 0 local to the points, gamma clamped
   /// to the header's range.
   void functions(const Vec3& direction, float* row) const;
 

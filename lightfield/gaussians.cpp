@@ -49,7 +49,7 @@ bool has_attribute(const LightFieldHeader& header, AttributeId id, int functions
 
 bool has_gaussians(const LightFieldHeader& header) {
   return header.has_basis && header.basis.id == BasisId::kHarmonics &&
-         header.basis.degree <= kMostDegree && header.frame == FrameId::kGlobal &&
+         header.basis.degree <= kMostDegree && header.directions == Directions::kWorld &&
          header.transfer == Transfer::kDisplay && has_attribute(header, AttributeId::kOpacity, 1) &&
          has_attribute(header, AttributeId::kShape, 2);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lightfield/dequantiser.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
 #include "lightfield/nodes.h"
@@ -39,7 +39,8 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
       normals_(light_field.normals),
-      frame_normals_(frame_normals(header_.frame, positions_, header_.normal_cell_log2, threads)),
+      mirror_normals_(
+          mirror_normals(header_.directions, positions_, header_.normal_cell_log2, threads)),
       mean_(mean_colours(light_field, threads)) {
   assert(header_.has_basis && header_.num_view_functions() == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;
@@ -81,13 +82,13 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
 std::array<float, 3> ViewMaps::radiance(std::size_t p, float theta, float gamma) const {
   const float low = static_cast<float>(header_.gamma_min_q7) / 127.0f;
   const float high = static_cast<float>(header_.gamma_max_q7) / 127.0f;
-  auto direction = to_frame(frame_normals_, p, {theta, gamma});
+  auto direction = to_local(mirror_normals_, p, {theta, gamma});
   direction[1] = std::min(std::max(direction[1], low), high);
   return clamp_to_display(sum_of_functions(p, direction));
 }
 
 std::array<float, 3> ViewMaps::radiance_unclamped(std::size_t p, float theta, float gamma) const {
-  return sum_of_functions(p, to_frame(frame_normals_, p, {theta, gamma}));
+  return sum_of_functions(p, to_local(mirror_normals_, p, {theta, gamma}));
 }
 
 std::array<float, 3> ViewMaps::sum_of_functions(std::size_t p,

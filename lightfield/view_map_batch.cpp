@@ -82,8 +82,8 @@ void ViewMaps::radiances(const Vec3& eye, std::span<const std::uint32_t> points,
       const std::size_t p = points[first + i];
       prefetch(nodes_.data() + p * 3 * width_, 3 * width_);
       auto w = unit(header_.grid.world(positions_[p]), eye);
-      if (!frame_normals_.empty()) {  // mirrored at the normal, spec 6.4
-        const auto& n = frame_normals_[p];
+      if (!mirror_normals_.empty()) {  // mirrored at the normal, spec 6.4
+        const auto& n = mirror_normals_[p];
         const float twice = 2 * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2]);
         w = {twice * n[0] - w[0], twice * n[1] - w[1], twice * n[2] - w[2]};
       }

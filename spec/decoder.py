@@ -276,7 +276,7 @@ class Sequence:
                 else:
                     degree = checked(4, lambda v: v <= 10, "sps_degree", Unsupported)
                     of_basis = (degree + 1) ** 2
-                frame = checked(3, lambda v: v <= 1, "sps_frame_idc", Unsupported)
+                frame = checked(3, lambda v: v <= 1, "sps_directions_idc", Unsupported)
                 checked(3, lambda v: v <= 1, "sps_colour_idc", Unsupported)
                 checked(2, lambda v: v <= 1, "sps_transfer_idc", Unsupported)
                 gamma_min, gamma_max = reader.s8("sps_gamma_min"), reader.s8("sps_gamma_max")
@@ -433,8 +433,8 @@ def header_of(sequence, shift):
                            "scales_theta": e["sps_scales_theta"], "scales_gamma": e["sps_scales_gamma"]}
     else:
         header["basis"] = {"id": "harmonics", "degree": e["sps_degree"]}
-    header["frame"] = ("global", "reflected")[e["sps_frame_idc"]]
-    if e["sps_frame_idc"] == 1:
+    header["directions"] = ("world", "reflected")[e["sps_directions_idc"]]
+    if e["sps_directions_idc"] == 1:
         header["normal_cell"] = 1 << e["sps_normal_cell_log2"]
     header["colour"] = {"transform": ("none", "opponent")[e["sps_colour_idc"]]}
     header["transfer"] = ("display", "linear")[e["sps_transfer_idc"]]

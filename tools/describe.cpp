@@ -9,7 +9,9 @@
 namespace slf::tools {
 namespace {
 
-const char* name_of(FrameId frame) { return frame == FrameId::kReflected ? "reflected" : "global"; }
+const char* name_of(Directions directions) {
+  return directions == Directions::kReflected ? "reflected" : "world";
+}
 
 const char* name_of(UpAxis up) {
   switch (up) {
@@ -92,8 +94,8 @@ nlohmann::ordered_json header_json(const LightFieldHeader& h) {
                      {"scales_theta", h.basis.scales_theta},
                      {"scales_gamma", h.basis.scales_gamma}};
   }
-  json["frame"] = name_of(h.frame);
-  if (h.frame == FrameId::kReflected) json["normal_cell"] = 1 << h.normal_cell_log2;
+  json["directions"] = name_of(h.directions);
+  if (h.directions == Directions::kReflected) json["normal_cell"] = 1 << h.normal_cell_log2;
   json["colour"] = {{"transform", name_of(h.colour)}, {"to_rgb", colour_matrix(h.colour)}};
   json["transfer"] = name_of(h.transfer);
   json["gamma_range"] = {h.gamma_min_q7 / 127.0, h.gamma_max_q7 / 127.0};
@@ -112,12 +114,13 @@ std::string header_text(const LightFieldHeader& h) {
     return out + text("  planes        %d x 3 integers without a basis\n", h.num_functions);
   const auto [low, high] = std::minmax_element(h.shift.begin(), h.shift.end());
   if (h.basis.id == BasisId::kHarmonics) {
-    out += text("  basis         spherical harmonics of degree %d, %d functions, %s frame\n",
-                h.basis.degree, h.num_view_functions(), name_of(h.frame));
+    out += text("  basis         spherical harmonics of degree %d, %d functions, %s directions\n",
+                h.basis.degree, h.num_view_functions(), name_of(h.directions));
   } else {
-    out += text("  basis         B-spline wavelets of order %d, %d x %d = %d functions, %s frame\n",
-                h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma,
-                h.num_view_functions(), name_of(h.frame));
+    out += text(
+        "  basis         B-spline wavelets of order %d, %d x %d = %d functions, %s directions\n",
+        h.basis.order, 1 << h.basis.scales_theta, 1 << h.basis.scales_gamma, h.num_view_functions(),
+        name_of(h.directions));
   }
   for (const Attribute& a : h.attributes)
     out += text("  attribute     %s, %d function%s\n", name_of(a.id), a.num_functions,

@@ -55,7 +55,7 @@ export interface SlfInfo {
   /** false: planes without a meaning; no weights, no colours. */
   hasBasis: boolean;
   basis: 'bspline' | 'harmonics';
-  frame: 'global' | 'reflected';
+  directions: 'world' | 'reflected';
   transfer: 'display' | 'linear';
   gamma: [number, number];
   /** false: the file was cut short. */
@@ -136,7 +136,7 @@ export class SlfField {
   readonly partial: boolean;
   /** Of these points: coarser than the file's where levels were left out. */
   readonly grid: SlfGrid;
-  readonly frame: 'global' | 'reflected';
+  readonly directions: 'world' | 'reflected';
   readonly transfer: 'display' | 'linear';
   readonly up: SlfInfo['up'];
   readonly rightHanded: boolean;
@@ -162,8 +162,8 @@ export class SlfField {
   readonly radii: Float32Array;
   /** [P] area of the surface that a point stands for, world units squared. */
   readonly areas: Float32Array;
-  /** [P][3] unit normals that directions are mirrored at; null in the global frame. */
-  readonly frameNormals: Float32Array | null;
+  /** [P][3] unit normals that directions are mirrored at; null for directions of the world. */
+  readonly mirrorNormals: Float32Array | null;
   /** Of splats, else null: [P][6] covariance xx, xy, xz, yy, yz, zz about the point, world units squared. */
   readonly covariances: Float32Array | null;
   /** Of splats, else null: [P] share of what is behind it that a splat hides at its centre, 0 .. 1. */
@@ -326,13 +326,13 @@ export interface SlfReading {
 }
 
 type SlfArray = 'positions' | 'values' | 'octahedral' | 'weights' | 'meanColours' | 'normals' | 'centres' | 'radii'
-  | 'areas' | 'frameNormals' | 'covariances' | 'opacities';
+  | 'areas' | 'mirrorNormals' | 'covariances' | 'opacities';
 
 /** A field as data, from a worker: the arrays that were asked for. */
 export type SlfPlainField =
-  Pick<SlfField, 'points' | 'components' | 'functions' | 'partial' | 'grid' | 'frame' | 'transfer' | 'up' | 'rightHanded'
+  Pick<SlfField, 'points' | 'components' | 'functions' | 'partial' | 'grid' | 'directions' | 'transfer' | 'up' | 'rightHanded'
     | 'hasBasis' | 'hasNormals' | 'hasSplats' | 'gamma' | 'kernel' | 'info'>
-  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'frameNormals'
+  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'mirrorNormals'
     | 'covariances' | 'opacities'>>
   & { weights?: Float32Array | null; meanColours?: Uint8Array | null; functionTable?: SlfFunctionTable };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A decoded light field: arrays, colours, what a shader needs.
 import { SlfError } from './slf_error.js';
-import { FRAMES, TRANSFERS } from './slf_headers.js';
+import { DIRECTIONS, TRANSFERS } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 20; // of arrays on their way out
 const MOST_SIDE = 1024; // of a function table
 
 /** The arrays of slfw_read, by number. */
-const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, FRAME_NORMALS = 5,
+const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, MIRROR_NORMALS = 5,
   DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9,
   SPLAT_COVARIANCES = 10, SPLAT_OPACITIES = 11;
 
@@ -22,7 +22,7 @@ export class SlfField {
     this.#field = field;
     this.#done = done;
     instance.call((w) => { if (w.slfw_shape(field) !== 0) instance.fail(); });
-    const [components, points, bits, partial, x, y, z, step, weights, frame, transfer, normals, gammaMin, gammaMax,
+    const [components, points, bits, partial, x, y, z, step, weights, directions, transfer, normals, gammaMin, gammaMax,
       splats] = instance.numbers(15);
     this.info = info;
     this.points = points;
@@ -30,7 +30,7 @@ export class SlfField {
     this.partial = partial !== 0;
     this.grid = { origin: [x, y, z], step, bits };
     this.functions = weights;
-    this.frame = FRAMES[frame];
+    this.directions = DIRECTIONS[directions];
     this.transfer = TRANSFERS[transfer];
     this.up = info.up;
     this.rightHanded = info.rightHanded;
@@ -55,9 +55,9 @@ export class SlfField {
   get octahedral() {
     return this.hasNormals ? this.#cached(OCTAHEDRAL, () => this.#read(OCTAHEDRAL, Uint16Array, 2)) : null;
   }
-  get frameNormals() {
-    if (!this.hasBasis || this.frame !== 'reflected') return null;
-    return this.#cached(FRAME_NORMALS, () => this.#read(FRAME_NORMALS, Float32Array, 3));
+  get mirrorNormals() {
+    if (!this.hasBasis || this.directions !== 'reflected') return null;
+    return this.#cached(MIRROR_NORMALS, () => this.#read(FRAME_NORMALS, Float32Array, 3));
   }
   get values() {
     return this.#cached(COMPONENTS, () => this.#narrow() ?? this.#read(COMPONENTS, Int32Array, 3 * this.components));

@@ -3,7 +3,7 @@
 import { SlfError } from './slf_error.js';
 
 const UP = ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'];
-export const FRAMES = ['global', 'reflected'];
+export const DIRECTIONS = ['world', 'reflected'];
 export const TRANSFERS = ['display', 'linear'];
 const PROFILES = ['main', 'draco', 'texture'];
 
@@ -42,7 +42,7 @@ export function readInfo(instance, stream) {
   const w = instance.wasm;
   if (w.slfw_info(stream) !== 0) instance.fail();
   const [format, bytes, points, slices, groups, levels, functions, components, normalBits, x, y, z, step, metres, up,
-    leftHanded, hasBasis, basis, frame, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers,
+    leftHanded, hasBasis, basis, directions, transfer, gammaMin, gammaMax, complete, pairs, profile, hasIndex, layers,
     splats] = instance.numbers(28);
   const text = (i, value) => instance.text(w.slfw_metadata(stream, i, value));
   // A key may be "__proto__", which an assignment would lose.
@@ -51,7 +51,7 @@ export function readInfo(instance, stream) {
     version: `${format >>> 16}.${format & 0xffff}`, profile: PROFILES[profile], bytes, points, functions, components,
     bits: levels, levels, slices, groups, layers, normalBits, grid: { origin: [x, y, z], step, bits: levels },
     metresPerUnit: metres, up: UP[up], rightHanded: leftHanded === 0, hasBasis: hasBasis !== 0,
-    basis: basis === 0 ? 'bspline' : 'harmonics', frame: FRAMES[frame], transfer: TRANSFERS[transfer],
+    basis: basis === 0 ? 'bspline' : 'harmonics', directions: DIRECTIONS[directions], transfer: TRANSFERS[transfer],
     gamma: [gammaMin, gammaMax], complete: complete !== 0, hasIndex: hasIndex !== 0,
     hasSplats: splats !== 0, metadata,
   };

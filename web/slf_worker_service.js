@@ -4,7 +4,7 @@ import { SlfDecoder, SlfError } from './slf.js';
 import { SlfFrameStream } from './slf_frame_stream.js';
 import { SlfStream } from './slf_stream.js';
 
-const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'frame', 'transfer', 'up', 'rightHanded',
+const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'directions', 'transfer', 'up', 'rightHanded',
   'hasBasis', 'hasNormals', 'hasSplats', 'gamma', 'kernel', 'info'];
 const READERS = {
   positions: (field) => field.positions,
@@ -16,7 +16,7 @@ const READERS = {
   centres: (field) => field.centres,
   radii: (field) => field.radii,
   areas: (field) => field.areas,
-  frameNormals: (field) => field.frameNormals,
+  mirrorNormals: (field) => field.mirrorNormals,
   covariances: (field) => field.covariances,
   opacities: (field) => field.opacities,
 };

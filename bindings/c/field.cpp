@@ -7,7 +7,7 @@
 #include "bindings/c/failure.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/sized.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/view_planes.h"
 
 namespace slf::capi {
@@ -53,9 +53,9 @@ const FunctionWeights& weights_of(const slf_field& field) {
 
 const std::vector<std::array<float, 3>>& frame_normals_of(const slf_field& field) {
   const LightFieldHeader& header = field.field.header;
-  return field.frame_normals.get([&] {
-    return frame_normals(header.has_basis ? header.frame : FrameId::kGlobal, field.field.positions,
-                         header.normal_cell_log2, field.threads);
+  return field.mirror_normals.get([&] {
+    return mirror_normals(header.has_basis ? header.directions : Directions::kWorld,
+                          field.field.positions, header.normal_cell_log2, field.threads);
   });
 }
 
@@ -67,7 +67,7 @@ const SurfelCloud& discs_of(const slf_field& field) {
 }
 
 bool is_reflected(const slf_field& field) {
-  return field.has_basis() && field.field.header.frame == FrameId::kReflected;
+  return field.has_basis() && field.field.header.directions == Directions::kReflected;
 }
 
 /// W without working anything out.
@@ -88,7 +88,7 @@ slf_shape shape_of(const slf_field& field) {
   std::copy(header.grid.origin.begin(), header.grid.origin.end(), out.origin);
   out.step = header.grid.step;
   out.weights = static_cast<std::uint32_t>(num_weights(field));
-  out.frame = static_cast<std::uint32_t>(header.frame);
+  out.directions = static_cast<std::uint32_t>(header.directions);
   out.transfer = static_cast<std::uint32_t>(header.transfer);
   out.has_normals = field.field.normals.bits > 0;
   out.gamma_min = header.gamma_min_q7 / 127.0;
@@ -200,12 +200,12 @@ slf_code slf_read_mean_colours(const slf_field* field, uint64_t first, uint64_t 
   });
 }
 
-slf_code slf_read_frame_normals(const slf_field* field, uint64_t first, uint64_t count, float* to,
-                                size_t stride, slf_error* error) {
+slf_code slf_read_mirror_normals(const slf_field* field, uint64_t first, uint64_t count, float* to,
+                                 size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
   if (const slf_code code = check(field, rows, 3 * sizeof(float), error); code != SLF_OK)
     return code;
-  if (!is_reflected(*field)) return invalid(error, "frame_normals");
+  if (!is_reflected(*field)) return invalid(error, "mirror_normals");
   return guarded(error, [&] {
     const auto& normals = frame_normals_of(*field);
     if (count > 0) copy_rows(rows, normals.data()->data(), 3);

@@ -59,7 +59,7 @@ struct slf_field {
   slf::LightField field;
   int threads = 1;
   slf::capi::Lazy<slf::FunctionWeights> weights = {};
-  slf::capi::Lazy<std::vector<std::array<float, 3>>> frame_normals = {};
+  slf::capi::Lazy<std::vector<std::array<float, 3>>> mirror_normals = {};
   slf::capi::Lazy<slf::SurfelCloud> discs = {};
   slf::capi::Lazy<slf::SplatShapes> splats = {};
 

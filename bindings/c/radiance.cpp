@@ -8,7 +8,7 @@
 #include "bindings/c/failure.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/sized.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/render/reference_kernel.h"
 #include "slf/view_map.h"
 
@@ -33,10 +33,10 @@ Vec3 unit(const float* v) {
 Vec3 to_frame_of(const slf_field& field, std::size_t p, const float* world) {
   const Vec3 direction = unit(world);
   const LightFieldHeader& header = field.field.header;
-  if (!header.has_basis || header.frame == FrameId::kGlobal) return direction;
-  const auto& normals = field.frame_normals.get([&] {
-    return frame_normals(header.frame, field.field.positions, header.normal_cell_log2,
-                         field.threads);
+  if (!header.has_basis || header.directions == Directions::kWorld) return direction;
+  const auto& normals = field.mirror_normals.get([&] {
+    return mirror_normals(header.directions, field.field.positions, header.normal_cell_log2,
+                          field.threads);
   });
   return mirrored(normals[p], direction);
 }
@@ -111,7 +111,7 @@ slf_code slf_read_function_cube(const slf_field* field, uint32_t side, float* to
   });
 }
 
-slf_code slf_frame_direction(const slf_field* field, uint64_t p, const float* world, float* to,
+slf_code slf_local_direction(const slf_field* field, uint64_t p, const float* world, float* to,
                              slf_error* error) {
   if (field == nullptr) return invalid(error, "field");
   if (world == nullptr) return invalid(error, "world");

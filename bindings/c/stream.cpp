@@ -79,7 +79,7 @@ slf_info info_of(const slf_stream& stream) {
   out.left_handed = !header.right_handed;
   out.has_basis = header.has_basis && header.num_functions > 0;
   out.basis = static_cast<std::uint32_t>(header.basis.id);
-  out.frame = static_cast<std::uint32_t>(header.frame);
+  out.directions = static_cast<std::uint32_t>(header.directions);
   out.transfer = static_cast<std::uint32_t>(header.transfer);
   out.gamma_min = header.gamma_min_q7 / 127.0;
   out.gamma_max = header.gamma_max_q7 / 127.0;

@@ -79,7 +79,7 @@ class Stream {
         "basis"_a = i.has_basis == 0 ? "none"
                     : i.basis == 0   ? "bspline"
                                      : "harmonics",
-        "frame"_a = i.frame == SLF_FRAME_REFLECTED ? "reflected" : "global",
+        "directions"_a = i.directions == SLF_DIRECTIONS_REFLECTED ? "reflected" : "world",
         "transfer"_a = i.transfer == SLF_TRANSFER_LINEAR ? "linear" : "display",
         "gamma_range"_a = py::make_tuple(i.gamma_min, i.gamma_max), "complete"_a = i.complete != 0,
         "metadata"_a = metadata(i.metadata_pairs));

@@ -191,12 +191,12 @@ Result<SequenceParameterSet, InputError> sequence_of_checked(const LightField& f
   set.sps_order_minus1 = static_cast<std::uint32_t>(h.basis.order - 1);
   set.sps_scales_theta = static_cast<std::uint32_t>(h.basis.scales_theta);
   set.sps_scales_gamma = static_cast<std::uint32_t>(h.basis.scales_gamma);
-  set.sps_frame_idc = static_cast<std::uint32_t>(h.frame);
+  set.sps_directions_idc = static_cast<std::uint32_t>(h.directions);
   set.sps_colour_idc = static_cast<std::uint32_t>(h.colour);
   set.sps_transfer_idc = static_cast<std::uint32_t>(h.transfer);
   set.sps_gamma_min = h.gamma_min_q7;
   set.sps_gamma_max = h.gamma_max_q7;
-  if (h.frame == FrameId::kReflected)
+  if (h.directions == Directions::kReflected)
     set.sps_normal_cell_log2 = static_cast<std::uint32_t>(h.normal_cell_log2);
   for (const Attribute& a : h.attributes)
     set.attributes.push_back(

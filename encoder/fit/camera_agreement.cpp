@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/error_sum.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/parallel.h"
 
 namespace slf {

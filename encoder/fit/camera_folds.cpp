@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {
@@ -44,7 +44,7 @@ CameraFolds camera_folds(const Observations& observations,
     for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
       const std::size_t camera = observations.camera[j];
       if (camera >= towards.size()) towards.resize(camera + 1, Vec3{});
-      const Vec3 w = vector_of(to_frame(normals, p, observations.direction[j]));
+      const Vec3 w = vector_of(to_local(normals, p, observations.direction[j]));
       for (std::size_t a = 0; a < 3; ++a) towards[camera][a] += w[a];
     }
   CameraFolds folds;

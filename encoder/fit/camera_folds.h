@@ -22,7 +22,7 @@ struct CameraFolds {
 std::vector<int> camera_folds(std::span<const Vec3> towards_camera);
 
 /// The same of the cameras of observations, each in the mean direction of its observations.
-/// @param normals  those of the frame the directions are in; none: the global frame
+/// @param normals  those that directions are mirrored at; none: directions of the world
 CameraFolds camera_folds(const Observations& observations,
                          std::span<const std::array<float, 3>> normals);
 

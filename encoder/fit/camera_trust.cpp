@@ -10,7 +10,7 @@
 
 #include "capture/quantile.h"
 #include "encoder/fit/camera_agreement.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {

@@ -77,9 +77,9 @@ DirectionKernel::DirectionKernel(const Basis& basis, const DirectionRows& rows,
 }
 
 void DirectionKernel::apply(std::span<const std::array<float, 3>> world,
-                            std::span<const Vec3> in_frame, std::span<const Colour4> x,
+                            std::span<const Vec3> in_local, std::span<const Colour4> x,
                             std::span<Colour4> out) const {
-  if (!zonal_) return apply_rows(in_frame, x, out);
+  if (!zonal_) return apply_rows(in_local, x, out);
   const std::size_t m = world.size(), stride = (m + kLanes - 1) / kLanes * kLanes;
   static thread_local std::vector<float> columns;
   columns.assign(6 * stride, 0.0f);
@@ -91,12 +91,12 @@ void DirectionKernel::apply(std::span<const std::array<float, 3>> world,
   apply_zonal(polynomial_, columns.data(), stride, out);
 }
 
-void DirectionKernel::apply_rows(std::span<const Vec3> in_frame, std::span<const Colour4> x,
+void DirectionKernel::apply_rows(std::span<const Vec3> in_local, std::span<const Colour4> x,
                                  std::span<Colour4> out) const {
-  const std::size_t m = in_frame.size(), size = rows_.size();
+  const std::size_t m = in_local.size(), size = rows_.size();
   std::vector<float> rows(m * size);
   std::vector<Colour4> sums(size);  // B^T x, then P^-1 of it
-  rows_.evaluate(in_frame, rows.data());
+  rows_.evaluate(in_local, rows.data());
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t k = 0; k < size; ++k)
       for (std::size_t c = 0; c < 4; ++c) sums[k][c] += rows[i * size + k] * x[i][c];

@@ -18,7 +18,7 @@ using Colour4 = std::array<float, 4>;
 
 /// A view map with the prior sum_k penalty_k a_k^2, b_k of mean square 1, has along directions u
 /// and v the covariance sum_k b_k(u) b_k(v) / penalty_k. Of harmonics with a penalty per degree
-/// that is a polynomial in u . v (the addition theorem), whatever the frame.
+/// that is a polynomial in u . v (the addition theorem), local or of the world.
 class DirectionKernel {
  public:
   /// @param rows  kept by reference
@@ -27,14 +27,14 @@ class DirectionKernel {
 
   /// Covariances of one point's M directions, times x.
   /// @param world  [M] unit vectors to the cameras
-  /// @param in_frame  [M] the same in the point's frame; read where needs_frame()
-  void apply(std::span<const std::array<float, 3>> world, std::span<const Vec3> in_frame,
+  /// @param in_local  [M] the same local to the point; read where needs_local()
+  void apply(std::span<const std::array<float, 3>> world, std::span<const Vec3> in_local,
              std::span<const Colour4> x, std::span<Colour4> out) const;
 
-  bool needs_frame() const { return !zonal_; }
+  bool needs_local() const { return !zonal_; }
 
  private:
-  void apply_rows(std::span<const Vec3> in_frame, std::span<const Colour4> x,
+  void apply_rows(std::span<const Vec3> in_local, std::span<const Colour4> x,
                   std::span<Colour4> out) const;
 
   const DirectionRows& rows_;

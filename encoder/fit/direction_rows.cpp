@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lightfield/basis.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/view_map.h"
 
 namespace slf {

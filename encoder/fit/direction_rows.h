@@ -21,15 +21,15 @@ class DirectionRows {
 
   std::size_t size() const { return norms_.size(); }
 
-  /// @param direction  (theta, gamma) in the frame
+  /// @param direction  (theta, gamma), local
   /// @param row  receives size() values b_k / ||b_k||; element 0 is 1
   void evaluate(const std::array<float, 2>& direction, float* row) const;
 
-  /// Of many unit vectors in the frame, faster where there are eight.
+  /// Of many local unit vectors, faster where there are eight.
   /// @param rows  receives [directions][size()]
   void evaluate(std::span<const Vec3> directions, float* rows) const;
 
-  /// Of (theta, gamma) in the frame, at least one, side by side.
+  /// Of (theta, gamma), local, at least one, side by side.
   /// @param columns  receives [size()][stride]; stride: a multiple of Harmonics::kLanes, at least
   ///                 the number of directions. What is behind it repeats the last.
   void evaluate_columns(std::span<const std::array<float, 2>> directions, float* columns,

@@ -9,7 +9,7 @@
 #include "base/signed_index.h"
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/lane_products.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/harmonics.h"
 #include "slf/parallel.h"
 
@@ -190,12 +190,12 @@ MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int 
   MirrorPoints points;
   const ObjectBox box = known.half > 0 ? ObjectBox(known.centre, known.half) : ObjectBox(positions);
   for (const Voxel& v : positions) points.position.push_back(box(v));
-  points.normal = frame_normals(FrameId::kReflected, positions, cell_log2, threads);
+  points.normal = mirror_normals(Directions::kReflected, positions, cell_log2, threads);
   return points;
 }
 
 ReflectedViews reflected_views(const Observations& observations, const MirrorPoints& points,
-                               FrameId frame, std::size_t most) {
+                               Directions directions, std::size_t most) {
   const std::size_t every =
       std::max<std::size_t>(1, (observations.direction.size() + most - 1) / most);
   ReflectedViews views;
@@ -205,7 +205,7 @@ ReflectedViews reflected_views(const Observations& observations, const MirrorPoi
     for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
       const auto& d = observations.direction[j];
       views.reflected.push_back(
-          vector_of(frame == FrameId::kReflected ? d : to_frame(points.normal, p, d)));
+          vector_of(directions == Directions::kReflected ? d : to_local(points.normal, p, d)));
       views.colour.push_back(observations.colour[j]);
       views.camera.push_back(observations.camera[j]);
     }
@@ -252,12 +252,12 @@ EnvironmentSettings with_radius(const Observations& observations, const MirrorPo
     chosen.degree = 0;
     return chosen;
   };
-  const bool reflected = settings.frame == FrameId::kReflected;
+  const bool reflected = settings.directions == Directions::kReflected;
   const CameraFolds folds =
       camera_folds(observations, reflected ? std::span(points.normal) : NoNormals{});
   if (folds.count < 3) return none();
   const ReflectedViews views =
-      reflected_views(observations, points, settings.frame, kMostTriedViews);
+      reflected_views(observations, points, settings.directions, kMostTriedViews);
   if (views.colour.empty()) return none();
   EnvironmentSettings tried = settings.environment;
   tried.degree = std::min(tried.degree, kTriedDegree);
@@ -281,7 +281,8 @@ std::optional<Environment> fit_environment(const Observations& observations,
     return Environment(given.radius, given.degree, given.known.light, settings.threads);
   const EnvironmentSettings e = with_radius(observations, points, settings);
   if (e.degree == 0) return std::nullopt;
-  const ReflectedViews views = reflected_views(observations, points, settings.frame, most_views);
+  const ReflectedViews views =
+      reflected_views(observations, points, settings.directions, most_views);
   if (views.colour.empty()) return std::nullopt;
   return Environment(e.radius, e.degree, solve_environment(views, e.radius, e, settings.threads),
                      settings.threads);
@@ -292,7 +293,8 @@ KnownLight known_light(const Observations& observations, std::span<const Voxel> 
   const EnvironmentSettings& e = settings.environment;
   if (e.degree == 0 || observations.colour.empty()) return {};
   const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
-  const ReflectedViews views = reflected_views(observations, points, settings.frame, kMostViews);
+  const ReflectedViews views =
+      reflected_views(observations, points, settings.directions, kMostViews);
   if (views.colour.empty()) return {};
   const ObjectBox box(positions);
   return {box.centre(), box.half(), solve_environment(views, e.radius, e, settings.threads)};

@@ -34,7 +34,7 @@ struct ReflectedViews {
 
 /// Every n-th point that was seen, n the least with at most `most` views in all (or one point).
 ReflectedViews reflected_views(const Observations& observations, const MirrorPoints& points,
-                               FrameId frame, std::size_t most);
+                               Directions directions, std::size_t most);
 
 /// Light that minimises the squared error of colours less their means over each point, with a
 /// penalty of settings.strength * 0.8 * 1.3^degree per view. [(degree + 1)^2][3].
@@ -43,7 +43,7 @@ std::vector<float> solve_environment(const ReflectedViews& views, double radius,
 
 /// The settings with a radius where they have none: that of the least error on held-out cameras. Of
 /// degree 0 where there are fewer than three cameras, or no radius explains 2 % of the variance.
-/// @param observations  of the directions of settings.frame, as for all here
+/// @param observations  of the directions of settings.directions, as for all here
 EnvironmentSettings with_radius(const Observations& observations, const MirrorPoints& points,
                                 const FitSettings& settings);
 
@@ -55,7 +55,7 @@ std::optional<Environment> fit_environment(const Observations& observations,
 
 /// The light of fit_environment for fits that see a part of this scene each. None where degree is 0
 /// or nothing was seen.
-/// @param observations  of the frame's directions
+/// @param observations  of local directions
 /// @param settings      with a radius
 KnownLight known_light(const Observations& observations, std::span<const Voxel> positions,
                        const FitSettings& settings);

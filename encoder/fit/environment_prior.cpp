@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "encoder/fit/environment_projection.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -12,9 +12,9 @@ namespace slf {
 std::array<float, 3> EnvironmentPrior::operator()(std::size_t p,
                                                   const std::array<float, 2>& direction) const {
   if (!light_) return {0, 0, 0};
-  const bool reflected = frame_ == FrameId::kReflected;
+  const bool reflected = directions_ == Directions::kReflected;
   return (*light_)(points_.position[p],
-                   vector_of(reflected ? direction : to_frame(points_.normal, p, direction)));
+                   vector_of(reflected ? direction : to_local(points_.normal, p, direction)));
 }
 
 std::vector<float> EnvironmentPrior::along(const Observations& seen, int threads) const {
@@ -44,7 +44,7 @@ std::vector<float> EnvironmentPrior::projected(const Observations& seen, const D
     if (towards_cameras < 0)
       for (float& x : outward[p]) x = -x;
   }
-  return project_environment(*light_, points_.position, outward, frame_, basis, threads);
+  return project_environment(*light_, points_.position, outward, directions_, basis, threads);
 }
 
 }  // namespace slf

@@ -17,10 +17,10 @@ class EnvironmentPrior {
  public:
   /// @param light, points  kept by reference; points may be empty without light
   EnvironmentPrior(const std::optional<Environment>& light, const MirrorPoints& points,
-                   FrameId frame)
-      : light_(light), points_(points), frame_(frame) {}
+                   Directions directions)
+      : light_(light), points_(points), directions_(directions) {}
 
-  /// What point p reflects along a direction in its frame.
+  /// What point p reflects along a local direction.
   std::array<float, 3> operator()(std::size_t p, const std::array<float, 2>& direction) const;
 
   /// [observations][3] what it tells along each; empty without light.
@@ -33,7 +33,7 @@ class EnvironmentPrior {
  private:
   const std::optional<Environment>& light_;
   const MirrorPoints& points_;
-  FrameId frame_;
+  Directions directions_;
 };
 
 }  // namespace slf

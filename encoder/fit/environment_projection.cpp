@@ -8,7 +8,7 @@
 
 #include "encoder/fit/fit_cholesky.h"
 #include "encoder/fit/lane_products.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -116,7 +116,7 @@ class Projection {
 
  private:
   std::size_t size_, width_;                      // K, up to whole lanes
-  std::vector<std::array<float, 2>> directions_;  // of the basis' frame
+  std::vector<std::array<float, 2>> directions_;  // that the basis takes
   std::vector<Vec3> vectors_;
   std::vector<float> rows_;    // [count][width_]
   std::vector<float> square_;  // [width_][width_] products of all
@@ -126,8 +126,9 @@ class Projection {
 
 std::vector<float> project_environment(const Environment& environment,
                                        std::span<const Vec3> positions,
-                                       std::span<const std::array<float, 3>> normals, FrameId frame,
-                                       const DirectionRows& basis, int threads) {
+                                       std::span<const std::array<float, 3>> normals,
+                                       Directions directions, const DirectionRows& basis,
+                                       int threads) {
   constexpr std::size_t kPoints = Projection::kPoints, kColumns = Projection::kColumns;
   const Projection projection(basis);
   const auto bins = bins_of(normals);
@@ -143,9 +144,9 @@ std::vector<float> project_environment(const Environment& environment,
           const std::size_t p = bins[b][i];
           for (std::size_t q = 0; q < projection.count(); ++q) {
             const auto seen = environment(
-                positions[p], frame == FrameId::kReflected
+                positions[p], directions == Directions::kReflected
                                   ? projection.vector(q)
-                                  : vector_of(to_frame(normals, p, projection.direction(q))));
+                                  : vector_of(to_local(normals, p, projection.direction(q))));
             for (std::size_t c = 0; c < 3; ++c)
               light[q * kColumns + 3 * (i - first) + c] = weights[q] * seen[c];
           }

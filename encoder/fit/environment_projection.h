@@ -19,7 +19,8 @@ namespace slf {
 /// @return [P][K][3], of the functions scaled to mean square 1
 std::vector<float> project_environment(const Environment& environment,
                                        std::span<const Vec3> positions,
-                                       std::span<const std::array<float, 3>> normals, FrameId frame,
-                                       const DirectionRows& basis, int threads);
+                                       std::span<const std::array<float, 3>> normals,
+                                       Directions directions, const DirectionRows& basis,
+                                       int threads);
 
 }  // namespace slf

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "capture/quantile.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {

@@ -180,7 +180,7 @@ std::vector<float> fit_hierarchical(const Observations& observations,
                            settings.environment.known);
     light = fit_environment(observations, points, settings);
   }
-  const EnvironmentPrior environment(light, points, settings.frame);
+  const EnvironmentPrior environment(light, points, settings.directions);
   const HierarchicalFit fit(observations, positions, settings, environment, progress);
   const std::size_t size = 3 * fit.basis().size();
   std::vector<float> coefficients(positions.size() * size, 0.0f);

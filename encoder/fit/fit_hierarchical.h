@@ -17,7 +17,7 @@ namespace slf {
 /// the solution for given strengths.
 class HierarchicalFit {
  public:
-  /// @param observations  of the frame's directions; kept by reference, as positions are
+  /// @param observations  of local directions; kept by reference, as positions are
   HierarchicalFit(const Observations& observations, std::span<const Voxel> positions,
                   const FitSettings& settings, const EnvironmentPrior& environment,
                   const Progress& progress = {});
@@ -44,7 +44,7 @@ class HierarchicalFit {
 };
 
 /// [P][K][3]; points without observations have what the environment gives, and no mean.
-/// @param observations  of the frame's directions
+/// @param observations  of local directions
 std::vector<float> fit_hierarchical(const Observations& observations,
                                     std::span<const Voxel> positions, const FitSettings& settings,
                                     const Progress& progress);

@@ -24,7 +24,7 @@ struct PictureFitInput {
   Transfer transfer = Transfer::kDisplay;  ///< of the coefficients
   std::array<float, 2> gamma_range{-1, 1};
   DepthOfCamera hidden_by = {};  ///< of points that are not among these; or empty
-  /// In the frame of the settings, of the points: given, pictures are held out from another fit
+  /// Local directions of the points: given, pictures are held out from another fit
   const Observations* seen = nullptr;
 };
 
@@ -36,7 +36,7 @@ class HeldOutPictures;
 /// @param coefficients  [P][K][3], in R, G, B
 /// @param search  whether held-out cameras choose the pull (FitSearch::pictures), of 8 cameras or
 /// more
-/// @param settings  its basis and frame are those of the coefficients
+/// @param settings  its basis and directions are those of the coefficients
 /// @param held_out  receives pictures of a fit that has not used them, where input.seen is given
 /// @errors those of load_image
 /// The same for any thread count. O(rays x cameras of a point) and O(pixels) a step.

@@ -10,7 +10,7 @@
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/fit_settings.h"
 #include "encoder/fit/fold_trial.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {
@@ -36,7 +36,7 @@ class Search {
          const Progress& progress)
       : sample_(sample), folds_(folds), project_(project), best_(given), progress_(progress) {
     FitSettings world = given;
-    world.frame = FrameId::kGlobal;
+    world.directions = Directions::kWorld;
     for (int fold = 0; fold < folds.count; ++fold)
       lights_.push_back(fit_environment(of_fold(sample.seen, folds, fold, true), sample.points,
                                         world, kMostViewsOfLight));
@@ -46,9 +46,9 @@ class Search {
     tell();
   }
 
-  void try_structure(FrameId frame, const Basis& basis) {
+  void try_structure(Directions directions, const Basis& basis) {
     FitSettings settings = best_;
-    settings.frame = frame;
+    settings.directions = directions;
     settings.basis = basis;
     auto trial = make_trial(settings);
     auto now = trial->errors(best_.hierarchy);
@@ -125,7 +125,7 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
   if (settings.environment.degree == 0 && !search.any()) return chosen;
   const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
   FitSettings world = settings;
-  world.frame = FrameId::kGlobal;
+  world.directions = Directions::kWorld;
   chosen.settings.environment = with_radius(observations, points, world);
   if (!search.any()) return chosen;
 
@@ -143,11 +143,11 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
     found.try_values(&HierarchySettings::point_penalty,
                      std::array{kPenaltyRaise * settings.hierarchy.point_penalty});
   // Last: priors that are too weak take the wrong side.
-  const bool reflected = settings.frame == FrameId::kReflected;
-  if (search.frame)
-    found.try_structure(reflected ? FrameId::kGlobal : FrameId::kReflected, settings.basis);
+  const bool reflected = settings.directions == Directions::kReflected;
+  if (search.directions)
+    found.try_structure(reflected ? Directions::kWorld : Directions::kReflected, settings.basis);
   if (search.basis && settings.basis.id == BasisId::kHarmonics)
-    found.try_structure(found.best().frame, comparable_bspline(settings.basis));
+    found.try_structure(found.best().directions, comparable_bspline(settings.basis));
   chosen.settings = found.best();
   chosen.outcome = ChosenFit::kSearched;
   chosen.psnr_given = psnr(found.given_error());

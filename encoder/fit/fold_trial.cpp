@@ -8,7 +8,7 @@
 #include "encoder/fit/fit_cholesky.h"
 #include "encoder/fit/lane_products.h"
 #include "geometry/morton.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {
@@ -61,7 +61,7 @@ Observations of_fold(const Observations& seen, const CameraFolds& folds, int fol
 /// A fit without one fold.
 class FoldFit {
  public:
-  /// @param seen     of the directions of settings.frame
+  /// @param seen     of the directions of settings.directions
   /// @param light    of the other folds
   /// @param project  the light as functions of the basis, as a decoder has it; slow
   FoldFit(const FoldSample& sample, const Observations& seen, const CameraFolds& folds, int fold,
@@ -69,7 +69,7 @@ class FoldFit {
       : kept_(of_fold(seen, folds, fold, true)),
         held_out_(of_fold(seen, folds, fold, false)),
         bspline_(settings.basis.id == BasisId::kBspline),
-        environment_(light, sample.points, settings.frame),
+        environment_(light, sample.points, settings.directions),
         fit_(kept_, sample.positions, settings, environment_) {
     if (project && light) {
       projected_ = environment_.projected(kept_, fit_.basis(), settings.threads);
@@ -148,8 +148,8 @@ double mean(const std::vector<FoldError>& of_fold) {
 FoldTrial::FoldTrial(const FoldSample& sample, const CameraFolds& folds,
                      const std::vector<std::optional<Environment>>& lights, bool project,
                      const FitSettings& settings) {
-  const Observations seen = settings.frame == FrameId::kReflected
-                                ? in_frame(sample.seen, sample.points.normal, settings.threads)
+  const Observations seen = settings.directions == Directions::kReflected
+                                ? in_local(sample.seen, sample.points.normal, settings.threads)
                                 : sample.seen;
   for (int fold = 0; fold < folds.count; ++fold)
     fits_.push_back(std::make_unique<FoldFit>(

@@ -42,7 +42,7 @@ double mean(const std::vector<FoldError>& of_fold);
 
 class FoldFit;
 
-/// Fits without each fold, of one frame and one basis.
+/// Fits without each fold, of one kind of directions and one basis.
 class FoldTrial {
  public:
   /// @param lights  of the other folds

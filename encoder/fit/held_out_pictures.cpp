@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "geometry/morton.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 namespace slf {
 namespace {

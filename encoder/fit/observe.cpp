@@ -11,7 +11,7 @@
 #include "base/release.h"
 #include "encoder/fit/observe_camera.h"
 #include "encoder/fit/observe_points.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 

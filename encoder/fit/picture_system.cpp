@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "encoder/fit/picture_sums.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -63,8 +63,8 @@ PictureSystem::PictureSystem(const Grid& grid, std::span<const Voxel> positions,
       rows_(settings.basis),
       penalty_(penalties(rows_, settings.pictures)),
       kernel_(settings.basis, rows_, penalty_),
-      normals_(
-          frame_normals(settings.frame, positions, settings.normal_cell_log2, settings.threads)),
+      normals_(mirror_normals(settings.directions, positions, settings.normal_cell_log2,
+                              settings.threads)),
       world_(pictures.rays.size()) {
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
     for (std::size_t r = from; r < to; ++r) {
@@ -203,11 +203,11 @@ void PictureSystem::add_pictures(const std::vector<bool>& used, const Vector& x,
 void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
     const std::size_t rays = to - from;
-    std::vector<Vec3> in_frame;
-    if (kernel_.needs_frame())
-      for (std::size_t r = from; r < to; ++r) in_frame.push_back(direction(p, r));
+    std::vector<Vec3> in_local;
+    if (kernel_.needs_local())
+      for (std::size_t r = from; r < to; ++r) in_local.push_back(direction(p, r));
     const auto result = std::span(out).subspan(from, rays);
-    kernel_.apply(std::span(world_).subspan(from, rays), in_frame, std::span(x).subspan(from, rays),
+    kernel_.apply(std::span(world_).subspan(from, rays), in_local, std::span(x).subspan(from, rays),
                   result);
     for (Colour4& colour : result)
       for (float& c : colour) c /= pull_;
@@ -224,7 +224,7 @@ Vec3 PictureSystem::towards(std::size_t point, std::size_t ray) const {
   return d;
 }
 
-/// Unit, in the frame of the point, gamma in range.
+/// Unit, local to the point, gamma in range.
 Vec3 PictureSystem::direction(std::size_t point, std::size_t ray) const {
   Vec3 d = towards(point, ray);
   if (!normals_.empty()) d = mirrored(normals_[point], d);

@@ -86,7 +86,7 @@ class PictureSystem {
   std::vector<double> penalty_;  // [K]
   float pull_ = 1;
   DirectionKernel kernel_;
-  std::vector<std::array<float, 3>> normals_;  // of the frame
+  std::vector<std::array<float, 3>> normals_;  // that directions are mirrored at
   std::vector<std::array<float, 3>> world_;    // [rays] unit, to the eyes
 };
 

@@ -13,10 +13,10 @@
 #include "codec/encoder/pack_parameters.h"
 #include "codec/encoder/use_transforms.h"
 #include "codec/sequence.h"
+#include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/component_planes.h"
-#include "encoder/check_settings.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"
@@ -162,9 +162,9 @@ class Planner {
                                     in_spacings(settings_.fit, cloud.positions, cloud.grid.bits),
                                     settings_.search, progress_));
     FitSettings& chosen = fit_.chosen.settings;
-    const Observations framed =
-        in_frame(world, chosen.frame, cloud.positions, chosen.normal_cell_log2, settings_.threads);
-    chosen.environment.known = known_light(framed, cloud.positions, chosen);
+    const Observations local = in_local(world, chosen.directions, cloud.positions,
+                                        chosen.normal_cell_log2, settings_.threads);
+    chosen.environment.known = known_light(local, cloud.positions, chosen);
     if (chosen.environment.known.half == 0) chosen.environment.degree = 0;
     watch.lap();
     SLF_CHECK(fit_chosen(

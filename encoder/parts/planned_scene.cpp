@@ -183,13 +183,14 @@ LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings) 
   header.grid = moved(plan.grid, plan.origin);
   header.basis = plan.fit.basis;
   header.num_functions = header.basis.num_functions();
-  header.frame = plan.fit.frame;
+  header.directions = plan.fit.directions;
   header.colour = settings.colour;
   header.transfer = settings.observe.transfer;
   header.up = plan.up;
   header.gamma_min_q7 = plan.gamma_min_q7;
   header.gamma_max_q7 = plan.gamma_max_q7;
-  if (header.frame == FrameId::kReflected) header.normal_cell_log2 = plan.fit.normal_cell_log2;
+  if (header.directions == Directions::kReflected)
+    header.normal_cell_log2 = plan.fit.normal_cell_log2;
   header.shift = plan.shift;
   field.positions = {{0, 0, 0}};
   field.components.resize(std::size_t{3} * static_cast<std::size_t>(header.num_functions));

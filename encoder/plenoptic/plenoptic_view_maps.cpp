@@ -82,7 +82,7 @@ Result<LightField, InputError> fit_plenoptic(const PlenopticCloud& cloud,
                                    in_spacings(settings.fit, cloud.positions, cloud.grid.bits),
                                    settings.search, progress));
     settings.fit = fit.chosen.settings;
-    const Observations seen = in_frame(std::move(world), settings.fit.frame, cloud.positions,
+    const Observations seen = in_local(std::move(world), settings.fit.directions, cloud.positions,
                                        settings.fit.normal_cell_log2, settings.threads);
     SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, settings.fit, progress));
   }

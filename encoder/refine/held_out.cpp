@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "encoder/fit/observe_camera.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 

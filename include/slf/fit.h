@@ -111,7 +111,7 @@ struct PictureFit {
 struct FitSettings {
   FitMethod method = FitMethod::kPaper;
   Basis basis;  ///< kPaper: B-splines alone
-  FrameId frame = FrameId::kGlobal;
+  Directions directions = Directions::kWorld;
   int normal_cell_log2 = 0;     ///< LightFieldHeader; the encoder measures it
   double lambda = 0.8;          ///< kPaper: λ >= 0 (0 is solved as a least-norm problem)
   double beta = 1.3;            ///< kPaper: β >= 0
@@ -123,12 +123,12 @@ struct FitSettings {
   PictureFitSettings pictures;      ///< either
   int threads = 0;
 
-  /// Harmonics of degree 10 in the reflected frame: the default preset's.
+  /// Harmonics of degree 10 along reflected directions: the default preset's.
   static FitSettings hierarchical() {
     FitSettings settings;
     settings.method = FitMethod::kHierarchical;
     settings.basis = {BasisId::kHarmonics, 2, 0, 0, 10};
-    settings.frame = FrameId::kReflected;
+    settings.directions = Directions::kReflected;
     settings.pictures.rounds = 2;
     return settings;
   }
@@ -151,13 +151,13 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
 
 /// What cross-validation may change of the hierarchical fit: held-out clusters of input cameras are
 /// predicted from the others, on some of the points, one setting after the other in this order. A
-/// change stays if it lowers the squared error by more than 0.5 %, of frame or basis by more than
-/// 15 %, or 3 % where every cluster gains: another frame may take twice the bytes.
+/// change stays if it lowers the squared error by more than 0.5 %, of directions or basis by more
+/// than 15 %, or 3 % where every cluster gains: other directions may take twice the bytes.
 struct FitSearch {
   bool strength = true;        ///< hierarchy.strength of 0.1, 0.3, 1
   bool growth = true;          ///< hierarchy.growth of 1.15, 1.3, 1.5
   bool point_penalty = true;   ///< hierarchy.point_penalty, or five times as much
-  bool frame = true;           ///< reflected or global
+  bool directions = true;      ///< reflected or of the world
   bool basis = false;          ///< harmonics, or as many B-splines, to a power of two
   std::size_t points = 12000;  ///< > 0: of the sample, whole blocks
   /// The fit to pictures: its penalties, eight times as much, or none, by the pictures of cameras
@@ -165,12 +165,12 @@ struct FitSearch {
   bool pictures = true;
 
   /// Something for choose_fit to do; pictures are not its.
-  bool any() const { return frame || basis || strength || growth || point_penalty; }
+  bool any() const { return directions || basis || strength || growth || point_penalty; }
   static FitSearch none() {
     return {.strength = false,
             .growth = false,
             .point_penalty = false,
-            .frame = false,
+            .directions = false,
             .pictures = false};
   }
 };
@@ -197,9 +197,9 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
                                          const FitSettings& settings, const FitSearch& search,
                                          const Progress& progress = {});
 
-/// The observations with their directions in the frame of each point (spec 6.4), gamma range too.
+/// The observations with the local directions of each point (spec 6.4), gamma range too.
 /// @param cell_log2  LightFieldHeader::normal_cell_log2
-Observations in_frame(Observations observations, FrameId frame, std::span<const Voxel> positions,
-                      int cell_log2, int threads);
+Observations in_local(Observations observations, Directions directions,
+                      std::span<const Voxel> positions, int cell_log2, int threads);
 
 }  // namespace slf

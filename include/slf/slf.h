@@ -44,15 +44,16 @@ extern "C" {
 /* ---- versions ---- */
 
 /* Of this header. Minor: functions, codes and members of sized structs were added; major: a program
- * has to be changed. Before 1 every minor version may do that. */
-#define SLF_API_VERSION_MAJOR 0
-#define SLF_API_VERSION_MINOR 3
+ * has to be changed. What is here stays until then: bindings/c/abi.txt has it line by line. */
+#define SLF_API_VERSION_MAJOR 1
+#define SLF_API_VERSION_MINOR 0
 
 /* Of the library that is linked: SLF_API_VERSION_MAJOR << 16 | SLF_API_VERSION_MINOR. */
 SLF_API uint32_t slf_api_version(void);
-/* Of the project, "0.1.0". */
+/* Of the project, "1.0.0". */
 SLF_API const char* slf_version(void);
-/* Of the format that this library reads: major << 16 | minor. It reads no other before 1.0. */
+/* The newest format that this library reads: major << 16 | minor. It reads every older one from
+ * 1.0 on. */
 SLF_API uint32_t slf_format_version(void);
 
 /* Parts of the format that a build may leave out (slf_has_feature: 1 there, 0 left out). */
@@ -143,8 +144,8 @@ SLF_API slf_code slf_open_reader(const slf_reader* reader, const slf_allocator* 
 /* Fields decoded from it stay. */
 SLF_API void slf_release_stream(slf_stream* stream);
 
-#define SLF_FRAME_GLOBAL 0u
-#define SLF_FRAME_REFLECTED 1u
+#define SLF_DIRECTIONS_WORLD 0u
+#define SLF_DIRECTIONS_REFLECTED 1u
 #define SLF_TRANSFER_DISPLAY 0u
 #define SLF_TRANSFER_LINEAR 1u
 
@@ -167,7 +168,7 @@ typedef struct slf_info {
   uint32_t left_handed;
   uint32_t has_basis;          /* 0: planes without a meaning; no radiance, no colours */
   uint32_t basis;              /* 0: B-splines, 1: spherical harmonics */
-  uint32_t frame;              /* SLF_FRAME_... */
+  uint32_t directions;         /* SLF_DIRECTIONS_... */
   uint32_t transfer;           /* SLF_TRANSFER_... */
   double gamma_min, gamma_max; /* directions are clamped to these, -1 .. 1 */
   uint32_t complete;           /* 0: cut short, the end is missing */
@@ -334,7 +335,7 @@ typedef struct slf_shape {
   double step;
   uint32_t weights;     /* W: real weights of a point are [W][3]; R, or K with a joint transform; 0
                            without a basis */
-  uint32_t frame;       /* SLF_FRAME_... */
+  uint32_t directions;  /* SLF_DIRECTIONS_... */
   uint32_t transfer;    /* SLF_TRANSFER_... */
   uint32_t has_normals; /* coded ones */
   double gamma_min, gamma_max;
@@ -363,10 +364,10 @@ SLF_API slf_code slf_read_weights(const slf_field* field, uint64_t first, uint64
 /* uint8[3]: R, G, B averaged over all directions, of the field's transfer. */
 SLF_API slf_code slf_read_mean_colours(const slf_field* field, uint64_t first, uint64_t count,
                                        uint8_t* to, size_t stride, slf_error* error);
-/* float[3]: unit normals that directions are mirrored at, of either sign. Of the reflected frame.
- */
-SLF_API slf_code slf_read_frame_normals(const slf_field* field, uint64_t first, uint64_t count,
-                                        float* to, size_t stride, slf_error* error);
+/* float[3]: unit normals that directions are mirrored at, of either sign. Of
+ * SLF_DIRECTIONS_REFLECTED. */
+SLF_API slf_code slf_read_mirror_normals(const slf_field* field, uint64_t first, uint64_t count,
+                                         float* to, size_t stride, slf_error* error);
 
 /* The discs that a renderer draws (spec annex E.2). Worked out for the whole field, once, when
  * first asked for: some microseconds a point. float[3]: unit normal, of either sign: coded, else
@@ -392,8 +393,8 @@ SLF_API slf_code slf_read_splat_covariances(const slf_field* field, uint64_t fir
 SLF_API slf_code slf_read_splat_opacities(const slf_field* field, uint64_t first, uint64_t count,
                                           float* to, size_t stride, slf_error* error);
 
-/* The W functions of direction along `directions` (float[count][3], of any length > 0; in the frame
- * of the points: slf_frame_direction), gamma clamped to the field's range.
+/* The W functions of direction along `directions` (float[count][3], of any length > 0; local
+ * to the points: slf_local_direction), gamma clamped to the field's range.
  * to: float[count][W], rows `stride` bytes apart. */
 SLF_API slf_code slf_read_functions(const slf_field* field, uint64_t count, const float* directions,
                                     float* to, size_t stride, slf_error* error);
@@ -407,14 +408,14 @@ SLF_API slf_code slf_read_function_cube(const slf_field* field, uint32_t side, f
                                         size_t capacity, slf_error* error);
 
 /* Direction `world` (float[3], from a point to the eye, any length > 0) as the functions of point p
- * take it: of unit length, mirrored at the point's frame normal in the reflected frame.
+ * take it: of unit length, mirrored at the point's normal where slf_shape.directions says so.
  * Errors: SLF_INVALID_ARGUMENT, also for a direction of length 0, or one that is not finite. */
-SLF_API slf_code slf_frame_direction(const slf_field* field, uint64_t p, const float* world,
+SLF_API slf_code slf_local_direction(const slf_field* field, uint64_t p, const float* world,
                                      float* to, slf_error* error);
 
 /* Colours of `count` points: points[i] seen along directions[3 i ..] (from the point to the eye,
  * any length > 0). to: float[count][3], R, G, B, 0 .. 255 of the field's transfer. Spec 6.7.
- * Errors: as slf_frame_direction, before anything is written. */
+ * Errors: as slf_local_direction, before anything is written. */
 SLF_API slf_code slf_read_radiance(const slf_field* field, uint64_t count, const uint32_t* points,
                                    const float* directions, float* to, slf_error* error);
 

@@ -57,9 +57,9 @@ struct Basis {
   bool operator==(const Basis&) const = default;
 };
 
-/// The frame in which directions are expressed. Spec 6.4.
-enum class FrameId : std::uint8_t {
-  kGlobal = 0,     ///< world axes
+/// What the functions of direction take. Spec 6.4.
+enum class Directions : std::uint8_t {
+  kWorld = 0,      ///< directions of the world
   kReflected = 1,  ///< mirrored at the surface (6.6), which keeps a highlight in place along it
 };
 
@@ -103,7 +103,7 @@ struct Attribute {
 struct LightFieldHeader {
   Grid grid;
   Basis basis;
-  FrameId frame = FrameId::kGlobal;
+  Directions directions = Directions::kWorld;
   int normal_cell_log2 = 0;  ///< kReflected: normals are of cells of 2^n voxels, 0 .. bits - 1
   ColourTransform colour = ColourTransform::kNone;
   Transfer transfer = Transfer::kDisplay;

@@ -70,9 +70,9 @@ class ViewMaps {
 
   std::size_t width_ = 0;     // K or R
   std::vector<float> nodes_;  // [P][2^s0][2^s1][3], or [P][3][R] weights of functions
-  std::vector<std::array<float, 3>> frame_normals_;  // [P], or empty: global frame
-  std::shared_ptr<const Harmonics> harmonics_;       // where the functions are harmonics
-  std::shared_ptr<const FunctionTable> table_;       // where they are sums
+  std::vector<std::array<float, 3>> mirror_normals_;  // [P], or empty: directions of the world
+  std::shared_ptr<const Harmonics> harmonics_;        // where the functions are harmonics
+  std::shared_ptr<const FunctionTable> table_;        // where they are sums
   std::vector<std::array<float, 3>> mean_;
 };
 

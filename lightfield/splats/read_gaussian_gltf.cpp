@@ -51,9 +51,9 @@ std::optional<Similarity> similarity_of(const NodeMatrix& m) {
 }
 
 /// A list of an object, which may be absent.
-Result<std::vector<JsonView>, InputError> list_in(const JsonView& json, const char* key) {
+Result<JsonItems, InputError> list_in(const JsonView& json, const char* key) {
   const auto found = json.find(key);
-  if (!found) return std::vector<JsonView>{};
+  if (!found) return JsonItems{};
   return found->items();
 }
 
@@ -245,7 +245,7 @@ class SplatScene {
   FileBytes binary_;
   std::filesystem::path folder_;
   GlbData data_;
-  std::vector<JsonView> meshes_, nodes_;
+  JsonItems meshes_, nodes_;
   std::vector<bool> reached_;
   std::size_t numbers_read_ = 0;
   std::vector<GaussianFile> parts_;

@@ -57,7 +57,7 @@ TEST_P(CApiRadiance, WeightsTimesFunctionsAreTheViewMaps) {
     const auto [theta, gamma] = direction_of({along[3 * i], along[3 * i + 1], along[3 * i + 2]});
     const auto expected = maps.radiance(points[i], theta, gamma);
     std::vector<float> framed(3), row(functions);
-    ASSERT_EQ(slf_frame_direction(field.handle, points[i], &along[3 * i], framed.data(), nullptr),
+    ASSERT_EQ(slf_local_direction(field.handle, points[i], &along[3 * i], framed.data(), nullptr),
               SLF_OK);
     ASSERT_EQ(slf_read_functions(field.handle, 1, framed.data(), row.data(), 0, nullptr), SLF_OK);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -80,7 +80,7 @@ TEST_P(CApiRadiance, DirectionsWithoutALengthAreRefused) {
     const float along[] = {0, 0, 1, 0, wrong, 0};
     EXPECT_EQ(slf_read_radiance(field.handle, 2, points, along, colours.data(), nullptr),
               SLF_INVALID_ARGUMENT);
-    EXPECT_EQ(slf_frame_direction(field.handle, 0, along + 3, colours.data(), nullptr),
+    EXPECT_EQ(slf_local_direction(field.handle, 0, along + 3, colours.data(), nullptr),
               SLF_INVALID_ARGUMENT);
     EXPECT_EQ(slf_read_functions(field.handle, 1, along + 3, row.data(), 0, nullptr),
               SLF_INVALID_ARGUMENT);

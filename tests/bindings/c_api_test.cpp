@@ -196,7 +196,7 @@ TEST(CApi, WrongArgumentsAreRefusedByName) {
   EXPECT_EQ(slf_read_positions(field.handle, 0, 1, nullptr, 0, &error), SLF_INVALID_ARGUMENT);
   EXPECT_EQ(slf_read_weights(field.handle, 0, 1, floats.data(), 0, &error), SLF_INVALID_ARGUMENT);
   EXPECT_STREQ(error.element, "weights");
-  EXPECT_EQ(slf_read_frame_normals(field.handle, 0, 1, floats.data(), 0, &error),
+  EXPECT_EQ(slf_read_mirror_normals(field.handle, 0, 1, floats.data(), 0, &error),
             SLF_INVALID_ARGUMENT);
   EXPECT_EQ(slf_read_function_cube(field.handle, 9, floats.data(), floats.size(), &error),
             SLF_INVALID_ARGUMENT);

@@ -38,7 +38,7 @@ SequenceParameterSet full_set() {
   s.sps_colour_idc = s.sps_transfer_idc = s.sps_coefficient_coder = 1;
   s.sps_gamma_min = -90;
   s.sps_gamma_max = 127;
-  s.sps_frame_idc = 1;
+  s.sps_directions_idc = 1;
   s.sps_normal_cell_log2 = s.sps_grid_bits_minus1;
   s.sps_num_groups_minus1 = 2;
   s.sps_num_coefficient_ranges_minus1 = 1;

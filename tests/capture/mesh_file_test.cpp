@@ -144,6 +144,25 @@ TEST(MeshFile, GlbErrorsNameThePlace) {
   expect_refused("a.glb", long_chunk, "binary chunk");
 }
 
+/// A cube `primitives` times in a mesh that as many nodes have.
+std::string shared_cubes(int nodes, int primitives) {
+  const std::string cube = R"({"attributes": {"POSITION": 0}, "indices": 1})";
+  std::string roots = "0", all = "{\"mesh\": 0}", cubes = cube;
+  for (int i = 1; i < nodes; ++i) roots += ", " + std::to_string(i), all += ", {\"mesh\": 0}";
+  for (int i = 1; i < primitives; ++i) cubes += ", " + cube;
+  const std::string rest = kCubeGltf.substr(kCubeGltf.find(" \"accessors\""));
+  return cube_glb(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [)" + roots +
+                  "]}], \"nodes\": [" + all + "], \"meshes\": [{\"primitives\": [" + cubes +
+                  "]}],\n" + rest);
+}
+
+TEST(MeshFile, WhatNodesShareIsBoundedByTheBytesOfTheFile) {
+  const auto some = mesh_in("a.glb", shared_cubes(100, 100));
+  ASSERT_TRUE(some) << some.error().message;
+  EXPECT_EQ(some->triangles.size(), 120'000u);
+  expect_refused("a.glb", shared_cubes(300, 300), "is used too often");
+}
+
 TEST(MeshFile, AMirroringNodeKeepsTheOutsideOut) {
   const auto mesh =
       mesh_in("a.glb", cube_glb(replaced(kCubeGltf, "[0.5, 0.5, 0.5]", "[-0.5, 0.5, 0.5]")));

@@ -100,6 +100,15 @@ class Judge:
                     self.check(floats_are_finite(made), f"{command[0]} {made.name} of {file}: not finite")
 
 
+    def reads_in_proportion(self, folder):
+        """Values of a capture's JSON take less than 25 bytes for each byte of the file."""
+        text = "[" + "0," * (2 << 20) + "0]"
+        pathlib.Path(folder, "cameras.json").write_text(text)
+        code, peak, _, said = run([self.program, "encode", folder, "-o", folder + "/x.slf"])
+        self.check(code == 4 and b"cameras.json" in said, f"cameras.json of zeros: exit code {code}, {said[:200]}")
+        self.check(peak - self.base < 25 * len(text), f"cameras.json of zeros: {(peak - self.base) / len(text):.0f} bytes a byte")
+
+
 def floats_are_finite(ply):
     """Of every property that is a float, in a binary PLY of one element."""
     head, body = ply.read_bytes().split(b"end_header\n", 1)
@@ -120,6 +129,7 @@ def main():
             judge.stays_within(str(file), 64 * MEBIBYTE)
         for file in sorted(pathlib.Path(made, "grids").iterdir()):
             judge.draws_no_nonsense(str(file))
+        judge.reads_in_proportion(made)
         judge.check(30 < judge.count_drawn < 100, f"{judge.count_drawn} pictures and files of far grids")
     print(f"{judge.count} refusals: at most {judge.worst_bytes / MEBIBYTE:.1f} MiB and {judge.worst_seconds:.2f} s "
           f"of user time; {len(judge.wrong)} wrong")

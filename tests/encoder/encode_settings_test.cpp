@@ -45,7 +45,7 @@ TEST(Effort, SevenIsWhatSettingsStartWithAndThePaperHasNone) {
 TEST(Effort, WhereGeometryIsMendedTheFrameIsSearchedAndBelowTheDefaultNothingElse) {
   for (int effort = 1; effort <= kMostEffort; ++effort) {
     const EncoderSettings s = settings_of(Preset::kDefault, effort);
-    EXPECT_EQ(s.search.frame, s.surface == Surface::kAuto) << effort;
+    EXPECT_EQ(s.search.directions, s.surface == Surface::kAuto) << effort;
     for (const bool searched :
          {s.search.strength, s.search.growth, s.search.point_penalty, s.search.pictures})
       EXPECT_EQ(searched, effort >= kDefaultEffort) << effort;

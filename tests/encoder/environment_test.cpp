@@ -12,7 +12,7 @@
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit/environment_projection.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/harmonics.h"
 #include "slf/fit.h"
 #include "slf/view_map.h"
@@ -36,7 +36,8 @@ float lamp(const Vec3& position, const Vec3& reflected) {
 
 struct Scene {
   std::vector<Voxel> positions = test::sphere_cloud(5);
-  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 0, 1);
+  std::vector<std::array<float, 3>> normals =
+      mirror_normals(Directions::kReflected, positions, 0, 1);
   std::vector<Vec3> cameras;
 
   Scene() {  // rings about the vertical axis, with gaps between them
@@ -55,7 +56,7 @@ struct Scene {
     }
   }
 
-  /// Of far cameras: all points see one along the same direction. In the reflected frame.
+  /// Of far cameras: all points see one along the same direction. Of reflected directions.
   Observations observe(const std::vector<Vec3>& from) const {
     const ObjectBox box(positions);
     Observations seen;
@@ -65,7 +66,7 @@ struct Scene {
         double cosine = 0;
         for (std::size_t a = 0; a < 3; ++a) cosine += double(normals[p][a]) * from[i][a];
         if (cosine < 0.17) continue;
-        const auto d = to_frame(normals, p, direction_of(from[i]));
+        const auto d = to_local(normals, p, direction_of(from[i]));
         const float grey = 60 + lamp(box(positions[p]), vector_of(d));
         seen.direction.push_back(d);
         seen.colour.push_back({grey, grey, grey});
@@ -83,7 +84,7 @@ FitSettings settings_with(int environment_degree) {
   FitSettings s;
   s.method = FitMethod::kHierarchical;
   s.basis = {BasisId::kHarmonics, 2, 0, 0, 8};
-  s.frame = FrameId::kReflected;
+  s.directions = Directions::kReflected;
   s.environment.degree = environment_degree;
   s.threads = 2;
   return s;
@@ -171,9 +172,9 @@ TEST(EnvironmentFit, DoesNotDependOnTheNumberOfThreadsOrTheFrame) {
   Observations world = seen;
   for (std::size_t p = 0; p < scene.positions.size(); ++p)
     for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j)
-      world.direction[j] = to_frame(scene.normals, p, seen.direction[j]);
+      world.direction[j] = to_local(scene.normals, p, seen.direction[j]);
   const auto a = *fit_environment(seen, mirrors(scene), s);
-  s.frame = FrameId::kGlobal;
+  s.directions = Directions::kWorld;
   const auto b = *fit_environment(world, mirrors(scene), s);
   EXPECT_NEAR(double(a({0, 0, 1}, {0.6, 0, 0.8})[0]), double(b({0, 0, 1}, {0.6, 0, 0.8})[0]), 0.05);
 }

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/fit.h"
 #include "slf/view_map.h"
 #include "tests/codec/field_support.h"
@@ -157,11 +157,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"bspline", {BasisId::kBspline, 2, 2, 1}, {0, 1, 2, 2, 1, 2, 3, 3}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-FitSettings harmonics_settings(FrameId frame) {
+FitSettings harmonics_settings(Directions frame) {
   FitSettings s;
   s.method = FitMethod::kHierarchical;
   s.basis = {BasisId::kHarmonics, 2, 0, 0, 4};
-  s.frame = frame;
+  s.directions = frame;
   s.environment.degree = 0;  // tests/encoder/environment_test.cpp
   return s;
 }
@@ -170,7 +170,7 @@ TEST(HierarchicalFitProperties, AConstantColourIsKeptAlsoWhereNothingWasSeen) {
   const auto positions = test::sphere_cloud(4);
   Observations seen = random_views(positions.size(), 6, true);
   for (auto& colour : seen.colour) colour = {10, 100, 250};
-  const auto fitted = fit_view_maps(seen, positions, harmonics_settings(FrameId::kGlobal));
+  const auto fitted = fit_view_maps(seen, positions, harmonics_settings(Directions::kWorld));
   ASSERT_TRUE(fitted) << fitted.error().message;
   for (std::size_t i = 0; i < fitted->size(); ++i) {
     const std::size_t k = i / 3 % 25;
@@ -182,7 +182,7 @@ TEST(HierarchicalFitProperties, AConstantColourIsKeptAlsoWhereNothingWasSeen) {
 TEST(HierarchicalFitProperties, DoesNotDependOnTheNumberOfThreads) {
   const auto positions = test::sphere_cloud(5);
   const Observations seen = random_views(positions.size(), 7, false);
-  FitSettings s = harmonics_settings(FrameId::kGlobal);
+  FitSettings s = harmonics_settings(Directions::kWorld);
   s.threads = 1;
   const auto one = fit_view_maps(seen, positions, s);
   s.threads = 5;
@@ -209,7 +209,7 @@ TEST(HierarchicalFitProperties, ABlockEndsWithoutAStep) {
     }
     seen.first.push_back(seen.direction.size());
   }
-  FitSettings s = harmonics_settings(FrameId::kGlobal);
+  FitSettings s = harmonics_settings(Directions::kWorld);
   s.hierarchy.point_penalty = 1e6;
   const auto fitted = *fit_view_maps(seen, positions, s);
   std::vector<double> row(64);  // of the harmonic that is gamma
@@ -231,7 +231,7 @@ TEST(HierarchicalFitProperties, WhatASurfaceReflectsIsSharedAlongIt) {
   const auto positions = test::sphere_cloud(5);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const auto normals = frame_normals(FrameId::kReflected, positions, 0, 1);
+  const auto normals = mirror_normals(Directions::kReflected, positions, 0, 1);
   const auto shade = [](const std::array<float, 2>& reflected) {
     const Vec3 r = vector_of(reflected);
     return static_cast<float>(100 + 80 * std::max(0.0, 0.6 * r[0] + 0.8 * r[2]));
@@ -242,7 +242,7 @@ TEST(HierarchicalFitProperties, WhatASurfaceReflectsIsSharedAlongIt) {
   for (std::size_t p = 0; p < positions.size(); ++p) {
     for (int n = 0; n < 4; ++n) {
       const auto direction = direction_of({unit(random), unit(random), unit(random)});
-      const float grey = shade(to_frame(normals, p, direction));
+      const float grey = shade(to_local(normals, p, direction));
       if (n == 3) {
         held_out.push_back(direction);
         continue;
@@ -253,23 +253,23 @@ TEST(HierarchicalFitProperties, WhatASurfaceReflectsIsSharedAlongIt) {
     }
     seen.first.push_back(seen.direction.size());
   }
-  const auto error = [&](FrameId frame) {
+  const auto error = [&](Directions frame) {
     const FitSettings s = harmonics_settings(frame);
-    const auto fitted = *fit_view_maps(in_frame(seen, frame, positions, 0, 1), positions, s);
+    const auto fitted = *fit_view_maps(in_local(seen, frame, positions, 0, 1), positions, s);
     double sum = 0;
     for (std::size_t p = 0; p < positions.size(); ++p) {
       const auto at =
-          frame == FrameId::kReflected ? to_frame(normals, p, held_out[p]) : held_out[p];
+          frame == Directions::kReflected ? to_local(normals, p, held_out[p]) : held_out[p];
       double value = 0;
       for (int k = 0; k < 25; ++k)
         value += static_cast<double>(fitted[(p * 25 + static_cast<std::size_t>(k)) * 3]) *
                  basis_value(s.basis, k, static_cast<double>(at[0]), static_cast<double>(at[1]));
-      const double e = value - static_cast<double>(shade(to_frame(normals, p, held_out[p])));
+      const double e = value - static_cast<double>(shade(to_local(normals, p, held_out[p])));
       sum += e * e;
     }
     return std::sqrt(sum / static_cast<double>(positions.size()));
   };
-  const double reflected = error(FrameId::kReflected), global = error(FrameId::kGlobal);
+  const double reflected = error(Directions::kReflected), global = error(Directions::kWorld);
   EXPECT_LT(reflected, 4);
   EXPECT_LT(2 * reflected, global);
 }
@@ -278,7 +278,7 @@ TEST(HierarchicalFitProperties, SettingsOutOfRangeAreRefused) {
   const auto positions = test::sphere_cloud(3);
   const Observations seen = random_views(positions.size(), 3, false);
   const auto refused = [&](auto edit) {
-    FitSettings s = harmonics_settings(FrameId::kGlobal);
+    FitSettings s = harmonics_settings(Directions::kWorld);
     edit(s);
     return !fit_view_maps(seen, positions, s);
   };

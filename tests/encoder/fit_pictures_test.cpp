@@ -10,7 +10,7 @@
 #include <random>
 
 #include "encoder/fit/direction_kernel.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "lightfield/render/splat_weights.h"
 #include "lightfield/render/surfel_cloud.h"
 #include "slf/view_map.h"
@@ -67,15 +67,15 @@ struct Scene {
   std::array<float, 2> direction(const FitSettings& settings, std::size_t p, int camera) const {
     const Vec3 at = grid.world(positions[p]);
     const Vec3 eye = capture.cameras[static_cast<std::size_t>(camera)].centre();
-    return to_frame(frame_normals(settings.frame, positions, 0, 1), p,
+    return to_local(mirror_normals(settings.directions, positions, 0, 1), p,
                     direction_of({eye[0] - at[0], eye[1] - at[1], eye[2] - at[2]}));
   }
 };
 
-FitSettings settings_of(const Basis& basis, FrameId frame) {
+FitSettings settings_of(const Basis& basis, Directions frame) {
   FitSettings settings = FitSettings::hierarchical();
   settings.basis = basis;
-  settings.frame = frame;
+  settings.directions = frame;
   settings.threads = 1;
   settings.pictures = {
       .rounds = 1, .steps = 100, .mean_penalty = 0.3, .penalty = 2, .growth = 1.5, .outlier = 1e6};
@@ -137,7 +137,7 @@ std::vector<float> grey(const Scene& scene, std::size_t functions) {
 struct Case {
   const char* name;
   Basis basis;
-  FrameId frame;
+  Directions frame;
   std::vector<int> fineness;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -157,20 +157,24 @@ TEST_P(PictureFitTest, ReachesTheMinimumOfItsDefinition) {
     ASSERT_NEAR(double(coefficients[i]), expected(index(i / 3), index(i % 3)), 0.02) << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Bases, PictureFitTest,
-    testing::Values(
-        Case{"harmonics",
-             {BasisId::kHarmonics, 2, 0, 0, 2},
-             FrameId::kReflected,
-             {0, 1, 1, 1, 2, 2, 2, 2, 2}},
-        Case{"harmonics_global", {BasisId::kHarmonics, 2, 0, 0, 1}, FrameId::kGlobal, {0, 1, 1, 1}},
-        Case{"bsplines", {BasisId::kBspline, 2, 1, 1, 0}, FrameId::kGlobal, {0, 1, 1, 2}}),
-    [](const auto& of) { return of.param.name; });
+INSTANTIATE_TEST_SUITE_P(Bases, PictureFitTest,
+                         testing::Values(Case{"harmonics",
+                                              {BasisId::kHarmonics, 2, 0, 0, 2},
+                                              Directions::kReflected,
+                                              {0, 1, 1, 1, 2, 2, 2, 2, 2}},
+                                         Case{"harmonics_global",
+                                              {BasisId::kHarmonics, 2, 0, 0, 1},
+                                              Directions::kWorld,
+                                              {0, 1, 1, 1}},
+                                         Case{"bsplines",
+                                              {BasisId::kBspline, 2, 1, 1, 0},
+                                              Directions::kWorld,
+                                              {0, 1, 1, 2}}),
+                         [](const auto& of) { return of.param.name; });
 
 TEST(PictureFit, IsTheSameForAnyThreadCount) {
   const Scene scene;
-  FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 3}, FrameId::kReflected);
+  FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 3}, Directions::kReflected);
   settings.pictures.rounds = 2;
   settings.pictures.steps = 5;
   auto one = grey(scene, 16), four = one;
@@ -182,7 +186,7 @@ TEST(PictureFit, IsTheSameForAnyThreadCount) {
 
 TEST(PictureFit, APixelFarOffTheOthersHardlyCounts) {
   Scene scene;
-  FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, FrameId::kGlobal);
+  FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, Directions::kWorld);
   settings.pictures.outlier = 20;
   auto clean = grey(scene, 4), spoilt = clean;
   ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, clean));
@@ -200,7 +204,7 @@ TEST(PictureFit, PointsThatNoPictureShowsStayWhatTheyAre) {
   Scene scene;
   scene.cameras = {1};
   for (Voxel v : {Voxel{0, 0, 15}, Voxel{15, 15, 15}}) scene.positions.push_back(v);
-  const FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, FrameId::kGlobal);
+  const FitSettings settings = settings_of({BasisId::kHarmonics, 2, 0, 0, 1}, Directions::kWorld);
   auto coefficients = grey(scene, 4);
   ASSERT_TRUE(fit_to_pictures(scene.input(), settings, false, coefficients));
   EXPECT_EQ(coefficients[coefficients.size() - 12], 125);

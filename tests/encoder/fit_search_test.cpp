@@ -11,7 +11,7 @@
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/environment_fit.h"
 #include "encoder/fit_capture.h"
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 #include "slf/encoder.h"
 #include "slf/fit.h"
 #include "tests/codec/field_support.h"
@@ -22,7 +22,8 @@ namespace {
 /// A sphere, and far cameras all around: those in front of a point see it.
 struct Scene {
   std::vector<Voxel> positions = test::sphere_cloud(5);
-  std::vector<std::array<float, 3>> normals = frame_normals(FrameId::kReflected, positions, 0, 1);
+  std::vector<std::array<float, 3>> normals =
+      mirror_normals(Directions::kReflected, positions, 0, 1);
 
   /// @param shade  (direction of the view, reflected direction) -> grey
   template <class Shade>
@@ -40,7 +41,7 @@ struct Scene {
                      z};
         if (at[0] * v[0] + at[1] * v[1] + at[2] * v[2] < 0.2) continue;
         const auto direction = direction_of(v);
-        const float grey = shade(v, vector_of(to_frame(normals, p, direction))) + noise(random);
+        const float grey = shade(v, vector_of(to_local(normals, p, direction))) + noise(random);
         seen.direction.push_back(direction);
         seen.colour.push_back({grey, grey, grey});
         seen.camera.push_back(static_cast<std::uint16_t>(i));
@@ -61,31 +62,31 @@ float of_view(const Vec3& view, const Vec3&) {
   return static_cast<float>(100 + 60 * view[0] * view[1] + 40 * view[2]);
 }
 
-FitSettings settings_of(FrameId frame) {
+FitSettings settings_of(Directions frame) {
   FitSettings s;
   s.method = FitMethod::kHierarchical;
   s.basis = {BasisId::kHarmonics, 2, 0, 0, 3};
-  s.frame = frame;
+  s.directions = frame;
   s.environment.degree = 0;
   s.threads = 2;
   return s;
 }
 
-constexpr FitSearch kFrame{false, false, false, true, false};
+constexpr FitSearch kDirections{false, false, false, true, false};
 constexpr FitSearch kAll{true, true, true, true, true};
 
 TEST(FitSearch, TheFrameIsTheOneInWhichTheSurfaceIsAlike) {
   const Scene scene;
   const Observations shiny = scene.observe(24, mirror), flat = scene.observe(48, of_view);
-  for (const FrameId start : {FrameId::kGlobal, FrameId::kReflected}) {
-    const auto a = choose_fit(shiny, scene.positions, settings_of(start), kFrame);
-    const auto b = choose_fit(flat, scene.positions, settings_of(start), kFrame);
+  for (const Directions start : {Directions::kWorld, Directions::kReflected}) {
+    const auto a = choose_fit(shiny, scene.positions, settings_of(start), kDirections);
+    const auto b = choose_fit(flat, scene.positions, settings_of(start), kDirections);
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->outcome, ChosenFit::kSearched);
-    EXPECT_EQ(a->settings.frame, FrameId::kReflected);
-    EXPECT_EQ(b->settings.frame, FrameId::kGlobal);
-    EXPECT_EQ(a->psnr_chosen > a->psnr_given, start == FrameId::kGlobal);
-    EXPECT_EQ(b->psnr_chosen > b->psnr_given, start == FrameId::kReflected);
+    EXPECT_EQ(a->settings.directions, Directions::kReflected);
+    EXPECT_EQ(b->settings.directions, Directions::kWorld);
+    EXPECT_EQ(a->psnr_chosen > a->psnr_given, start == Directions::kWorld);
+    EXPECT_EQ(b->psnr_chosen > b->psnr_given, start == Directions::kReflected);
   }
 }
 
@@ -95,25 +96,25 @@ TEST(FitSearch, AFrameThatGainsLittleIsNotWorthItsBytes) {
   std::normal_distribution<float> noise(0, 50);
   const Observations dull = scene.observe(
       24, [&](const Vec3& v, const Vec3& r) { return 0.3f * mirror(v, r) + noise(random); });
-  const auto error = [&](FrameId frame) {
-    return choose_fit(dull, scene.positions, settings_of(frame), kFrame)->psnr_given;
+  const auto error = [&](Directions frame) {
+    return choose_fit(dull, scene.positions, settings_of(frame), kDirections)->psnr_given;
   };
-  EXPECT_GT(error(FrameId::kReflected), error(FrameId::kGlobal));
-  EXPECT_EQ(
-      choose_fit(dull, scene.positions, settings_of(FrameId::kGlobal), kFrame)->settings.frame,
-      FrameId::kGlobal);
+  EXPECT_GT(error(Directions::kReflected), error(Directions::kWorld));
+  EXPECT_EQ(choose_fit(dull, scene.positions, settings_of(Directions::kWorld), kDirections)
+                ->settings.directions,
+            Directions::kWorld);
 }
 
 TEST(FitSearch, WhatIsNotSearchedStays) {
   const Scene scene;
   const auto chosen =
-      choose_fit(scene.observe(24, of_view), scene.positions, settings_of(FrameId::kReflected),
+      choose_fit(scene.observe(24, of_view), scene.positions, settings_of(Directions::kReflected),
                  {true, true, true, false, false});
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->settings.frame, FrameId::kReflected);
-  EXPECT_EQ(chosen->settings.basis, settings_of(FrameId::kReflected).basis);
+  EXPECT_EQ(chosen->settings.directions, Directions::kReflected);
+  EXPECT_EQ(chosen->settings.basis, settings_of(Directions::kReflected).basis);
   const auto off = choose_fit(scene.observe(24, of_view), scene.positions,
-                              settings_of(FrameId::kReflected), FitSearch::none());
+                              settings_of(Directions::kReflected), FitSearch::none());
   EXPECT_EQ(off->outcome, ChosenFit::kNothingToSearch);
   EXPECT_EQ(off->settings.hierarchy.strength, HierarchySettings{}.strength);
 }
@@ -122,7 +123,7 @@ TEST(FitSearch, NoiseWithoutDirectionRaisesThePenalties) {
   const Scene scene;
   std::mt19937 random(9);
   std::normal_distribution<float> noise(128, 20);
-  FitSettings s = settings_of(FrameId::kGlobal);
+  FitSettings s = settings_of(Directions::kWorld);
   s.hierarchy.block_log2 = 2;  // between larger blocks noise is averaged away
   const auto chosen =
       choose_fit(scene.observe(24, [&](const Vec3&, const Vec3&) { return noise(random); }),
@@ -138,7 +139,7 @@ TEST(FitSearch, TheBasisMayBecomeBsplinesOfAboutTheSameSize) {
   const auto step = [](const Vec3& v, const Vec3&) {
     return std::atan2(v[1], v[0]) > 0 ? 220.f : 40.f;
   };
-  FitSettings s = settings_of(FrameId::kGlobal);
+  FitSettings s = settings_of(Directions::kWorld);
   s.basis.order = 1;
   const auto chosen =
       choose_fit(scene.observe(48, step), scene.positions, s, {false, false, false, false, true});
@@ -148,7 +149,7 @@ TEST(FitSearch, TheBasisMayBecomeBsplinesOfAboutTheSameSize) {
 
 TEST(FitSearch, TheEnvironmentsRadiusIsSettledOrItIsLeftOut) {
   const Scene scene;
-  FitSettings s = settings_of(FrameId::kReflected);
+  FitSettings s = settings_of(Directions::kReflected);
   s.environment.degree = 6;
   const auto flat = choose_fit(scene.observe(24, [](const Vec3&, const Vec3&) { return 90.f; }),
                                scene.positions, s, FitSearch::none());
@@ -159,7 +160,7 @@ TEST(FitSearch, TheEnvironmentsRadiusIsSettledOrItIsLeftOut) {
   EXPECT_EQ(shiny->settings.environment.degree, 6);
   EXPECT_GE(shiny->settings.environment.radius, 2);
   // And the fit is the one that finds the radius itself.
-  const auto turned = in_frame(seen, s.frame, scene.positions, 0, 1);
+  const auto turned = in_local(seen, s.directions, scene.positions, 0, 1);
   EXPECT_EQ(*fit_view_maps(turned, scene.positions, s),
             *fit_view_maps(turned, scene.positions, shiny->settings));
 }
@@ -167,10 +168,10 @@ TEST(FitSearch, TheEnvironmentsRadiusIsSettledOrItIsLeftOut) {
 TEST(FitSearch, FewCamerasOrAllFromOneSideKeepTheSettings) {
   const Scene scene;
   Observations seen = scene.observe(7, of_view);
-  const auto few = choose_fit(seen, scene.positions, settings_of(FrameId::kReflected), kAll);
+  const auto few = choose_fit(seen, scene.positions, settings_of(Directions::kReflected), kAll);
   ASSERT_TRUE(few);
   EXPECT_EQ(few->outcome, ChosenFit::kTooFewCameras);
-  EXPECT_EQ(few->settings.frame, FrameId::kReflected);
+  EXPECT_EQ(few->settings.directions, Directions::kReflected);
   // Nine cameras at one place.
   Observations same;
   same.first.push_back(0);
@@ -182,14 +183,14 @@ TEST(FitSearch, FewCamerasOrAllFromOneSideKeepTheSettings) {
     }
     same.first.push_back(same.direction.size());
   }
-  EXPECT_EQ(choose_fit(same, scene.positions, settings_of(FrameId::kReflected), kAll)->outcome,
+  EXPECT_EQ(choose_fit(same, scene.positions, settings_of(Directions::kReflected), kAll)->outcome,
             ChosenFit::kTooFewCameras);
 }
 
 TEST(FitSearch, DoesNotDependOnTheNumberOfThreads) {
   const Scene scene;
   const Observations seen = scene.observe(16, mirror);
-  FitSettings s = settings_of(FrameId::kGlobal);
+  FitSettings s = settings_of(Directions::kWorld);
   s.environment.degree = 4;
   s.threads = 1;
   const auto one = choose_fit(seen, scene.positions, s, kAll);
@@ -198,7 +199,7 @@ TEST(FitSearch, DoesNotDependOnTheNumberOfThreads) {
   ASSERT_TRUE(one && five);
   EXPECT_EQ(one->psnr_chosen, five->psnr_chosen);
   EXPECT_EQ(one->psnr_given, five->psnr_given);
-  EXPECT_EQ(one->settings.frame, five->settings.frame);
+  EXPECT_EQ(one->settings.directions, five->settings.directions);
   EXPECT_EQ(one->settings.basis, five->settings.basis);
   EXPECT_EQ(one->settings.hierarchy.strength, five->settings.hierarchy.strength);
   EXPECT_EQ(one->settings.environment.radius, five->settings.environment.radius);
@@ -210,7 +211,7 @@ TEST(FitSearch, ThePapersFitHasNothingToSearch) {
   s.basis = {BasisId::kBspline, 2, 1, 1};
   const Observations seen = scene.observe(9, of_view);
   EXPECT_TRUE(choose_fit(seen, scene.positions, s, FitSearch::none()));
-  EXPECT_EQ(choose_fit(seen, scene.positions, s, kFrame).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(choose_fit(seen, scene.positions, s, kDirections).error().code, Errc::kInvalidArgument);
 }
 
 /// What the encoder refuses before it looks at an image.
@@ -219,7 +220,7 @@ TEST(EncoderSettingsCheck, EveryFieldOfTheHierarchicalFitHasItsRange) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto accepted = [](auto edit) {
     EncoderSettings s;
-    s.fit = settings_of(FrameId::kReflected);
+    s.fit = settings_of(Directions::kReflected);
     s.search = kAll;
     edit(s);
     return static_cast<bool>(check_settings(s));

@@ -82,11 +82,11 @@ TEST(Settings, WhatIsGivenTakesItsPlaceInAnyOrder) {
 }
 
 TEST(Settings, WhatIsGivenIsNotSearched) {
-  const auto settings = settings_from({{"block-strength", "0.5"}, {"frame", "global"}});
+  const auto settings = settings_from({{"block-strength", "0.5"}, {"directions", "world"}});
   ASSERT_TRUE(settings);
-  EXPECT_FALSE(settings->search.strength || settings->search.frame);
+  EXPECT_FALSE(settings->search.strength || settings->search.directions);
   EXPECT_TRUE(settings->search.growth);
-  EXPECT_EQ(settings->fit.frame, FrameId::kGlobal);
+  EXPECT_EQ(settings->fit.directions, Directions::kWorld);
 }
 
 TEST(Settings, MistakesNameTheSetting) {

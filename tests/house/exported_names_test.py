@@ -11,7 +11,7 @@ import sys
 
 
 def exported(library):
-    """Names with their versions: slf_open@@SLF_0."""
+    """Names with their versions: slf_open@@SLF_1."""
     table = subprocess.run(['nm', '-D', '--defined-only', library], capture_output=True, text=True, check=True).stdout
     return {line.split()[-1] for line in table.splitlines() if ' A ' not in line}
 

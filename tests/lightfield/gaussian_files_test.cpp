@@ -139,7 +139,7 @@ TEST(GaussianFiles, TurnsOfAnyAngleKeepWhatIsSeen) {
 }
 
 TEST(GaussianFiles, DiscsOfALightFieldAreTheGaussiansThatTheirFileHas) {
-  const ViewMaps maps(test::harmonic_ball(FrameId::kGlobal));
+  const ViewMaps maps(test::harmonic_ball(Directions::kWorld));
   const auto discs = make_splats(maps, {.axes = SplatAxes::kYDown});
   ASSERT_TRUE(discs);
   const Gaussians made = gaussians_of(*discs, UpAxis::kMinusY);

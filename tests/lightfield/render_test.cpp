@@ -209,13 +209,13 @@ TEST(RenderTest, CodedNormalsShapeTheDiscs) {
 }
 
 TEST(RadiancesTest, ManyPointsAtOnceHaveTheColoursOfEach) {
-  for (const FrameId frame : {FrameId::kGlobal, FrameId::kReflected})
+  for (const Directions frame : {Directions::kWorld, Directions::kReflected})
     for (const int degree : {0, 3, 8}) {
       LightField field;
       field.header.grid = {{-1, 2, 0.5}, 0.25, 5};
       field.header.basis = {BasisId::kHarmonics, 0, 0, 0};
       field.header.basis.degree = degree;
-      field.header.frame = frame;
+      field.header.directions = frame;
       field.header.num_functions = field.header.basis.num_functions();
       field.header.gamma_min_q7 = -40;
       field.header.gamma_max_q7 = 100;

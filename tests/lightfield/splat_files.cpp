@@ -36,7 +36,7 @@ nlohmann::json expected(const ViewMaps& maps, const SplatCloud& splats) {
 }
 
 int write(const std::filesystem::path& directory) {
-  const ViewMaps maps(test::harmonic_ball(FrameId::kReflected, 5));
+  const ViewMaps maps(test::harmonic_ball(Directions::kReflected, 5));
   nlohmann::json all;
   for (const auto& [name, format, axes] :
        {std::tuple{"ball.ply", SplatFormat::kPly, SplatAxes::kYDown},

@@ -11,15 +11,15 @@
 namespace slf::test {
 
 /// Degree 3, every point another random map; up is +z unless it is changed.
-inline LightField harmonic_ball(FrameId frame, int bits = 4) {
+inline LightField harmonic_ball(Directions frame, int bits = 4) {
   LightField field;
   LightFieldHeader& header = field.header;
   header.grid = {{-1, 2, 0.5}, 0.25, bits};
   header.basis = {BasisId::kHarmonics, 2, 0, 0, 3};
   header.num_functions = 16;
   header.shift.assign(16, 4);
-  header.frame = frame;
-  header.normal_cell_log2 = frame == FrameId::kReflected ? 2 : 0;
+  header.directions = frame;
+  header.normal_cell_log2 = frame == Directions::kReflected ? 2 : 0;
   field.positions = sphere_cloud(bits);
   std::mt19937 random(5);
   for (std::size_t p = 0; p < field.positions.size(); ++p)

@@ -15,8 +15,8 @@
 
 namespace slf {
 
-static void PrintTo(FrameId frame, std::ostream* out) {
-  *out << (frame == FrameId::kGlobal ? "global" : "reflected");
+static void PrintTo(Directions frame, std::ostream* out) {
+  *out << (frame == Directions::kWorld ? "global" : "reflected");
 }
 
 }  // namespace slf
@@ -36,7 +36,7 @@ float dot(const std::array<float, 3>& a, const Vec3& b) {
   return a[0] * float(b[0]) + a[1] * float(b[1]) + a[2] * float(b[2]);
 }
 
-class SplatFrameTest : public testing::TestWithParam<FrameId> {};
+class SplatFrameTest : public testing::TestWithParam<Directions> {};
 
 // A mirror at the normal is a half turn about it, so degree 3 stays degree 3: nothing but the
 // smoothness of the fit and a table's rounding may differ. 1 level of 255 is 48 dB.
@@ -66,11 +66,11 @@ TEST_P(SplatFrameTest, RadianceIsThatOfTheLightFieldSeenFromTheOtherEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, SplatFrameTest,
-                         testing::Values(FrameId::kGlobal, FrameId::kReflected),
+                         testing::Values(Directions::kWorld, Directions::kReflected),
                          testing::PrintToStringParamName());
 
 TEST(SplatTest, NormalsPointOutOfABallAndItsPointsAreSeenFromThereAlone) {
-  const LightField field = harmonic_ball(FrameId::kGlobal, 6);
+  const LightField field = harmonic_ball(Directions::kWorld, 6);
   const ViewMaps maps(field);
   const SplatCloud splats = splats_of(maps, {.axes = SplatAxes::kWorld});
   const Vec3 centre = field.header.grid.world({31, 31, 31});
@@ -100,7 +100,7 @@ TEST(SplatTest, AnyUpAxisEndsUpWhereTheFileWantsItAndAxesStayRightHanded) {
 }
 
 TEST(SplatTest, ALeftHandedWorldIsMirrored) {
-  LightField field = harmonic_ball(FrameId::kGlobal);
+  LightField field = harmonic_ball(Directions::kWorld);
   field.header.right_handed = false;
   const ViewMaps maps(field);
   const SplatCloud splats = splats_of(maps);
@@ -109,7 +109,7 @@ TEST(SplatTest, ALeftHandedWorldIsMirrored) {
 }
 
 TEST(SplatTest, LinearLightBecomesDisplayValues) {
-  LightField field = harmonic_ball(FrameId::kGlobal);
+  LightField field = harmonic_ball(Directions::kWorld);
   field.header.transfer = Transfer::kLinear;
   std::fill(field.components.begin(), field.components.end(), 0);
   for (std::size_t i = 0; i < field.components.size(); i += 48)
@@ -120,7 +120,7 @@ TEST(SplatTest, LinearLightBecomesDisplayValues) {
 }
 
 TEST(SplatTest, CoordinatesFarFromTheOriginAreGivenFromTheMiddleOfTheCloud) {
-  LightField field = harmonic_ball(FrameId::kGlobal);
+  LightField field = harmonic_ball(Directions::kWorld);
   field.header.grid.origin = {4e6, -5e6, 300};
   const ViewMaps maps(field);
   const SplatCloud splats = splats_of(maps, {.axes = SplatAxes::kWorld});
@@ -134,7 +134,7 @@ TEST(SplatTest, CoordinatesFarFromTheOriginAreGivenFromTheMiddleOfTheCloud) {
 }
 
 TEST(SplatTest, TheNumberOfThreadsChangesNoByte) {
-  const ViewMaps maps(harmonic_ball(FrameId::kReflected));
+  const ViewMaps maps(harmonic_ball(Directions::kReflected));
   SplatSettings one, three;
   one.threads = 1;
   three.threads = 3;
@@ -144,7 +144,7 @@ TEST(SplatTest, TheNumberOfThreadsChangesNoByte) {
 }
 
 TEST(SplatTest, LowerDegreesLoseMoreAndSpzMoreThanPly) {
-  const ViewMaps maps(harmonic_ball(FrameId::kGlobal));
+  const ViewMaps maps(harmonic_ball(Directions::kWorld));
   double before = 0;
   for (int degree = 0; degree <= 3; ++degree) {
     SplatSettings settings;
@@ -173,7 +173,7 @@ TEST(SplatTest, DiscsTurnTheirThinAxisOntoTheNormalByAQuarterTurnAtMost) {
 }
 
 TEST(SplatTest, WhatSpzCannotHoldIsRefused) {
-  SplatCloud splats = splats_of(ViewMaps(harmonic_ball(FrameId::kGlobal)));
+  SplatCloud splats = splats_of(ViewMaps(harmonic_ball(Directions::kWorld)));
   for (float& deviation : splats.deviations) deviation *= 1e-6f;
   EXPECT_EQ(splat_file(splats, SplatFormat::kSpz).error().code, Errc::kInvalidInput);
   for (float& deviation : splats.deviations) deviation *= 1e6f;
@@ -183,7 +183,7 @@ TEST(SplatTest, WhatSpzCannotHoldIsRefused) {
 
 TEST(SplatTest, AGlbHasTheLengthsThatItSaysAndIsRefusedBeyondFourGibibytes) {
   for (int degree = 0; degree <= 3; ++degree) {
-    const ViewMaps maps(harmonic_ball(FrameId::kGlobal));
+    const ViewMaps maps(harmonic_ball(Directions::kWorld));
     const SplatCloud splats = splats_of(maps, {.degree = degree});
     const auto file = splat_file(splats, SplatFormat::kGlb);
     ASSERT_TRUE(file);
@@ -202,10 +202,10 @@ TEST(SplatTest, AGlbHasTheLengthsThatItSaysAndIsRefusedBeyondFourGibibytes) {
 }
 
 TEST(SplatTest, SettingsOutOfRangeAndNoPointsAreErrors) {
-  const ViewMaps maps(harmonic_ball(FrameId::kGlobal));
+  const ViewMaps maps(harmonic_ball(Directions::kWorld));
   EXPECT_EQ(make_splats(maps, {.degree = 4}).error().code, Errc::kInvalidArgument);
   EXPECT_EQ(make_splats(maps, {.size = NAN}).error().code, Errc::kInvalidArgument);
-  LightField empty = harmonic_ball(FrameId::kGlobal);
+  LightField empty = harmonic_ball(Directions::kWorld);
   empty.positions.clear();
   empty.components.clear();
   EXPECT_EQ(make_splats(ViewMaps(empty), {}).error().code, Errc::kInvalidInput);

@@ -154,7 +154,7 @@ TEST(Spec_6_4_Frame, ReflectedIsTheGlobalOneAtTheMirroredDirection) {
   field.header.grid.bits = 3;
   field.positions = plane;
   const ViewMaps global(field);
-  field.header.frame = FrameId::kReflected;
+  field.header.directions = Directions::kReflected;
   const ViewMaps reflected(field);
   for (std::size_t p = 0; p < 64; p += 7)
     for (const auto& [theta, gamma] : {std::pair{0.3f, 0.2f}, {-2.0f, 0.9f}}) {

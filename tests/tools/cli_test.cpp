@@ -56,7 +56,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   contradiction("--texture-qp 5", "--texture-qp", "--coefficients texture");
   contradiction("--preset paper --effort 3", "--effort", "--preset default");
   contradiction("--fit paper --effort 3", "--effort", "--fit hierarchical");
-  contradiction("--fit hierarchical --cross-validate off --frame auto", "--frame auto",
+  contradiction("--fit hierarchical --cross-validate off --directions auto", "--directions auto",
                 "--cross-validate on");
   contradiction("--fit hierarchical --environment-radius 1", "--environment-radius", "2 to 1e");
   expect_failure(slf("encode a -o b --preset best"), 2, "--preset", "default|paper");

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages, by `cpack` in the build directory: slf (the program), libslf0 (the C interface),
+# Debian packages, by `cpack` in the build directory: slf (the program), libslf1 (the C interface),
 # libslf-dev (headers, static libraries, find_package, pkg-config). Checked by tools/check_package.sh.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME slf)

@@ -190,8 +190,8 @@ def measure(directory, job, run):
     measured = json.loads(run(opt.eval_command(job["slf"], fine, coded, threads)))
     run([job["slf"], "decode", coded, "--dump", str(dump), "--threads", str(threads), "--quiet"])
     field = json.loads((dump / "light_field.json").read_text())
-    if field["basis"].get("id", "bspline") != "bspline" or field.get("frame", "global") != "global":
-        raise ValueError("the PSNR of tmc3 is estimated for B-splines in the global frame alone")
+    if field["basis"].get("id", "bspline") != "bspline" or field.get("directions", "world") != "world":
+        raise ValueError("the PSNR of tmc3 is estimated for B-splines of directions of the world alone")
     positions = np.load(dump / "positions.npy")
     coefficients = np.load(dump / "components.npy") / 2.0 ** np.array(field["shift"])[None, :, None]
     coder = Coder(job["tmc3"], directory / "runs", run)

@@ -154,7 +154,7 @@ export function boundingBall({ positions }) {
 }
 
 function packPlaces(field, centre, texels) {
-  const { points, positions, normals, frameNormals, radii, areas, centres, grid } = field;
+  const { points, positions, normals, mirrorNormals, radii, areas, centres, grid } = field;
   const means = field.meanColours();
   const out = {
     places: new Float32Array(4 * texels),
@@ -166,7 +166,7 @@ function packPlaces(field, centre, texels) {
     for (let k = 0; k < 3; ++k) {
       out.places[4 * p + k] = positions[3 * p + k] - centre[k];
       out.discs[4 * p + k] = normals[3 * p + k];
-      if (frameNormals) out.frames[4 * p + k] = frameNormals[3 * p + k];
+      if (mirrorNormals) out.frames[4 * p + k] = mirrorNormals[3 * p + k];
       out.means[4 * p + k] = means[3 * p + k];
       out.places[4 * p + 3] += (centres[3 * p + k] - positions[3 * p + k]) * normals[3 * p + k];
     }

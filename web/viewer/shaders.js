@@ -28,7 +28,7 @@ void main() {
 /** One fragment a point: its colour along the direction to the eye. Spec 6.4, 6.7. */
 export const COLOUR_FRAGMENT = `${HEAD}
 uniform sampler2D places;         // x, y, z, shift along the normal
-uniform sampler2D frames;         // normal that mirrors the direction (0: global frame), area share
+uniform sampler2D frames;         // normal that mirrors the direction (0: none, directions of the world), area share
 uniform sampler2D means;          // mean colour
 uniform isampler2DArray weights;  // layer 3 l + c: weights in channel c of functions 4 l .. 4 l + 3
 uniform sampler2DArray functions; // layer l: functions 4 l .. 4 l + 3, scaled to the weights

@@ -80,7 +80,7 @@ class Runs(Scratch):
         path = self.manifest(codecs=["tmc3"], rates={"tmc3": [22]}, grid={"order": [2]}, options={"fit": "hierarchical"})
         code, _, said = self.rd(path, "--tmc3", FAKE_TMC3)
         self.assertEqual(code, 1)
-        self.assertIn("1 failed: ValueError: the PSNR of tmc3 is estimated for B-splines in the global frame alone", said)
+        self.assertIn("1 failed: ValueError: the PSNR of tmc3 is estimated for B-splines of directions of the world alone", said)
 
     def test_without_the_program_the_others_run(self):
         path = self.manifest(codecs=["raht", "tmc3"], rates={"raht": [8], "tmc3": [10]}, grid={"order": [2]})

@@ -72,8 +72,8 @@ function directions(count) {
 /** Colours from weights and the function table, as a shader finds them. */
 function shaded(field, table, point, world) {
   let omega = world.map((x) => x / Math.hypot(...world));
-  if (field.frameNormals) {
-    const n = field.frameNormals.subarray(3 * point, 3 * point + 3);
+  if (field.mirrorNormals) {
+    const n = field.mirrorNormals.subarray(3 * point, 3 * point + 3);
     const twice = 2 * (n[0] * omega[0] + n[1] * omega[1] + n[2] * omega[2]);
     omega = omega.map((x, k) => twice * n[k] - x);
   }
@@ -112,7 +112,7 @@ test('planes without a basis have no colours', () => {
   assert.equal(field.hasBasis, false);
   assert.throws(() => field.weights(), code('INVALID_ARGUMENT'));
   assert.throws(() => field.meanColours(), code('INVALID_ARGUMENT'));
-  assert.equal(field.frameNormals, null);
+  assert.equal(field.mirrorNormals, null);
   field.release();
 });
 

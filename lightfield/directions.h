@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions in the frame of a point. Spec 6.4.
+// Directions as the functions of a point take them: local ones. Spec 6.4.
 #pragma once
 
 #include <algorithm>
@@ -23,11 +23,12 @@ inline Vec3 vector_of(const std::array<float, 2>& direction) {
   return {r * std::cos(theta), r * std::sin(theta), gamma};
 }
 
-/// [P] unit normals, of either sign, that the frame mirrors at; empty for the global frame.
+/// [P] unit normals, of either sign, that directions are mirrored at; empty for those of the world.
 /// @param positions  of all points of the light field, Morton order
 /// @param cell_log2  LightFieldHeader::normal_cell_log2
-std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
-                                                int cell_log2, int threads);
+std::vector<std::array<float, 3>> mirror_normals(Directions directions,
+                                                 std::span<const Voxel> positions, int cell_log2,
+                                                 int threads);
 
 /// 2 (n . w) n - w.
 inline Vec3 mirrored(const std::array<float, 3>& n, const Vec3& w) {
@@ -35,9 +36,9 @@ inline Vec3 mirrored(const std::array<float, 3>& n, const Vec3& w) {
   return {twice * double(n[0]) - w[0], twice * double(n[1]) - w[1], twice * double(n[2]) - w[2]};
 }
 
-/// World (theta, gamma) to those in the frame of a point: 2 (n . w) n - w, the same for either sign
-/// of n. No normals: the global frame.
-inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> normals,
+/// World (theta, gamma) to the local ones of a point: 2 (n . w) n - w, the same for either sign
+/// of n. No normals: those of the world.
+inline std::array<float, 2> to_local(std::span<const std::array<float, 3>> normals,
                                      std::size_t point, const std::array<float, 2>& world) {
   if (normals.empty()) return world;
   return direction_of(mirrored(normals[point], vector_of(world)));
@@ -46,8 +47,8 @@ inline std::array<float, 2> to_frame(std::span<const std::array<float, 3>> norma
 /// gamma_min and gamma_max of the directions that are there.
 void set_gamma_range(Observations& observations);
 
-/// The observations with their directions in the frame of these normals, gamma range too.
-Observations in_frame(Observations observations, std::span<const std::array<float, 3>> normals,
+/// The observations with their directions mirrored at these normals, gamma range too.
+Observations in_local(Observations observations, std::span<const std::array<float, 3>> normals,
                       int threads);
 
 }  // namespace slf

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightfield/frame.h"
+#include "lightfield/directions.h"
 
 #include "geometry/surface_normals.h"
 
 namespace slf {
 
-std::vector<std::array<float, 3>> frame_normals(FrameId frame, std::span<const Voxel> positions,
-                                                int cell_log2, int threads) {
+std::vector<std::array<float, 3>> mirror_normals(Directions directions,
+                                                 std::span<const Voxel> positions, int cell_log2,
+                                                 int threads) {
   std::vector<std::array<float, 3>> normals;
-  if (frame == FrameId::kGlobal) return normals;
+  if (directions == Directions::kWorld) return normals;
   normals.reserve(positions.size());
   for (const auto& n : surface_normals(positions, cell_log2, threads)) {
     const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]),
