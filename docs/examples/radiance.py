@@ -131,7 +131,7 @@ def radiance(directory, point, direction):
     if not field["has_basis"]:
         sys.exit("these components have no meaning: the file was packed, not encoded")
     direction = np.array(direction) / np.linalg.norm(direction)
-    if field["frame"] == "reflected":
+    if field["directions"] == "reflected":
         normal = surface_normal(positions, voxel, field["normal_cell"])
         direction = 2 * (normal @ direction) * normal - direction
     x, y, z = direction

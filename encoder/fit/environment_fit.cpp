@@ -256,8 +256,7 @@ EnvironmentSettings with_radius(const Observations& observations, const MirrorPo
   const CameraFolds folds =
       camera_folds(observations, reflected ? std::span(points.normal) : NoNormals{});
   if (folds.count < 3) return none();
-  const ReflectedViews views =
-      reflected_views(observations, points, settings.directions, kMostTriedViews);
+  const auto views = reflected_views(observations, points, settings.directions, kMostTriedViews);
   if (views.colour.empty()) return none();
   EnvironmentSettings tried = settings.environment;
   tried.degree = std::min(tried.degree, kTriedDegree);
@@ -281,8 +280,7 @@ std::optional<Environment> fit_environment(const Observations& observations,
     return Environment(given.radius, given.degree, given.known.light, settings.threads);
   const EnvironmentSettings e = with_radius(observations, points, settings);
   if (e.degree == 0) return std::nullopt;
-  const ReflectedViews views =
-      reflected_views(observations, points, settings.directions, most_views);
+  const auto views = reflected_views(observations, points, settings.directions, most_views);
   if (views.colour.empty()) return std::nullopt;
   return Environment(e.radius, e.degree, solve_environment(views, e.radius, e, settings.threads),
                      settings.threads);
@@ -293,8 +291,7 @@ KnownLight known_light(const Observations& observations, std::span<const Voxel> 
   const EnvironmentSettings& e = settings.environment;
   if (e.degree == 0 || observations.colour.empty()) return {};
   const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
-  const ReflectedViews views =
-      reflected_views(observations, points, settings.directions, kMostViews);
+  const auto views = reflected_views(observations, points, settings.directions, kMostViews);
   if (views.colour.empty()) return {};
   const ObjectBox box(positions);
   return {box.centre(), box.half(), solve_environment(views, e.radius, e, settings.threads)};
