@@ -10,7 +10,7 @@ set -euo pipefail
 packages=(
   g++ clang cmake ninja-build pkg-config
   zlib1g-dev libpng-dev libjpeg62-turbo-dev libdraco-dev
-  libde265-dev
+  libde265-dev libzstd-dev libwebp-dev libzip-dev
   libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcli11-dev
   python3 python3-numpy
 )

@@ -31,7 +31,7 @@ bool is_sog(FileBytes head) {
 
 InputError refuse_sog(const std::string& name) {
   return {Errc::kUnsupported, name +
-                                  ": SOG is pictures in WebP, which are not read here: "
+                                  ": SOG is pictures in WebP, which this build does not read: "
                                   "splat-transform (npm @playcanvas/splat-transform) makes a PLY "
                                   "of it"};
 }
@@ -62,13 +62,13 @@ Result<GaussianFile, InputError> parse_gaussians(const std::string& name,
     return read_gaussian_ply(name, bytes);
   if (is_spz(head)) return read_spz(name, bytes);
   if (is_gaussian_gltf(head)) return read_gaussian_gltf(name, bytes, folder);
-  if (is_sog(head)) return refuse_sog(name);
+  if (is_sog(head)) return read_sog(name, bytes, folder);
   if (is_ksplat(head, bytes.size())) return read_ksplat(name, bytes);
   if (is_splat(head, bytes.size())) return read_splat(name, bytes);
   return InputError{Errc::kInvalidInput,
                     name +
-                        ": none of the formats of splats that are read: PLY, SPZ, splat, "
-                        "ksplat, glTF with KHR_gaussian_splatting"};
+                        ": none of the formats of splats that are read: PLY, SPZ, SOG, "
+                        "splat, ksplat, glTF with KHR_gaussian_splatting"};
 }
 
 Result<GaussianFile, InputError> read_gaussians(const std::filesystem::path& file) {

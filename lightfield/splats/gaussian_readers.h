@@ -22,7 +22,7 @@ Result<GaussianFile, InputError> read_gaussian_ply(const std::string& name, File
 bool is_compressed_ply(FileBytes head, std::uint64_t size);
 Result<GaussianFile, InputError> read_compressed_ply(const std::string& name, FileBytes bytes);
 
-/// SPZ, versions 1 to 3; 4 is told by name.
+/// SPZ, versions 1 to 3, and 4 in builds with zstd; else it is refused by name.
 bool is_spz(FileBytes head);
 Result<GaussianFile, InputError> read_spz(const std::string& name, FileBytes bytes);
 
@@ -34,8 +34,11 @@ Result<GaussianFile, InputError> read_splat(const std::string& name, FileBytes b
 bool is_ksplat(FileBytes head, std::uint64_t size);
 Result<GaussianFile, InputError> read_ksplat(const std::string& name, FileBytes bytes);
 
-/// PlayCanvas' bundle of pictures, or the text that stands beside them; told, and refused by name.
+/// PlayCanvas' bundle of pictures, or the text that stands beside them; refused by name in builds
+/// without WebP.
 bool is_sog(FileBytes head);
+Result<GaussianFile, InputError> read_sog(const std::string& name, FileBytes bytes,
+                                          const std::filesystem::path& folder);
 InputError refuse_sog(const std::string& name);
 
 /// glTF or GLB with KHR_gaussian_splatting.

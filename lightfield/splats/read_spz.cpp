@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SPZ (Niantic), versions 1 to 3: attribute by attribute in gzip. Version 1 has half floats for
-// positions, version 3 quaternions of which the largest component is left out.
+// SPZ (Niantic): attribute by attribute, versions 1 to 3 in gzip, version 4 each in zstd. Version 1
+// has half floats for positions, from version 3 on quaternions lack their largest component.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "bitstream/deflate.h"
 #include "lightfield/splats/gaussian_readers.h"
 #include "lightfield/splats/half_float.h"
+#include "lightfield/splats/zstd_adapter.h"
 
 namespace slf {
 namespace {
@@ -25,7 +26,7 @@ struct SpzHeader {
     return 3 * (std::size_t(degree + 1) * std::size_t(degree + 1) - 1);
   }
   std::size_t position_bytes() const { return version == 1 ? 6 : 9; }
-  std::size_t rotation_bytes() const { return version == 3 ? 4 : 3; }
+  std::size_t rotation_bytes() const { return version >= 3 ? 4 : 3; }
   std::size_t splat_bytes() const {  // with opacity, colour and size
     return position_bytes() + 1 + 3 + 3 + rotation_bytes() + harmonics();
   }
@@ -97,7 +98,7 @@ RawGaussian splat_at(const SpzHeader& header, const SpzPlaces& places, FileBytes
     out.log_deviations[k] = static_cast<float>(raw[places.sizes + value]) / 16 - 10;
     harmonics[k] = (static_cast<float>(raw[places.colours + value]) / 255 - 0.5f) / kSpzColourScale;
   }
-  out.rotation = header.version == 3 ? smallest_three(raw, places.rotations + 4 * p)
+  out.rotation = header.version >= 3 ? smallest_three(raw, places.rotations + 4 * p)
                                      : first_three(raw, places.rotations + 3 * p);
   out.logit = logit_of_byte(raw[places.opacities + p]);
   return out;
@@ -111,9 +112,9 @@ Result<SpzHeader, InputError> parse_spz_header(const std::string& name, FileByte
   if (raw.size() < kSpzHeader || word_at(raw, 0, 4) != kSpzMagic)
     return fail(Errc::kInvalidInput, "damaged or cut off within the header");
   const SpzHeader header{word_at(raw, 4, 4), word_at(raw, 8, 4), raw[12], raw[13]};
-  if (header.version < 1 || header.version > 3)
+  if (header.version < 1 || header.version > 4)
     return fail(Errc::kUnsupported,
-                "version " + std::to_string(header.version) + " is not read, 1 to 3 are");
+                "version " + std::to_string(header.version) + " is not read, 1 to 4 are");
   if (header.degree > 4)
     return fail(Errc::kInvalidInput,
                 "harmonics of degree " + std::to_string(header.degree) + ": 0 to 4 are expected");
@@ -121,6 +122,59 @@ Result<SpzHeader, InputError> parse_spz_header(const std::string& name, FileByte
     return fail(Errc::kInvalidInput,
                 std::to_string(header.fraction_bits) + " fraction bits: 0 to 24 are expected");
   return header;
+}
+
+InputError short_of(const std::string& name, const SpzHeader& header) {
+  return {Errc::kInvalidInput, name + ": SPZ: damaged, or fewer bytes than its " +
+                                   std::to_string(header.splats) + " splats take"};
+}
+
+/// Attributes of a file in gzip, behind their header.
+Result<std::vector<std::uint8_t>, InputError> gunzipped(const std::string& name,
+                                                        const SpzHeader& header, FileBytes file) {
+  const std::size_t whole = kSpzHeader + header.splats * header.splat_bytes();
+  // One byte more: then the checksum has been looked at.
+  Gunzipped raw = gunzip(file, whole + 1);
+  if (raw.bytes.size() < whole || (raw.bytes.size() == whole && !raw.whole))
+    return short_of(name, header);
+  return std::move(raw.bytes);
+}
+
+/// The same of version 4: a list of the bytes that each attribute takes, packed and not; then
+/// these.
+Result<std::vector<std::uint8_t>, InputError> unpacked(const std::string& name,
+                                                       const SpzHeader& header, FileBytes file) {
+  constexpr std::size_t kLongHeader = 32, kEntry = 16;
+  const auto fail = [&](const std::string& cause) {
+    return InputError{Errc::kInvalidInput, name + ": SPZ 4: " + cause};
+  };
+  if (file.size() < kLongHeader) return fail("cut off within the header");
+  std::vector<std::size_t> sizes;  // of attributes, unpacked
+  for (const std::size_t bytes : {header.position_bytes(), std::size_t{1}, std::size_t{3},
+                                  std::size_t{3}, header.rotation_bytes(), header.harmonics()})
+    if (bytes > 0) sizes.push_back(bytes * header.splats);
+  const std::size_t list = word_at(file, 16, 4);
+  if (file[15] != sizes.size()) return fail(std::to_string(file[15]) + " attributes");
+  if (list < kLongHeader || list > file.size() || file.size() - list < kEntry * sizes.size())
+    return fail("the list of attributes is cut off");
+  std::vector<std::uint8_t> raw(kSpzHeader + header.splats * header.splat_bytes());
+  std::size_t from = list + kEntry * sizes.size(), to = kSpzHeader;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::size_t at = list + kEntry * i;
+    const std::uint64_t packed = word_at(file, at, 4) | std::uint64_t{word_at(file, at + 4, 4)}
+                                                            << 32;
+    const std::uint64_t said = word_at(file, at + 8, 4) | std::uint64_t{word_at(file, at + 12, 4)}
+                                                              << 32;
+    if (said != sizes[i]) return fail("attribute " + std::to_string(i) + " is of another size");
+    if (packed > file.size() - from) return fail("attribute " + std::to_string(i) + " is cut off");
+    const auto part = static_cast<std::size_t>(packed);
+    if (!unzstd(file.subspan(from, part), std::span(raw).subspan(to, sizes[i])))
+      return fail("attribute " + std::to_string(i) + " is damaged");
+    from += part;
+    to += sizes[i];
+  }
+  if (from != file.size()) return fail("bytes behind the last attribute");
+  return raw;
 }
 
 }  // namespace
@@ -133,30 +187,30 @@ bool is_spz(FileBytes head) {
 }
 
 Result<GaussianFile, InputError> read_spz(const std::string& name, FileBytes bytes) {
-  if (bytes.size() >= 8 && word_at(bytes, 0, 4) == kSpzMagic)
-    return InputError{Errc::kUnsupported,
-                      name + ": SPZ " + std::to_string(word_at(bytes, 4, 4)) +
-                          " is in zstd, which is not read here: splat-transform (npm "
-                          "@playcanvas/splat-transform) makes a PLY of it"};
-  SLF_TRY(const SpzHeader header, parse_spz_header(name, gunzip(bytes, kSpzHeader).bytes));
+  const bool plain = word_at(bytes, 0, 4) == kSpzMagic;  // a header outside of what is packed
+  if (plain && !has_zstd())
+    return InputError{
+        Errc::kUnsupported,
+        name +
+            ": SPZ 4 is in zstd, which this build does not read: splat-transform (npm "
+            "@playcanvas/splat-transform) makes a PLY of it"};
+  const Gunzipped packed = plain ? Gunzipped{} : gunzip(bytes, kSpzHeader);
+  SLF_TRY(const SpzHeader header, parse_spz_header(name, plain ? bytes : FileBytes(packed.bytes)));
+  if (plain != (header.version == 4))
+    return InputError{
+        Errc::kInvalidInput,
+        name + ": SPZ: version " + std::to_string(header.version) + " packed as another is"};
   const std::uint64_t whole = kSpzHeader + std::uint64_t{header.splats} * header.splat_bytes();
-  const auto short_of = [&] {
-    return InputError{Errc::kInvalidInput, name + ": SPZ: damaged, or fewer bytes than its " +
-                                               std::to_string(header.splats) + " splats take"};
-  };
-  if (whole / kMostDeflateRatio > bytes.size()) return short_of();
-  // One byte more: then the checksum has been looked at.
-  const Gunzipped raw = gunzip(bytes, static_cast<std::size_t>(whole) + 1);
-  if (raw.bytes.size() < whole || (raw.bytes.size() == whole && !raw.whole)) return short_of();
+  if (whole / kMostDeflateRatio > bytes.size()) return short_of(name, header);
+  SLF_TRY(const auto raw, plain ? unpacked(name, header, bytes) : gunzipped(name, header, bytes));
   const SpzPlaces places = places_of(header);
   GaussianCollector collector(header.degree, UpAxis::kPlusY, header.splats);
   const std::size_t rest = header.harmonics();
   std::vector<float> harmonics(rest + 3);
   for (std::size_t p = 0; p < header.splats; ++p) {
-    const RawGaussian splat = splat_at(header, places, raw.bytes, p, harmonics);
+    const RawGaussian splat = splat_at(header, places, raw, p, harmonics);
     for (std::size_t i = 0; i < rest; ++i)
-      harmonics[3 + i] =
-          (static_cast<float>(raw.bytes[places.harmonics + p * rest + i]) - 128) / 128;
+      harmonics[3 + i] = (static_cast<float>(raw[places.harmonics + p * rest + i]) - 128) / 128;
     collector.add(splat, harmonics);
   }
   return std::move(collector).take(name, "SPZ " + std::to_string(header.version));

@@ -5,7 +5,7 @@
 # who works on a file wants it, each is compiled alone.
 set(SLF_FILES_AT_ONCE 12)
 # Adapters of libraries stay alone: their headers define short names.
-set(SLF_COMPILED_ALONE "/(av1_codec|hevc_decoder|hevc_encoder|jpeg_adapter|jpeg_encoder|nearest|png_adapter)\\.cpp$")
+set(SLF_COMPILED_ALONE "/(av1_codec|hevc_decoder|hevc_encoder|jpeg_adapter|jpeg_encoder|nearest|png_adapter|webp_adapter|zip_bundle|zstd_adapter)\\.cpp$")
 
 function(slf_unity target)
   get_target_property(sources ${target} SOURCES)

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightfield/splats/zstd_adapter.h"
+
+#if SLF_WITH_ZSTD
+#include <zstd.h>
+#endif
+
+namespace slf {
+
+#if SLF_WITH_ZSTD
+bool has_zstd() { return true; }
+
+bool unzstd(std::span<const std::uint8_t> frames, std::span<std::uint8_t> to) {
+  const std::size_t size = ZSTD_decompress(to.data(), to.size(), frames.data(), frames.size());
+  return ZSTD_isError(size) == 0 && size == to.size();
+}
+#else
+bool has_zstd() { return false; }
+
+bool unzstd(std::span<const std::uint8_t>, std::span<std::uint8_t>) { return false; }
+#endif
+
+}  // namespace slf
