@@ -194,6 +194,20 @@ TEST(Spec_7_1_2_FrameVersions, AreOf1_1WithContextsByTheReferenceAlone) {
   expect_same(decoded_frame(a, 1), decoded_frame(b, 1));
 }
 
+TEST(Spec_7_2_1_Features, AndLevelStayWithATransform) {
+  CodingParameters parameters = frame_parameters(8);
+  parameters.transform = TransformMode::kFunctions;
+  LightField field = frame_of(Moves::kNothing, 0);  // its functions are one, four times
+  for (std::size_t i = 0; i < field.components.size(); ++i)
+    field.components[i] = field.components[i - i % 12 + i % 3];
+  const auto frames = coded_frames({field, field}, parameters);
+  const auto set = parse_sequence_parameter_set(read_unit(frames[0], kSignature.size())->payload);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->sps_transform_flag, 1u);
+  EXPECT_EQ(set->features, kReferenceContexts);
+  EXPECT_EQ(set->sps_level, 1u);
+}
+
 TEST(Spec_7_2_1_Features, StayInWhatIsCutFromFrames) {
   const Bytes stream = joined(coded_frames(fields_of(Moves::kTurn, 3), frame_parameters(8)));
   DecodeOptions options;
