@@ -55,6 +55,11 @@ class CoefficientModels {
   std::vector<CoefficientStates> all_states();
   void start_from_all(std::span<const CoefficientStates> states);
 
+  /// Before a unit of a frame that is predicted.
+  void predict_from(std::size_t group, const GroupReference& reference) {
+    if (!vector_.empty()) vector_[group].predict_from(reference);
+  }
+
   /// Leaves memory to what follows: it codes no more.
   void drop() { vector_.clear(); }
 

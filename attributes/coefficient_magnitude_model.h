@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "entropy/binarisation.h"
 #include "entropy/context_shape.h"
@@ -24,7 +26,17 @@ struct MagnitudeEvidence {
   std::uint32_t functions_before;  ///< 0 .. 15: sizes of channel 0 of the two before, 16: none
   std::uint32_t vector_ratio;      ///< 0 .. 47: by the vector's earlier values
   bool first;                      ///< no value of the vector is other than 0 yet
+  ContextBit* there;               ///< contexts by the reference; nullptr: none
 };
+
+/// Sizes of channel 0 of the two functions before function f of a vector. own: its kept values
+inline std::uint32_t functions_before(std::size_t f, const std::int16_t* own) {
+  const auto size = [&](std::size_t function, int most) {
+    return static_cast<std::uint32_t>(std::min(std::abs(int{own[3 * function]}), most));
+  };
+  if (f == 0) return 16;
+  return size(f - 1, 3) + 4 * (f == 1 ? 3 : size(f - 2, 2));
+}
 
 class CoefficientMagnitudeModel {
  public:
@@ -35,15 +47,10 @@ class CoefficientMagnitudeModel {
   template <class Coder>
   std::uint32_t code(Coder& coder, const MagnitudeEvidence& evidence, bool nonzero,
                      std::uint32_t magnitude) {
-    const auto contexts = more_.select(contexts_of(evidence));
-    for (std::uint32_t reached = nonzero ? 1 : 0; reached < kUnary; ++reached)
-      if (!more_.code(coder, contexts, reached,
-                      Set::index(evidence.first, evidence.channel, reached), magnitude > reached))
-        return reached;
-    const std::uint32_t rest = code_exp_golomb(
-        coder, prefix_[std::min(log_class(evidence.expected[evidence.channel] >> 8, 47) / 4, 11u)],
-        kLimit, Coder::kDecodes ? 0 : magnitude - kUnary + 1);
-    return rest == 0 ? kDamaged : kUnary - 1 + rest;
+    const auto contexts = contexts_of(evidence);
+    if (evidence.there != nullptr)
+      return code_in(coder, more_.with(contexts, *evidence.there), evidence, nonzero, magnitude);
+    return code_in(coder, more_.select(contexts), evidence, nonzero, magnitude);
   }
 
   /// Codes whether a magnitude is 2 * before or one more. Spec 8.7.7.
@@ -58,9 +65,25 @@ class CoefficientMagnitudeModel {
                               magnitude > least);
   }
 
+  /// Before the first context by a reference: what its weight begins with.
+  void weigh_more(std::int16_t weight) { more_.weigh_more(weight); }
+
  private:
   static constexpr std::uint32_t kUnary = 15;  // decisions "more than 0" to "more than 14"
   static constexpr std::uint32_t kLimit = 255;
+
+  template <class Coder, class Contexts>
+  std::uint32_t code_in(Coder& coder, const Contexts& contexts, const MagnitudeEvidence& evidence,
+                        bool nonzero, std::uint32_t magnitude) {
+    for (std::uint32_t reached = nonzero ? 1 : 0; reached < kUnary; ++reached)
+      if (!more_.code(coder, contexts, reached,
+                      Set::index(evidence.first, evidence.channel, reached), magnitude > reached))
+        return reached;
+    const std::uint32_t rest = code_exp_golomb(
+        coder, prefix_[std::min(log_class(evidence.expected[evidence.channel] >> 8, 47) / 4, 11u)],
+        kLimit, Coder::kDecodes ? 0 : magnitude - kUnary + 1);
+    return rest == 0 ? kDamaged : kUnary - 1 + rest;
+  }
 
   static std::array<std::uint32_t, 3> contexts_of(const MagnitudeEvidence& e) {
     const std::uint32_t c = e.channel;

@@ -44,12 +44,14 @@ class VectorCoefficients {
                          const CoefficientNeighbours& neighbours, const VectorCoefficients* lower,
                          std::size_t begin, std::size_t end) {
     states_.begin(functions_.size());
+    if (reference_.is_known()) states_->add_reference();
     if constexpr (!Coder::kDecodes) find_rows(rows);
     for (std::size_t i = begin; i < end; ++i) {
       if constexpr (Coder::kDecodes)
         if (coder.exhausted()) return false;
       const std::uint32_t row = rows.tree.order[i];
       const Around around = around_of(neighbours.rows, kept_, i);
+      there_ = reference_.row(row, neighbours.rows[i].split);
       const std::uint32_t below =
           lower != nullptr
               ? log_class(lower->kept_.sum(static_cast<std::uint32_t>(i)), Node::Expected::kMost<1>)
@@ -67,6 +69,8 @@ class VectorCoefficients {
 
   const std::vector<std::uint16_t>& functions() const { return functions_; }
   StatesInUse<VectorStates>& states() { return states_; }
+  /// Before a unit of a frame that is predicted.
+  void predict_from(const GroupReference& reference) { reference_ = reference; }
 
   /// Keeps for place `here` what `base` keeps for its place `there`; here is not coded. Spec 8.7.2.
   void adopt(const VectorCoefficients& base, std::uint32_t there, std::uint32_t here) {
@@ -107,12 +111,16 @@ class VectorCoefficients {
       size[k] = std::min<std::uint32_t>(sum, Node::Above::kMost<0>);
     }
     const std::uint32_t expected = (parents + (around.any_beside ? beside : parents)) / 2;
+    const std::uint32_t size_class = log_class(expected >> 4, Node::Expected::kMost<0>);
     const std::array<std::uint32_t, 3> contexts = {
-        Node::Expected::index(log_class(expected >> 4, Node::Expected::kMost<0>), below),
+        Node::Expected::index(size_class, below),
         Node::Above::index(size[0], size[1], size[2], size[6], around.axis),
         Node::Beside::index(size[3], size[4], size[5], around.axis,
                             std::min(below, Node::Beside::kMost<4>))};
-    return states_->node.code(coder, contexts, around.split, any) != 0;
+    if (!there_.is_known()) return states_->node.code(coder, contexts, around.split, any) != 0;
+    ContextBit& there = states_->reference->node[there_.node(functions_, size_class)];
+    return states_->node.code(coder, states_->node.with(contexts, there), 0, around.split, any) !=
+           0;
   }
 
   template <class Coder>
@@ -201,6 +209,9 @@ class VectorCoefficients {
       evidence.vector_ratio = log_class(
           (std::uint64_t{progress.sum} * 64 + 16) * activity / (progress.activity + 256), 47);
       evidence.first = progress.sum == 0;
+      if (there_.is_known())
+        evidence.there = &states_->reference->more[there_.magnitude(
+            3u * functions_[f] + c, log_class(evidence.expected[c] >> 4, 47))];
       const bool nonzero =  // the function's vector is not all zero
           c == 2 && (evidence.magnitude[0] | evidence.magnitude[1]) == 0;
       const std::uint32_t magnitude = code_magnitude(coder, evidence, nonzero, values[c]);
@@ -260,15 +271,6 @@ class VectorCoefficients {
     return states_->any.code(coder, contexts, set, any) != 0;
   }
 
-  /// Sizes of channel 0 of the two functions before.
-  static std::uint32_t functions_before(std::size_t f, const std::int16_t* own) {
-    const auto size = [&](std::size_t function, int most) {
-      return static_cast<std::uint32_t>(std::min(std::abs(int{own[3 * function]}), most));
-    };
-    if (f == 0) return 16;
-    return size(f - 1, 3) + 4 * (f == 1 ? 3 : size(f - 2, 2));
-  }
-
   SignEvidence signs_around(const Around& around, std::size_t f, const std::int16_t* own) const {
     const auto at = [&](std::uint32_t row) { return kept_.vector(row) + 3 * f; };
     return {own + 3 * f,
@@ -288,6 +290,8 @@ class VectorCoefficients {
   VectorExpectation expected_;
   std::vector<std::uint8_t> any_in_row_;  // [P] the encoder's
   StatesInUse<VectorStates> states_;
+  GroupReference reference_;
+  ReferenceRow there_;  // of the row at work
 };
 
 }  // namespace slf

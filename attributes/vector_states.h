@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "attributes/coefficient_magnitude_model.h"
 #include "attributes/coefficient_sign_model.h"
+#include "attributes/reference_contexts.h"
 #include "entropy/context_shape.h"
 #include "entropy/mixed_bit.h"
 
@@ -50,6 +52,15 @@ struct VectorStates {
   MixedBit<Any::Set::kCount, Any::Sides, Any::Ratio, Any::Scale> any;
   CoefficientMagnitudeModel magnitude;
   CoefficientSignModel sign;
+  std::optional<ReferenceStates> reference;  ///< nothing until a frame is predicted
+
+  /// Before a frame that is predicted.
+  void add_reference() {
+    if (reference) return;
+    reference.emplace();
+    node.weigh_more(ReferenceStates::kFirstWeight);
+    magnitude.weigh_more(ReferenceStates::kFirstWeight);
+  }
 };
 
 }  // namespace slf

@@ -20,12 +20,15 @@ constexpr std::uint64_t kMostExtensionBytes = 1 << 16;
 
 }  // namespace
 
-void later_elements(ParseSyntax& parse) {
+void later_elements(ParseSyntax& parse, SequenceParameterSet& set) {
   parse.in.align("sps_trailing_bits");
   if (!parse.ok() || parse.in.bits_left() == 0) return;
-  for (const char* name : kFeatures) {
+  set.features = 0;
+  for (std::size_t i = 0; i < kFeatures.size(); ++i) {
+    const std::uint32_t bit = 1u << (31 - i);
     std::uint32_t flag = 0;
-    parse.u(1, name, flag, defined(0, 0));
+    parse.u(1, kFeatures[i], flag, (kKnownFeatures & bit) != 0 ? Range{0, 1} : defined(0, 0));
+    if (flag != 0) set.features |= bit;
   }
   if (parse.in.bits_left() > 8 * kMostExtensionBytes)
     parse.in.fail(Errc::kOutOfRange, "sps_extension");
@@ -36,7 +39,7 @@ Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::u
   ParseSyntax parse{in};
   SequenceParameterSet set;
   sequence_parameter_set(parse, set);
-  later_elements(parse);
+  later_elements(parse, set);
   if (!in.ok()) return in.error();
   std::uint32_t used = 0;  // groups, by bit: each has a function
   for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;
@@ -49,7 +52,10 @@ std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSe
   BitWriter out;
   WriteSyntax write{out};
   sequence_parameter_set(write, set);
-  return out.take();
+  std::vector<std::uint8_t> payload = out.take();
+  for (int shift = 24; set.features != 0 && shift >= 0; shift -= 8)
+    payload.push_back(static_cast<std::uint8_t>(set.features >> shift));
+  return payload;
 }
 
 }  // namespace slf

@@ -175,9 +175,9 @@ void sequence_parameter_set(V& v, Set& s) {
   plane_table(v, s);
 }
 
-/// Spec 7.2  sps_feature[ ]: what a later version may have put behind the trailing bits. Features
-/// are to be understood, and none is known; what follows them is left to that version.
-void later_elements(ParseSyntax& parse);
+/// Spec 7.2.1  sps_feature[ ]: what a later version may have put behind the trailing bits. Features
+/// are to be understood; what follows them is left to that version.
+void later_elements(ParseSyntax& parse, SequenceParameterSet& set);
 
 /// The version is that of this decoder: it stands before the payload (Unit).
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);

@@ -10,12 +10,15 @@
 namespace slf {
 
 /// Spec 7.1.2: streams of this major version are read.
-inline constexpr int kVersionMajor = 1, kVersionMinor = 0;
+inline constexpr int kVersionMajor = 1, kVersionMinor = 1;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
 /// sps_coefficient_coder; 0 is the vector coder, 1 the independent one.
 inline constexpr std::uint32_t kTextureCoder = 2, kLayeredCoder = 3;
+
+/// sps_feature[1]. Spec 8.12.6. 0 has no meaning: a stream of 1.0 shows that it is refused.
+inline constexpr std::uint32_t kReferenceContexts = 1u << 30, kKnownFeatures = kReferenceContexts;
 
 inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
 inline constexpr std::uint32_t kMaxSlices = 1u << 16;
@@ -72,9 +75,13 @@ struct SequenceParameterSet {
   std::uint32_t sps_num_transforms_minus1 = 0;
   std::uint32_t sps_num_geometry_ranges_minus1 = 0, sps_num_coefficient_ranges_minus1 = 0;
   std::vector<std::uint32_t> sps_geometry_range_end, sps_coefficient_range_end;
+  std::uint32_t features = 0;  ///< sps_feature[i], bit 31 - i
   /// No element: frame_predicted_flag of the frame whose units these are. Spec 7.13
   bool predicted = false;
 
+  /// The lowest minor version that has all of it. Spec 7.1.2
+  int version_minor() const { return features != 0 ? 1 : 0; }
+  bool has_reference_contexts() const { return (features & kReferenceContexts) != 0; }
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
   bool has_draco() const { return sps_geometry_coder == 1; }
   bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }

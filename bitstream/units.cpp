@@ -211,12 +211,12 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
 }
 
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
-                 std::span<const std::uint8_t> payload) {
+                 std::span<const std::uint8_t> payload, int version_minor) {
   const std::size_t start = stream.size();
   stream.push_back(static_cast<std::uint8_t>(type));
   if (type == UnitType::kSequence) {
     stream.push_back(kVersionMajor);
-    stream.push_back(kVersionMinor);
+    stream.push_back(static_cast<std::uint8_t>(version_minor));
   }
   std::uint64_t length = payload.size();
   for (; length >= 0x80; length >>= 7) stream.push_back(static_cast<std::uint8_t>(length | 0x80));

@@ -118,9 +118,9 @@ std::vector<std::uint8_t> with_identifier(const ApplicationId& id,
 /// Of an entry of the index: its type, and the length of the shortest unit, 6, as ue(v).
 inline constexpr std::uint64_t kLeastIndexEntryBits = 8 + 5;
 
-/// Appends one unit; a sequence unit with the version of this encoder.
+/// Appends one unit. version_minor: of a sequence unit
 void append_unit(std::vector<std::uint8_t>& stream, UnitType type,
-                 std::span<const std::uint8_t> payload);
+                 std::span<const std::uint8_t> payload, int version_minor = 0);
 
 /// Bytes of a unit with this payload.
 std::uint64_t unit_bytes(UnitType type, std::uint64_t payload_bytes);

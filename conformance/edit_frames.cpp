@@ -28,9 +28,11 @@ Bytes changed_header(const Bytes& payload, const std::function<void(FrameHeader&
 
 }  // namespace
 
-FrameWriter::FrameWriter(const CodingParameters& parameters, std::uint32_t level)
+FrameWriter::FrameWriter(const CodingParameters& parameters, std::uint32_t level,
+                         std::uint32_t features)
     : parameters_(parameters) {
   group_.level = level;
+  group_.features = features;
   parameters_.base_levels = 0;
   parameters_.max_slice_points = kMostSlicePoints;
   parameters_.index = false;

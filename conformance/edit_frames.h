@@ -15,7 +15,8 @@ namespace slf::conformance {
 /// Codes frames one after the other: integers alone, so the same for every compiler.
 class FrameWriter {
  public:
-  explicit FrameWriter(const CodingParameters& parameters, std::uint32_t level = 0);
+  explicit FrameWriter(const CodingParameters& parameters, std::uint32_t level = 0,
+                       std::uint32_t features = 0);
   /// A frame that is not predicted.
   void add(const LightField& field);
   /// One that is, with this motion.

@@ -7,93 +7,10 @@
 #include "conformance/cases.h"
 #include "conformance/edit_frames.h"
 #include "conformance/fields.h"
+#include "conformance/frame_fields.h"
 
 namespace slf::conformance {
 namespace {
-
-constexpr int kBits = 5;
-constexpr std::int32_t kOne = 1 << Motion::kMatrixBits;
-
-/// Smooth, with some noise: levels predict levels, and frames frames.
-std::vector<std::int32_t> smooth(const std::vector<Voxel>& voxels, int functions) {
-  Random random(5);
-  std::vector<std::int32_t> components;
-  for (const Voxel& v : voxels)
-    for (int k = 0; k < functions; ++k)
-      for (int c = 0; c < 3; ++c) {
-        const std::int32_t x = v[0] - 16, y = v[1] - 16, z = v[2] - 16;
-        const auto noise = static_cast<std::int32_t>(random.below(33)) - 16;
-        const std::int32_t wave = x * y * (7 + k) + 40 * (z + c) * (z - k) + 200 * x - 90 * c * y;
-        components.push_back(wave / (1 + 2 * k) + noise);
-      }
-  return components;
-}
-
-/// Of some points in the middle, moved; colours go with them.
-LightField frame_field(const std::function<Voxel(const Voxel&)>& to, int functions = 2) {
-  LightField all = field(sphere(kBits, 0, 6), kBits, functions);
-  all.components = smooth(all.positions, functions);
-  for (Voxel& v : all.positions) {
-    v = to(v);
-    for (auto& c : v) c = std::clamp(c, 0, (1 << kBits) - 1);
-  }
-  LightField made = all;
-  made.positions = sorted(all.positions);
-  made.components.clear();
-  const std::size_t planes = 3 * static_cast<std::size_t>(functions);
-  for (const Voxel& v : made.positions) {
-    const auto i = std::find(all.positions.begin(), all.positions.end(), v) - all.positions.begin();
-    const auto row = all.components.begin() + i * static_cast<std::ptrdiff_t>(planes);
-    made.components.insert(made.components.end(), row, row + static_cast<std::ptrdiff_t>(planes));
-  }
-  return made;
-}
-
-LightField still(int functions = 2) {
-  return frame_field([](const Voxel& v) { return v; }, functions);
-}
-
-Voxel turned(const Voxel& v) { return {v[0] - (v[1] - 16) / 4, v[1] + (v[0] - 16) / 4 + 1, v[2]}; }
-
-Motion turn() {
-  Motion motion;
-  motion.matrix[0][1] = kOne / 4;
-  motion.matrix[1][0] = -kOne / 4;
-  motion.shift = {1, -15, 2};
-  return motion;
-}
-
-Voxel bent(const Voxel& v) { return {v[0] + (v[2] - 16) * (v[2] - 16) / 16, v[1], v[2]}; }
-
-/// A lattice whose vectors are of quarters of a voxel.
-Motion lattice_motion(int log2, const std::array<std::int32_t, 3>& first,
-                      const std::array<std::int32_t, 3>& size) {
-  Motion motion;
-  motion.lattice_log2 = log2;
-  motion.lattice_first = first;
-  motion.lattice_size = size;
-  for (std::int32_t z = 0; z < size[2]; ++z)
-    for (std::int32_t y = 0; y < size[1]; ++y)
-      for (std::int32_t x = 0; x < size[0]; ++x) {
-        const std::int32_t d = ((first[2] + z) << log2) - 16;
-        motion.lattice.push_back({-(d * d / 4) * 4, 4 * (x % 3), -8 * (y % 2)});
-      }
-  return motion;
-}
-
-/// Function 0, and the others.
-CodingParameters frame_parameters(int functions) {
-  CodingParameters p = with_steps(functions, 30);
-  for (int k = 0; k < functions; ++k) p.group.push_back(k == 0 ? 0 : 1);
-  return p;
-}
-
-Case frame_case(const char* id, const char* purpose, const FrameWriter& writer,
-                std::vector<std::string> clauses = {"7.13", "8.12.3", "8.12.4"}) {
-  Case c = case_of_stream(id, purpose, std::move(clauses), writer.stream());
-  c.frames = writer.frames().size();
-  return c;
-}
 
 void add_motions(std::vector<Case>& cases) {
   const auto add = [&](const char* id, const char* purpose, const LightField& second,
@@ -142,7 +59,7 @@ void add_groups(std::vector<Case>& cases) {
   c.regions = {{{0, 0, 0}, {15, 20, 31}}};
   cases.push_back(c);
 
-  LightField point = field({{9, 17, 30}}, kBits, 2);
+  LightField point = field({{9, 17, 30}}, kFrameBits, 2);
   FrameWriter vanish(frame_parameters(2));
   vanish.add(point);
   vanish.add(still(), {});

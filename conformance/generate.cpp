@@ -56,7 +56,7 @@ std::string list(const std::vector<std::string>& items) {
 std::string version_of(std::span<const std::uint8_t> stream) {
   const std::size_t at = kSignature.size();
   if (stream.size() < at + 3 || stream[at] != static_cast<std::uint8_t>(UnitType::kSequence))
-    return std::to_string(kVersionMajor) + "." + std::to_string(kVersionMinor);
+    return "1.0";
   return std::to_string(stream[at + 1]) + "." + std::to_string(stream[at + 2]);
 }
 

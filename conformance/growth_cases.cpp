@@ -64,7 +64,7 @@ Bytes long_sequence() {
   return packed_bare(field(lattice(2, 3, 2), 2, 64), p);
 }
 
-/// Two frames of a later version: an extended header, and units to skip in both of them.
+/// Two frames of a later version than 1.0: an extended header, and units to skip in both of them.
 Bytes frames_of_later_version() {
   CodingParameters p = with_steps(1, 40);
   p.geometry_level_ends = p.coefficient_level_ends = {2, 4};
@@ -78,7 +78,7 @@ Bytes frames_of_later_version() {
       units.insert(units.end() - 1, {type_of_number(200), kPrivate});
     });
   };
-  return joined({of_version(grown(0), kVersionMajor, kVersionMinor + 1), grown(1)});
+  return joined({of_version(grown(0), kVersionMajor, 1), grown(1)});
 }
 
 }  // namespace
@@ -95,6 +95,8 @@ std::vector<Case> growth_cases() {
       long_sequence());
   add("features-of-none", "a word of features of which none is in use", "7.2.1",
       with_features(bare, 0, 0));
+  add("feature-without-frames", "contexts by the reference, in a light field that does not move",
+      "7.2.1", of_version(with_features(bare, kReferenceContexts, 0), kVersionMajor, 1));
   add("header-extended", "a header with elements of a later version", "7.2.1",
       with_features(bare, 0, 300));
   add("header-extended-most", "a header with 2^16 bytes of a later version", "7.2.1",

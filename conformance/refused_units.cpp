@@ -108,7 +108,7 @@ void add_framing(std::vector<RefusedCase>& cases) {
   append_unit(longer, UnitType::kEnd, bits("0010100000000000"));
   cases.push_back({"end-longer", "a byte after the number of units", {"7.10", "3.3"}, longer});
   Bytes seven(kSignature.begin(), kSignature.end());
-  for (const int byte : {1, kVersionMajor, kVersionMinor, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 1})
+  for (const int byte : {1, kVersionMajor, 0, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 1})
     seven.push_back(static_cast<std::uint8_t>(byte));
   cases.push_back({"length-of-seven-bytes", "a unit length of seven bytes", {"7.1"}, seven});
   cases.push_back({"truncated-in-length",

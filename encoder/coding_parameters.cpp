@@ -22,6 +22,7 @@ CodingParameters coding_parameters(const EncoderSettings& settings) {
   if (settings.coefficients != CoefficientCoder::kTexture)
     parameters.transform = settings.transform;
   parameters.predict = settings.predict;
+  parameters.reference_contexts = settings.reference_contexts;
   parameters.rdo = settings.rdo;
   parameters.quality_layers = settings.quality_layers;
   parameters.base_levels = settings.base_levels;

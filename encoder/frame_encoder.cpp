@@ -104,6 +104,13 @@ struct FrameEncoder::Impl {
     return write_sequence_parameter_set(set);
   }
 
+  /// What predicted frames take. A group without such is read by decoders of 1.0.
+  std::uint32_t features_of(const LightField& field) const {
+    const bool used =
+        parameters.reference_contexts && group_length > 1 && field.header.num_functions > 0;
+    return used ? kReferenceContexts : 0;
+  }
+
   /// Is the frame what the level of its group promised?
   bool within_level(const LightField& field, const FrameHeader& frame, std::size_t bytes) const {
     const LevelLimits& most = level_limits(group.set.sps_level);
@@ -128,6 +135,7 @@ struct FrameEncoder::Impl {
   Result<std::vector<std::uint8_t>, InputError> code_in_level(const LightField& field,
                                                               FrameHeader& frame) {
     if (!frame.predicted()) {
+      group.features = features_of(field);
       group.level = outgrown ? 0 : level_of_group(field);
       frame.motion = {};
       return pack_frame(field, parameters, &frame, &group);

@@ -127,7 +127,9 @@ void add_coding(SettingTable& rows) {
                        "Steps of the second and third channel, over those of the first"),
                 "1"),
        on_or_off("predict", SLF_AT(predict),
-                 "Predict finer levels from coarser ones where that pays; paper: off")});
+                 "Predict finer levels from coarser ones where that pays; paper: off"),
+       on_or_off("reference-contexts", SLF_AT(reference_contexts),
+                 "Of frames: contexts by the frame before; off: readers of format 1.0 read them")});
 }
 
 void add_layers_and_slices(SettingTable& rows) {

@@ -80,17 +80,20 @@ class ContextBit {
 };
 
 /// The contexts of one decision, none twice: read and moved together.
-template <std::size_t kCount>
+/// kBehind: how many of them, the last, stand behind the constant.
+template <std::size_t kCount, std::size_t kBehind = 0>
 class SelectedContexts {
  public:
   static_assert(kCount < EightLanes::kCount);
+  static constexpr std::size_t kConstant = kCount - kBehind;  ///< lane of it
 
   /// contexts: kept by reference. next: how far behind them the contexts are.
   explicit SelectedContexts(const std::array<ContextBit*, kCount>& contexts, std::size_t next = 0)
       : contexts_(contexts), next_(next) {
     std::array<std::int16_t, EightLanes::kCount> inputs{};
-    for (std::size_t i = 0; i < kCount; ++i) inputs[i] = contexts_[i][next_].logistic();
-    inputs[kCount] = 256;
+    for (std::size_t i = 0; i < kCount; ++i)
+      inputs[i < kConstant ? i : i + 1] = contexts_[i][next_].logistic();
+    inputs[kConstant] = 256;
     inputs_ = EightLanes(inputs);
   }
 

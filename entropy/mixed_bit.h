@@ -15,11 +15,11 @@
 namespace slf {
 
 /// Codes one decision in the contexts `next` places after those selected.
-template <class Coder, std::size_t kModels>
+template <std::size_t kBehind = 0, class Coder, std::size_t kModels>
 SLF_OWN_CALL unsigned code_mixed(Coder& coder, const std::array<ContextBit*, kModels>& selected,
                                  std::size_t next, EightLanes& weights, unsigned bit) {
   constexpr std::int32_t kRate = 8;  // found on the light fields and clouds of docs/decisions/001
-  const SelectedContexts<kModels> states(selected, next);
+  const SelectedContexts<kModels, kBehind> states(selected, next);
   const Mixed<1> mixed(states.inputs(), {&weights});
   bit = coder.bit(mixed.p1(), bit);
   mixed.update(bit, kRate);
@@ -62,6 +62,30 @@ class MixedBit {
   unsigned code(Coder& coder, const Contexts& selected, std::size_t next, std::size_t set,
                 unsigned bit) {
     return code_mixed(coder, selected, next, weights_[set], bit);
+  }
+
+  /// The same with one context more, of a table elsewhere.
+  using MoreContexts = std::array<ContextBit*, kModels + 1>;
+  MoreContexts with(const std::array<std::uint32_t, kModels>& contexts, ContextBit& more) {
+    const Contexts selected = select(contexts);
+    MoreContexts all;
+    std::copy(selected.begin(), selected.end(), all.begin());
+    all.back() = &more;
+    return all;
+  }
+  template <class Coder>
+  unsigned code(Coder& coder, const MoreContexts& selected, std::size_t next, std::size_t set,
+                unsigned bit) {
+    return code_mixed<1>(coder, selected, next, weights_[set], bit);
+  }
+  /// Before the first of them: what its weight begins with.
+  void weigh_more(std::int16_t weight) {
+    static_assert(kModels + 1 < EightLanes::kCount);
+    for (EightLanes& weights : weights_) {
+      auto values = weights.values();
+      values[kModels + 1] = weight;
+      weights = EightLanes(values);
+    }
   }
 
  private:

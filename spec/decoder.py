@@ -309,7 +309,7 @@ class Sequence:
                 self.plane_run(reader)
         self.elements = dict(reader.elements)
         reader.align("sps_trailing_bits")
-        self.later_elements(reader)
+        self.features = self.later_elements(reader)
         require(all(self.groups), "sps_num_groups_minus1")
         require(self.cut_groups <= len(self.groups), "sps_cut_groups")
         require(profile != 1, "sps_profile (Draco geometry is not supported)", Unsupported)
@@ -318,12 +318,15 @@ class Sequence:
 
     @staticmethod
     def later_elements(reader):
-        """7.2.1: features, none of which is known, and what is skipped."""
-        left = len(reader.data) - reader.position // 8
+        """7.2.1: features, as a set of those that are known, and what is skipped."""
+        left, features = len(reader.data) - reader.position // 8, set()
         if left:
             for i in range(32):
-                require(reader.u(1, f"sps_feature[{i}]") == 0, f"sps_feature[{i}]", Unsupported)
+                if reader.u(1, f"sps_feature[{i}]"):
+                    require(i == BY_REFERENCE, f"sps_feature[{i}]", Unsupported)
+                    features.add(i)
             require(left - 4 <= 1 << 16, "sps_extension")
+        return features
 
     def read_attributes(self, reader):
         """7.2, 6.8: what is no view map; the number of functions of all."""
@@ -837,9 +840,14 @@ class Mixer:
         """8.3.3: the weights of a set."""
         return self.sets.setdefault(chosen, self.first[:])
 
+    def set_input(self, place, weight):
+        """8.12.6: the weight of an input, in all sets."""
+        for weights in [self.first, *self.sets.values()]:
+            weights[place] = weight
+
     def copy(self):
         """8.1: as that of Contexts."""
-        return copied(self, sets={chosen: weights[:] for chosen, weights in self.sets.items()})
+        return copied(self, first=self.first[:], sets={chosen: weights[:] for chosen, weights in self.sets.items()})
 
 
 def probability(context):
@@ -910,9 +918,9 @@ class MixedDecision:
         """8.1: as that of Contexts."""
         return copied(self, tables=copied_all(self.tables), mixer=self.mixer.copy())
 
-    def decode(self, decoder, indices, chosen):
-        """8.3.5: a decision with the weights of set `chosen`; everything adapts."""
-        return decide_mixed(decoder, list(zip(self.tables, indices)), [self.mixer.select(chosen)], 8)
+    def decode(self, decoder, indices, chosen, behind=()):
+        """8.3.5: a decision with the weights of set `chosen`; everything adapts. behind: 8.12.6."""
+        return decide_mixed(decoder, list(zip(self.tables, indices)), [self.mixer.select(chosen)], 8, behind=behind)
 
 
 def size_class(n, most):
@@ -1377,6 +1385,7 @@ def cell_values(base_values, points, weights):
 
 # ---- 8.7 Coefficients
 
+BY_REFERENCE = 1                            # the feature of 8.12.6
 SHARES = [2, 2, 1, 3, 3, 3, 1]              # of the rows around, 8.7.2
 
 
@@ -1392,11 +1401,20 @@ class VectorState:
         self.negative = MixedDecision([3**5, 3**5, 3**6, 5**3 * 27])
         self.prefix = [Contexts(28) for _ in range(12)]
         self.activity = [16 if functions > 1 else 0] * (3 * functions)
+        self.by_reference = []
+
+    def add_reference(self):
+        """8.12.6: what is new in the first predicted frame: a table more of two decisions."""
+        if not self.by_reference:
+            self.by_reference = [MixedContexts(26 * 3 * 12), MixedContexts(13 * 3 * 12 * 48)]
+            for decision in (self.node, self.more):
+                decision.mixer.set_input(4, 2125)
 
     def copy(self):
         """8.1: as that of Contexts."""
         decisions = {name: getattr(self, name).copy() for name in ("node", "more", "rest", "any", "negative")}
-        return copied(self, prefix=copied_all(self.prefix), activity=self.activity[:], **decisions)
+        return copied(self, prefix=copied_all(self.prefix), activity=self.activity[:],
+                      by_reference=copied_all(self.by_reference), **decisions)
 
 
 class VectorCoder:
@@ -1412,6 +1430,7 @@ class VectorCoder:
         self.runs = [0] * len(tree.split)
         self.quantised = {}                 # of rows that are not all zero
         self.kept = {0: [0] * self.planes}  # the same without row 0, within -4095 .. 4095
+        self.there = None                   # 8.12.6: h and p of rows
 
     def adopt(self, base, row, cell):
         """8.7.2: a cell row has the kept vector of its base cell."""
@@ -1421,7 +1440,10 @@ class VectorCoder:
     def decode(self, decoder, rows):
         """8.7.2: rows in coding order; a row whose node decision is 0 has no coefficients."""
         last = 0
+        if self.there:
+            self.state.add_reference()
         for r in rows:
+            self.row_there = self.there(r) if self.there else None
             split = min(self.tree.split[r], 44) if r else 44
             above, beside, same_axis = self.around(r, last)
             last = r
@@ -1474,10 +1496,15 @@ class VectorCoder:
         sums = [self.sums[row] for row in self.rows]
         z = [size_class(n, 4) for n in sums]
         below = size_class(self.group_before.sums[r], 15) if self.group_before else 0
+        size, behind = size_class(sum(self.expected([min(n, 4095) for n in sums])) // 2 >> 4, 47), []
+        if self.row_there:                  # 8.12.6
+            h, p = self.row_there
+            total = 25 if h is None else size_class(sum(h), 24)
+            behind = [(self.state.by_reference[0], (3 * total + p) * 12 + size // 4)]
         return self.state.node.decode(decoder, [
-            size_class(sum(self.expected([min(n, 4095) for n in sums])) // 2 >> 4, 47) * 16 + below,
+            size * 16 + below,
             (((z[0] * 5 + z[1]) * 5 + z[2]) * 5 + z[6]) * 3 + self.axis,
-            (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split)
+            (((z[3] * 5 + z[4]) * 5 + z[5]) * 3 + self.axis) * 4 + min(below, 3)], split, behind)
 
     def decode_row(self, decoder, r, same_axis, known):
         """8.7.2, 2: the values of a row; 8.7.7: what is known of them."""
@@ -1582,10 +1609,19 @@ class VectorCoder:
             i = min(least, 14)
             return least + self.state.more.decode(decoder, [c + i for c in contexts], chosen + i)
         for magnitude in range(1 if implied else 0, 15):
-            if not self.state.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude):
+            behind = self.magnitude_there(j, expected, magnitude)
+            if not self.state.more.decode(decoder, [c + magnitude for c in contexts], chosen + magnitude, behind):
                 return magnitude
         prefix = self.state.prefix[min(size_class(expected >> 8, 47) // 4, 11)]
         return 14 + decoder.exp_golomb(prefix, 255, "cu_magnitude")
+
+    def magnitude_there(self, j, expected, i):
+        """8.12.6: the context of a magnitude by the reference, if any."""
+        if not self.row_there:
+            return []
+        h, p = self.row_there
+        z = 12 if h is None else size_class(h[j], 23) // 2
+        return [(self.state.by_reference[1], (((3 * z + p) * 12 + size_class(expected >> 4, 47) // 4) * 3 + j % 3) * 16 + i)]
 
     def decode_sign(self, decoder, kept, j, around):
         """8.7.2, 6: is the value negative?"""
@@ -1859,6 +1895,29 @@ class Moved:
         return [(share, mean) for share, (_, mean) in zip(shares, found)]
 
 
+    def sizes(self, tree, sequence):
+        """8.12.6: h by row, for those that have it."""
+        coded, found = self.reference.wanted.coded, {}
+        steps = [sequence.steps[k][c] for k in coded for c in range(3)]
+        for g in range(self.grid_bits):
+            bits, values = 3 * (self.grid_bits - g - 1), {}
+            merges = sorted((r for r in range(1, len(tree.codes)) if bits <= tree.split[r] < bits + 3), key=tree.split.__getitem__)
+            nodes = {row for r in merges for row in (r, tree.left[r])}
+            rows = tree.nodes(bits)
+            for row, end in zip(rows, rows[1:] + [len(tree.codes)]):
+                terms = self.terms(from_morton(tree.codes[row] >> bits), g + 1, slice(None)) if row in nodes else []
+                if terms:
+                    mean = sum(share * mean for share, mean in terms) >> 12
+                    values[row] = round_off(mean * math.isqrt(tree.before[end] - tree.before[row] << 38), 19)
+            for r in merges:
+                a, b = values.pop(tree.left[r], None), values.pop(r, None)
+                if a is not None and b is not None:
+                    c, s = tree.rotation(r)
+                    values[tree.left[r]] = round30(c * a + s * b)
+                    found[r] = [min(4 * abs(int(x)) // step, 127) for x, step in zip(round30(c * b - s * a), steps)]
+        return found
+
+
 class There:
     """8.12.3: what the reference has about a node, and the contexts of it."""
 
@@ -1922,6 +1981,7 @@ class Part:
         self.refiners = {}                  # 8.7.7: coders by (layer, group)
         self.states = {}                    # 8.1: by type of unit and group
         self.moved = None                   # 8.12: the reference of a predicted frame
+        self.sizes_there = None             # 8.12.6: h by row
         self.expected = sequence.unit_order(self.is_base)
 
     def take(self, kind):
@@ -1983,8 +2043,20 @@ class Part:
                 self.coders[group].adopt(self.base.coders[group], r, cell)
         begin, end = sequence.coefficient_bounds[level_range:level_range + 2]
         self.coders[group].state = state
+        if self.moved and BY_REFERENCE in sequence.features:
+            self.coders[group].there = lambda r: self.row_there(group, r)
         if sequence.coded[group] and decoder.codeword:
             self.coders[group].decode(decoder, self.tree.rows(begin, end, sequence.grid_bits))
+
+    def row_there(self, group, r):
+        """8.12.6: h in the planes of a group, and p."""
+        if self.sizes_there is None:
+            self.sizes_there = self.moved.sizes(self.tree, self.sequence)
+        level = self.sequence.grid_bits - 1 - self.tree.split[r] // 3
+        m = self.modes.get((group, level), 0) if r else 0
+        h = self.sizes_there.get(r)
+        functions = [self.moved.reference.wanted.coded.index(k) for k in self.sequence.coded[group]]
+        return h and [h[3 * f + c] for f in functions for c in range(3)], 0 if m < 4 else 1 if m == 4 else 2
 
     def decode_refinement(self, decoder, level_range, group, layer, state):
         """8.7.7: one bit more of the values of a unit."""

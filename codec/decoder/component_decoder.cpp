@@ -80,12 +80,13 @@ std::vector<PredictedPlanes> predicted_planes(const Request& request,
 /// Dequantisation by `steps`, inverse transform.
 Result<Done> undo(const Request& request, const ComponentRows& rows, const CodedCoefficients& coded,
                   std::span<const std::uint32_t> steps, std::span<std::int32_t> components,
-                  std::size_t used, int threads) {
+                  std::size_t used, int threads, bool keep) {
   const auto is_predicted = [](const auto& levels) {
     return std::any_of(levels.begin(), levels.end(), [](auto mode) { return mode != 0; });
   };
   const FrameReference* reference = request.reference;
-  if (reference == nullptr && request.kept == nullptr &&
+  keep = keep && request.kept != nullptr;
+  if (reference == nullptr && !keep &&
       std::none_of(coded.modes.begin(), coded.modes.end(), is_predicted))
     return raht_inverse(rows.tree, steps, components, threads, coded.nonzero, used,
                         coded.cells.size());
@@ -95,21 +96,20 @@ Result<Done> undo(const Request& request, const ComponentRows& rows, const Coded
   if (reference != nullptr) means.emplace(ReferenceMeans{reference->moved, reference->state.means});
   return raht_inverse_predicted(rows.tree, levels, predicted_planes(request, coded), steps,
                                 components, threads, coded.nonzero, used, coded.cells.size(),
-                                means ? &*means : nullptr,
-                                request.kept != nullptr ? &request.kept->means : nullptr);
+                                means ? &*means : nullptr, keep ? &request.kept->means : nullptr);
 }
 
 /// Spec 8.7.4, 8.7.6, 8.8.
 Result<Done> transform_back(const Request& request, const ComponentRows& rows,
                             CodedCoefficients& coded, std::span<std::int32_t> components,
-                            int threads) {
+                            int threads, bool keep) {
   const std::size_t used = used_planes(request, coded);
   if (used == 0) return Done{};
   if (!misses_layers(request.stream.set, coded))
-    return undo(request, rows, coded, request.steps, components, used, threads);
+    return undo(request, rows, coded, request.steps, components, used, threads, keep);
   SLF_CHECK(dequantise_rows(request, rows, coded, components));
   const std::vector<std::uint32_t> ones(request.steps.size(), 1);
-  return undo(request, rows, coded, ones, components, used, threads);
+  return undo(request, rows, coded, ones, components, used, threads, keep);
 }
 
 }  // namespace
@@ -139,8 +139,8 @@ Result<Done> decode_values_unit(const PartUnit& unit, const Request& request,
 }
 
 Result<Done> reconstruct(const Request& request, const ComponentRows& rows, CodedCoefficients coded,
-                         std::span<std::int32_t> components, int threads) {
-  auto done = transform_back(request, rows, coded, components, threads);
+                         std::span<std::int32_t> components, int threads, bool keep) {
+  auto done = transform_back(request, rows, coded, components, threads, keep);
   return coded.last == nullptr ? done : in_unit(*coded.last, std::move(done));
 }
 

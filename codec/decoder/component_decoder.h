@@ -15,8 +15,9 @@ Result<Done> decode_values_unit(const PartUnit& unit, const Request& request,
                                 std::span<std::int32_t> components);
 
 /// Dequantisation and inverse transform, when all units are decoded. An error is of the last.
+/// keep: request.kept receives means
 Result<Done> reconstruct(const Request& request, const ComponentRows& rows, CodedCoefficients coded,
-                         std::span<std::int32_t> components, int threads);
+                         std::span<std::int32_t> components, int threads, bool keep = true);
 
 /// The mean of each node, of what reconstruct() left.
 void to_means(const ComponentRows& rows, std::size_t planes, std::span<std::int32_t> components);

@@ -44,7 +44,6 @@ constexpr double kUsualOthers = 0.9;  // of slices beside one at its peak, on ot
 constexpr double kUsualMeans = 0.02;  // of all rows, whose means are needed at a time
 constexpr double kSample = 2, kPicturesMost = 17, kPictures = 4, kSamplesMost = 16, kSamples = 2;
 constexpr double kCellOfAtlas = 60;
-
 constexpr double kCoefficientStates = sizeof(VectorStates);  // a group
 constexpr double kIndependentStates = 300;                   // a plane
 constexpr double kHistory = (3 << 18) + (3 << 14);  // of columns and slabs, of an octree at work
@@ -232,6 +231,7 @@ DecodeShape shape_of(const Request& request) {
   shape.normals = set.sps_normal_bits > 0;
   shape.shared_states = stream.table.shared();
   shape.kept = request.kept != nullptr;
+  shape.reference_contexts = set.has_reference_contexts();
   shape.reference = request.reference;
   shape.ahead = (shape.shared_states || shape.kept) && request.kept_levels_only();
   return shape;

@@ -27,8 +27,9 @@ struct DecodeShape {
   bool vector = true;                                       ///< coefficients: contexts keep vectors
   bool prediction = false, draco = false, texture = false, normals = false;
   bool shared_states = false;
-  bool ahead = false;  ///< of slice 0 more levels are decoded than are kept
-  bool kept = false;   ///< a frame of several: what the next is predicted from stays
+  bool ahead = false;               ///< of slice 0 more levels are decoded than are kept
+  bool kept = false;                ///< a frame of several: what the next is predicted from stays
+  bool reference_contexts = false;  ///< of predicted frames, by what the reference has
   const FrameReference* reference = nullptr;  ///< of a frame that is predicted
 };
 

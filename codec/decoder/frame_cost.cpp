@@ -15,6 +15,9 @@ constexpr double kUsualNode = 8 + 4 * 32 / 10, kMostNode = 8 + 4 * 32;
 constexpr double kUsualNodes = 1.5;   // of a point, at all levels
 constexpr double kTerms = 4 + 8 * 8;  // ReferenceTerms, of a node of one level
 constexpr double kLatticePoint = 12;
+constexpr std::uint64_t kStates = sizeof(VectorStates) + ReferenceStates::kBytes;  // of a group
+/// ReferenceCoefficients, of a row: marks, places; nodes, codes and weights of a level.
+constexpr double kRow = 1 + 4 + 4 + 8 + 4 + 1;
 
 /// Nodes that an octree of so many points has at most, at all levels.
 double most_nodes(std::uint64_t levels, double points) {
@@ -28,7 +31,7 @@ double most_nodes(std::uint64_t levels, double points) {
 double kept_states(const DecodeShape& shape, std::uint64_t points) {
   const auto octree =
       static_cast<double>(OccupancyStates::bytes(points) + OccupancyStates::kReferenceBytes);
-  const double values = shape.planes > 0 ? sizeof(VectorStates) : 0;
+  const double values = shape.planes > 0 ? kStates : 0;
   return static_cast<double>(shape.geometry_units) * octree +
          static_cast<double>(shape.coefficient_units) * values;
 }
@@ -43,9 +46,14 @@ FrameCost frame_cost(const DecodeShape& shape, std::uint64_t points) {
                  states + (kMostNode + means) * most_nodes(shape.levels, of_points)};
   if (shape.reference == nullptr) return cost;
   const auto& [state, moved] = *shape.reference;
-  const double there = static_cast<double>(state.bytes(sizeof(VectorStates))) +
+  const double there = static_cast<double>(state.bytes(kStates)) +
                        kLatticePoint * static_cast<double>(moved.motion.lattice.size());
-  const double terms = shape.planes > 0 ? kTerms * of_points : 0;
+  double terms = shape.planes > 0 ? kTerms * of_points : 0;
+  if (shape.reference_contexts) {  // a byte of every value stays, four are of a level at work
+    terms += (kRow + 4 * static_cast<double>(shape.planes)) * of_points;
+    cost.most += static_cast<double>(shape.planes) * of_points;
+    cost.usual += static_cast<double>(shape.planes) * of_points;
+  }
   cost.usual += there + terms / 2;
   cost.most += there + terms;
   return cost;

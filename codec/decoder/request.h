@@ -52,6 +52,8 @@ struct Request : GroupRequest {
     return !kept_levels_only() || kept != nullptr || planes() > 0 ||
            (stream.set.sps_normal_bits > 0 && !base_alone());
   }
+  /// Are means kept of all levels of units that are decoded? Spec 8.12.6.
+  bool keeps_whole_units() const { return kept != nullptr && stream.set.has_reference_contexts(); }
   /// Is the unit needed? Never a digest, which is of the whole.
   bool wants(const UnitSlot& slot) const;
   /// Does a box of nodes at `level`, ends included, meet the region?
@@ -114,7 +116,8 @@ bool wants_unit(const Request& request, const std::vector<std::uint8_t>& chosen,
 
 /// What the sequence says of a stream with what was asked for in it.
 /// @param chosen   [slices]
-/// @param present  [slices] Has it a geometry unit? Where a chosen one has none, its cells stand for
+/// @param present  [slices] Has it a geometry unit? Where a chosen one has none, its cells stand
+/// for
 ///                 it (8.9.2), which sps_cut_slices_flag would forbid: all cells do then.
 SequenceParameterSet cut_sequence(const Request& request, const std::vector<std::uint8_t>& chosen,
                                   const std::vector<std::uint8_t>& present);

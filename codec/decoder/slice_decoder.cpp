@@ -7,6 +7,7 @@
 #include "codec/decoder/component_decoder.h"
 #include "codec/decoder/node_voxels.h"
 #include "codec/slice_digest.h"
+#include "codec/unit_reference.h"
 #include "entropy/range_decoder.h"
 #include "geometry/draco_decoder.h"
 #include "geometry/octree_decoder.h"
@@ -118,8 +119,11 @@ Result<CodedCoefficients> decode_coefficient_units(const SliceToDecode& slice,
                                                    std::span<std::int32_t> components) {
   auto& shared = slice.scene.lead.coefficients;
   ValueState state = start_values(slice, rows, components);
+  const UnitReference there(slice.request.reference, slice.stream().set,
+                            {rows.tree, rows.codes, rows.first, rows.levels}, slice.request.steps);
   const auto step = [&](const PartUnit& unit, std::size_t place) -> Result<Done> {
     const SliceUnitHeader& ids = unit.header;
+    there.before_unit(ids, state.models);
     if (slice.follows()) {
       SLF_TRY(const CoefficientStates* states, wait_for(shared, place));
       state.models.start_from(ids.group, *states, ids.layer);
@@ -143,12 +147,15 @@ Result<CodedCoefficients> decode_coefficient_units(const SliceToDecode& slice,
 /// units, so these are decoded on rows of all their levels.
 Result<CodedCoefficients> decode_ahead(const SliceToDecode& slice, int levels,
                                        const ComponentRows& rows,
-                                       std::span<std::int32_t> components) {
+                                       std::span<std::int32_t> components, int threads) {
   const RahtTop top = build_raht_top(rows.codes, slice.stream().lowest_split(levels));
   const ComponentRows finer{rows.codes, top.tree, top.first, rows.start, levels};
   std::vector<std::int32_t> all(top.tree.size() * slice.request.planes());
   SLF_TRY(CodedCoefficients coded, decode_coefficient_units(slice, finer, all));
-  return keep_rows(slice.request, finer, std::move(coded), all, rows, components);
+  CodedCoefficients kept = keep_rows(slice.request, finer, coded, all, rows, components);
+  if (slice.request.keeps_whole_units())  // their means, for the next frame
+    SLF_CHECK(reconstruct(slice.request, finer, std::move(coded), all, threads));
+  return kept;
 }
 
 Result<Done> decode_vectors(const SliceToDecode& slice, const SliceGeometry& geometry,
@@ -156,12 +163,13 @@ Result<Done> decode_vectors(const SliceToDecode& slice, const SliceGeometry& geo
   const Request& request = slice.request;
   const ComponentRows rows{geometry.codes, geometry.top.tree, geometry.top.first,
                            request.stream.base_levels(), request.levels};
-  if (request.kept != nullptr) request.kept->make_room(request.levels, request.planes());
   const int levels = levels_ahead(slice);
-  SLF_TRY(CodedCoefficients coded, levels > request.levels
-                                       ? decode_ahead(slice, levels, rows, components)
-                                       : decode_coefficient_units(slice, rows, components));
-  SLF_CHECK(reconstruct(request, rows, std::move(coded), components, threads));
+  const bool ahead = levels > request.levels, twice = ahead && request.keeps_whole_units();
+  if (request.kept != nullptr)
+    request.kept->make_room(twice ? levels : request.levels, request.planes());
+  SLF_TRY(CodedCoefficients coded, ahead ? decode_ahead(slice, levels, rows, components, threads)
+                                         : decode_coefficient_units(slice, rows, components));
+  SLF_CHECK(reconstruct(request, rows, std::move(coded), components, threads, !twice));
   if (request.kept_levels_only()) to_means(rows, request.planes(), components);
   return Done{};
 }

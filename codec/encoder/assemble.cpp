@@ -52,6 +52,10 @@ std::vector<std::uint8_t> end_payload(std::size_t units_before) {
   return end.take();
 }
 
+void append_sequence(std::vector<std::uint8_t>& stream, const SequenceParameterSet& set) {
+  append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set), set.version_minor());
+}
+
 std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const CodedUnit> units,
                                    const std::optional<std::vector<CellBox>>& boxes) {
   const auto end = end_payload(units.size() + (boxes ? 2 : 1));
@@ -59,7 +63,7 @@ std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const Cod
   if (boxes) index = write_index(index_of(units, end, *boxes), set);
   set.sps_level = level_of(set, units, most_bytes(units, index.size()));
   std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
-  append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set));
+  append_sequence(stream, set);
   if (boxes) append_unit(stream, UnitType::kIndex, index);
   for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
   append_unit(stream, UnitType::kEnd, end);

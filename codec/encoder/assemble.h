@@ -14,6 +14,9 @@ namespace slf {
 /// The payload of the end unit. Spec 7.10
 std::vector<std::uint8_t> end_payload(std::size_t units_before);
 
+/// The sequence unit, of the lowest minor version that has all of it. Spec 7.1.2
+void append_sequence(std::vector<std::uint8_t>& stream, const SequenceParameterSet& set);
+
 /// Signature, sequence, index, the units, end. sps_level becomes the lowest that admits them.
 /// @param boxes  of the index, [slices] or none; nullopt: no index
 std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const CodedUnit> units,

@@ -30,9 +30,11 @@ class ComponentEncoder {
   /// The unit with these ids. A model goes on from the unit before: they come in their order.
   CodedUnit encode(SliceUnitHeader ids);
 
+  /// cu_prediction of the levels of a range.
+  std::vector<std::uint32_t> modes_of(const SliceUnitHeader& ids) const;
+
  private:
   std::span<std::int32_t> values_of(std::uint32_t layer);
-  std::vector<std::uint32_t> modes_of(const SliceUnitHeader& ids) const;
 
   const SliceCoding& coding_;
   const RahtTree& tree_;

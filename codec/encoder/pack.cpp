@@ -54,7 +54,10 @@ Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& fiel
   SLF_TRY(const SceneLayout layout,
           lay_out(sorted.morton, field.header.grid.bits, parameters));  // 7.3
   set_base(layout, set);
-  if (group != nullptr) set.sps_level = group->level;
+  if (group != nullptr) {
+    set.sps_level = group->level;
+    set.features = group->features;
+  }
   if (set.has_texture()) SLF_CHECK(choose_texture(sorted, parameters.texture.bits, set));
   SliceCoding coding{
       set,           plane_groups(set), plane_steps(set), parameters.digest, parameters.texture,
@@ -65,7 +68,8 @@ Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& fiel
                             parameters, set, coding, units));  // 7.11
   if (!chosen.transforms.empty()) sorted.components = std::move(chosen.components);
   if (group != nullptr)
-    *group = {group->level, set, coding.groups, coding.steps, std::move(chosen.transforms),
+    *group = {group->level,  group->features, set,
+              coding.groups, coding.steps,    std::move(chosen.transforms),
               chosen.coded};
   units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});  // 7.3
   SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));     // 8.4 - 8.10

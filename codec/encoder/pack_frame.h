@@ -14,7 +14,8 @@ namespace slf {
 
 /// What the frames of a group have in common.
 struct GroupCoding {
-  std::uint32_t level = 0;  ///< sps_level of the next, given
+  std::uint32_t level = 0;     ///< sps_level of the next, given
+  std::uint32_t features = 0;  ///< of the next, given
   SequenceParameterSet set;
   PlaneGroups groups;
   std::vector<std::uint32_t> steps;

@@ -11,6 +11,7 @@
 #include "attributes/raht_forward.h"
 #include "codec/encoder/component_encoder.h"
 #include "codec/slice_digest.h"
+#include "codec/unit_reference.h"
 #include "entropy/range_encoder.h"
 #include "geometry/draco_encoder.h"
 #include "geometry/octree_encoder.h"
@@ -93,10 +94,16 @@ CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree
   }
   ComponentEncoder encoder(slice.coding, tree.tree, slice.layout.base_levels, quantised,
                            slice.input.components, models);
+  const UnitReference there(slice.coding.reference, set,
+                            {tree.tree, slice.input.morton, tree.first, slice.coding.grid_bits()},
+                            slice.coding.steps);
   CodedUnits units;
   for (std::size_t place = 0; place < slice.slots.size(); ++place) {
     const UnitSlot& slot = slice.slots[place];
     if (!has_values(slot.type)) continue;
+    SliceUnitHeader ids = ids_of(slot, slice.slice_id());
+    ids.cu_prediction = encoder.modes_of(ids);
+    there.before_unit(ids, models);
     if (slice.follows())
       models.start_from(slot.group, known(slice.lead->coefficients.wait(place)), slot.layer);
     if (const FrameReference* reference = slice.coding.reference)

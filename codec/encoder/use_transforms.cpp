@@ -34,7 +34,10 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
     for (const std::uint16_t k : transform.inverse.functions)
       parameters.step[k] = parameters.step[transform.inverse.functions[0]];
   }
+  const std::uint32_t level = set.sps_level, features = set.features;  // a group of frames has them
   SLF_TRY(set, sequence_of_checked(field, parameters));
+  set.sps_level = level;
+  set.features = features;
   set_base(layout, set);
   set.sps_transform_flag = 1;
   set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);

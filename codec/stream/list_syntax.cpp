@@ -22,7 +22,7 @@ class UnitVisitor {
     switch (unit.type) {
       case UnitType::kSequence:
         sequence_parameter_set(parse_, set);
-        later_elements(parse_);
+        later_elements(parse_, set);
         break;
       case UnitType::kSlices: {
         SliceTable table;

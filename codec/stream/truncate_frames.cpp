@@ -37,8 +37,7 @@ class FrameCutter {
     if (request.whole) return copy_of(frame);
     Bytes bytes(kSignature.begin(), kSignature.end());
     const auto all = all_slices(request);
-    append_unit(bytes, UnitType::kSequence,
-                write_sequence_parameter_set(cut_sequence(request, all, all)));
+    append_sequence(bytes, cut_sequence(request, all, all));
     SLF_CHECK(append_frame(frame, group_->units, request, bytes));
     return bytes;
   }

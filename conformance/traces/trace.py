@@ -108,7 +108,7 @@ class Trace:
     def level_decoded(self, _result, octree, _decoder):
         self.say(f"  nodes of level {octree.level}: " + self.few(octree.nodes))
 
-    def mixed(self, decision, _decoder, indices, chosen):
+    def mixed(self, decision, _decoder, indices, chosen, _behind=()):
         self.about = f"{getattr(decision, 'name', 'weight class')}: contexts {tuple(indices)} set {chosen}"
 
     def named(self, _result, state, _functions):

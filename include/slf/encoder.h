@@ -70,7 +70,9 @@ struct CodingParameters {
                                ///< the last is the grid's bits. Empty: one unit per group
   std::vector<int> geometry_level_ends;  ///< the same for geometry units
   bool predict = true;  ///< coarser levels predict finer ones where that pays. Spec 8.7.6
-  double rdo = 0;       ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
+  /// Of frames: contexts by the frame before. Spec 8.12.6: such a stream is of version 1.1
+  bool reference_contexts = true;
+  double rdo = 0;  ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
   /// 1 .. 4, of the vector coder alone where above 1: values come bit by bit, each layer at half of
   /// the step of the one before, the last at `step`. So quality is a cut of the file, too
   int quality_layers = 1;
@@ -152,11 +154,12 @@ struct EncoderSettings {
   double chroma_step = 1;  ///< 0.1 .. 10: channels 1 and 2 have steps this much larger
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
-  TextureSettings texture;  ///< where coefficients is kTexture: its qp takes the place of q
-  bool predict = true;      ///< CodingParameters
-  double rdo = 0;           ///< CodingParameters
-  int quality_layers = 1;   ///< CodingParameters
-  int normal_bits = 0;      ///< 0: normals are not coded; 4 .. 12
+  TextureSettings texture;         ///< where coefficients is kTexture: its qp takes the place of q
+  bool predict = true;             ///< CodingParameters
+  bool reference_contexts = true;  ///< the same
+  double rdo = 0;                  ///< CodingParameters
+  int quality_layers = 1;          ///< CodingParameters
+  int normal_bits = 0;             ///< 0: normals are not coded; 4 .. 12
   int base_levels = kAutomaticBase;                      ///< CodingParameters
   std::uint32_t max_slice_points = kDefaultSlicePoints;  ///< CodingParameters
   SliceStart slice_start = SliceStart::kShared;          ///< CodingParameters

@@ -65,6 +65,13 @@ inline std::size_t place_of_frame_unit(const Frame& units) {
   return units[0].type == UnitType::kSequence ? 1 : 0;
 }
 
+/// Of a sequence unit that can be read, else 0.
+inline int version_minor(const OwnedUnit& unit) {
+  if (unit.type != UnitType::kSequence) return 0;
+  const auto set = parse_sequence_parameter_set(unit.payload);
+  return set ? set->version_minor() : 0;
+}
+
 /// Sound counts, CRCs and frame_bytes.
 inline Bytes joined_units(Frame units, const std::function<void(FrameHeader&)>& edit = {}) {
   const std::size_t at = place_of_frame_unit(units);
@@ -88,7 +95,8 @@ inline Bytes joined_units(Frame units, const std::function<void(FrameHeader&)>& 
   }
   Bytes bytes;
   if (at == 1) bytes.assign(kSignature.begin(), kSignature.end());
-  for (const OwnedUnit& unit : units) append_unit(bytes, unit.type, unit.payload);
+  for (const OwnedUnit& unit : units)
+    append_unit(bytes, unit.type, unit.payload, version_minor(unit));
   return bytes;
 }
 

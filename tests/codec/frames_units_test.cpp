@@ -180,5 +180,45 @@ TEST(Spec_9_Frames, AreHeldToLimitsWithWhatIsKept) {
   EXPECT_EQ(FrameDecoder::open(stream, options).error().code, Errc::kInvalidArgument);
 }
 
+TEST(Spec_7_1_2_FrameVersions, AreOf1_1WithContextsByTheReferenceAlone) {
+  const auto fields = fields_of(Moves::kTurn, 2);
+  CodingParameters off = frame_parameters(8);
+  off.reference_contexts = false;
+  const Bytes with = joined(coded_frames(fields, frame_parameters(8))),
+              without = joined(coded_frames(fields, off)),
+              alone = joined(coded_frames(fields, frame_parameters(8), 1));
+  EXPECT_EQ(with[10], 1);
+  EXPECT_EQ(without[10], 0);
+  EXPECT_EQ(alone[10], 0);  // no frame is predicted
+  FrameDecoder a = opened(with), b = opened(without);
+  expect_same(decoded_frame(a, 1), decoded_frame(b, 1));
+}
+
+TEST(Spec_7_2_1_Features, AndLevelStayWithATransform) {
+  CodingParameters parameters = frame_parameters(8);
+  parameters.transform = TransformMode::kFunctions;
+  LightField field = frame_of(Moves::kNothing, 0);  // its functions are one, four times
+  for (std::size_t i = 0; i < field.components.size(); ++i)
+    field.components[i] = field.components[i - i % 12 + i % 3];
+  const auto frames = coded_frames({field, field}, parameters);
+  const auto set = parse_sequence_parameter_set(read_unit(frames[0], kSignature.size())->payload);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->sps_transform_flag, 1u);
+  EXPECT_EQ(set->features, kReferenceContexts);
+  EXPECT_EQ(set->sps_level, 1u);
+}
+
+TEST(Spec_7_2_1_Features, StayInWhatIsCutFromFrames) {
+  const Bytes stream = joined(coded_frames(fields_of(Moves::kTurn, 3), frame_parameters(8)));
+  DecodeOptions options;
+  options.levels = 4;
+  const auto cut = truncate_frames(stream, 0, 2, options);
+  ASSERT_TRUE(cut);
+  EXPECT_EQ((*cut)[10], 1);
+  FrameDecoder of_cut = opened(*cut), of_whole = opened(stream, options);
+  for (std::size_t t = 0; t < 3; ++t)
+    EXPECT_EQ(decoded_frame(of_cut, t).components, decoded_frame(of_whole, t).components);
+}
+
 }  // namespace
 }  // namespace slf::frames_units_test
