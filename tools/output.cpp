@@ -57,10 +57,10 @@ Outcome check_output(const std::string& file) {
 
 Outcome check_output(const std::string& file, const char* verb,
                      std::span<const char* const> formats) {
-  constexpr std::array kKnown = {".bmp",  ".e57",  ".exr",    ".glb",  ".gltf",  ".html", ".igc",
-                                 ".jpeg", ".jpg",  ".ksplat", ".las",  ".laz",   ".npy",  ".obj",
-                                 ".pcd",  ".ply",  ".png",    ".slf",  ".splat", ".spz",  ".stl",
-                                 ".tif",  ".tiff", ".txt",    ".webp", ".xyz"};
+  constexpr std::array kKnown = {".avif", ".bmp",  ".e57",  ".exr",    ".glb",  ".gltf",  ".html",
+                                 ".igc",  ".jpeg", ".jpg",  ".ksplat", ".las",  ".laz",   ".npy",
+                                 ".obj",  ".pcd",  ".ply",  ".png",    ".slf",  ".splat", ".spz",
+                                 ".stl",  ".tif",  ".tiff", ".txt",    ".webp", ".xyz"};
   const std::string extension = small_extension(file);
   const auto is_it = [&](const char* other) { return extension == other; };
   const bool written = std::any_of(formats.begin(), formats.end(), is_it);

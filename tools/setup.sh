@@ -15,7 +15,7 @@ packages=(
   python3 python3-numpy
 )
 if [[ "${1:-}" == web || "${1:-}" == lab ]]; then
-  packages+=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc binaryen brotli)
+  packages+=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc binaryen brotli xz-utils)
   # Any node from 18 on will do, wherever it came from.
   command -v node >/dev/null || packages+=(nodejs)
   command -v npm >/dev/null || packages+=(npm)

@@ -95,7 +95,9 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
                     e.step.seconds + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
-  json["warnings"] = e.warnings;
+  std::vector<std::string> warnings = input.capture.warnings;
+  warnings.insert(warnings.end(), e.warnings.begin(), e.warnings.end());
+  json["warnings"] = std::move(warnings);
   return json;
 }
 

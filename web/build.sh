@@ -16,7 +16,7 @@ done
 [[ -d /usr/include/wasm32-wasi ]] || skipped "there is no libc for WASI (tools/setup.sh web)"
 ./build_wasm.sh
 
-for tool in node npm; do
+for tool in node npm xz; do
   command -v "$tool" >/dev/null || skipped "there is no $tool for the page (tools/setup.sh web)"
 done
 if [[ package-lock.json -nt node_modules/.package-lock.json ]]; then

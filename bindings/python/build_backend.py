@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the wheel with cmake (PEP 517). No other package is needed to build.
+"""Builds the wheel with cmake, and the source distribution (PEP 517). No other package is needed to build.
 
 The build folder is build/pip, or SLF_PIP_BUILD. SLF_CMAKE_ARGS: more arguments for cmake.
 SLF_PIP_BUILT: a folder that was built with SLF_PYTHON, whose package is taken as it is.
 """
 import base64
 import hashlib
+import io
 import os
 import pathlib
 import re
@@ -13,9 +14,14 @@ import shlex
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+# What compiling the package takes of the tree.
+FOLDERS = ('attributes', 'base', 'bindings', 'bitstream', 'capture', 'codec', 'encoder', 'entropy', 'geometry', 'include',
+           'lightfield', 'tools/cmake')
+FILES = ('CMakeLists.txt', 'LICENSE', 'README.md', 'CHANGELOG.md', 'pyproject.toml')
 TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
 
 
@@ -30,7 +36,7 @@ def metadata():
     p = project()
     readme = (ROOT / p['readme']).read_text(encoding='utf-8')
     return (f'Metadata-Version: 2.1\nName: {p["name"]}\nVersion: {p["version"]}\n'
-            f'Summary: {p["description"]}\nLicense: Apache-2.0\nRequires-Python: {p["requires-python"]}\n'
+            f'Summary: {p["description"]}\nLicense: Apache-2.0\nLicense-File: LICENSE\nRequires-Python: {p["requires-python"]}\n'
             f'Requires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n{readme}')
 
 
@@ -67,6 +73,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files = {f'slf/{file.name}': file.read_bytes() for file in sorted(compiled().iterdir())
              if file.is_file()}
     files[f'{info}/METADATA'] = metadata().encode()
+    files[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
     files[f'{info}/WHEEL'] = ('Wheel-Version: 1.0\nGenerator: slf\nRoot-Is-Purelib: false\n'
                               f'Tag: {TAG}-{TAG}-{platform()}\n').encode()
     record = f'{info}/RECORD'
@@ -82,5 +89,28 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     return wheel
 
 
+def sources():
+    """Files of a source distribution, by their names in the tree; git is not asked."""
+    for name in FILES:
+        yield name
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob('*')):
+            hidden = any(part.startswith('.') or part == '__pycache__' for part in path.relative_to(ROOT).parts)
+            if path.is_file() and not hidden:
+                yield path.relative_to(ROOT).as_posix()
+
+
 def build_sdist(sdist_directory, config_settings=None):
-    raise NotImplementedError('there is no source distribution: take the repository')
+    p = project()
+    top = f'{p["name"]}-{p["version"]}'
+
+    def added(name, content):
+        entry = tarfile.TarInfo(f'{top}/{name}')
+        entry.size, entry.mode = len(content), 0o644
+        archive.addfile(entry, io.BytesIO(content))
+
+    with tarfile.open(pathlib.Path(sdist_directory) / f'{top}.tar.gz', 'w:gz', format=tarfile.PAX_FORMAT) as archive:
+        added('PKG-INFO', metadata().encode())
+        for name in sources():
+            added(name, (ROOT / name).read_bytes())
+    return f'{top}.tar.gz'

@@ -175,5 +175,20 @@ TEST_F(CliTest, ACloudWithColoursNeedsNoCameras) {
   EXPECT_EQ(body.substr(12, 3), std::string("\xff\0\0", 3)) << "the first in Morton order";
 }
 
+TEST_F(CliTest, AReportHasTheWarningsOfTheCaptureToo) {
+  write("mesh.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 0 1 0 0 255\n3 0 1 2\n");
+  const Ran ran = slf("encode mesh.ply -o a.slf --grid-bits 1 -q 0.05 --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto warnings = parsed(ran.out)["warnings"];
+  ASSERT_EQ(warnings.size(), 1u) << warnings;
+  const std::string said = warnings[0];
+  EXPECT_NE(said.find("faces are ignored"), std::string::npos) << said;
+  EXPECT_NE(ran.err.find("slf: warning: " + said), std::string::npos) << ran.err;
+}
+
 }  // namespace
 }  // namespace slf::cli_encode_test

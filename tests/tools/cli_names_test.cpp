@@ -38,6 +38,7 @@ TEST_F(CliNames, ACameraGoesByItsPhotographBeforeItsNumber) {
 TEST_F(CliNames, AnOutputIsWhatItsNameSays) {
   expect_failure(slf("decode x.slf -o x.obj"), 2, "x.obj", "writes .ply, no .obj");
   expect_failure(slf("render x.slf -o x.webp"), 2, "x.webp", "writes .png, .jpg, .jpeg");
+  expect_failure(slf("render x.slf -o x.avif"), 2, "x.avif", "writes .png, .jpg, .jpeg");
   expect_failure(slf("encode tiny -o x.html"), 2, "x.html", "writes .slf, no .html");
   expect_failure(slf("render x.slf --transparent -o x.jpg"), 2, "--transparent", "PNG");
   EXPECT_FALSE(exists("x.obj") || exists("x.webp") || exists("x.html") || exists("x.jpg"));

@@ -29,6 +29,9 @@ for entry in "${scenes[@]}"; do
   [[ -e $out/$name.slf ]] || "$slf" encode "$out/captures/$name" $encode -o "$out/$name.slf" --quiet
   "$slf" html "$out/$name.slf" -o "$out/$name.html" --title "$name" --quiet
   "$slf" render "$out/$name.slf" --azimuth 30 --elevation 20 --size 320x320 -o "$out/$name.png" --quiet
-  printf '[![%s](%s.png)](%s.html)\n\n%s The file has %s bytes.\n\n' "$name" "$name" "$name" "${text# }" "$(stat -c %s "$out/$name.slf")" >>"$out/list.md"
+  printf '[![%s](%s.png)](%s.html)\n\n%s The file has %s bytes, its page %s.\n\n' "$name" "$name" "$name" "${text# }" \
+    "$(stat -c %s "$out/$name.slf")" "$(stat -c %s "$out/$name.html")" >>"$out/list.md"
+  printf '    slf synth %s -o %s\n    slf encode %s -o %s.slf\n    slf html %s.slf -o %s.html\n\n' \
+    "$scene --size $size${synth:+ $synth}" "$name" "$name${encode:+ $encode}" "$name" "$name" "$name" >>"$out/list.md"
 done
 echo "gallery.sh: $out"

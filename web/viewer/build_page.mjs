@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes dist/one_file.html, the template of `slf html`: viewer.html with its style and code in it, the
-// code and the decoder packed. Prints what each part takes.
+// code and the decoder packed by xz (lzma.js unpacks them). Prints what each part takes.
+import { execFileSync } from 'node:child_process';
 import { readFile, writeFile, mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
-import { gzipSync } from 'node:zlib';
 import { build, transform } from 'esbuild';
 
 const here = new URL('./', import.meta.url),
@@ -20,6 +20,7 @@ async function bundle(entry, name) {
     format: 'iife',
     globalName: name,
     target: 'es2022',
+    charset: 'utf8',
     legalComments: 'none',
     external: ['../made/*'], // this page brings a worker of its own
     define: { 'import.meta.url': '"about:blank"' },
@@ -41,17 +42,20 @@ const shaders = {
   },
 };
 
-function withLength(bytes) {
+function withLength(bytes, number = bytes.length) {
   const length = Buffer.alloc(4);
-  length.writeUInt32LE(bytes.length);
+  length.writeUInt32LE(number);
   return Buffer.concat([length, bytes]);
 }
 
-const [page, worker] = await Promise.all([bundle('one_file.js', 'slfPage'), bundle('decode_worker.js', 'slfWorker')]);
+const [page, worker, begin] = await Promise.all(
+  [['one_file.js', 'slfPage'], ['decode_worker.js', 'slfWorker'], ['one_file_start.js']].map((each) => bundle(...each)),
+);
 const wasm = await readFile(new URL(process.argv[2] ?? 'slf.wasm', web));
-const packed = gzipSync(Buffer.concat([page, worker, wasm].map(withLength)), { level: 9 });
+const plain = Buffer.concat([page, worker, wasm].map((each) => withLength(each)));
+const packed = withLength(execFileSync('xz', ['--format=raw', '--lzma1=preset=9e,lc=4,lp=0,pb=0', '-c'], { input: plain }), plain.length);
 const style = (await transform(await text('viewer.css'), { loader: 'css', minify: true })).code;
-const start = (await transform(await text('one_file_start.js'), { minify: true, target: 'es2022' })).code;
+const start = Buffer.from(begin).toString();
 const policy =
   "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; connect-src blob: data:";
 

@@ -13,7 +13,7 @@ export function answer(port, create, Frames = null) {
   const reply = async (id, task) => {
     try {
       const result = await task;
-      port.postMessage({ id, ...result }, result.packed ? buffersOf(result.packed) : []);
+      port.postMessage({ id, ...result }, result.packed ? buffersOf(result.packed) : result.bytes ? [result.bytes.buffer] : []);
     } catch (error) {
       port.postMessage({ id, error: plainError(error), info: session.info });
     }
@@ -22,6 +22,7 @@ export function answer(port, create, Frames = null) {
     if (data.wasm) session.wasm = data.wasm;
     if (data.reset) session.reset();
     if (data.append) session.append(data.append);
+    if (data.give) reply(data.id, session.give());
     if (data.decode) reply(data.id, session.decode(data.decode));
     if (data.frames) reply(data.id, frames.open(data.frames));
     if (data.frame !== undefined) reply(data.id, frames.decode(data.frame));
@@ -49,6 +50,13 @@ export class DecodeSession {
     }
     this.bytes.set(chunk, this.length);
     this.length += chunk.length;
+  }
+
+  /** The file, which is not here any more then. */
+  give() {
+    const bytes = this.bytes.subarray(0, this.length);
+    this.reset();
+    return { bytes };
   }
 
   /**

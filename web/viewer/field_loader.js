@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a file, an address or bytes to packed light fields: coarse ones while the rest arrives.
+// From a file, an address or bytes to packed light fields: coarse ones while the rest arrives. The worker that decodes
+// ends when nothing is left to decode, and with it the memory that it has grown to; another starts for the next.
 import { decoderModule } from '../slf.js';
 import { startWorker } from '../start_worker.js';
 import { plainError } from './decode_session.js';
 import { FrameSource } from './frame_source.js';
 import { ViewerError } from './packed_field.js';
+import { aborted, openStream } from './source_stream.js';
 import { moves } from './stream_units.js';
 
 const MOST_BYTES = 2 ** 30;
@@ -31,7 +33,10 @@ export class FieldLoader {
     this.next = 1;
     this.turn = 0;
     this.arriving = new AbortController(); // of the file that is on its way
-    this.whole = false; // all of it is with the worker
+    this.whole = false; // all of it is here
+    this.kept = null; // its bytes, while there is no worker
+    this.resting = null; // a promise of its end, or of the next
+    this.busy = 0; // decodes that are going on
     this.frames = null; // a FrameSource, of a light field that moves
     this.moving = null; // its source
     this.stopped = null; // why the worker answers no more
@@ -100,9 +105,9 @@ export class FieldLoader {
     if (stream.exact && received < stream.total)
       throw new ViewerError('network', `The connection ended after ${received} of ${stream.total} bytes.`);
     if (on.field && look === FIRST_LOOK && received > LARGE) showPrefix(LOOK);
-    this.whole = true;
     await looking;
     if (!current()) throw aborted();
+    this.whole = true;
     const { levels = 0, groups = 0, layers = 0 } = options,
       part = { levels, groups, layers };
     const result = await this.decode(part);
@@ -134,7 +139,48 @@ export class FieldLoader {
 
   /** Decodes what is loaded once more, with other levels, groups or layers. */
   async decode({ prefix = 0, levels = 0, groups = 0, layers = 0 } = {}) {
-    return this.ask({ decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
+    const { turn } = this;
+    ++this.busy;
+    try {
+      await this.wake();
+      return await this.ask({ decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
+    } finally {
+      if (--this.busy === 0 && this.whole && this.worker && !this.stopped && turn === this.turn) this.rest(turn);
+    }
+  }
+
+  /** Ends the worker; it hands over the file. */
+  rest(turn) {
+    this.turning(turn, this.ask({ give: true }).then(({ bytes }) => {
+      if (turn !== this.turn) return;
+      this.kept = bytes;
+      this.worker.terminate?.();
+      this.worker = null;
+    })).catch(() => {}); // of a worker that has stopped, or is of another file
+  }
+
+  /** A worker that has the file, where the one before was ended. */
+  async wake() {
+    const { turn } = this;
+    while (this.resting && turn === this.turn) await this.resting;
+    const { kept } = this;
+    if (!kept || turn !== this.turn) return;
+    this.kept = null;
+    try {
+      await this.turning(turn, this.restart(() => turn === this.turn));
+      this.worker.postMessage({ append: kept }, [kept.buffer]);
+    } catch (error) {
+      if (turn === this.turn) this.kept = kept;
+      throw error;
+    }
+  }
+
+  /** Whoever wants to decode waits for it. */
+  turning(turn, change) {
+    this.resting = change.finally(() => {
+      if (turn === this.turn) this.resting = null;
+    });
+    return this.resting;
   }
 
   /** The worker's answer to a message. */
@@ -152,7 +198,7 @@ export class FieldLoader {
     ++this.turn;
     this.arriving.abort();
     this.worker?.terminate?.();
-    this.worker = null;
+    this.worker = this.kept = this.resting = null;
     for (const { reject } of this.waiting.values()) reject(aborted());
     this.waiting.clear();
   }
@@ -214,60 +260,9 @@ const refused = (error) => {
 const ownWorker = () => new Worker(new URL('./decode_worker.js', import.meta.url), { type: 'module' });
 const newWorker = () => startWorker(ownWorker, () => import('../made/decode_worker_text.js'));
 
-const aborted = () => new DOMException('Another file was opened.', 'AbortError');
-
 function joined(a, b) {
   const both = new Uint8Array(a.length + b.length);
   both.set(a);
   both.set(b, a.length);
   return both;
-}
-
-/** Chunks of a source, and how many bytes there will be; 0 where nobody says. exact: and no fewer. */
-async function openStream(source, request, stallMs) {
-  if (source instanceof ArrayBuffer) source = new Uint8Array(source);
-  if (source instanceof Uint8Array) return { total: source.length, exact: true, chunks: [source] };
-  const reads = (read) => within(stallMs, read);
-  if (source instanceof Blob) return { total: source.size, exact: true, chunks: chunksOf(source.stream()) };
-  let response;
-  try {
-    response = await reads(fetch(source, request));
-  } catch (error) {
-    if (request.signal.aborted) throw aborted();
-    if (error instanceof ViewerError) throw error;
-    throw new ViewerError('network', 'The file cannot be fetched.', String(source));
-  }
-  if (!response.ok)
-    throw new ViewerError('network', `The server says ${response.status}.`, `${source} ${response.statusText}`);
-  const packed = response.headers.get('content-encoding'); // then the length is that before unpacking
-  const total = packed ? 0 : Number(response.headers.get('content-length') ?? 0);
-  // Whether that is so is not seen of another origin.
-  return { total, exact: total > 0 && response.type !== 'cors', chunks: chunksOf(response.body, reads) };
-}
-
-/** What a server promised; 'network' where it stays silent. */
-async function within(ms, promise) {
-  let timer;
-  const silence = new Promise((_, reject) => {
-    const error = new ViewerError('network', `The server has sent nothing for ${ms / 1000} seconds.`);
-    timer = setTimeout(reject, ms, error);
-  });
-  return Promise.race([promise, silence]).finally(() => clearTimeout(timer));
-}
-
-/** @param {(read: Promise) => Promise} reads  what is done with each read */
-async function* chunksOf(stream, reads = (read) => read) {
-  const reader = stream.getReader();
-  try {
-    for (;;) {
-      const { done, value } = await reads(reader.read());
-      if (done) return;
-      yield value;
-    }
-  } catch (error) {
-    if (error?.name === 'AbortError' || error instanceof ViewerError) throw error;
-    throw new ViewerError('network', 'The connection broke.');
-  } finally {
-    reader.cancel().catch(() => {}); // where it was given up
-  }
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only code of a one-file page that stands in it as it is: unpacks the rest. The packed bytes are
-// three parts, each after its length (4 bytes, least significant first): page, worker, decoder.
+// The only code of a one-file page that stands in it as it is: unpacks the rest. The packed bytes stand after the
+// length of what they pack: three parts, each after its own (4 bytes, least significant first): page, worker, decoder.
+import { unpack } from './lzma.js';
+
 addEventListener('DOMContentLoaded', async () => {
   try {
     const text = document.getElementById('slf-code');
     const packed = Uint8Array.from(atob(text.textContent), (c) => c.charCodeAt(0));
     text.remove();
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-    const bytes = new Uint8Array(await new Response(stream).arrayBuffer()),
+    const lengthAt = (bytes, at) => new DataView(bytes.buffer).getUint32(at, true);
+    const bytes = unpack(packed.subarray(4), lengthAt(packed, 0)),
       parts = [];
     for (let at = 0; at < bytes.length;) {
-      const length = new DataView(bytes.buffer).getUint32(at, true);
+      const length = lengthAt(bytes, at);
       parts.push(bytes.subarray(at + 4, at + 4 + length));
       at += 4 + length;
     }

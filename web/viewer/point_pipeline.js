@@ -109,7 +109,8 @@ export class PointPipeline {
    * Depths, sums and coverage of a view, kept until the next call.
    * @param {View} view
    * @param {object} options  meanOnly; share: of the points, 0 .. 1; withDepth: resolve() will be asked for depths;
-   *   patient: what takes long may be that of a view before, and `unsettled` says so
+   *   patient: what takes long may be that of a view before, and `unsettled` says so; sameOrder: splats lie as in the view
+   *   before, that of the other eye
    */
   accumulate(view, { meanOnly = false, share = 1, ...options } = {}) {
     const { gl, field } = this;

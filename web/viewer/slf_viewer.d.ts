@@ -27,6 +27,8 @@ export interface SlfViewerEvents {
   ended: CustomEvent<undefined>;
   /** frame: its place from 0; number as the file has it; seconds. */
   framechange: CustomEvent<{ frame: number; number: number; time: number }>;
+  xrstart: CustomEvent<{ mode: 'immersive-vr' | 'immersive-ar' }>;
+  xrend: CustomEvent<{ mode: 'immersive-vr' | 'immersive-ar' }>;
   /** It is passed over. */
   frameerror: CustomEvent<{ frame: number; number: number; error: ViewerError }>;
 }
@@ -65,6 +67,8 @@ export class SlfViewerElement extends HTMLElement {
   fit(): void;
   /** Degrees a second; 0 stops. */
   spin(speed?: number): void;
+  /** Into a room of WebXR, or out of it. In a handler of a click: browsers ask for that. */
+  toggleRoom(kind: 'vr' | 'ar'): Promise<void>;
   /** PNG of what is shown; null before. */
   picture(): Promise<Blob | null>;
 

@@ -196,6 +196,11 @@ export class SlfViewerElement extends HTMLElement {
     return this.viewer?.stage?.field ? this.viewer.stage.screenshot() : null;
   }
 
+  /** Into a room of WebXR, 'vr' or 'ar', or out of it. A hand has to ask for it: browsers refuse it otherwise. */
+  async toggleRoom(kind) {
+    await this.viewer?.rooms.toggle(kind);
+  }
+
   async #start() {
     this.#markUp(this.#still ?? undefined);
     const words = await wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));

@@ -43,10 +43,10 @@ export class SplatPipeline extends PointPipeline {
     return this.sorting !== null && !this.sorting.settled;
   }
 
-  drawPoints(view, eye, share, { withDepth = false, patient = false }) {
+  drawPoints(view, eye, share, { withDepth = false, patient = false, sameOrder = false }) {
     const { gl, field, sums, textures: t, sorting } = this;
     const drawn = Math.max(1, Math.round(field.points * Math.min(1, share)));
-    if (sorting.towards(eye, view.rotation.slice(6), drawn, patient && sorting.made !== null)) this.putOrder();
+    if (!(sameOrder && sorting.made) && sorting.towards(eye, view.rotation.slice(6), drawn, patient && sorting.made !== null)) this.putOrder();
     gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.blendTarget);
     gl.disable(gl.DEPTH_TEST);

@@ -31,6 +31,7 @@ export class Stage {
     this.frameTime = 0;
     this.settled = true;
     this.asked = 0;
+    this.lent = false; // somebody else draws with its context
     canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
     canvas.addEventListener('webglcontextrestored', () => this.restore());
     this.observer = new ResizeObserver(() => this.redraw());
@@ -55,7 +56,7 @@ export class Stage {
   /** A frame soon. @param {boolean} moving  more will follow: it may be coarse */
   redraw({ moving = false } = {}) {
     this.settled = this.settled && !moving;
-    if (this.asked || this.gl.isContextLost()) return;
+    if (this.asked || this.lent || this.gl.isContextLost()) return;
     this.asked = requestAnimationFrame((now) => this.frame(now));
   }
 
@@ -79,11 +80,34 @@ export class Stage {
   }
 
   /** The time between frames of a motion decides how fine the next is. */
-  adapt(since) {
+  adapt(since, slow = SLOW, fast = FAST) {
     if (!(since > 0 && since < 2000)) return;
     this.frameTime = this.frameTime ? 0.7 * this.frameTime + 0.3 * since : since;
-    if (this.frameTime > SLOW) this.scale = Math.max(COARSEST, this.scale * 0.85);
-    else if (this.frameTime < FAST) this.scale = Math.min(1, this.scale * 1.1);
+    if (this.frameTime > slow) this.scale = Math.max(COARSEST, this.scale * 0.85);
+    else if (this.frameTime < fast) this.scale = Math.min(1, this.scale * 1.1);
+  }
+
+  /** A session of WebXR has the context until takeBack(), and draws by drawInto(). */
+  lend() {
+    this.lent = true;
+    cancelAnimationFrame(this.asked);
+    clearTimeout(this.rest);
+    this.asked = 0;
+  }
+
+  takeBack() {
+    this.lent = false;
+    this.last = undefined;
+    this.redraw();
+  }
+
+  /** Over a part of a framebuffer. @param camera  (width, height) => View @param options  beside the look: of accumulate() */
+  drawInto(framebuffer, viewport, camera, options) {
+    const { gl, pipeline } = this,
+      size = viewport.slice(2).map((v) => Math.max(1, Math.round(v * this.scale)));
+    pipeline.accumulate(camera(...size), { ...this.look, ...options });
+    gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+    pipeline.resolve({ viewport, exposure: this.look.exposure });
   }
 
   /** @returns {[number, number]} pixels of the screen that the canvas has */

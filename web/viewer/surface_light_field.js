@@ -18,6 +18,7 @@ import {
 } from 'three';
 import { colourFrom, pick } from './pick.js';
 import { pipelineWith } from './pipelines.js';
+import { viewOfCamera } from './view.js';
 
 const viewport = new Vector4(),
   toObject = new Matrix4(),
@@ -181,30 +182,6 @@ function pipelineOrFailure(gl, packed) {
   } catch (failure) {
     return { failure };
   }
-}
-
-/**
- * A perspective camera of three (x right, y up, looking along -z) as a View in the object's axes.
- * @param p  projection, column-major
- * @param m  camera to object, column-major: a rotation times an even scale, and a place
- * @returns scale: of world lengths over the object's
- */
-export function viewOfCamera(p, m, width, height) {
-  const length = Math.hypot(m[0], m[1], m[2]),
-    axis = (i, sign) => [0, 1, 2].map((k) => (sign * m[4 * i + k]) / length);
-  return {
-    scale: 1 / length,
-    view: {
-      width,
-      height,
-      fx: (p[0] * width) / 2,
-      fy: (p[5] * height) / 2,
-      cx: (width / 2) * (1 - p[8]),
-      cy: (height / 2) * (1 + p[9]),
-      rotation: [...axis(0, 1), ...axis(1, -1), ...axis(2, -1)],
-      eye: [m[12], m[13], m[14]],
-    },
-  };
 }
 
 /** Depth in the frame buffer is x + y / z, z in voxels; `voxel` in the camera's units. */

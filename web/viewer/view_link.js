@@ -27,7 +27,7 @@ export function embeddingOf(viewer) {
   const address = viewer.link({ ...viewParameters(viewer), embed: '1' });
   const quoted = (text) => text.replace(/[&"<>]/g, (c) => `&#${c.charCodeAt(0)};`);
   return `<iframe src="${quoted(address)}" title="${quoted(viewer.report.titleText())}" width="640" height="480" \
-style="border: 0; max-width: 100%" loading="lazy" allow="fullscreen"></iframe>`;
+style="border: 0; max-width: 100%" loading="lazy" allow="fullscreen; xr-spatial-tracking"></iframe>`;
 }
 
 export const copyLink = (viewer) => copy(viewer, viewer.link(viewParameters(viewer)));

@@ -9,6 +9,7 @@ import { Guide } from './guide.js';
 import { Playback } from './playback.js';
 import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
 import { Report } from './report.js';
+import { Rooms } from './rooms.js';
 import { Stage } from './stage.js';
 import { fittingPose, poseOfCamera } from './view.js';
 import { Wiring } from './wiring.js';
@@ -30,6 +31,7 @@ export class Viewer {
     this.comparison = new Comparison(this);
     this.guide = new Guide(this);
     this.playback = new Playback(this);
+    this.rooms = new Rooms(this);
     this.facts = {};
     this.chosen = this.options.background; // null: as the page and the hour have it
     this.background = this.chosen ?? (this.darkPage() ? 'slate' : 'paper');
@@ -124,11 +126,13 @@ export class Viewer {
     if (final && this.controls.smooth && this.options.autorotate) this.spin(this.options.autorotate);
     this.report.describe();
     this.page.frame.dataset.state = final ? 'ready' : 'coarse';
+    if (final) this.rooms.offer();
     this.emit(final ? 'ready' : 'coarse', { points: packed.points });
   }
 
   /** Frees the worker, the graphics context and what listens outside. */
   dispose() {
+    this.rooms.end();
     this.loader.dispose();
     this.controls?.dispose();
     this.stage?.dispose();

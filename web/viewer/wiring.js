@@ -58,6 +58,7 @@ export class Wiring {
     this.listenToDrops();
     this.listenToPanel();
     this.onRoot('fullscreenchange', () => this.full(Boolean(this.page.root.fullscreenElement)));
+    this.page.at('tools').addEventListener('beforexrselect', (event) => event.preventDefault()); // a button places nothing
     this.followPage();
     if (!this.viewer.link) this.page.one('[data-do=link]').hidden = true;
     if (!this.page.whole || !/^http/.test(location.protocol)) this.page.one('[data-do=snippet]').hidden = true;
@@ -100,6 +101,8 @@ export class Wiring {
       note: () => field && this.viewer.guide.next(),
       'note-close': () => this.viewer.guide.hide(),
       tour: () => field && this.viewer.guide.play(),
+      vr: () => field && this.viewer.rooms.toggle('vr'),
+      ar: () => field && this.viewer.rooms.toggle('ar'),
       link: () => field && copyLink(this.viewer),
       snippet: () => field && copyEmbedding(this.viewer),
       mean: () => {

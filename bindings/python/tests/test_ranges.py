@@ -3,7 +3,11 @@
 import contextlib
 import http.server
 import io
+import os
+import pathlib
 import pickle
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -97,6 +101,20 @@ class RangesTest(unittest.TestCase):
             self.assertTrue(all(asked))
             self.expect_same(slf.read(address), slf.read(self.data))
             self.assertEqual(slf.info(address).points, slf.info(self.data).points)
+
+    def test_path_that_cannot_be_sought_in_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'pipe.slf')
+            os.mkfifo(path)
+            writing = threading.Thread(target=lambda: pathlib.Path(path).write_bytes(self.data))
+            writing.start()
+            try:
+                self.expect_same(slf.read(path), slf.read(self.data))
+            finally:
+                writing.join()
+        program = 'import sys, slf; print(len(slf.read("/dev/stdin")))'
+        said = subprocess.run([sys.executable, '-c', program], input=self.data, stdout=subprocess.PIPE, check=True).stdout
+        self.assertEqual(int(said), len(slf.read(self.data)))
 
     def test_server_without_ranges_gives_the_whole(self):
         with served(self.data, ranges=False) as (address, _):

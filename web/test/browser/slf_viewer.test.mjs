@@ -54,7 +54,7 @@ test('two viewers have their own view and state, one far away waits, and events 
   await page.close();
 });
 
-test('methods turn, fit, take a picture and open another file; taken out, a viewer ends its worker', { skip }, async () => {
+test('methods turn, fit, take a picture and open another file; taken out, a viewer ends the worker of what is on its way', { skip }, async () => {
   const page = await pageOf('methods', viewer('a'));
   await state(page, 'a');
   const said = await page.evaluate(async () => {
@@ -68,6 +68,8 @@ test('methods turn, fit, take a picture and open another file; taken out, a view
     return { views, type: picture.type, state: a.state };
   });
   assert.deepEqual([said.views[0].azimuth, said.views[0].zoom, said.views[1].zoom, said.type, said.state], ['50', '2', '1', 'image/png', 'ready']);
+  await page.evaluate(() => void document.getElementById('a').open('/files/silent.slf'));
+  for (let i = 0; i < 50 && page.workers().length === 0; ++i) await page.waitForTimeout(100);
   assert.equal(page.workers().length, 1);
   await page.evaluate(() => document.getElementById('a').remove());
   for (let i = 0; i < 50 && page.workers().length > 0; ++i) await page.waitForTimeout(100);

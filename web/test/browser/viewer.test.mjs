@@ -146,6 +146,8 @@ test('sliders change what is drawn: points, levels, groups, exposure, resolution
   await page.waitForFunction(
     () => window.viewer.options.groups === 1 && document.getElementById('status').textContent === 'Decoded.',
   );
+  for (let i = 0; i < 50 && page.workers().length > 0; ++i) await page.waitForTimeout(100);
+  assert.equal(page.workers().length, 0); // each decode had one of its own
   assert.ok(psnr(await pictureOf(page, here.can.views[0], here.can.size), picture) < 50);
   await slide(page, 'resolution', 50);
   await pictureOf(page, here.can.views[0], here.can.size);

@@ -170,4 +170,8 @@ export default {
   'Frame {} is damaged.': 'Bild {} ist beschädigt.',
   'Frame {} of {}': 'Bild {} von {}',
   '{} frames': '{} Bilder',
+  'In a headset': 'Im Headset',
+  'In your room': 'In Ihrem Raum',
+  'Look at a surface, then tap.': 'Auf eine Fläche schauen, dann tippen.',
+  'The room cannot be shown.': 'Der Raum lässt sich nicht zeigen.',
 };

@@ -170,4 +170,8 @@ export default {
   'Frame {} is damaged.': 'El fotograma {} está dañado.',
   'Frame {} of {}': 'Fotograma {} de {}',
   '{} frames': '{} fotogramas',
+  'In a headset': 'En un visor',
+  'In your room': 'En su habitación',
+  'Look at a surface, then tap.': 'Mire una superficie y toque.',
+  'The room cannot be shown.': 'No se puede mostrar la habitación.',
 };

@@ -170,4 +170,8 @@ export default {
   'Frame {} is damaged.': 'L’image {} est endommagée.',
   'Frame {} of {}': 'Image {} sur {}',
   '{} frames': '{} images',
+  'In a headset': 'Dans un casque',
+  'In your room': 'Dans votre pièce',
+  'Look at a surface, then tap.': 'Regardez une surface, puis touchez.',
+  'The room cannot be shown.': 'La pièce ne peut pas être montrée.',
 };

@@ -170,4 +170,8 @@ export default {
   'Frame {} is damaged.': 'フレーム {} は壊れています。',
   'Frame {} of {}': 'フレーム {} / {}',
   '{} frames': '{} フレーム',
+  'In a headset': 'ヘッドセットで見る',
+  'In your room': '部屋に置く',
+  'Look at a surface, then tap.': '面に向けてからタップしてください。',
+  'The room cannot be shown.': '部屋を表示できません。',
 };

@@ -170,4 +170,8 @@ export default {
   'Frame {} is damaged.': '第 {} 帧已损坏。',
   'Frame {} of {}': '第 {} 帧，共 {} 帧',
   '{} frames': '{} 帧',
+  'In a headset': '在头显中观看',
+  'In your room': '放在房间里',
+  'Look at a surface, then tap.': '对准一个平面，然后轻点。',
+  'The room cannot be shown.': '无法显示房间。',
 };
