@@ -51,7 +51,7 @@ const FunctionWeights& weights_of(const slf_field& field) {
   return field.weights.get([&] { return FunctionWeights(field.field, field.threads); });
 }
 
-const std::vector<std::array<float, 3>>& frame_normals_of(const slf_field& field) {
+const std::vector<std::array<float, 3>>& mirror_normals_of(const slf_field& field) {
   const LightFieldHeader& header = field.field.header;
   return field.mirror_normals.get([&] {
     return mirror_normals(header.has_basis ? header.directions : Directions::kWorld,
@@ -207,7 +207,7 @@ slf_code slf_read_mirror_normals(const slf_field* field, uint64_t first, uint64_
     return code;
   if (!is_reflected(*field)) return invalid(error, "mirror_normals");
   return guarded(error, [&] {
-    const auto& normals = frame_normals_of(*field);
+    const auto& normals = mirror_normals_of(*field);
     if (count > 0) copy_rows(rows, normals.data()->data(), 3);
     return slf_code{SLF_OK};
   });
