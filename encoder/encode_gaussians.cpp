@@ -7,6 +7,8 @@
 #include "encoder/gaussian_coding.h"
 #include "encoder/gaussian_planes.h"
 #include "encoder/rate_control.h"
+#include "encoder/splat_pictures.h"
+#include "slf/decoder.h"
 
 namespace slf {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 // Shares of Q at which the last byte of each buys the same in pictures: slopes of blender_can and
 // middlebury_dino, 4,000 and 6,000 splats. docs/decisions/024
 constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
+constexpr double kAboveTarget = 0.05;  // dB of PSNR
+constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and down with the step
 
 /// What the reference rasteriser never draws.
 const double kLeastLogit = -std::log(254.0);
@@ -101,13 +105,42 @@ Result<Done, InputError> code_to_bytes(const GaussianEncoder& encoder, std::uint
   return Done{};
 }
 
+/// With pictures of the splats as they are given, since there are no photographs.
+Result<Done, InputError> code_to_psnr(const GaussianEncoder& encoder, const Gaussians& splats,
+                                      double psnr, int threads, EncodedGaussians& out) {
+  const SplatPictures pictures(splats, threads);
+  const auto measure = [&](double q) -> Result<double, InputError> {
+    SLF_CHECK(encoder.code(q, out));
+    SLF_TRY(const Gaussians shown, decoded_gaussians(out.stream, threads));
+    return pictures.psnr_of(shown);
+  };
+  SLF_TRY(const StepFound found, find_step(kGaussianQ, {psnr, psnr + kAboveTarget}, measure));
+  if (!found.reached && !(std::abs(found.value - psnr) <= kNearTarget))
+    return InputError{Errc::kInvalidArgument,
+                      "target PSNR: no step gives it; the nearest found gives " +
+                          std::to_string(found.value) + " dB"};
+  if (found.q != out.q) SLF_CHECK(encoder.code(found.q, out));
+  return Done{};
+}
+
 }  // namespace
+
+Result<Gaussians, InputError> decoded_gaussians(std::span<const std::uint8_t> stream, int threads) {
+  DecodeOptions options;
+  options.threads = threads;
+  options.limits = DecodeLimits::none();
+  const auto decoded = decode(stream, options);
+  if (!decoded) return InputError{decoded.error().code, "a file of splats does not decode"};
+  return gaussians_of(*decoded, threads);
+}
 
 Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin) {
-  if (settings.target_psnr > 0)
-    return InputError{Errc::kInvalidArgument, "target PSNR: of splats there is --target-bytes"};
+  if (!(settings.target_psnr >= 0 && settings.target_psnr <= 100))
+    return InputError{Errc::kInvalidArgument, "target PSNR: 0 to 100 dB"};
+  if (settings.target_psnr > 0 && settings.target_bytes > 0)
+    return InputError{Errc::kInvalidArgument, "target: bytes or PSNR, not both"};
   const Gaussians shown = that_show(splats);
   if (shown.size() == 0)
     return InputError{Errc::kInvalidInput, splats.size() == 0
@@ -117,6 +150,8 @@ Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
   EncodedGaussians out;
   if (settings.target_bytes > 0) {
     SLF_CHECK(code_to_bytes(encoder, settings.target_bytes, out));
+  } else if (settings.target_psnr > 0) {
+    SLF_CHECK(code_to_psnr(encoder, shown, settings.target_psnr, settings.threads, out));
   } else {
     SLF_CHECK(encoder.code(settings.q == kAutomaticQ ? kGaussianQ : settings.q, out));
   }

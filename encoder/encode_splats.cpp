@@ -8,10 +8,10 @@
 #include "base/stopwatch.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_to_target.h"
+#include "encoder/gaussian_coding.h"
 #include "encoder/judge_surface.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/trial_file.h"
-#include "slf/decoder.h"
 #include "slf/encode_gaussians.h"
 #include "slf/gaussian_renderer.h"
 
@@ -23,6 +23,8 @@ constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIteration
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
 constexpr double kSplatGain = 3.5;
 constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than splats may take
+constexpr std::size_t kFewestSplats = 500;  // that a target in bytes leaves
+constexpr double kSplatBytes = 13;          // at Q 7, of a die, a vase and the dino: 12 to 15
 
 TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations) {
   TrainGeometrySettings training;
@@ -41,12 +43,7 @@ Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capt
                                     std::span<const int> held_out,
                                     const EncoderSettings& settings) {
   SLF_TRY(const EncodedGaussians file, encode_gaussians(splats, settings));
-  DecodeOptions options;
-  options.threads = settings.threads;
-  options.limits = DecodeLimits::none();
-  const auto decoded = decode(file.stream, options);
-  if (!decoded) return InputError{decoded.error().code, "a trial file does not decode"};
-  SLF_TRY(const Gaussians shown, gaussians_of(*decoded, settings.threads));
+  SLF_TRY(const Gaussians shown, decoded_gaussians(file.stream, settings.threads));
   const GaussianRenderer renderer(shown, {.background = {0, 0, 0}, .threads = 1});
   SLF_TRY(const DrawnQuality quality,
           pictures_quality(
@@ -96,14 +93,17 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
       cameras.empty() ? "there are no photographs" : training_obstacle(capture, cameras);
   if (!obstacle.empty())
     return InputError{Errc::kInvalidInput, "splats are trained by photographs: " + obstacle};
+  SLF_CHECK(check_target(settings, cameras.size()));
   Encoded out;
   out.surface.start = start;
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  SLF_TRY(
-      const Gaussians splats,
-      train_gaussians(capture, cameras, training_of(settings, start, kSplatIterations), progress));
+  TrainGeometrySettings training = training_of(settings, start, kSplatIterations);
+  if (settings.target_bytes > 0)
+    training.most_splats =
+        std::max(std::size_t(double(settings.target_bytes) / kSplatBytes), kFewestSplats);
+  SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, training, progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};
@@ -111,11 +111,26 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
   if (progress) progress("code", 0);
-  SLF_TRY(EncodedGaussians coded, encode_gaussians(splats, coding, capture.origin));
-  out.stream = std::move(coded.stream);
-  out.q = coded.q;
-  out.grid = coded.grid;
-  out.points = out.surface.points_after = out.surface.surfels = coded.splats;
+  coding.target_bytes = 0;
+  coding.target_psnr = 0;
+  if (coding.q == kAutomaticQ) coding.q = kGaussianQ;
+  const auto code = [&](double q) -> Result<Done, InputError> {
+    EncoderSettings with = coding;
+    with.q = q;
+    SLF_TRY(EncodedGaussians coded, encode_gaussians(splats, with, capture.origin));
+    out.stream = std::move(coded.stream);
+    out.q = coded.q;
+    out.grid = coded.grid;
+    out.points = out.surface.points_after = out.surface.surfels = coded.splats;
+    return Done{};
+  };
+  if (has_target(settings)) {
+    EncoderSettings target = settings;
+    target.q = coding.q;
+    SLF_CHECK(code_to_target(target, capture, cameras, code, out));
+  } else {
+    SLF_CHECK(code(coding.q));
+  }
   out.seconds_code = watch.lap();
   if (progress) progress("code", 1);
   return out;

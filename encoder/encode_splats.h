@@ -33,6 +33,7 @@ bool may_be_splats(const EncoderSettings& settings);
 /// @param points  of that surface
 bool splats_win(const SurfaceReport& report, std::size_t points);
 
+/// A target in bytes allows no more splats than it has room for at the usual step.
 /// @param start  where the capture's points are from
 /// @errors kInvalidInput: photographs train nothing; those of train_gaussians, encode_gaussians
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,

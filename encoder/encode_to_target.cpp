@@ -7,6 +7,7 @@
 #include "encoder/rate_control.h"
 #include "slf/decoder.h"
 #include "slf/evaluate.h"
+#include "slf/gaussian_renderer.h"
 
 namespace slf {
 namespace {
@@ -30,9 +31,16 @@ Result<double, InputError> input_psnr(std::span<const std::uint8_t> stream, cons
   const auto decoded = decode(stream, options);
   if (!decoded) return InputError{decoded.error().code, "target PSNR: the file does not decode"};
   EvaluateSettings evaluation;
+  evaluation.threads = settings.threads;
+  if (has_gaussians(decoded->header)) {
+    SLF_TRY(const Gaussians splats, gaussians_of(*decoded, settings.threads));
+    const GaussianRenderer renderer(splats, {.background = {0, 0, 0}, .threads = 1});
+    const auto draw = [&](const Camera& camera) { return renderer.render(camera); };
+    SLF_TRY(const Quality quality, evaluate_pictures(draw, capture, cameras, evaluation));
+    return quality.image.psnr;
+  }
   evaluation.deltas_degrees = {settings.observe.delta_degrees};
   evaluation.images = settings.fit.pictures.rounds > 0;
-  evaluation.threads = settings.threads;
   SLF_TRY(const Quality quality, evaluate(ViewMaps(*decoded), capture, cameras, evaluation));
   return evaluation.images ? quality.image.psnr : quality.points[0].psnr;
 }

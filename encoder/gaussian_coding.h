@@ -2,7 +2,11 @@
 // Which steps, groups and levels splats are coded with.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "slf/encoder.h"
+#include "slf/gaussians.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -16,5 +20,9 @@ struct GaussianSteps {
 /// @param field  of light_field_of()
 CodingParameters gaussian_parameters(const LightField& field, const GaussianSteps& steps,
                                      const EncoderSettings& settings);
+
+/// What a decoder gets, in the order of the file.
+/// @errors those of decode and gaussians_of
+Result<Gaussians, InputError> decoded_gaussians(std::span<const std::uint8_t> stream, int threads);
 
 }  // namespace slf

@@ -99,7 +99,8 @@ void add_coding(SettingTable& rows) {
        number_or_nothing(
            "target-psnr", SLF_AT(target_psnr), 1, 100,
            "Find the Q that gives the input images' PSNR, up to 0.05 dB more: of pictures, or "
-           "of points with --fit-to points"),
+           "of points with --fit-to points; of a file of splats: pictures from around it against "
+           "those of the splats as they are given"),
        recorded(choice(
            "steps", SLF_AT(steps_by_norm), Words<bool>{{"by-norm", true}, {"uniform", false}},
            "Quantiser steps: Q / (2 norm of the function), or Q for all; paper: uniform")),

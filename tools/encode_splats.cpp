@@ -14,9 +14,10 @@ namespace {
 
 /// What splats have no use for. A setting that changes nothing would be a promise not kept.
 Outcome check_given(const EncodeOptions& given) {
-  constexpr std::array kTaken = {
-      "quality",     "grid-bits",    "voxel-size", "target-bytes",   "klt",   "predict", "rdo",
-      "base-levels", "slice-points", "slices",     "quality-layers", "effort"};
+  constexpr std::array kTaken = {"quality",     "grid-bits",    "voxel-size", "target-bytes",
+                                 "target-psnr", "klt",          "predict",    "rdo",
+                                 "base-levels", "slice-points", "slices",     "quality-layers",
+                                 "effort"};
   const auto refused = [&](const std::string& option) {
     return Failure{kUsage, "encode: --" + option + " is for photographs and clouds, and " +
                                given.capture + " holds splats"};

@@ -17,7 +17,6 @@ constexpr std::size_t kLeastShared = 12;          // points of a pair
 constexpr double kEnoughShared = 50;              // with which a pair has half of its weight
 constexpr double kWideRatios = 0.15;              // distance of quartiles that halves the weight
 constexpr double kFarthest = 1;                   // squared chord: 60 degrees
-constexpr double kApart = 0.12;  // squared chord that halves the weight: 20 degrees
 
 /// Both cameras at one point.
 struct SharedPoint {

@@ -43,17 +43,19 @@ template <bool kGaussian>
                                        top + float(kBlockRows * row), transparency, b))
         continue;
       const Lanes weight = b.alpha * transparency;
-      const LaneMask first = b.shows & (transparency == 1.0f);
-      sums.pivot[i] = first ? b.near : sums.pivot[i];
-      Lanes near = b.near - sums.pivot[i];
-      LaneMask within;
-      limit_near(most_near, near, within);
-      const Lanes weighted = weight * near;
       sums.red[i] += weight * s.colour[0];
       sums.green[i] += weight * s.colour[1];
       sums.blue[i] += weight * s.colour[2];
-      sums.near[i] += weighted;
-      sums.near_square[i] += weighted * near;
+      if constexpr (!kGaussian) {
+        const LaneMask first = b.shows & (transparency == 1.0f);
+        sums.pivot[i] = first ? b.near : sums.pivot[i];
+        Lanes near = b.near - sums.pivot[i];
+        LaneMask within;
+        limit_near(most_near, near, within);
+        const Lanes weighted = weight * near;
+        sums.near[i] += weighted;
+        sums.near_square[i] += weighted * near;
+      }
       transparency -= weight;
     }
 }
@@ -106,24 +108,32 @@ template <bool kGaussian>
   BlockSurfel p;
   if (!set_block_surfel<kGaussian>(s, x, y, block.transparency, p)) return;
   const Lanes weight = p.alpha * block.transparency;
-  Lanes near = p.near - block.pivot;
-  LaneMask within;
-  limit_near(most_near, near, within);
   // What a change of the weight is worth.
-  const Lanes worth = s.colour[0] * block.red + s.colour[1] * block.green +
-                      s.colour[2] * block.blue +
-                      spread * (block.near_square + near * (block.total * near - 2 * block.near));
+  Lanes worth = s.colour[0] * block.red + s.colour[1] * block.green + s.colour[2] * block.blue;
+  Lanes by_near{};
+  if constexpr (!kGaussian) {
+    Lanes near = p.near - block.pivot;
+    LaneMask within;
+    limit_near(most_near, near, within);
+    worth += spread * (block.near_square + near * (block.total * near - 2 * block.near));
+    const Lanes pulled = spread * 2 * weight * (block.total * near - block.near);
+    by_near = within ? pulled : by_near;
+  }
   block.remaining -= weight * worth;
   const Lanes by_alpha = block.transparency * worth - block.remaining / (1 - p.alpha);
   const LaneMask free = p.shows & (p.alpha < kMostAlpha);
   const Lanes by_kernel = free ? by_alpha : Lanes{};
-  const Lanes pulled = spread * 2 * weight * (block.total * near - block.near);
-  const Lanes by_near = within ? pulled : Lanes{};
   const Lanes by_square = kGaussian ? (-kGaussianReach / 2 * s.opacity) * by_kernel * p.kernel
                                     : (-4 * s.opacity) * by_kernel * p.inside * p.inside * p.inside;
   const Lanes gu = s.a * p.du + s.b * p.dv, gv = s.b * p.du + s.c * p.dv;
-  const Lanes by_u = -2 * by_square * gu - s.near_du * by_near;
-  const Lanes by_v = -2 * by_square * gv - s.near_dv * by_near;
+  Lanes by_u = -2 * by_square * gu, by_v = -2 * by_square * gv;
+  if constexpr (!kGaussian) {
+    by_u -= s.near_du * by_near;
+    by_v -= s.near_dv * by_near;
+    sums.near += by_near;
+    sums.near_du += by_near * p.du;
+    sums.near_dv += by_near * p.dv;
+  }
   sums.red += weight * block.red;
   sums.green += weight * block.green;
   sums.blue += weight * block.blue;
@@ -133,9 +143,6 @@ template <bool kGaussian>
   sums.c += by_square * p.dv * p.dv;
   sums.u += by_u;
   sums.v += by_v;
-  sums.near += by_near;
-  sums.near_du += by_near * p.du;
-  sums.near_dv += by_near * p.dv;
   sums.drawn += weight;
   const Lanes square = by_square < 0 ? -by_square : by_square;
   const Lanes mu = gu < 0 ? -gu : gu, mv = gv < 0 ? -gv : gv;

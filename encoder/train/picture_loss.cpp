@@ -103,12 +103,12 @@ void set_luma(const PlanarPicture& picture, std::vector<float>& luma) {
 }
 
 /// Mean similarity; adds the gradient of -weight * sum of similarities.
-double add_structure(const TrainingView& view, const PlanarPicture& drawn, float weight,
+double add_structure(const PlanarPicture& photograph, const PlanarPicture& drawn, float weight,
                      int threads, LossBuffers& b, PlanarPicture& gradient) {
   const auto width = std::size_t(drawn.width), height = std::size_t(drawn.height);
   const std::size_t count = width * height;
   set_luma(drawn, b.luma);
-  set_luma(view.picture, b.photograph);
+  set_luma(photograph, b.photograph);
   set_moments(b);
   b.rows.resize(count);
   for (auto& m : b.moments) blur(m, b.rows, width, height, threads);
@@ -144,22 +144,56 @@ SLF_MULTIVERSION_LANES double pixel_errors(const float* drawn, const float* phot
   return sum;
 }
 
+/// The box with all that a window around one of its pixels, and one around a pixel of that, sees.
+PictureBox seen_around(const PictureBox& box, const PlanarPicture& picture) {
+  if (box.width == 0) return {0, 0, picture.width, picture.height};
+  const int left = std::max(box.left - 2 * kRadius, 0), top = std::max(box.top - 2 * kRadius, 0);
+  return {left, top, std::min(box.left + box.width + 2 * kRadius, picture.width) - left,
+          std::min(box.top + box.height + 2 * kRadius, picture.height) - top};
+}
+
+/// @param whole, part  of the picture and of its box; the one that is const is copied from
+template <class Whole, class Part, class Copy>
+void for_each_row(Whole& whole, const PictureBox& box, Part& part, Copy&& copy) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (int y = 0; y < box.height; ++y)
+      copy(whole.plane(c) + std::size_t(box.top + y) * std::size_t(whole.width) + box.left,
+           part.plane(c) + std::size_t(y) * std::size_t(box.width));
+}
+
+void cut(const PlanarPicture& whole, const PictureBox& box, PlanarPicture& part) {
+  part.width = box.width;
+  part.height = box.height;
+  part.value.resize(3 * part.pixels());
+  for_each_row(whole, box, part,
+               [&](const float* from, float* to) { std::copy_n(from, box.width, to); });
+}
+
 }  // namespace
 
 void picture_loss(const TrainingView& view, const PlanarPicture& drawn, const LossShares& shares,
-                  int threads, LossBuffers& buffers, PictureLoss& loss) {
+                  const PictureBox& looked_at, int threads, LossBuffers& b, PictureLoss& loss) {
+  const PictureBox box = seen_around(looked_at, drawn);
+  cut(view.picture, box, b.photograph_box);
+  cut(drawn, box, b.drawn_box);
+  PlanarPicture& gradient = b.gradient_box;
+  gradient = {box.width, box.height, std::move(gradient.value)};
+  gradient.value.resize(b.drawn_box.value.size());
+  const float structure = shares.structure, pixels = (1 - structure) / 3;
+  const double errors = pixel_errors(b.drawn_box.value.data(), b.photograph_box.value.data(),
+                                     gradient.value.size(), pixels * (1 - shares.squared),
+                                     pixels * shares.squared * kSquareScale, gradient.value.data());
+  loss.value = 3 * errors / double(gradient.value.size());
+  if (structure > 0) {
+    const double similar =
+        add_structure(b.photograph_box, b.drawn_box, structure, threads, b, gradient);
+    loss.value += double(structure) * (1 - similar);
+  }
   loss.gradient.width = drawn.width;
   loss.gradient.height = drawn.height;
-  loss.gradient.value.resize(drawn.value.size());
-  const float structure = shares.structure, pixels = (1 - structure) / 3;
-  const double errors =
-      pixel_errors(drawn.value.data(), view.picture.value.data(), drawn.value.size(),
-                   pixels * (1 - shares.squared), pixels * shares.squared * kSquareScale,
-                   loss.gradient.value.data());
-  loss.value = 3 * errors / double(drawn.value.size());
-  if (!(structure > 0)) return;
-  const double similar = add_structure(view, drawn, structure, threads, buffers, loss.gradient);
-  loss.value += double(structure) * (1 - similar);
+  loss.gradient.value.assign(drawn.value.size(), 0);
+  for_each_row(loss.gradient, box, gradient,
+               [&](float* to, const float* from) { std::copy_n(from, box.width, to); });
 }
 
 }  // namespace slf

@@ -8,18 +8,24 @@
 
 namespace slf {
 
+/// Pixels of a picture that are looked at: left, top, width, height. Empty: all of them.
+struct PictureBox {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
 /// (1 - structure) * mean over channels of (1 - squared) |error| + squared 4 error^2
 /// + structure * (1 - SSIM of the luma): Kerbl et al. (2023) with one channel in place of three,
 /// and a share of squares, by which errors from 1/8 on weigh more. Highlights have these;
 /// magnitudes alone make medians of them.
 struct PictureLoss {
-  double value = 0;        ///< mean over the picture's pixels
-  PlanarPicture gradient;  ///< of the sum over pixels, by the drawn picture
+  double value = 0;        ///< mean over the pixels that are looked at
+  PlanarPicture gradient;  ///< of the sum over pixels, by the drawn picture; 0 outside of the box
 };
 
 /// Buffers that live longer than a call.
 struct LossBuffers {
   std::vector<float> luma, photograph, rows;
+  PlanarPicture photograph_box, drawn_box, gradient_box;
   std::vector<std::vector<float>> moments;
 };
 
@@ -29,8 +35,10 @@ struct LossShares {
   float squared = 0;    ///< of what is not structure
 };
 
-/// The same for any number of threads. O(pixels).
+/// @param box  within the picture. Its gradient is that of a loss of all pixels, to rounding; the
+///             window of SSIM needs what is around it.
+/// The same for any number of threads. O(pixels of the box).
 void picture_loss(const TrainingView& view, const PlanarPicture& drawn, const LossShares& shares,
-                  int threads, LossBuffers& buffers, PictureLoss& loss);
+                  const PictureBox& box, int threads, LossBuffers& buffers, PictureLoss& loss);
 
 }  // namespace slf

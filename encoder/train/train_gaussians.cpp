@@ -72,6 +72,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
+  if (settings.most_splats > 0) training.surfels = std::min(training.surfels, settings.most_splats);
   TrainedSurfels surfels = first_surfels(start, settings);
   SLF_CHECK(train_surfels(start.views, training, surfels));
   SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));

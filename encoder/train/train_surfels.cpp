@@ -17,6 +17,7 @@
 #include "encoder/train/grow_surfels.h"
 #include "encoder/train/picture_loss.h"
 #include "encoder/train/surface_pull.h"
+#include "encoder/train/tile_pixels.h"
 #include "encoder/train/training_checkpoint.h"
 #include "slf/parallel.h"
 
@@ -90,6 +91,22 @@ std::vector<std::vector<TrainingView>> pyramid(std::span<const TrainingView> vie
     });
   }
   return coarser;
+}
+
+/// Tiles that have a surfel, and all between them: elsewhere a picture teaches nothing.
+PictureBox drawn_box(const SurfelTiles& tiles, const TrainingCamera& camera) {
+  int left = tiles.columns, right = 0, top = tiles.rows, bottom = 0;
+  for (int y = 0; y < tiles.rows; ++y)
+    for (int x = 0; x < tiles.columns; ++x) {
+      const auto tile = std::size_t(y * tiles.columns + x);
+      if (tiles.first[tile] == tiles.first[tile + 1]) continue;
+      left = std::min(left, x), right = std::max(right, x + 1);
+      top = std::min(top, y), bottom = std::max(bottom, y + 1);
+    }
+  if (right == 0) return {0, 0, 1, 1};
+  const int x = left * kTileSide, y = top * kTileSide;
+  return {x, y, std::min(right * kTileSide, camera.width) - x,
+          std::min(bottom * kTileSide, camera.height) - y};
 }
 
 /// A pixel's opacities belong to one surface: to all of it, or to none.
@@ -167,7 +184,8 @@ class Training {
     // Similarity every second time, at twice the weight: it takes most of the loss's time.
     const LossShares shares = {iteration_ % 2 == 0 ? 2 * settings_.structure : 0,
                                settings_.squared};
-    picture_loss(view, drawn_.picture, shares, settings_.threads, buffers_, loss_);
+    picture_loss(view, drawn_.picture, shares, drawn_box(tiles, view.camera), settings_.threads,
+                 buffers_, loss_);
     const float focal = std::max(view.camera.fx, view.camera.fy);
     const auto projected = surfel_gradients(tiles, view, drawn_, loss_.gradient,
                                             settings_.spread * focal * focal, settings_.threads);
@@ -184,7 +202,7 @@ class Training {
 
  private:
   void pull(double done) {
-    if (done > kPullFirst) {
+    if (done > kPullFirst && settings_.together > 0) {
       // Anew where a checkpoint may be, too: it has no neighbours.
       if (neighbours_.index.size() != surfels_.size() * SurfelNeighbours::kCount ||
           iteration_ % kGrowEvery == 0)
@@ -192,7 +210,8 @@ class Training {
       pull_together(neighbours_, settings_.together, float(pixel_), settings_.threads, surfels_,
                     gradients_);
     }
-    if (done > kDecideFirst) pull_opacities(settings_.decided, surfels_, gradients_);
+    if (done > kDecideFirst && settings_.decided > 0)
+      pull_opacities(settings_.decided, surfels_, gradients_);
   }
 
   void grow() {

@@ -11,6 +11,7 @@
 #include "encoder/judge_surface.h"
 #include "encoder/trial_file.h"
 #include "slf/decoder.h"
+#include "slf/evaluate.h"
 #include "slf/gaussian_renderer.h"
 #include "traced_scene.h"
 
@@ -84,6 +85,52 @@ TEST(EncodeSplats, ExactPointsThatLetLightThroughAreComparedByFilesOfBoth) {
   ASSERT_GT(report.as_surface.bytes, 0u);
   const double more = worth_of(report.as_splats) - worth_of(report.as_surface);
   EXPECT_EQ(report.kept == Surface::kSplats, more > -0.5) << more;
+}
+
+/// A few photographs and points, and a second of training.
+class QuickSplats : public testing::Test {
+ protected:
+  void SetUp() override {
+    capture_.cloud = traced_.exact;
+    settings_.surface = Surface::kSplats;
+    settings_.surface_seconds = 1;
+  }
+
+  const test::TracedScene traced_{"vase", 3, 6, 48, 3000};
+  Capture capture_ = traced_.capture;
+  EncoderSettings settings_;
+};
+
+TEST_F(QuickSplats, HaveTheBytesThatWereAskedFor) {
+  settings_.target_bytes = 9100;
+  const auto coded = encode(capture_, traced_.cameras, settings_);
+  ASSERT_TRUE(coded) << coded.error().message;
+  EXPECT_LE(coded->stream.size(), 9100u);
+  EXPECT_GE(coded->stream.size(), 9000u);
+  EXPECT_LE(coded->points, 700u) << "13 bytes for each";
+  EXPECT_GT(coded->points, 300u);
+}
+
+TEST_F(QuickSplats, HaveThePsnrOfPhotographsThatWasAskedFor) {
+  const auto psnr_of = [&](const Encoded& coded) {
+    const auto shown = gaussians_of(*decode(coded.stream));
+    const GaussianRenderer renderer(*shown, {.background = {0, 0, 0}});
+    const auto draw = [&](const Camera& camera) { return renderer.render(camera); };
+    return evaluate_pictures(draw, capture_, traced_.cameras, {})->image.psnr;
+  };
+  settings_.target_psnr = 17;
+  const auto coded = encode(capture_, traced_.cameras, settings_);
+  ASSERT_TRUE(coded) << coded.error().message;
+  // Of so few splats it jumps where the step changes by a little: then there is a warning.
+  const double psnr = psnr_of(*coded);
+  EXPECT_EQ(coded->warnings.empty(), psnr >= 17 && psnr <= 17.05) << psnr;
+  EXPECT_NEAR(psnr, 17, 1);
+  settings_.target_psnr = 90;
+  const auto most = encode(capture_, traced_.cameras, settings_);
+  ASSERT_TRUE(most) << most.error().message;
+  ASSERT_EQ(most->warnings.size(), 1u);
+  EXPECT_NE(most->warnings[0].find("no step gives 90.00 dB"), std::string::npos);
+  EXPECT_GT(most->stream.size(), coded->stream.size());
 }
 
 TEST(TrialFile, IsWorthWhatPicturesShowLessWhatItTakes) {

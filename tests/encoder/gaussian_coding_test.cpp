@@ -5,7 +5,9 @@
 #include <random>
 #include <set>
 
+#include "encoder/gaussian_coding.h"
 #include "encoder/gaussian_planes.h"
+#include "encoder/splat_pictures.h"
 #include "lightfield/symmetric3.h"
 #include "slf/decoder.h"
 #include "slf/encode_gaussians.h"
@@ -184,6 +186,43 @@ TEST(EncodeGaussians, MeetTheirBytes) {
   const auto none = encode_gaussians(some_splats(2000, 1), settings);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message.find("target bytes"), 0u);
+}
+
+TEST(EncodeGaussians, MeetThePsnrOfPicturesFromAround) {
+  const Gaussians given = some_splats(300, 1);
+  EncoderSettings settings;
+  settings.threads = 2;
+  std::size_t fewer = 0;
+  for (const double target : {34.0, 42.0}) {
+    settings.target_psnr = target;
+    const auto coded = encode_gaussians(given, settings);
+    ASSERT_TRUE(coded) << coded.error().message;
+    const auto shown = decoded_gaussians(coded->stream, 1);
+    ASSERT_TRUE(shown);
+    const double psnr = SplatPictures(given, 1).psnr_of(*shown);
+    EXPECT_NEAR(psnr, target, 0.5);
+    EXPECT_GT(coded->stream.size(), fewer);
+    fewer = coded->stream.size();
+  }
+  settings.target_psnr = 99.9;
+  const auto none = encode_gaussians(given, settings);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message.find("target PSNR"), 0u) << none.error().message;
+  settings.target_psnr = 101;
+  EXPECT_FALSE(encode_gaussians(given, settings));
+  settings.target_psnr = 34;
+  settings.target_bytes = 2000;
+  EXPECT_FALSE(encode_gaussians(given, settings)) << "two targets";
+}
+
+TEST(SplatPictures, OfTheSameSplatsAreTheSame) {
+  const Gaussians given = some_splats(50, 1);
+  EXPECT_EQ(SplatPictures(given, 2).psnr_of(given), 100);
+  EXPECT_EQ(SplatPictures({}, 1).psnr_of({}), 100) << "nothing, and nothing";
+  Gaussians moved = given;
+  for (auto& at : moved.positions) at[0] += 0.01f;
+  EXPECT_LT(SplatPictures(given, 1).psnr_of(moved), 60);
+  EXPECT_EQ(SplatPictures(given, 1).psnr_of(moved), SplatPictures(given, 2).psnr_of(moved));
 }
 
 TEST(EncodeGaussians, WithoutAnythingToSeeAreRefused) {

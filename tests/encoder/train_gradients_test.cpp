@@ -192,16 +192,16 @@ TEST(TrainGradientsTest, LossIsThatOfDifferences) {
   draw_surfels(tile_surfels(s.surfels, s.view.camera, 1), s.view, 1, drawn);
   LossBuffers buffers;
   PictureLoss loss, more, less;
-  picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, 1, buffers, loss);
+  picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, {}, 1, buffers, loss);
   const auto pixels = double(drawn.picture.pixels());
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < drawn.picture.value.size(); i += 17) {
     constexpr float kStep = 1e-2f;
     PlanarPicture moved = drawn.picture;
     moved.value[i] += kStep;
-    picture_loss(s.view, moved, {0.5f, 0.4f}, 1, buffers, more);
+    picture_loss(s.view, moved, {0.5f, 0.4f}, {}, 1, buffers, more);
     moved.value[i] -= 2 * kStep;
-    picture_loss(s.view, moved, {0.5f, 0.4f}, 1, buffers, less);
+    picture_loss(s.view, moved, {0.5f, 0.4f}, {}, 1, buffers, less);
     if (std::abs(drawn.picture.value[i] - s.view.picture.value[i]) < kStep) continue;  // a kink
     const double difference = pixels * (more.value - less.value) / (2 * double(kStep));
     apart += std::pow(difference - double(loss.gradient.value[i]), 2);
@@ -231,6 +231,31 @@ TEST(TrainGradientsTest, AnOpaqueSurfelHidesWhatIsBehind) {
   EXPECT_LT(drawn.transparency[middle], 0.02f);
   EXPECT_EQ(depths.surfel[middle], 0u);
   EXPECT_NEAR(depths.depth[middle], 4, 0.1);
+}
+
+TEST(PictureLoss, OfABoxHasTheGradientOfTheWholePictureInIt) {
+  const Scene s = scene(12);
+  const SurfelTiles tiles = tile_surfels(s.surfels, s.view.camera, 1);
+  DrawnSurfels drawn;
+  draw_surfels(tiles, s.view, 1, drawn);
+  LossBuffers buffers;
+  PictureLoss whole, part;
+  picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, {}, 1, buffers, whole);
+  const PictureBox box{13, 10, 9, 5};
+  picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, box, 1, buffers, part);
+  ASSERT_EQ(part.gradient.value.size(), whole.gradient.value.size());
+  int differing = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (int y = 0; y < whole.gradient.height; ++y)
+      for (int x = 0; x < whole.gradient.width; ++x) {
+        const auto i = std::size_t(y) * std::size_t(whole.gradient.width) + std::size_t(x);
+        const float is = part.gradient.plane(c)[i], was = whole.gradient.plane(c)[i];
+        const bool inside =
+            x >= box.left && x < box.left + box.width && y >= box.top && y < box.top + box.height;
+        EXPECT_TRUE(!inside || std::abs(is - was) < 1e-6f) << x << " " << y;
+        differing += is != was;
+      }
+  EXPECT_GT(differing, 0) << "the box left nothing out";
 }
 
 }  // namespace
