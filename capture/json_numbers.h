@@ -9,7 +9,7 @@
 
 namespace slf {
 
-/// A tree takes up to 50 times the bytes of its text.
+/// A tree takes up to 30 times the bytes of its text.
 inline constexpr std::uint64_t kMaxJsonBytes = std::uint64_t{64} << 20;
 
 template <std::size_t N>

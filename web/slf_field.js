@@ -57,7 +57,7 @@ export class SlfField {
   }
   get mirrorNormals() {
     if (!this.hasBasis || this.directions !== 'reflected') return null;
-    return this.#cached(MIRROR_NORMALS, () => this.#read(FRAME_NORMALS, Float32Array, 3));
+    return this.#cached(MIRROR_NORMALS, () => this.#read(MIRROR_NORMALS, Float32Array, 3));
   }
   get values() {
     return this.#cached(COMPONENTS, () => this.#narrow() ?? this.#read(COMPONENTS, Int32Array, 3 * this.components));

@@ -101,12 +101,12 @@ class Judge:
 
 
     def reads_in_proportion(self, folder):
-        """Values of a capture's JSON take less than 25 bytes for each byte of the file."""
+        """Values of a capture's JSON take 16 bytes, while their list grows three times that, for two of the file."""
         text = "[" + "0," * (2 << 20) + "0]"
         pathlib.Path(folder, "cameras.json").write_text(text)
         code, peak, _, said = run([self.program, "encode", folder, "-o", folder + "/x.slf"])
         self.check(code == 4 and b"cameras.json" in said, f"cameras.json of zeros: exit code {code}, {said[:200]}")
-        self.check(peak - self.base < 25 * len(text), f"cameras.json of zeros: {(peak - self.base) / len(text):.0f} bytes a byte")
+        self.check(peak - self.base < 30 * len(text), f"cameras.json of zeros: {(peak - self.base) / len(text):.0f} bytes a byte")
 
 
 def floats_are_finite(ply):
