@@ -40,7 +40,7 @@ class Info:
     up: str  #: '+x', '-x', ... or 'unknown'
     right_handed: bool
     basis: str  #: 'bspline', 'harmonics' or 'none': integers without a meaning
-    frame: str  #: 'global' or 'reflected'
+    directions: str  #: 'world' or 'reflected'
     transfer: str  #: 'display' or 'linear': what colours are of
     gamma_range: Tuple[float, float]
     complete: bool  #: False: the end of the stream is missing
