@@ -21,13 +21,13 @@ import build_backend
 folder = pathlib.Path(sys.argv[1])
 with tarfile.open(folder / build_backend.build_sdist(folder)) as archive:
     archive.extractall(folder)
-root = folder / 'slf-0.1.0'
+root, = (path for path in folder.glob('slf-*') if path.is_dir())
 lost = {found for path in root.rglob('*') if path.suffix in ('.h', '.cpp')
         for found in re.findall(r'^#include "([^"]+)"', path.read_text(encoding='utf-8'), re.M)
         if not any((where / found).exists() for where in (root, root / 'include', path.parent))}
 assert not lost, lost
 PROGRAM
-source_of_streams=$source source=$folder/slf-0.1.0
+source_of_streams=$source source=$(echo "$folder"/slf-*/)
 "$python" -m venv --system-site-packages "$folder/env"
 # What is tried is the way of the package into the environment; the build has compiled it.
 SLF_PIP_BUILT=$build "$folder/env/bin/pip" install --no-index --no-build-isolation --disable-pip-version-check -q "$source"
