@@ -25,7 +25,7 @@ inline std::vector<std::uint8_t> spz4_of(const std::vector<std::uint8_t>& spz3) 
   const std::size_t count = raw[8];
   FileOfBytes list, packed;
   std::size_t from = 16;
-  for (const std::size_t bytes : {9, 1, 3, 3, 4, 9}) {
+  for (const std::size_t bytes : std::initializer_list<std::size_t>{9, 1, 3, 3, 4, 9}) {
     std::vector<std::uint8_t> to(ZSTD_compressBound(bytes * count));
     to.resize(ZSTD_compress(to.data(), to.size(), raw.data() + from, bytes * count, 3));
     list.integer(to.size(), 8).integer(bytes * count, 8);
@@ -45,7 +45,9 @@ inline std::vector<std::uint8_t> spz4_of(const std::vector<std::uint8_t>& spz3) 
 inline std::vector<std::uint8_t> zip_of(
     const std::map<std::string, std::vector<std::uint8_t>>& files) {
   FileOfBytes zip, directory;
-  for (const auto& [name, bytes] : files) {
+  for (const auto& file : files) {
+    const std::string& name = file.first;  // clang 14 captures no bindings
+    const std::vector<std::uint8_t>& bytes = file.second;
     const std::size_t offset = zip.bytes.size();
     const auto head = [&](FileOfBytes& to) {
       to.integer(20, 2).integer(0, 2).integer(0, 2).integer(0, 4).integer(crc32(bytes), 4);
