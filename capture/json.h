@@ -29,7 +29,7 @@ struct JsonValue {
       content;
 
   Kind kind() const { return static_cast<Kind>(content.index()); }
-  /// What is of another kind has none.
+  /// Those of an array, of an object; a value of another kind has none.
   std::span<const JsonValue> items() const;
   std::span<const JsonMember> members() const;
 };

@@ -117,8 +117,7 @@ bool wants_unit(const Request& request, const std::vector<std::uint8_t>& chosen,
 /// What the sequence says of a stream with what was asked for in it.
 /// @param chosen   [slices]
 /// @param present  [slices] Has it a geometry unit? Where a chosen one has none, its cells stand
-/// for
-///                 it (8.9.2), which sps_cut_slices_flag would forbid: all cells do then.
+///                 for it (8.9.2), which sps_cut_slices_flag would forbid: all cells do then.
 SequenceParameterSet cut_sequence(const Request& request, const std::vector<std::uint8_t>& chosen,
                                   const std::vector<std::uint8_t>& present);
 

@@ -17,7 +17,7 @@ namespace slf {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using ReadPicture = std::function<Result<Bytes, InputError>(const JsonView& file)>;
+using ReadFile = std::function<Result<Bytes, InputError>(const JsonView& file)>;
 using Codebook = std::array<float, 256>;
 
 // WebP has at most 16,383 pixels along a side; splats take some 13 bytes each, and never so few.
@@ -32,18 +32,29 @@ struct Palette {
   RgbaPicture vectors, labels;  // [count / 64][64 functions]; [splats]
 };
 
+/// A picture as its file has it.
+struct Packed {
+  JsonView file;
+  Bytes bytes;
+};
+
 class SogReader {
  public:
-  SogReader(const JsonView& meta, ReadPicture read) : meta_(meta), read_(std::move(read)) {}
+  SogReader(const JsonView& meta, ReadFile read) : meta_(meta), read_(std::move(read)) {}
 
-  /// @param bytes  of the whole file, or all files
-  Result<GaussianFile, InputError> read(const std::string& name, std::size_t bytes) {
-    SLF_CHECK(read_header(bytes));
-    SLF_TRY(const RgbaPicture low, picture("means", 0));
-    SLF_TRY(const RgbaPicture high, picture("means", 1));
-    SLF_TRY(const RgbaPicture sizes, picture("scales", 0));
-    SLF_TRY(const RgbaPicture turns, picture("quats", 0));
-    SLF_TRY(const RgbaPicture colours, picture("sh0", 0));
+  Result<GaussianFile, InputError> read(const std::string& name) {
+    SLF_CHECK(read_header());
+    SLF_TRY(const Packed packed_low, packed("means", 0));
+    SLF_TRY(const Packed packed_high, packed("means", 1));
+    SLF_TRY(const Packed packed_sizes, packed("scales", 0));
+    SLF_TRY(const Packed packed_turns, packed("quats", 0));
+    SLF_TRY(const Packed packed_colours, packed("sh0", 0));
+    SLF_CHECK(read_count());
+    SLF_TRY(const RgbaPicture low, picture(packed_low));
+    SLF_TRY(const RgbaPicture high, picture(packed_high));
+    SLF_TRY(const RgbaPicture sizes, picture(packed_sizes));
+    SLF_TRY(const RgbaPicture turns, picture(packed_turns));
+    SLF_TRY(const RgbaPicture colours, picture(packed_colours));
     SLF_CHECK(read_palette());
     GaussianCollector collector(palette_.degree, UpAxis::kMinusY, count_);
     std::vector<float> harmonics(3 * std::size_t(palette_.degree + 1) *
@@ -66,7 +77,7 @@ class SogReader {
 
  private:
   /// [2]
-  Result<Done, InputError> read_header(std::size_t bytes) {
+  Result<Done, InputError> read_header() {
     const auto version = meta_.find("version");
     if (!version)
       return InputError{
@@ -75,13 +86,6 @@ class SogReader {
     SLF_TRY(const double number, version->number());
     if (number != 2)
       return InputError{Errc::kUnsupported, version->error("only SOG 2 is read").message};
-    SLF_TRY(const JsonView count, meta_.at("count"));
-    SLF_TRY(const double splats, count.number());
-    const auto most =
-        static_cast<double>(std::min(kMostSplats, kSmallFile + kSplatsPerByte * bytes));
-    if (!(splats >= 1 && splats <= most) || splats != std::floor(splats))
-      return count.error("as many splats as the file has room for are expected");
-    count_ = static_cast<std::size_t>(splats);
     SLF_TRY(const JsonView means, meta_.at("means"));
     SLF_TRY(const JsonView least, means.at("mins"));
     SLF_TRY(least_, json_vector<3>(least));
@@ -89,6 +93,18 @@ class SogReader {
     SLF_TRY(most_, json_vector<3>(greatest));
     SLF_TRY(sizes_, codebook("scales"));
     SLF_TRY(colours_, codebook("sh0"));
+    return Done{};
+  }
+
+  /// After the files that splats are in, before anything is unpacked.
+  Result<Done, InputError> read_count() {
+    SLF_TRY(const JsonView count, meta_.at("count"));
+    SLF_TRY(const double splats, count.number());
+    const auto most =
+        static_cast<double>(std::min(kMostSplats, kSmallFile + kSplatsPerByte * bytes_));
+    if (!(splats >= 1 && splats <= most) || splats != std::floor(splats))
+      return count.error("as many splats as the files have room for are expected");
+    count_ = static_cast<std::size_t>(splats);
     return Done{};
   }
 
@@ -106,27 +122,28 @@ class SogReader {
     return values;
   }
 
-  Result<RgbaPicture, InputError> decoded(const JsonView& file, std::size_t most) const {
-    SLF_TRY(const Bytes bytes, read_(file));
-    auto picture = decode_webp(bytes, most);
-    if (!picture) return file.error("not a WebP picture, damaged, or of more pixels than it needs");
-    return *std::move(picture);
-  }
-
-  Result<JsonView, InputError> file_of(const char* key, std::size_t i) const {
+  Result<Packed, InputError> packed(const char* key, std::size_t i) {
     SLF_TRY(const JsonView of, meta_.at(key));
     SLF_TRY(const JsonView files, of.at("files"));
     SLF_TRY(const JsonItems items, files.items());
     if (i >= items.size()) return files.error("a file is missing");
-    return items[i];
+    SLF_TRY(Bytes bytes, read_(items[i]));
+    bytes_ += bytes.size();
+    return Packed{items[i], std::move(bytes)};
+  }
+
+  static Result<RgbaPicture, InputError> decoded(const Packed& packed, std::size_t most) {
+    auto picture = decode_webp(packed.bytes, most);
+    if (!picture)
+      return packed.file.error("not a WebP picture, damaged, or of more pixels than it needs");
+    return *std::move(picture);
   }
 
   /// [1.1] A picture of which the pixels are splats, at most some rows and columns more.
-  Result<RgbaPicture, InputError> picture(const char* key, std::size_t i) const {
-    SLF_TRY(const JsonView file, file_of(key, i));
-    SLF_TRY(auto picture, decoded(file, 2 * count_ + (std::size_t{1} << 16)));
+  Result<RgbaPicture, InputError> picture(const Packed& packed) const {
+    SLF_TRY(auto picture, decoded(packed, 2 * count_ + (std::size_t{1} << 16)));
     if (picture.width * picture.height < count_)
-      return file.error("a picture of fewer pixels than there are splats");
+      return packed.file.error("a picture of fewer pixels than there are splats");
     return picture;
   }
 
@@ -144,12 +161,13 @@ class SogReader {
     palette_.degree = static_cast<int>(degree);
     palette_.count = static_cast<std::size_t>(vectors);
     SLF_TRY(palette_.values, codebook("shN"));
-    SLF_TRY(const JsonView file, file_of("shN", 0));
-    SLF_TRY(palette_.vectors, decoded(file, (kMostPalette + kPaletteColumns) * functions()));
+    SLF_TRY(const Packed rows, packed("shN", 0));
+    SLF_TRY(palette_.vectors, decoded(rows, (kMostPalette + kPaletteColumns) * functions()));
     if (palette_.vectors.width != kPaletteColumns * functions() ||
         palette_.vectors.height * kPaletteColumns < palette_.count)
-      return file.error("64 vectors a row, and as many rows as they take, are expected");
-    SLF_TRY(palette_.labels, picture("shN", 1));
+      return rows.file.error("64 vectors a row, and as many rows as they take, are expected");
+    SLF_TRY(const Packed labels, packed("shN", 1));
+    SLF_TRY(palette_.labels, picture(labels));
     return Done{};
   }
 
@@ -193,7 +211,8 @@ class SogReader {
   }
 
   const JsonView& meta_;
-  ReadPicture read_;
+  ReadFile read_;
+  std::size_t bytes_ = 0;  // of the files that were read
   std::size_t count_ = 0;
   std::array<double, 3> least_{}, most_{};
   Codebook sizes_{}, colours_{};
@@ -215,7 +234,7 @@ Result<GaussianFile, InputError> read_bundle(const std::string& name, FileBytes 
     if (!found) return file.error("no such file in the bundle, or damaged");
     return *std::move(found);
   };
-  return SogReader(view, read).read(name, bytes.size());
+  return SogReader(view, read).read(name);
 }
 
 }  // namespace
@@ -226,17 +245,13 @@ Result<GaussianFile, InputError> read_sog(const std::string& name, FileBytes byt
   if (bytes[0] == 'P') return read_bundle(name, bytes);
   SLF_TRY(const JsonValue document, parse_json(name, bytes));
   const JsonView view(document, name);
-  std::size_t pictures = 0;
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-    if (entry.is_regular_file(failed)) pictures += entry.file_size(failed);
   const auto read = [&](const JsonView& file) -> Result<Bytes, InputError> {
     if (folder.empty()) return file.error("pictures beside the text need its folder");
     SLF_TRY(const std::string picture, file.string());
     SLF_TRY(const auto path, path_inside(folder, picture, file.error("file").message));
     return read_file(path);
   };
-  return SogReader(view, read).read(name, pictures);
+  return SogReader(view, read).read(name);
 }
 
 }  // namespace slf

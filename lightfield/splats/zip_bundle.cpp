@@ -8,18 +8,7 @@
 namespace slf {
 
 #if SLF_WITH_WEBP
-namespace {
-
-template <typename Owner>
-zip_t* archive_of(const Owner& owner) {
-  return static_cast<zip_t*>(owner.get());
-}
-
-}  // namespace
-
-void ZipBundle::Close::operator()(void* archive) const {
-  zip_discard(static_cast<zip_t*>(archive));
-}
+void ZipBundle::Close::operator()(zip* archive) const { zip_discard(archive); }
 
 std::optional<ZipBundle> ZipBundle::open(std::span<const std::uint8_t> file) {
   zip_source_t* source = zip_source_buffer_create(file.data(), file.size(), 0, nullptr);
@@ -31,7 +20,7 @@ std::optional<ZipBundle> ZipBundle::open(std::span<const std::uint8_t> file) {
 }
 
 std::string ZipBundle::find(const std::string& ending) const {
-  zip_t* archive = archive_of(archive_);
+  zip_t* archive = archive_.get();
   const zip_int64_t count = zip_get_num_entries(archive, 0);
   for (zip_int64_t i = 0; i < count; ++i) {
     const char* name = zip_get_name(archive, static_cast<zip_uint64_t>(i), 0);
@@ -42,7 +31,7 @@ std::string ZipBundle::find(const std::string& ending) const {
 
 std::optional<std::vector<std::uint8_t>> ZipBundle::read(const std::string& name,
                                                          std::size_t most) const {
-  zip_t* archive = archive_of(archive_);
+  zip_t* archive = archive_.get();
   zip_stat_t stat;
   if (zip_stat(archive, name.c_str(), 0, &stat) != 0 || (stat.valid & ZIP_STAT_SIZE) == 0 ||
       stat.size > most)
@@ -56,7 +45,7 @@ std::optional<std::vector<std::uint8_t>> ZipBundle::read(const std::string& name
   return bytes;
 }
 #else
-void ZipBundle::Close::operator()(void*) const {}
+void ZipBundle::Close::operator()(zip*) const {}
 std::optional<ZipBundle> ZipBundle::open(std::span<const std::uint8_t>) { return std::nullopt; }
 std::string ZipBundle::find(const std::string&) const { return {}; }
 std::optional<std::vector<std::uint8_t>> ZipBundle::read(const std::string&, std::size_t) const {

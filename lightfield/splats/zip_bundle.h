@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+struct zip;  // of libzip
+
 namespace slf {
 
 class ZipBundle {
@@ -24,11 +26,11 @@ class ZipBundle {
 
  private:
   struct Close {
-    void operator()(void* archive) const;
+    void operator()(zip* archive) const;
   };
-  explicit ZipBundle(void* archive) : archive_(archive) {}
+  explicit ZipBundle(zip* archive) : archive_(archive) {}
 
-  std::unique_ptr<void, Close> archive_;
+  std::unique_ptr<zip, Close> archive_;
 };
 
 }  // namespace slf

@@ -65,7 +65,7 @@ inline std::size_t place_of_frame_unit(const Frame& units) {
   return units[0].type == UnitType::kSequence ? 1 : 0;
 }
 
-/// Of a sequence unit that can be read, else 0.
+/// The minor version that a sequence unit needs; 0 of any other, and where it cannot be read.
 inline int version_minor(const OwnedUnit& unit) {
   if (unit.type != UnitType::kSequence) return 0;
   const auto set = parse_sequence_parameter_set(unit.payload);

@@ -121,7 +121,7 @@ TEST_F(QuickSplats, HaveThePsnrOfPhotographsThatWasAskedFor) {
   settings_.target_psnr = 17;
   const auto coded = encode(capture_, traced_.cameras, settings_);
   ASSERT_TRUE(coded) << coded.error().message;
-  // Of so few splats it jumps where the step changes by a little: then there is a warning.
+  // With so few splats PSNR jumps where the step changes by a little: then there is a warning.
   const double psnr = psnr_of(*coded);
   EXPECT_EQ(coded->warnings.empty(), psnr >= 17 && psnr <= 17.05) << psnr;
   EXPECT_NEAR(psnr, 17, 1);

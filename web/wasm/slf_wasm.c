@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What web/slf.js calls: the C interface with numbers alone. Structs are handed over as arrays of
- * doubles, in the order of the functions below, so that JavaScript knows no offsets. One decode at
- * a time; a failure leaves its text in one place. */
+ * doubles, in the order of the functions below, so that JavaScript knows no offsets. One decode at a
+ * time; a failure leaves its text in one place. */
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -40,10 +40,8 @@ double* EXPORT(slfw_numbers)(void) { return numbers; }
 int EXPORT(slfw_code)(void) { return last_error.code; }
 double EXPORT(slfw_bit_offset)(void) { return (double)last_error.bit_offset; }
 const char* EXPORT(slfw_text)(int which) {
-  return which == 0   ? slf_code_name(last_error.code)
-         : which == 1 ? last_error.element
-         : which == 2 ? last_error.unit
-                      : last_error.message;
+  return which == 0 ? slf_code_name(last_error.code) : which == 1 ? last_error.element
+       : which == 2 ? last_error.unit : last_error.message;
 }
 const char* EXPORT(slfw_version)(void) { return slf_version(); }
 uint32_t EXPORT(slfw_format)(void) { return slf_format_version(); }
@@ -64,18 +62,17 @@ slf_stream* EXPORT(slfw_open_reader)(double bytes) {
 void EXPORT(slfw_release_stream)(slf_stream* stream) { slf_release_stream(stream); }
 
 /* format version, bytes, points, slices, groups, levels, K, R, normal bits, origin[3], step, metres
- * per unit, up, left-handed, has basis, basis, directions, transfer, gamma min, max, complete,
- * pairs, profile, has index, layers, has splats */
+ * per unit, up, left-handed, has basis, basis, directions, transfer, gamma min, max, complete, pairs,
+ * profile, has index, layers, has splats */
 int EXPORT(slfw_info)(const slf_stream* stream) {
   slf_info i = {sizeof i};
   const slf_code code = slf_get_info(stream, &i, error());
-  const double all[] = {
-      i.format_version, (double)i.bytes, (double)i.points, i.slices,          i.groups,
-      i.levels,         i.functions,     i.components,     i.normal_bits,     i.origin[0],
-      i.origin[1],      i.origin[2],     i.step,           i.metres_per_unit, i.up,
-      i.left_handed,    i.has_basis,     i.basis,          i.directions,      i.transfer,
-      i.gamma_min,      i.gamma_max,     i.complete,       i.metadata_pairs,  i.profile,
-      i.has_index,      i.layers,        i.has_splats};
+  const double all[] = {i.format_version, (double)i.bytes, (double)i.points, i.slices, i.groups,
+                        i.levels, i.functions, i.components, i.normal_bits, i.origin[0],
+                        i.origin[1], i.origin[2], i.step, i.metres_per_unit, i.up, i.left_handed,
+                        i.has_basis, i.basis, i.directions, i.transfer, i.gamma_min, i.gamma_max,
+                        i.complete, i.metadata_pairs, i.profile, i.has_index, i.layers,
+                        i.has_splats};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }
@@ -167,7 +164,7 @@ int EXPORT(slfw_frame)(const slf_frames* frames, uint32_t place) {
   const void* bytes = NULL;
   size_t size = 0;
   slf_frames_get_bytes(frames, place, &bytes, &size, NULL);
-  const double all[] = {f.number,    f.time, (double)f.offset, (double)f.bytes,
+  const double all[] = {f.number, f.time, (double)f.offset, (double)f.bytes,
                         f.predicted, f.lost, bytes != NULL};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
@@ -197,9 +194,9 @@ int EXPORT(slfw_frames_seek)(slf_frames* frames, uint32_t place) {
 int EXPORT(slfw_shape)(const slf_field* field) {
   slf_shape s = {sizeof s};
   const slf_code code = slf_get_shape(field, &s, error());
-  const double all[] = {s.components, (double)s.points, s.levels,    s.partial,   s.origin[0],
-                        s.origin[1],  s.origin[2],      s.step,      s.weights,   s.directions,
-                        s.transfer,   s.has_normals,    s.gamma_min, s.gamma_max, s.has_splats};
+  const double all[] = {s.components, (double)s.points, s.levels, s.partial, s.origin[0],
+                        s.origin[1], s.origin[2], s.step, s.weights, s.directions, s.transfer,
+                        s.has_normals, s.gamma_min, s.gamma_max, s.has_splats};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }
@@ -207,30 +204,18 @@ int EXPORT(slfw_shape)(const slf_field* field) {
 /* Arrays by number, in the order of web/slf.js. */
 int EXPORT(slfw_read)(const slf_field* field, int what, uint32_t first, uint32_t count, void* to) {
   switch (what) {
-    case 0:
-      return slf_read_positions(field, first, count, to, 0, error());
-    case 1:
-      return slf_read_components(field, first, count, to, 0, error());
-    case 2:
-      return slf_read_octahedral(field, first, count, to, 0, error());
-    case 3:
-      return slf_read_weights(field, first, count, to, 0, error());
-    case 4:
-      return slf_read_mean_colours(field, first, count, to, 0, error());
-    case 5:
-      return slf_read_mirror_normals(field, first, count, to, 0, error());
-    case 6:
-      return slf_read_disc_normals(field, first, count, to, 0, error());
-    case 7:
-      return slf_read_disc_centres(field, first, count, to, 0, error());
-    case 8:
-      return slf_read_disc_radii(field, first, count, to, 0, error());
-    case 9:
-      return slf_read_disc_areas(field, first, count, to, 0, error());
-    case 10:
-      return slf_read_splat_covariances(field, first, count, to, 0, error());
-    default:
-      return slf_read_splat_opacities(field, first, count, to, 0, error());
+    case 0: return slf_read_positions(field, first, count, to, 0, error());
+    case 1: return slf_read_components(field, first, count, to, 0, error());
+    case 2: return slf_read_octahedral(field, first, count, to, 0, error());
+    case 3: return slf_read_weights(field, first, count, to, 0, error());
+    case 4: return slf_read_mean_colours(field, first, count, to, 0, error());
+    case 5: return slf_read_mirror_normals(field, first, count, to, 0, error());
+    case 6: return slf_read_disc_normals(field, first, count, to, 0, error());
+    case 7: return slf_read_disc_centres(field, first, count, to, 0, error());
+    case 8: return slf_read_disc_radii(field, first, count, to, 0, error());
+    case 9: return slf_read_disc_areas(field, first, count, to, 0, error());
+    case 10: return slf_read_splat_covariances(field, first, count, to, 0, error());
+    default: return slf_read_splat_opacities(field, first, count, to, 0, error());
   }
 }
 
@@ -256,10 +241,9 @@ int EXPORT(slfw_radiance)(const slf_field* field, uint32_t count, const uint32_t
 int EXPORT(slfw_kernel)(void) {
   slf_kernel k = {sizeof k};
   const slf_code code = slf_get_kernel(&k, error());
-  const double all[] = {k.version,      k.filter_pixels, k.exponent, k.spacing_reach,
-                        k.least_reach,  k.most_reach,    k.smallest, k.core,
-                        k.band,         k.steepest,      k.flattest, k.disc_share,
-                        k.density_gain, k.density_offset};
+  const double all[] = {k.version, k.filter_pixels, k.exponent, k.spacing_reach, k.least_reach,
+                        k.most_reach, k.smallest, k.core, k.band, k.steepest, k.flattest,
+                        k.disc_share, k.density_gain, k.density_offset};
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) numbers[i] = all[i];
   return code;
 }
