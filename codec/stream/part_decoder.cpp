@@ -13,6 +13,9 @@ namespace {
 /// seen although nobody asked for it.
 constexpr std::uint64_t kFirstRead = 256;
 
+/// The share of the memory, 1/4, that the beginning may take: a filler unit in it can be as long as the file.
+constexpr std::uint64_t kShareOfBeginning = 4;
+
 Error unreadable(std::uint64_t offset) { return {Errc::kUnreadable, "stream", 8 * offset}; }
 
 /// Makes `begin` the first `bytes` of the stream: what it has is not read again.
@@ -58,7 +61,10 @@ Result<std::optional<StreamBeginning>> read_beginning(const StreamSource& source
   std::optional<StreamHead> head;
   for (std::uint64_t size = kFirstRead; !head; size *= 4) {
     if (bytes.size() == source.bytes) return std::optional<StreamBeginning>();
-    SLF_CHECK(grow(source, std::min(size, source.bytes), limits, bytes));
+    const std::uint64_t next = std::min(size, source.bytes);
+    if (next > kFirstRead && next > limits.max_memory / kShareOfBeginning)
+      return std::optional<StreamBeginning>();
+    SLF_CHECK(grow(source, next, limits, bytes));
     SLF_TRY(head, find_head(bytes, source.bytes, limits.max_memory));
   }
   if (!head->complete) return std::optional<StreamBeginning>();

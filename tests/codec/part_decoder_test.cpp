@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "bitstream/units.h"
+
 namespace slf::part_decoder_test {
 namespace {
 
@@ -172,6 +174,27 @@ TEST(Spec_8_9_PartDecoder, LimitsHoldForWhatIsRead) {
   ASSERT_FALSE(large);
   EXPECT_EQ(large.error().code, Errc::kLimitExceeded);
   EXPECT_EQ(counted.read, 0u);
+}
+
+/// It would be held beside what is decoded.
+TEST(Spec_8_9_PartDecoder, ALongFillerBeforeTheIndexIsNotReadForAPart) {
+  Counted counted(streams() / "slices");
+  const Units units = *split_units(counted.stream);
+  std::vector<std::uint8_t> filler;
+  append_unit(filler, UnitType::kFiller, std::vector<std::uint8_t>(1 << 20));
+  const Unit* index = units.first(UnitType::kIndex);
+  ASSERT_NE(index, nullptr);
+  counted.stream.insert(counted.stream.begin() + static_cast<std::ptrdiff_t>(index->offset),
+                        filler.begin(), filler.end());
+  DecodeLimits limits;
+  limits.max_memory = counted.stream.size();
+  const auto beginning = read_beginning(counted.source(), limits);
+  ASSERT_TRUE(beginning);
+  EXPECT_FALSE(beginning->has_value());
+  EXPECT_LE(counted.read, limits.max_memory / 4);
+  limits.max_memory *= 8;
+  const auto affordable = read_beginning(counted.source(), limits);
+  EXPECT_TRUE(affordable && *affordable);
 }
 
 }  // namespace
