@@ -16,10 +16,11 @@ cmake --build "$build"
 if command -v npm >/dev/null && [[ ! -d tests/readers/node_modules ]]; then
   npm ci --silent --no-audit --no-fund --prefix tests/readers || echo "test.sh: three.js is not there" >&2
 fi
+# Without tests of the tests' own tools, which .ci/nightly runs.
 # A test that hangs ends after ten minutes, if it has no time of its own; none takes more than four.
 code=0
 rm -f "$build/tests.xml"
-ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" --output-junit tests.xml \
+ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" -LE nightly --output-junit tests.xml \
   --test-output-size-passed 100000 || code=$?
 python3 tools/test_summary.py "$build/tests.xml"  # one line: how many passed, what was skipped and why
 exit "$code"

@@ -13,7 +13,8 @@ namespace {
 /// seen although nobody asked for it.
 constexpr std::uint64_t kFirstRead = 256;
 
-/// The share of the memory, 1/4, that the beginning may take: a filler unit in it can be as long as the file.
+/// The share of the memory, 1/4, that the beginning may take: a filler unit in it can be as long as
+/// the file.
 constexpr std::uint64_t kShareOfBeginning = 4;
 
 Error unreadable(std::uint64_t offset) { return {Errc::kUnreadable, "stream", 8 * offset}; }

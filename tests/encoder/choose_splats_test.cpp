@@ -76,11 +76,11 @@ SurfaceReport chosen_from_exact(const test::TracedScene& traced) {
 }
 
 TEST(EncodeSplats, ExactPointsThatAFitDrawsWellStay) {
-  EXPECT_EQ(chosen_from_exact({"can", 4, 8, 64, 4000}).kept, Surface::kGiven);
+  EXPECT_EQ(chosen_from_exact({"can", 4, 7, 56, 3000}).kept, Surface::kGiven);
 }
 
 TEST(EncodeSplats, ExactPointsThatLetLightThroughAreComparedByFilesOfBoth) {
-  const SurfaceReport report = chosen_from_exact({"die", 5, 10, 80, 6000});
+  const SurfaceReport report = chosen_from_exact({"die", 4, 10, 72, 5000});
   ASSERT_GT(report.as_splats.bytes, 0u);
   ASSERT_GT(report.as_surface.bytes, 0u);
   const double more = worth_of(report.as_splats) - worth_of(report.as_surface);
