@@ -28,7 +28,7 @@ class UnnamedFile {
 };
 
 /// Runs a program that is looked for in PATH, without a shell, with nothing on its standard input,
-/// and waits for it. words: its name and its arguments.
+/// and waits for it. words: its name and its arguments. One at a time.
 /// @return its exit code; 128 and more where a signal ended it
 /// @errors kUnsupported: there is no such program; kUnreadable: it can not be started
 Result<int, InputError> run_program(const std::vector<std::string>& words,

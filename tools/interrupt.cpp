@@ -4,8 +4,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
+#include "slf/capture.h"
 #include "tools/exit_codes.h"
 
 namespace slf::tools {
@@ -16,6 +18,9 @@ volatile std::sig_atomic_t pending = 0;
 
 extern "C" void on_interrupt(int) {
   pending = 1;
+  const int before = errno;
+  end_other_program();
+  errno = before;
   if (deferred == 0) _exit(kCancelled);
 }
 

@@ -167,6 +167,9 @@ Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
 ///         Bounded: OBJ, STL, GLB files of up to 2 GiB, scenes of up to 2^24 triangles.
 Result<Mesh, InputError> read_mesh(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings = nullptr);
+/// Ends PDAL where read_mesh() waits for it: for handlers of signals that end the
+/// process.
+void end_other_program() noexcept;
 /// Binary little endian; positions are doubles where the cloud's origin is not 0, else floats.
 /// Atomic like write_png; "-" is standard output.
 /// @errors kUnwritable

@@ -101,6 +101,20 @@ TEST_F(ScanTest, OfAPdalThatCannotBeStartedDoesNotAskForItsPackage) {
   expect_failure(ran, 3, "scan.laz", "pdal: Permission denied");
 }
 
+TEST_F(ScanTest, AnInterruptEndsPdalToo) {
+  stand_in("echo $$ > pdal.pid; exec sleep 60");
+  const Ran cut = shell("PATH=\"$PWD/bin:$PATH\" '" SLF_PROGRAM
+                        "' encode scan.laz -o x.slf & p=$!; "
+                        "while kill -0 $p 2>.kill && ! test -s pdal.pid; do sleep 0.05; done; "
+                        "kill -TERM $p; wait $p");
+  EXPECT_EQ(cut.code, 130) << cut.err;
+  EXPECT_FALSE(exists("x.slf"));
+  const Ran left = shell(
+      "i=0; while kill -0 $(cat pdal.pid) 2>.kill && test $i -lt 100; do i=$((i+1)); sleep 0.05; "
+      "done; kill -0 $(cat pdal.pid)");
+  EXPECT_NE(left.code, 0) << "it runs still";
+}
+
 TEST_F(ScanTest, WithoutPdalNamesThePackage) {
   write("scan.laz", "LASF");
   const Ran ran = slf("encode scan.laz -o x.slf", "PATH=\"$PWD\"");
