@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "bitstream/units.h"
 #include "cli_support.h"
 
 namespace slf::cli_scene_test {
@@ -195,6 +196,39 @@ TEST_F(SceneTest, PartsThatDoNotFitTogetherAreRefusedByName) {
   write("cut.slf", read("b.slf").substr(0, read("b.slf").size() / 2));
   expect_failure(slf("merge a.slf cut.slf -o x.slf"), 4, "cut.slf", "");
   EXPECT_FALSE(exists("x.slf"));
+}
+
+/// Behind sound checksums.
+TEST_F(SceneTest, APartThatDoesNotDecodeIsRefusedByName) {
+  ASSERT_EQ(plan().code, 0);
+  for (const char* which : {"1/2", "2/2"})
+    ASSERT_EQ(part(which, "part" + std::string(which, 1) + ".slf").code, 0);
+  const std::string sound = read("part2.slf");
+  const std::vector<std::uint8_t> bytes(sound.begin(), sound.end());
+  const Units units = *split_units(bytes);
+  std::size_t refused = 0;
+  for (const Unit& unit : units.units) {
+    if (unit.type != UnitType::kGeometry || unit.payload.size() < 40) continue;
+    std::vector<std::uint8_t> payload(unit.payload.begin(), unit.payload.end());
+    payload[payload.size() / 2] ^= 0x40;
+    std::vector<std::uint8_t> again;
+    append_unit(again, unit.type, payload);
+    ASSERT_EQ(again.size(), unit.bytes);
+    std::string damaged = sound;
+    std::copy(again.begin(), again.end(),
+              damaged.begin() + static_cast<std::ptrdiff_t>(unit.offset));
+    write("damaged.slf", damaged);
+    const Ran ran = slf("merge part1.slf damaged.slf -o x.slf");
+    if (ran.code == 0) {
+      EXPECT_EQ(slf("decode x.slf -o x.ply").code, 0);
+      std::filesystem::remove(path("x.slf"));
+      continue;
+    }
+    expect_failure(ran, 4, "damaged.slf", "");
+    EXPECT_FALSE(exists("x.slf"));
+    ++refused;
+  }
+  EXPECT_GT(refused, 0u);
 }
 
 TEST_F(SceneTest, MissingPartsLeaveAValidPartialScene) {
