@@ -42,7 +42,7 @@ class LevelQuantiser {
                 input.base != nullptr ? input.base->level : 0, input.weights) {
     for (const auto& functions : input.groups)
       rows_.emplace_back(planes_of(functions), input.steps, input.rdo, input.tree.size());
-    if (input.reference != nullptr) levels_.predict_from(input.reference->moved);
+    if (input.reference != nullptr) levels_.predict_from(*input.reference);
     if (input.base != nullptr) {
       adopt(*input.base);
     } else {

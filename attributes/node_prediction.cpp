@@ -33,9 +33,10 @@ SLF_IN_LINE std::uint32_t closeness(const NodePlace& a, const NodePlace& b, bool
 }
 
 /// The child's terms give half of their weights to the reference, or all that it has.
-void add_reference(const TransformLevel& level, std::size_t index, bool half,
+/// index: of the child, of node n
+void add_reference(const TransformLevel& level, std::size_t n, std::size_t index, bool half,
                    NodePrediction::Child& child) {
-  const auto terms = level.reference.of(index);
+  const auto terms = level.reference->of(level.first_term[n] + index - level.nodes.first_child[n]);
   if (terms.empty()) return;
   if (half) {
     child.others = 0;
@@ -109,7 +110,7 @@ void plan_node(const TransformLevel& level, std::size_t n, std::uint32_t given,
       others += term->weight;
     }
     child->others = others;
-    if (given >= kFromReference) add_reference(level, index, given != kFromReference, *child);
+    if (given >= kFromReference) add_reference(level, n, index, given != kFromReference, *child);
   }
   plan.slot = slot[n];
   plan.children = static_cast<std::uint32_t>(child - plan.child.data());

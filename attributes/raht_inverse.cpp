@@ -252,7 +252,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
   used = std::min(used, steps.size());
   bool good = cells > 0 || dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
   if (reference != nullptr) {
-    levels.predict_from(reference->moved);
+    levels.predict_from(*reference);
     predict_root(reference->means[0], levels.points(), values.first(used));
   }
   std::unique_ptr<std::int32_t[]> means;  // [slot][width], of one level after the other

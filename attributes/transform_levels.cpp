@@ -58,8 +58,7 @@ const TransformLevel& TransformLevels::next() {
           nodes.occupancy[n] | 1u << (codes_[current_.child_rows[child]] >> below & 7));
   }
   mark_means();
-  if (reference_ != nullptr)
-    current_.reference = find_reference_terms(*reference_, cells_of_children(), level_ + 1);
+  if (reference_ != nullptr) find_reference();
   return current_;
 }
 
@@ -108,11 +107,33 @@ std::vector<std::uint32_t> TransformLevels::rows_of(int level) const {
   return rows;
 }
 
-/// Codes of the nodes of the level below.
-std::vector<std::uint64_t> TransformLevels::cells_of_children() const {
+void TransformLevels::find_reference() {
+  const OctreeLevel& nodes = current_.nodes;
+  current_.reference =
+      &reference_->terms.of(reference_->moved, level_ + 1, [this] { return cells_of_siblings(); });
+  current_.first_term.resize(nodes.size());
+  std::uint32_t place = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    current_.first_term[n] = place;
+    if (current_.branches(n)) place += static_cast<std::uint32_t>(children_of(n));
+  }
+}
+
+std::size_t TransformLevels::children_of(std::size_t n) const {
+  return static_cast<std::size_t>(std::popcount(current_.nodes.occupancy[n]));
+}
+
+/// Codes of the nodes of the level below that have siblings.
+std::vector<std::uint64_t> TransformLevels::cells_of_siblings() const {
+  const OctreeLevel& nodes = current_.nodes;
   const int below = 3 * (depth_ - dropped_ - level_ - 1);
-  std::vector<std::uint64_t> cells(current_.child_rows.size() - 1);
-  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = codes_[current_.child_rows[n]] >> below;
+  std::vector<std::uint64_t> cells;
+  cells.reserve(current_.child_rows.size() - 1);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const std::size_t first = nodes.first_child[n];
+    for (std::size_t c = 0; current_.branches(n) && c < children_of(n); ++c)
+      cells.push_back(codes_[current_.child_rows[first + c]] >> below);
+  }
   return cells;
 }
 

@@ -30,7 +30,9 @@ struct TransformLevel {
   std::vector<std::uint32_t> means_end;  ///< [nodes] of `means`, those that nodes 0 .. n need
   /// [nodes] where its mean is kept until the last node that needs it; undefined for others.
   std::vector<std::uint32_t> slot;
-  ReferenceTerms reference;     ///< of the children, in a frame that is predicted; else empty
+  /// Of children that have siblings, in a frame that is predicted; else nullptr.
+  const ReferenceTerms* reference = nullptr;
+  std::vector<std::uint32_t> first_term;  ///< [nodes] place in it of a node's first child
   std::uint32_t num_slots = 0;  ///< far fewer than means: what is needed at a time fits a cache
 
   /// A node of one child has no merge, and nothing of it is predicted.
@@ -50,9 +52,9 @@ class TransformLevels {
   TransformLevels(std::span<const std::uint64_t> morton, int depth, int dropped, int start = 0,
                   const CodeWeights& weights = {});
 
-  /// Levels from `start` on.
   /// Before the first level of a frame that is predicted; kept by pointer.
-  void predict_from(const MovedReference& reference) { reference_ = &reference; }
+  void predict_from(const ReferenceMeans& reference) { reference_ = &reference; }
+  /// Levels from `start` on.
   int count() const { return depth_ - dropped_ - start_; }
   std::size_t rows() const { return codes_.size(); }
   std::size_t points() const { return first_.back(); }
@@ -63,10 +65,12 @@ class TransformLevels {
   void mark_means();
   std::vector<std::uint32_t> rows_of(int level) const;
   std::vector<std::uint64_t> cells_of(const std::vector<std::uint32_t>& rows) const;
-  std::vector<std::uint64_t> cells_of_children() const;
+  void find_reference();
+  std::size_t children_of(std::size_t n) const;
+  std::vector<std::uint64_t> cells_of_siblings() const;
   std::vector<NodePlace> places_of(const std::vector<std::uint32_t>& rows) const;
 
-  const MovedReference* reference_ = nullptr;
+  const ReferenceMeans* reference_ = nullptr;
   int depth_, dropped_, start_, level_;
   CodeWeights weights_;
   std::vector<std::uint64_t> codes_;               // [rows] on the grid of the kept levels

@@ -7,6 +7,7 @@
 #include "entropy/binarisation.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
+#include "geometry/reference_walk.h"
 
 namespace slf {
 namespace {
@@ -28,7 +29,7 @@ bool is_coded(const ReferenceCells& reference, int bits, const Motion& motion,
   if (level < 0) return true;
   Voxel first;
   for (std::size_t i = 0; i < 3; ++i) first[i] = motion.lattice_first[i] + point[i] - 2;
-  return reference.level(level).window(first) != 0;
+  return ReferenceWalk(reference.level(level)).window(first) != 0;
 }
 
 /// Vectors that are not coded stay zero. Written once for decoder and encoder.

@@ -44,6 +44,9 @@ struct FrameState {
 struct FrameReference {
   const FrameState& state;
   MovedReference moved;
+  LevelTerms& terms;  ///< of the frame that is predicted, as far as they were found
+
+  ReferenceMeans means() const { return {moved, state.means, terms}; }
 };
 
 }  // namespace slf

@@ -21,7 +21,7 @@ class UnitReference {
                 const ReferenceRows& rows, std::span<const std::uint32_t> steps)
       : set_(set) {
     if (reference == nullptr || !set.has_reference_contexts()) return;
-    found_ = find_reference_coefficients(rows, {reference->moved, reference->state.means}, steps);
+    found_ = find_reference_coefficients(rows, reference->means(), steps);
   }
 
   /// Before a unit is coded. ids: with its modes

@@ -13,6 +13,7 @@
 #include "encoder/coding_parameters.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
+#include "encoder/frames_to_bitrate.h"
 #include "encoder/still_points.h"
 #include "slf/frames.h"
 
@@ -26,7 +27,10 @@ InputError of_frames(const std::string& what) {
 Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings& s,
                                       const FrameSettings& f) {
   if (frames == 0) return of_frames("there are none");
-  if (has_target(s)) return of_frames("a target of bytes or PSNR is of one light field alone");
+  if (has_target(s))
+    return of_frames("a target of bytes or PSNR is of one light field; frames have a bitrate");
+  if (!(s.target_bitrate >= 0) || !std::isfinite(s.target_bitrate))
+    return of_frames("target bitrate: bits a second, above 0");
   if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
   if (s.quality_layers > 1) return of_frames("they have one quality layer");
   if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
@@ -128,51 +132,61 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
 
 }  // namespace
 
+Result<Done, InputError> Sequence::code(double q, std::size_t count, const TakeFrame& take,
+                                        EncodedFrames& encoded) const {
+  EncoderSettings own = settings;
+  own.q = q;
+  const bool chooses = !clouds && q == kAutomaticQ;
+  encoded.grid = grid;
+  encoded.frames.clear();
+  std::optional<ChosenForAll> chosen;
+  std::optional<FrameEncoder> encoder;
+  StillPoints still;
+  for (std::size_t f = 0; f < count; ++f) {
+    if (progress) progress("frames", static_cast<double>(f) / static_cast<double>(count));
+    Stopwatch watch;
+    SLF_TRY(const LoadedFrame frame, load(f));
+    const VoxelCloud cloud = on_grid(frame, grid, own);
+    SLF_TRY(LightField field, light_field_of(frame, cloud, own, chooses, chosen, progress));
+    std::size_t held = 0;
+    if (frames.hold_still && !clouds) {
+      SLF_CHECK(still.see(frame, own.threads));
+      held = still.hold(frame, field, own.threads);
+    }
+    if (!encoder) {
+      encoded.q = chosen->settings.q;
+      CodingParameters parameters = chosen->parameters;
+      parameters.metadata = settings.metadata;
+      encoder.emplace(parameters, frames.group);
+    }
+    SLF_TRY(const auto bytes, encoder->add(field, static_cast<double>(f) / frames.rate));
+    SLF_CHECK(take(f, bytes));
+    encoded.frames.push_back({f % static_cast<std::size_t>(frames.group) != 0, field.num_points(),
+                              held, bytes.size(), watch.lap()});
+  }
+  if (progress) progress("frames", 1);
+  return Done{};
+}
+
 Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
                                                 const EncoderSettings& given,
                                                 const FrameSettings& frame_settings,
                                                 const TakeFrame& take, const Progress& progress) {
   SLF_CHECK(check_settings(given));
   SLF_CHECK(check_frames(frames, given, frame_settings));
-  EncoderSettings settings = given;
-  settings.observe.threads = settings.fit.threads = settings.threads;
+  Sequence sequence{frames, load, given, frame_settings, {}, false, progress};
+  sequence.settings.observe.threads = sequence.settings.fit.threads = given.threads;
   SharedGrid shared;
-  bool clouds = false;
   for (std::size_t f = 0; f < frames; ++f) {
     SLF_TRY(const LoadedFrame frame, load(f));
-    clouds = frame.cameras.empty();
-    SLF_CHECK(shared.add(frame, settings));
+    sequence.clouds = frame.cameras.empty();
+    SLF_CHECK(shared.add(frame, sequence.settings));
   }
-  if (clouds) fit_colours_alone(settings);
+  if (sequence.clouds) fit_colours_alone(sequence.settings);
+  SLF_TRY(sequence.grid, shared.grid());
   EncodedFrames encoded;
-  SLF_TRY(encoded.grid, shared.grid());
-  const bool chooses = !clouds && settings.q == kAutomaticQ;
-  std::optional<ChosenForAll> chosen;
-  std::optional<FrameEncoder> encoder;
-  StillPoints still;
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (progress) progress("frames", static_cast<double>(f) / static_cast<double>(frames));
-    Stopwatch watch;
-    SLF_TRY(const LoadedFrame frame, load(f));
-    const VoxelCloud cloud = on_grid(frame, encoded.grid, settings);
-    SLF_TRY(LightField field, light_field_of(frame, cloud, settings, chooses, chosen, progress));
-    std::size_t held = 0;
-    if (frame_settings.hold_still && !clouds) {
-      SLF_CHECK(still.see(frame, settings.threads));
-      held = still.hold(frame, field, settings.threads);
-    }
-    if (!encoder) {
-      encoded.q = chosen->settings.q;
-      CodingParameters parameters = chosen->parameters;
-      parameters.metadata = given.metadata;
-      encoder.emplace(parameters, frame_settings.group);
-    }
-    SLF_TRY(const auto bytes, encoder->add(field, static_cast<double>(f) / frame_settings.rate));
-    SLF_CHECK(take(f, bytes));
-    encoded.frames.push_back({f % static_cast<std::size_t>(frame_settings.group) != 0,
-                              field.num_points(), held, bytes.size(), watch.lap()});
-  }
-  if (progress) progress("frames", 1);
+  SLF_CHECK(given.target_bitrate > 0 ? code_to_bitrate(sequence, take, encoded)
+                                     : sequence.code(sequence.settings.q, frames, take, encoded));
   return encoded;
 }
 

@@ -137,6 +137,8 @@ Result<Gaussians, InputError> decoded_gaussians(std::span<const std::uint8_t> st
 Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin) {
+  if (settings.target_bitrate > 0)
+    return InputError{Errc::kInvalidArgument, "target bitrate: of frames in time alone"};
   if (!(settings.target_psnr >= 0 && settings.target_psnr <= 100))
     return InputError{Errc::kInvalidArgument, "target PSNR: 0 to 100 dB"};
   if (settings.target_psnr > 0 && settings.target_bytes > 0)

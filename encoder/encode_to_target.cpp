@@ -55,6 +55,7 @@ Result<Done, InputError> check_target(const EncoderSettings& settings, std::size
   const auto invalid = [](const char* what) { return InputError{Errc::kInvalidArgument, what}; };
   if (!(settings.target_psnr >= 0 && settings.target_psnr <= 100))
     return invalid("target PSNR: 0 to 100 dB");
+  if (settings.target_bitrate > 0) return invalid("target bitrate: of frames in time alone");
   if (settings.target_bytes > 0 && settings.target_psnr > 0)
     return invalid("target: bytes or PSNR, not both");
   if (has_target(settings) && settings.coefficients == CoefficientCoder::kTexture)

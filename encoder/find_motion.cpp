@@ -8,6 +8,7 @@
 
 #include "encoder/motion_model.h"
 #include "geometry/morton.h"
+#include "geometry/reference_walk.h"
 
 namespace slf {
 namespace {
@@ -57,7 +58,7 @@ std::vector<Motion> find_motions(const FramePoints& now, const FramePoints& befo
 namespace {
 
 /// Grey levels by which a frame differs from what its reference shows there, of a sample of points.
-double mismatch(const FramePoints& now, const FramePoints& before, const ReferenceLevel& index,
+double mismatch(const FramePoints& now, const FramePoints& before, ReferenceWalk& index,
                 const Motion& motion, int bits) {
   constexpr std::size_t kMost = 20000;
   constexpr double kMissed = 48;  // grey levels that a point counts whose place is empty there
@@ -83,7 +84,8 @@ double mismatch(const FramePoints& now, const FramePoints& before, const Referen
 }  // namespace
 
 Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits) {
-  const ReferenceLevel index(before.codes);
+  const ReferenceLevel level(before.codes);
+  ReferenceWalk index(level);
   // A motion with more to code is taken where it foretells this much better.
   constexpr std::array<double, 3> kCost = {1.002, 1.04, 1.07};
   Motion best;

@@ -38,7 +38,7 @@ CoarseFrame coarsen(const FramePoints& points, int dropped) {
 
 /// Those within two cells of a place.
 template <class Step>
-void MatchedFrame::for_cells(const Place& at, const Step& step) const {
+void MatchedFrame::for_cells(const Place& at, const Step& step) {
   constexpr int kReach = 2;
   const Voxel cell = {static_cast<std::int32_t>(std::floor(at[0] / side_)),
                       static_cast<std::int32_t>(std::floor(at[1] / side_)),
@@ -46,7 +46,7 @@ void MatchedFrame::for_cells(const Place& at, const Step& step) const {
   for (int z = -kReach; z <= kReach; ++z)
     for (int y = -kReach; y <= kReach; ++y)
       for (int x = -kReach; x <= kReach; ++x)
-        if (const std::uint32_t i = index_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+        if (const std::uint32_t i = walk_.find({cell[0] + x, cell[1] + y, cell[2] + z});
             i != ReferenceLevel::kNone)
           step(i);
 }

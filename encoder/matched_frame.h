@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "encoder/find_motion.h"
-#include "geometry/reference_cells.h"
+#include "geometry/reference_walk.h"
 
 namespace slf {
 
@@ -33,9 +33,12 @@ struct Match {
 
 class MatchedFrame {
  public:
+  MatchedFrame(const MatchedFrame&) = delete;
+  MatchedFrame& operator=(const MatchedFrame&) = delete;
   MatchedFrame(const FramePoints& points, int dropped)
       : frame_(coarsen(points, dropped)),
         index_(frame_.codes),
+        walk_(index_),
         side_(std::ldexp(1.0, dropped)),
         known_(frame_.codes.size()),
         surface_(frame_.codes.size()) {}
@@ -50,11 +53,12 @@ class MatchedFrame {
   };
   const Surface& surface(std::uint32_t at);
   template <class Step>
-  void for_cells(const Place& at, const Step& step) const;
+  void for_cells(const Place& at, const Step& step);
   static double brightness(const Place& colour) { return colour.sum() / 3; }
 
   CoarseFrame frame_;
   ReferenceLevel index_;
+  ReferenceWalk walk_;
   double side_;
   std::vector<bool> known_;
   std::vector<Surface> surface_;

@@ -63,15 +63,39 @@ void MotionModel::fit_affine(const std::vector<Match>& matches) {
   shift_ = x.tail<3>();
 }
 
+std::vector<MotionModel::CellSums> MotionModel::sum_cells(const std::vector<Match>& matches) const {
+  std::vector<CellSums> cells;
+  std::vector<std::size_t> cell_at(lattice_.size(), ~std::size_t{0});  // by its first point
+  for (const Match& m : matches) {
+    const Corners corners = corners_of(m.place);
+    std::size_t& at = cell_at[corners.point[0]];
+    if (at >= cells.size()) {
+      at = cells.size();
+      cells.push_back({corners.point, Eigen::Matrix<double, 24, 24>::Zero()});
+    }
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b <= a; ++b)
+        cells[at].normal.block<3, 3>(3 * a, 3 * b) += corners.weight[static_cast<std::size_t>(a)] *
+                                                      corners.weight[static_cast<std::size_t>(b)] *
+                                                      m.weight;
+  }
+  for (CellSums& cell : cells)  // weights are symmetric
+    cell.normal.triangularView<Eigen::StrictlyUpper>() = cell.normal.transpose();
+  return cells;
+}
+
 void MotionModel::fit_lattice(const std::vector<Match>& matches) {
   using Field = std::vector<Place>;
+  const std::vector<CellSums> cells = sum_cells(matches);
   const auto apply = [&](const Field& x) {
     Field y(x.size(), Place::Zero());
-    for (const Match& m : matches) {
-      Place d = Place::Zero();
-      for_corners(m.place, [&](std::size_t k, double w) { d += w * x[k]; });
-      d = m.weight * d;
-      for_corners(m.place, [&](std::size_t k, double w) { y[k] += w * d; });
+    Eigen::Matrix<double, 24, 1> of_cell;
+    for (const CellSums& cell : cells) {
+      for (std::size_t c = 0; c < 8; ++c)
+        of_cell.segment<3>(3 * static_cast<int>(c)) = x[cell.point[c]];
+      of_cell = (cell.normal * of_cell).eval();
+      for (std::size_t c = 0; c < 8; ++c)
+        y[cell.point[c]] += of_cell.segment<3>(3 * static_cast<int>(c));
     }
     add_stiffness(x, y);
     return y;

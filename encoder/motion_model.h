@@ -32,8 +32,12 @@ class MotionModel {
   /// One of half the distance in its place, which is the same motion.
   void refine_lattice(const CoarseFrame& points);
 
-  template <class Step>
-  void for_corners(const Place& p, const Step& step) const {
+  /// Of the cell that a place is in: points of the lattice, and how much each counts.
+  struct Corners {
+    std::array<std::size_t, 8> point;
+    std::array<double, 8> weight;
+  };
+  Corners corners_of(const Place& p) const {
     std::array<int, 3> cell{};
     std::array<double, 3> in{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -41,17 +45,26 @@ class MotionModel {
       cell[i] = std::clamp(static_cast<int>(std::floor(at)), 0, std::max(size_[i] - 2, 0));
       in[i] = std::clamp(at - cell[i], 0.0, 1.0);
     }
-    for (int c = 0; c < 8; ++c) {
+    Corners corners;
+    for (std::size_t c = 0; c < 8; ++c) {
       double w = 1;
       std::size_t index = 0;
       for (std::size_t i = 3; i-- > 0;) {
-        const int upper = c >> i & 1;
+        const int upper = static_cast<int>(c >> i & 1);
         w *= upper ? in[i] : 1 - in[i];
         index = index * static_cast<std::size_t>(size_[i]) +
                 static_cast<std::size_t>(std::min(cell[i] + upper, size_[i] - 1));
       }
-      if (w > 0) step(index, w);
+      corners.point[c] = index;
+      corners.weight[c] = w;
     }
+    return corners;
+  }
+  template <class Step>
+  void for_corners(const Place& p, const Step& step) const {
+    const Corners corners = corners_of(p);
+    for (std::size_t c = 0; c < 8; ++c)
+      if (corners.weight[c] > 0) step(corners.point[c], corners.weight[c]);
   }
 
   /// Least squares of what matches ask for.
@@ -63,6 +76,12 @@ class MotionModel {
   Motion rounded() const;
 
  private:
+  /// What the matches in a cell of the lattice ask of its eight points together.
+  struct CellSums {
+    std::array<std::size_t, 8> point;
+    Eigen::Matrix<double, 24, 24> normal;
+  };
+  std::vector<CellSums> sum_cells(const std::vector<Match>& matches) const;
   /// Neighbours on the lattice are alike, and small.
   void add_stiffness(const std::vector<Place>& x, std::vector<Place>& y) const;
 

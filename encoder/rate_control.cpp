@@ -9,7 +9,6 @@ namespace slf {
 namespace {
 
 constexpr int kMostTrials = 14;
-constexpr double kFirstFactor = 4;   // from the first guess to the other end of a bracket
 constexpr double kSameStep = 1.001;  // steps nearer than that are one
 constexpr int kRefinements = 2;
 constexpr double kNearEnough = 0.85;  // of a loss
@@ -40,7 +39,7 @@ double between(const Trial& above, const Trial& below, const StepGoal& goal, boo
 
 Result<StepFound, InputError> find_step(
     double first_guess, const StepGoal& goal,
-    const std::function<Result<double, InputError>(double q)>& measure) {
+    const std::function<Result<double, InputError>(double q)>& measure, double factor) {
   const double least = std::log(kLeastQ), most = std::log(kMostQ);
   StepFound found;
   std::optional<Trial> above, below;  // the goal; above has the smaller step
@@ -60,10 +59,10 @@ Result<StepFound, InputError> find_step(
       width = now;
     } else if (above) {
       if (above->log_q >= most) break;
-      log_q = std::min(above->log_q + std::log(kFirstFactor), most);
+      log_q = std::min(above->log_q + std::log(factor), most);
     } else {
       if (below->log_q <= least) break;
-      log_q = std::max(below->log_q - std::log(kFirstFactor), least);
+      log_q = std::max(below->log_q - std::log(factor), least);
     }
   }
   return found;

@@ -25,10 +25,11 @@ struct StepFound {
 /// Looks for a Q in kLeastQ .. kMostQ whose measure(Q) is within the goal: false position on
 /// (log Q, value) within a bracket, halved where that does not help. The last Q found is not always
 /// the last measured. At most 14 measurements; fewer than 7 where the curve is smooth.
+/// @param factor  from the first guess to the other end of a bracket; above 1
 /// @errors those of measure, which ends the search.
 Result<StepFound, InputError> find_step(
     double first_guess, const StepGoal& goal,
-    const std::function<Result<double, InputError>(double q)>& measure);
+    const std::function<Result<double, InputError>(double q)>& measure, double factor = 4);
 
 /// The largest step, to three digits, whose PSNR is no more than `loss` below `unquantised` and
 /// below what any smaller step has that was tried. A step may be better than none: it leaves out

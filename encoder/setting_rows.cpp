@@ -97,6 +97,10 @@ void add_coding(SettingTable& rows) {
        number_or_nothing("target-bytes", SLF_AT(target_bytes), 1, 1099511627776,
                          "Find the Q that gives a file of 99 to 100 % of so many bytes"),
        number_or_nothing(
+           "target-bitrate", SLF_AT(target_bitrate), 1, 1e12,
+           "Of frames in time: find the Q for which all of them together have 97 to 100 % of so "
+           "many bits a second at --rate; they are coded some five times"),
+       number_or_nothing(
            "target-psnr", SLF_AT(target_psnr), 1, 100,
            "Find the Q that gives the input images' PSNR, up to 0.05 dB more: of pictures, or "
            "of points with --fit-to points; of a file of splats: pictures from around it against "
@@ -192,6 +196,8 @@ SettingTable all_rows() {
   add_texture(rows);
   exclude(rows, {"grid-bits", "voxel-size"});
   exclude(rows, {"quality", "target-bytes", "target-psnr"});
+  for (const char* other : {"quality", "quality-loss", "target-bytes", "target-psnr"})
+    exclude(rows, {other, "target-bitrate"});
   exclude(rows, {"quality-loss", "target-bytes"});
   exclude(rows, {"quality-loss", "target-psnr"});
   exclude(rows, {"functions", "scales"});

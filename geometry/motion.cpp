@@ -6,46 +6,33 @@
 
 namespace slf {
 
-Displacement Motion::at(const std::array<std::int32_t, 3>& place, int bits) const {
-  std::array<std::int64_t, 3> sum{};
-  const std::int32_t centre = 1 << bits;
+void Motion::add_lattice(const std::array<std::int32_t, 3>& place,
+                         std::array<std::int64_t, 3>& sum) const {
+  const int side = lattice_log2 + 1;  // in halves of a voxel
+  std::array<std::int64_t, 3> cell{}, in{};
   for (std::size_t i = 0; i < 3; ++i) {
-    std::int64_t product = std::int64_t{1} << (kMatrixBits - 4);
-    for (std::size_t j = 0; j < 3; ++j) product += std::int64_t{matrix[i][j]} * (place[j] - centre);
-    sum[i] = shift[i] + (product >> (kMatrixBits - 3));  // halves of a voxel are 8 sixteenths
+    const std::int64_t from = place[i] - (std::int64_t{lattice_first[i]} << side);
+    const std::int64_t last = (std::int64_t{lattice_size[i]} - 1) << side;
+    const std::int64_t inside = std::clamp(from, std::int64_t{0}, last);
+    cell[i] =
+        std::min(inside >> side, std::max(std::int64_t{lattice_size[i]} - 2, std::int64_t{0}));
+    in[i] = inside - (cell[i] << side);
   }
-  if (lattice_log2 > 0) {
-    const int side = lattice_log2 + 1;  // in halves of a voxel
-    std::array<std::int64_t, 3> cell{}, in{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t from = place[i] - (std::int64_t{lattice_first[i]} << side);
-      const std::int64_t last = (std::int64_t{lattice_size[i]} - 1) << side;
-      const std::int64_t inside = std::clamp(from, std::int64_t{0}, last);
-      cell[i] =
-          std::min(inside >> side, std::max(std::int64_t{lattice_size[i]} - 2, std::int64_t{0}));
-      in[i] = inside - (cell[i] << side);
+  std::array<std::int64_t, 3> added{};
+  for (int corner = 0; corner < 8; ++corner) {
+    std::int64_t weight = 1;
+    std::size_t index = 0;
+    for (std::size_t i = 3; i-- > 0;) {
+      const bool upper = (corner >> i & 1) != 0;
+      weight *= upper ? in[i] : (std::int64_t{1} << side) - in[i];
+      index = index * static_cast<std::size_t>(lattice_size[i]) +
+              static_cast<std::size_t>(cell[i] + upper);
     }
-    std::array<std::int64_t, 3> added{};
-    for (int corner = 0; corner < 8; ++corner) {
-      std::int64_t weight = 1;
-      std::size_t index = 0;
-      for (std::size_t i = 3; i-- > 0;) {
-        const bool upper = (corner >> i & 1) != 0;
-        weight *= upper ? in[i] : (std::int64_t{1} << side) - in[i];
-        index = index * static_cast<std::size_t>(lattice_size[i]) +
-                static_cast<std::size_t>(cell[i] + upper);
-      }
-      if (weight == 0) continue;
-      for (std::size_t i = 0; i < 3; ++i) added[i] += weight * lattice[index][i];
-    }
-    const std::int64_t half = std::int64_t{1} << (3 * side - 1);
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += (added[i] + half) >> (3 * side);
+    if (weight == 0) continue;
+    for (std::size_t i = 0; i < 3; ++i) added[i] += weight * lattice[index][i];
   }
-  Displacement d{};
-  for (std::size_t i = 0; i < 3; ++i)
-    d[i] = static_cast<std::int32_t>(
-        std::clamp(sum[i], std::int64_t{-kMostShift - 1} * 16, std::int64_t{kMostShift} * 16));
-  return d;
+  const std::int64_t half = std::int64_t{1} << (3 * side - 1);
+  for (std::size_t i = 0; i < 3; ++i) sum[i] += (added[i] + half) >> (3 * side);
 }
 
 }  // namespace slf

@@ -2,7 +2,9 @@
 // Where the points of a frame were in the frame that it is predicted from. Spec 8.12.1.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,7 +32,26 @@ struct Motion {
 
   /// @param place  in halves of a voxel: the centre of voxel v is 2 v + 1
   /// @param bits   of the grid
-  Displacement at(const std::array<std::int32_t, 3>& place, int bits) const;
+  Displacement at(const std::array<std::int32_t, 3>& place, int bits) const {
+    std::array<std::int64_t, 3> sum{};
+    const std::int32_t centre = 1 << bits;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::int64_t product = std::int64_t{1} << (kMatrixBits - 4);
+      for (std::size_t j = 0; j < 3; ++j)
+        product += std::int64_t{matrix[i][j]} * (place[j] - centre);
+      sum[i] = shift[i] + (product >> (kMatrixBits - 3));  // halves of a voxel are 8 sixteenths
+    }
+    if (lattice_log2 > 0) add_lattice(place, sum);
+    Displacement d{};
+    for (std::size_t i = 0; i < 3; ++i)
+      d[i] = static_cast<std::int32_t>(
+          std::clamp(sum[i], std::int64_t{-kMostShift - 1} * 16, std::int64_t{kMostShift} * 16));
+    return d;
+  }
+
+ private:
+  void add_lattice(const std::array<std::int32_t, 3>& place,
+                   std::array<std::int64_t, 3>& sum) const;
 };
 
 }  // namespace slf

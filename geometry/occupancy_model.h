@@ -48,10 +48,10 @@ class OccupancyModel {
   void start_level(Coder& coder, const OctreeLevel& nodes, int level, bool only = false) {
     history_.start_level(level);
     level_ = static_cast<std::uint32_t>(level);
+    if (reference_ != nullptr) walk_.start_level(reference_->cells.level(level + 1));
     sparse_ = nodes.neighbours.size() < 12 * nodes.size();  // spec 8.4.8
     only_ = coder.raw(1, only) != 0;
-    if (only_ && states_.only_rows.empty())
-      states_.only_rows = std::vector<EightLanes>(states_.rows.size());
+    if (only_) states_.only_rows.resize(states_.rows.size());
   }
   void finish_level(const OctreeLevel& nodes) {
     history_.finish_level(nodes.morton);
@@ -63,7 +63,7 @@ class OccupancyModel {
   template <class Coder>
   std::uint8_t code(Coder& coder, const OctreeLevel& nodes, std::size_t n, std::uint8_t occupancy) {
     const NodeView view = view_of(nodes, n, history_);
-    if (reference_ != nullptr) in_reference_ = reference_view(*reference_, level_, view);
+    if (reference_ != nullptr) in_reference_ = reference_view(*reference_, walk_, level_, view);
     if (only_ && n + 1 < nodes.size())  // for the cache alone
       group(kByNeighbours, nodes.around[n + 1].directions * kFactorA, kOnly, 3);
     unsigned coded = only_ ? code_only(coder, view, nodes, n, occupancy) : 0;
@@ -288,6 +288,7 @@ class OccupancyModel {
   }
 
   const MovedReference* reference_ = nullptr;
+  ReferenceWalk walk_;
   ReferenceView in_reference_;
   OccupancyHistory history_;
   OccupancySlabs slabs_;

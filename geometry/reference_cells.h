@@ -13,30 +13,28 @@
 
 namespace slf {
 
-/// The cells of one level in bricks of 4 x 4 x 4.
+/// 4 x 4 x 4 cells of a level.
+struct ReferenceBrick {
+  std::uint64_t key = 0;     ///< 1 + code of the brick; 0: no cell is there
+  Window cells = 0;          ///< as a window has them
+  std::uint64_t morton = 0;  ///< the same in Morton order
+  std::uint32_t first = 0;   ///< place of its first cell
+};
+
+/// The cells of one level in bricks.
 class ReferenceLevel {
  public:
   /// @param codes  of the cells at the level: distinct, ascending
   explicit ReferenceLevel(std::span<const std::uint64_t> codes);
 
-  /// The 4 x 4 x 4 cells from `first` on, which may lie outside of the grid.
-  Window window(const Voxel& first) const;
+  static constexpr std::uint32_t kNone = ~0u;  ///< the place of a cell that is empty
 
-  static constexpr std::uint32_t kNone = ~0u;
-  /// Place of a cell among the codes; kNone where it is empty.
-  std::uint32_t find(const Voxel& cell) const;
-  std::uint64_t bytes() const { return table_.size() * sizeof(Brick); }  ///< of memory
+  /// at: in bricks; it may lie outside of the grid, where no cell is
+  const ReferenceBrick& brick(const Voxel& at) const;
+  std::uint64_t bytes() const { return table_.size() * sizeof(ReferenceBrick); }  ///< of memory
 
  private:
-  struct Brick {
-    std::uint64_t key = 0;     ///< 1 + code of the brick; 0: no brick
-    Window cells = 0;          ///< as a window has them
-    std::uint64_t morton = 0;  ///< the same in Morton order
-    std::uint32_t first = 0;   ///< place of its first cell
-  };
-  const Brick* brick(std::int32_t x, std::int32_t y, std::int32_t z) const;
-
-  std::vector<Brick> table_;  // open addressing, a power of two, at most half full
+  std::vector<ReferenceBrick> table_;  // open addressing, a power of two, at most half full
   int shift_;
 };
 

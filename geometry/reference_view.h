@@ -9,6 +9,7 @@
 #include "geometry/motion.h"
 #include "geometry/node_view.h"
 #include "geometry/reference_cells.h"
+#include "geometry/reference_walk.h"
 
 namespace slf {
 
@@ -47,9 +48,9 @@ struct ReferenceView {
   std::array<std::uint16_t, 8> weight{};  ///< of 512
 };
 
-/// view: of a node of the level
-inline ReferenceView reference_view(const MovedReference& reference, std::uint32_t level,
-                                    const NodeView& view) {
+/// view: of a node of the level. walk: of the level below
+inline ReferenceView reference_view(const MovedReference& reference, ReferenceWalk& walk,
+                                    std::uint32_t level, const NodeView& view) {
   const Displacement moved = reference.at(view.cell, static_cast<int>(level));
   const int child_log2 = reference.bits - static_cast<int>(level) - 1 + 4;  // sixteenths
   Voxel first;
@@ -71,7 +72,7 @@ inline ReferenceView reference_view(const MovedReference& reference, std::uint32
     there.corner[i] = static_cast<std::uint8_t>(bit);
     there.weight[i] = static_cast<std::uint16_t>(weight);
   }
-  there.cells = reference.cells.level(static_cast<int>(level) + 1).window(first);
+  there.cells = walk.window(first);
   for (int c = 0; c < 8; ++c)
     there.children |= static_cast<unsigned>((there.cells & own_cell(c)) != 0) << c;
   const Window known = ~(view.unknown | kOwnCells[255]);

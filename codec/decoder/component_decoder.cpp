@@ -93,7 +93,7 @@ Result<Done> undo(const Request& request, const ComponentRows& rows, const Coded
   const int grid_bits = request.stream.grid_bits();
   TransformLevels levels(rows.codes, grid_bits, grid_bits - rows.levels, rows.start, rows.weights);
   std::optional<ReferenceMeans> means;
-  if (reference != nullptr) means.emplace(ReferenceMeans{reference->moved, reference->state.means});
+  if (reference != nullptr) means.emplace(reference->means());
   return raht_inverse_predicted(rows.tree, levels, predicted_planes(request, coded), steps,
                                 components, threads, coded.nonzero, used, coded.cells.size(),
                                 means ? &*means : nullptr, keep ? &request.kept->means : nullptr);

@@ -69,7 +69,8 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
   if (lacks_cells(state_, bits))
     return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
   SLF_CHECK(in_unit(frame.unit, read_lattice(frame.vectors, state_.cells, bits, motion)));
-  const FrameReference reference{state_, {state_.cells, motion, bits}};
+  LevelTerms terms;
+  const FrameReference reference{state_, {state_.cells, motion, bits}, terms};
   auto field = decode_units(opened, options, {&reference, &kept, &*request_, nullptr});
   error_is_of_group_ = !field && std::string_view(field.error().unit) == "sequence";
   return field;

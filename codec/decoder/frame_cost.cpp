@@ -12,12 +12,15 @@ namespace {
 /// Bytes of a node: its code, and its brick, which takes one of four places of a table. A brick has
 /// ten nodes usually, one at the worst.
 constexpr double kUsualNode = 8 + 4 * 32 / 10, kMostNode = 8 + 4 * 32;
-constexpr double kUsualNodes = 1.5;   // of a point, at all levels
-constexpr double kTerms = 4 + 8 * 8;  // ReferenceTerms, of a node of one level
+constexpr double kUsualNodes = 1.5;  // of a point, at all levels
+/// ReferenceTerms of a node: half of the places hold something, as a rule.
+constexpr double kUsualTerms = 4 + 4 * 8, kMostTerms = 4 + 8 * 8;
+/// Nodes of all levels that have siblings, of a point: a merge joins two at the most.
+constexpr double kUsualSiblings = 1.33, kMostSiblings = 2;
 constexpr double kLatticePoint = 12;
 constexpr std::uint64_t kStates = sizeof(VectorStates) + ReferenceStates::kBytes;  // of a group
-/// ReferenceCoefficients, of a row: marks, places; nodes, codes and weights of a level.
-constexpr double kRow = 1 + 4 + 4 + 8 + 4 + 1;
+/// ReferenceCoefficients, of a row: places and nodes; codes, weights and marks of a level.
+constexpr double kRow = 4 + 4 + 8 + 4 + 1;
 
 /// Nodes that an octree of so many points has at most, at all levels.
 double most_nodes(std::uint64_t levels, double points) {
@@ -45,17 +48,19 @@ FrameCost frame_cost(const DecodeShape& shape, std::uint64_t points) {
   FrameCost cost{states + (kUsualNode + means) * kUsualNodes * of_points,
                  states + (kMostNode + means) * most_nodes(shape.levels, of_points)};
   if (shape.reference == nullptr) return cost;
-  const auto& [state, moved] = *shape.reference;
-  const double there = static_cast<double>(state.bytes(kStates)) +
-                       kLatticePoint * static_cast<double>(moved.motion.lattice.size());
-  double terms = shape.planes > 0 ? kTerms * of_points : 0;
+  const FrameState& state = shape.reference->state;
+  const double there =
+      static_cast<double>(state.bytes(kStates)) +
+      kLatticePoint * static_cast<double>(shape.reference->moved.motion.lattice.size());
+  const double values = shape.planes > 0 ? of_points : 0;
+  double rows = 0;
   if (shape.reference_contexts) {  // a byte of every value stays, four are of a level at work
-    terms += (kRow + 4 * static_cast<double>(shape.planes)) * of_points;
+    rows = (kRow + 4 * static_cast<double>(shape.planes)) * of_points;
     cost.most += static_cast<double>(shape.planes) * of_points;
     cost.usual += static_cast<double>(shape.planes) * of_points;
   }
-  cost.usual += there + terms / 2;
-  cost.most += there + terms;
+  cost.usual += there + kUsualTerms * kUsualSiblings * values + rows / 2;
+  cost.most += there + kMostTerms * kMostSiblings * values + rows;
   return cost;
 }
 

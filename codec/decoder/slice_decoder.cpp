@@ -51,10 +51,11 @@ Result<Done> decode_octree_unit(const SliceToDecode& slice, const PartUnit& unit
   }
   const int end = static_cast<int>(slice.stream().set.geometry_end(unit.header.range));
   SLF_CHECK(in_unit(unit, octree.decode(unit.payload, end)));
-  if (slice.request.kept != nullptr) keep(slice.request.kept->octree, place, octree.states());
-  if (slice.leads())
-    shared.publish(place,
-                   end < slice.stream().grid_bits() ? octree.states() : octree.take_states());
+  const bool last = end == slice.stream().grid_bits();
+  if (slice.request.kept != nullptr)
+    keep(slice.request.kept->octree, place,
+         last && !slice.leads() ? octree.take_states() : octree.states());
+  if (slice.leads()) shared.publish(place, last ? octree.take_states() : octree.states());
   return Done{};
 }
 

@@ -20,7 +20,8 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
   SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));  // 7.3
   // The vectors that are not coded are known after this; the length of the frame is not yet.
   write_frame_header(frame, &before.cells, bits);  // 7.13
-  const FrameReference reference{before, {before.cells, frame.motion, bits}};
+  LevelTerms terms;
+  const FrameReference reference{before, {before.cells, frame.motion, bits}, terms};
   SliceCoding coding{
       set, group.groups, group.steps, parameters.digest, parameters.texture, parameters.rdo};
   coding.reference = &reference;

@@ -76,7 +76,7 @@ Quantised quantise(const SliceToEncode& slice, const SliceTree& tree, const Enco
   QuantiserInput rows = slice.coding.quantiser_input(tree.tree, slice.input.morton);
   std::optional<ReferenceMeans> means;
   if (const FrameReference* reference = slice.coding.reference) {
-    means.emplace(ReferenceMeans{reference->moved, reference->state.means});
+    means.emplace(reference->means());
     rows.reference = &*means;
   }
   if (layout.base_levels > 0) rows.base = &cells;

@@ -119,7 +119,8 @@ std::vector<std::size_t> PlannedScene::cells_of(std::size_t slice) const {
 Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, bool cameras,
                                                    int threads) {
   SLF_TRY(EncoderSettings settings, settings_from(given));
-  if (settings.target_bytes > 0 || settings.target_psnr > 0) return refused("a target");
+  if (settings.target_bytes > 0 || settings.target_psnr > 0 || settings.target_bitrate > 0)
+    return refused("a target");
   if (settings.geometry == GeometryCoder::kDraco) return refused("--geometry draco");
   if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
   for (const Surface surface : {Surface::kMended, Surface::kTrained, Surface::kSplats})

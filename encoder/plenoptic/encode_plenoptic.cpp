@@ -30,9 +30,9 @@ Result<Done, InputError> check_plenoptic(const PlenopticCloud& cloud,
   if (cloud.num_points() == 0) return InputError{Errc::kInvalidInput, "no points"};
   if (s.coefficients == CoefficientCoder::kTexture)
     return refused_setting("--coefficients texture: plenoptic clouds have vector or independent");
-  if (s.target_bytes > 0 || s.target_psnr > 0)
+  if (s.target_bytes > 0 || s.target_psnr > 0 || s.target_bitrate > 0)
     return refused_setting(
-        "--target-bytes, --target-psnr: of photographs; plenoptic clouds have -q");
+        "--target-bytes, --target-bitrate, --target-psnr: plenoptic clouds have -q");
   if (s.normal_bits > 0) return refused_setting("--normals: plenoptic clouds keep no normals");
   std::vector<int> sorted = settings.hold_out;
   std::sort(sorted.begin(), sorted.end());

@@ -145,6 +145,8 @@ struct EncoderSettings {
   double quality_loss =
       0.1;  ///< 0.001 .. 10 dB of held-out input pictures, of a step that is chosen
   std::uint64_t target_bytes = 0;  ///< > 0: of the file, in place of q, which is the first guess
+  /// > 0: bits a second of all frames of a sequence together, in place of q; encode_frames() alone
+  double target_bitrate = 0;
   /// > 0: PSNR of the input images, dB, in place of q: of pictures with a picture fit, else of
   /// points
   double target_psnr = 0;

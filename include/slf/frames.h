@@ -137,6 +137,8 @@ struct EncodedFrames {
 /// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the
 /// first frame chose. Points are as given: nothing is mended, trained or made up. What stands still
 /// keeps its view map (FrameSettings::hold_still).
+/// With EncoderSettings::target_bitrate the step is the one for which all frames together have 97
+/// to 100 % of it: they are coded some five times, and the bytes of two such runs are held.
 /// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be
 /// coded
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,

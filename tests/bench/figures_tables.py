@@ -29,6 +29,7 @@ PICTURES = [('the default', 'blender_can', []), ('`-q 32`', 'blender_can', ['-q'
 DRAWN = {'can': 'slf synth can, 256 × 256', 'die': 'slf synth die, 200 × 200'}
 MOVING = {'rot1': 'a can that turns by 1 degree a frame', 'rot4': 'by 4 degrees', 'tube2': 'a tube that twists and bends, slowly', 'tube8': 'fast',
           'still': 'nothing moves', 'noise': 'every point moves by 0.3 voxels'}
+SEEK = ('tube2', 'rot1')
 
 
 @dataclass
@@ -50,8 +51,8 @@ class Place:
         folder = self.store.folder / name if name in DRAWN else self.data / name
         return folder if name in DRAWN or folder.exists() else None
 
-    def draw(self, name, *options):
-        folder = self.store.folder / name
+    def draw(self, name, *options, folder=None):
+        folder = self.store.folder / (folder or name)
         if not folder.exists():
             run([self.slf, 'synth', name, *options, '-o', folder])
         return folder
@@ -178,6 +179,25 @@ def moving(place):
             *table(['sequence', 'alone, bytes', 'predicted, bytes', 'all', 'geometry', 'values'], rows)]
 
 
+def seeking(place):
+    """Files of two groups of 16 frames."""
+    def make():
+        files = []
+        for name in SEEK:
+            files.append(place.store.folder / f'{name}_seek.slf')
+            run([place.slf, 'encode', place.draw(name, '--frames', 32, folder=f'{name}_32'), '-q', 16, '--grid-bits', 8, '-o', files[-1], '--quiet'])
+        return place.bench('bench_seek', *files)
+    rows = []
+    for line in (place.store.get('seeking', make) or '').splitlines()[1:]:
+        path, numbers = line.rsplit(':', 1)
+        n = [float(word) for word in numbers.split()]
+        rows.append([pathlib.Path(path.split(',')[0]).stem.split('_')[0], f'{n[0]:,.0f}', f'{n[1]:,.0f}', f'{n[2]:.0f}', f'{n[3]:.0f}', f'{n[4]:.1f}', f'{n[5]:.0f}'])
+    return ['Files of 32 frames in two groups of 16 (`tests/bench/bench_seek`, one thread): what a reader needs from nothing to a frame of the first group, mean '
+            'and worst over its frames, and how many frames are not shown where the largest unit of a frame is missing. Frames of the second group are never '
+            'among them.', '',
+            *table(['sequence', 'bytes, mean', 'worst', 'ms, mean', 'worst', 'frames lost, mean', 'worst'], rows)]
+
+
 def packed(file):
     """Bytes of a file as it is, by gzip, and by brotli where that is there."""
     data = file.read_bytes()
@@ -205,4 +225,5 @@ def pages(place):
 
 
 TABLES = {'pictures': ('Captures', pictures), 'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),
-          'speed': ('Decoding and drawing', speed), 'moving': ('Clouds that move', moving), 'pages': ('In a browser', pages)}
+          'speed': ('Decoding and drawing', speed), 'moving': ('Clouds that move', moving),
+          'seeking': ('Any frame, and lost units', seeking), 'pages': ('In a browser', pages)}

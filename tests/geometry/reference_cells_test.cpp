@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells of a frame decoded before, found by brute force too.
-#include "geometry/reference_cells.h"
+#include "geometry/reference_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -62,10 +62,11 @@ TEST_P(ReferenceCellsTest, WindowsAndPlacesAreThoseOfBruteForceAtEveryLevel) {
   for (int level = 0; level <= bits; ++level) {
     const Brute brute = cells_at(voxels, bits - level);
     ASSERT_EQ(cells.codes(level).size(), brute.cells.size());
+    ReferenceWalk walk(cells.level(level));
     for (const Voxel& place : places(voxels, bits - level, level)) {
-      ASSERT_EQ(cells.level(level).window(place), brute.window(place))
+      ASSERT_EQ(walk.window(place), brute.window(place))
           << level << ": " << place[0] << ' ' << place[1] << ' ' << place[2];
-      const std::uint32_t found = cells.level(level).find(place);
+      const std::uint32_t found = walk.find(place);
       if (brute.cells.count(place) == 0) {
         ASSERT_EQ(found, ReferenceLevel::kNone);
       } else {

@@ -64,7 +64,7 @@ X265_PRESETS = ("ultrafast", "superfast", "veryfast", "faster", "fast", "medium"
 # Settings of the coder that textures take as well; of the others, those that coefficients alone have.
 OF_TEXTURES_TOO = ("chroma-step", "steps", "colour")
 # The rate is a job's own.
-NOT_OPTIONS = ("preset", "quality", "quality-loss", "target-bytes", "target-psnr", "texture-qp", "texture-lossless",
+NOT_OPTIONS = ("preset", "quality", "quality-loss", "target-bytes", "target-bitrate", "target-psnr", "texture-qp", "texture-lossless",
                "penalise-dc", "free-dc")
 # name: (range, codecs that take it), of what the program has in another form or for slf igc alone
 OWN = {
