@@ -105,8 +105,7 @@ Result<PointCloud, InputError> read_bundle_points(BundleWords& in, std::uint64_t
   return cloud;
 }
 
-/// list.txt beside the file, or beside its folder bundle/: a photograph a line, and what is known
-/// of its focal length.
+/// A photograph a line, and what is known of its focal length.
 Result<std::vector<std::string>, InputError> read_bundle_list(const fs::path& list) {
   SLF_TRY(const auto bytes, read_file(list, std::uint64_t{1} << 26));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -120,10 +119,14 @@ Result<std::vector<std::string>, InputError> read_bundle_list(const fs::path& li
   return names;
 }
 
-fs::path bundle_list(const fs::path& file) {
+/// list.txt beside the file, beside its folder bundle/ or the photographs; of x.bundle.out, as
+/// COLMAP writes it, x.list.txt.
+fs::path bundle_list(const fs::path& file, const fs::path& images) {
   const fs::path folder = file.parent_path();
-  if (!is_file(folder / "list.txt") && is_file(folder.parent_path() / "list.txt"))
-    return folder.parent_path() / "list.txt";
+  const fs::path colmap = file.stem().stem().concat(".list.txt");
+  if (file.stem().extension() == ".bundle" && is_file(folder / colmap)) return folder / colmap;
+  for (const fs::path& place : {folder, folder.parent_path(), images})
+    if (!place.empty() && is_file(place / "list.txt")) return place / "list.txt";
   return folder / "list.txt";
 }
 
@@ -146,7 +149,7 @@ Result<Camera, InputError> camera_of(const BundleCamera& given, const fs::path& 
 
 }  // namespace
 
-Result<Import, InputError> import_bundler(const fs::path& file) {
+Result<Import, InputError> import_bundler(const fs::path& file, const fs::path& images) {
   SLF_TRY(const auto bytes, read_file(file));
   BundleWords in(file.string(), bytes);
   SLF_TRY(const auto num_cameras, in.number<std::uint32_t>("the number of cameras"));
@@ -155,10 +158,12 @@ Result<Import, InputError> import_bundler(const fs::path& file) {
   Import import;
   SLF_TRY(import.capture.cloud, read_bundle_points(in, num_points));
   import.cloud_name = file.string();
-  const fs::path list = bundle_list(file);
-  import.capture.root = list.parent_path();
+  const fs::path list = bundle_list(file, images);
+  const bool with_photographs = !images.empty() && list.parent_path() == images;
+  import.capture.root = with_photographs ? file.parent_path() : list.parent_path();
   if (!is_file(list))
-    return in.invalid("list.txt, a photograph a line, is missing beside it or its folder");
+    return in.invalid(
+        "list.txt, a photograph a line, is missing beside it, its folder or the photographs");
   SLF_TRY(const auto names, read_bundle_list(list));
   if (names.size() != cameras.size())
     return in.invalid(std::to_string(cameras.size()) + " cameras, and " + list.string() + " has " +
@@ -168,7 +173,7 @@ Result<Import, InputError> import_bundler(const fs::path& file) {
     const std::string label = file.string() + ": camera " + std::to_string(i);
     import.images.push_back(find_photograph(import.capture.root, names[i]));
     SLF_TRY(const fs::path photograph,
-            path_inside(import.capture.root, import.images.back(), label));
+            photograph_file(import.capture.root, import.images.back(), images, names[i], label));
     SLF_TRY(Camera camera, camera_of(cameras[i], photograph));
     camera.name = names[i];
     import.labels.push_back(label);

@@ -13,6 +13,7 @@
 #include "capture/file_names.h"
 #include "capture/image_formats.h"
 #include "capture/importer.h"
+#include "capture/photograph_names.h"
 #include "capture/ply_header.h"
 
 namespace slf {
@@ -149,7 +150,7 @@ fs::path largest_ply(const fs::path& root, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-Result<Import, InputError> import_index_cams(const fs::path& file) {
+Result<Import, InputError> import_index_cams(const fs::path& file, const fs::path& images) {
   SLF_TRY(const auto lines, read_lines(file));
   Import import;
   Capture& capture = import.capture;
@@ -176,8 +177,8 @@ Result<Import, InputError> import_index_cams(const fs::path& file) {
     camera.name = line.name;
     import.images.push_back(photograph_of(capture.root, line.name));
     import.labels.push_back(file.string() + ": line " + std::to_string(line.line));
-    SLF_TRY(const fs::path photograph,
-            path_inside(capture.root, import.images.back(), import.labels.back()));
+    SLF_TRY(const fs::path photograph, photograph_file(capture.root, import.images.back(), images,
+                                                       line.name, import.labels.back()));
     SLF_TRY(const ImageSize size, read_image_size(photograph));
     camera.width = static_cast<int>(size.width);
     camera.height = static_cast<int>(size.height);

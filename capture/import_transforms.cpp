@@ -8,6 +8,7 @@
 #include "capture/json.h"
 #include "capture/json_numbers.h"
 #include "capture/photograph_names.h"
+#include "capture/radial_distortion.h"
 #include "capture/transforms_intrinsics.h"
 
 namespace slf {
@@ -91,8 +92,14 @@ Result<Done, InputError> read_named_split(const JsonView& json, const char* key,
   return Done{};
 }
 
+// Of all frames: where photographs are, or empty, and how far lenses miss, in pixels.
+struct FrameInputs {
+  const fs::path& images;
+  double worst = 0;
+};
+
 Result<Done, InputError> add_frame(const JsonView& frame, const JsonView& document,
-                                   const std::string& label, Import& import) {
+                                   const std::string& label, FrameInputs& inputs, Import& import) {
   Camera camera;
   SLF_TRY(const auto path_json, frame.at("file_path"));
   SLF_TRY(const auto path, path_json.string());
@@ -104,14 +111,16 @@ Result<Done, InputError> add_frame(const JsonView& frame, const JsonView& docume
       file.lexically_relative(fs::absolute(import.capture.root).lexically_normal()).string();
   SLF_TRY(auto size, read_transforms_size(frame, document));
   if (!size) {  // NeRF's Blender scenes leave it to the image
-    SLF_TRY(const auto actual, read_image_size(file));
+    SLF_TRY(const auto photograph,
+            photograph_file(import.capture.root, image, inputs.images, camera.name, label));
+    SLF_TRY(const auto actual, read_image_size(photograph));
     if (const auto problem = image_size_problem(actual))
-      return InputError{Errc::kInvalidInput, file.string() + ": " + *problem};
+      return InputError{Errc::kInvalidInput, photograph.string() + ": " + *problem};
     size = actual;
   }
   camera.width = static_cast<int>(size->width);
   camera.height = static_cast<int>(size->height);
-  SLF_CHECK(read_transforms_intrinsics(frame, document, camera));
+  SLF_CHECK(read_transforms_intrinsics(frame, document, camera, inputs.worst));
   SLF_TRY(const auto matrix, frame.at("transform_matrix"));
   SLF_CHECK(read_pose(matrix, camera));
   std::string mask;
@@ -126,21 +135,25 @@ Result<Done, InputError> add_frame(const JsonView& frame, const JsonView& docume
 }
 
 // Adds the frames of a file; returns their cameras by file_path.
-Result<std::map<std::string, int>, InputError> add_frames(const fs::path& file, Import& import) {
+Result<std::map<std::string, int>, InputError> add_frames(const fs::path& file,
+                                                          const fs::path& images, Import& import) {
   SLF_TRY(const auto text, read_file(file, kMaxJsonBytes));
   SLF_TRY(const auto value, parse_json(file.string(), text));
   const JsonView document(value, file.string());
   SLF_TRY(const auto frames_json, document.at("frames"));
   SLF_TRY(const auto frames, frames_json.items());
   std::map<std::string, int> camera_of;
+  FrameInputs inputs{images};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     SLF_TRY(const auto path_json, frames[i].at("file_path"));
     SLF_TRY(const auto path, path_json.string());
     if (!camera_of.emplace(path, static_cast<int>(import.capture.cameras.size())).second)
       return frames[i].error("file_path '" + path + "' twice");
     const std::string label = file.string() + ": frames[" + std::to_string(i) + "]";
-    SLF_CHECK(add_frame(frames[i], document, label, import));
+    SLF_CHECK(add_frame(frames[i], document, label, inputs, import));
   }
+  if (const std::string warning = radial_warning(file.string(), inputs.worst); !warning.empty())
+    import.capture.warnings.push_back(warning);
   SLF_CHECK(read_cloud(document, file, import));
   SLF_CHECK(read_named_split(document, "train_filenames", "dense", camera_of, import));
   SLF_CHECK(read_named_split(document, "test_filenames", "evaluation", camera_of, import));
@@ -156,15 +169,16 @@ void drop_empty_masks(Import& import) {
 
 }  // namespace
 
-Result<Import, InputError> import_transforms_json(const fs::path& file) {
+Result<Import, InputError> import_transforms_json(const fs::path& file, const fs::path& images) {
   Import import;
   import.capture.root = file.parent_path();
-  SLF_CHECK(add_frames(file, import));
+  SLF_CHECK(add_frames(file, images, import));
   drop_empty_masks(import);
   return import;
 }
 
-Result<Import, InputError> import_transforms_splits(const fs::path& directory) {
+Result<Import, InputError> import_transforms_splits(const fs::path& directory,
+                                                    const fs::path& images) {
   Import import;
   import.capture.root = directory;
   std::error_code error;
@@ -172,7 +186,7 @@ Result<Import, InputError> import_transforms_splits(const fs::path& directory) {
                                     std::pair{"transforms_test.json", "evaluation"}}) {
     if (!fs::exists(directory / name, error)) continue;
     const int first = static_cast<int>(import.capture.cameras.size());
-    SLF_CHECK(add_frames(directory / name, import));
+    SLF_CHECK(add_frames(directory / name, images, import));
     auto& members = import.capture.splits[split];
     members.clear();
     for (int i = first; i < static_cast<int>(import.capture.cameras.size()); ++i)

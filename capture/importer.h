@@ -32,18 +32,25 @@ Result<Import, InputError> import_colmap_binary(const std::filesystem::path& dir
 Result<Import, InputError> import_colmap_text(const std::filesystem::path& directory);
 
 /// transforms.json of instant-ngp, nerfstudio and NeRF's Blender scenes.
-Result<Import, InputError> import_transforms_json(const std::filesystem::path& file);
+/// @param images  here and below, for sizes: a folder that photographs are in, or empty: where the
+///                format has them
+Result<Import, InputError> import_transforms_json(const std::filesystem::path& file,
+                                                  const std::filesystem::path& images = {});
 /// A scene in several files of one directory: transforms_train.json is the split "dense",
 /// transforms_test.json "evaluation".
-Result<Import, InputError> import_transforms_splits(const std::filesystem::path& directory);
+Result<Import, InputError> import_transforms_splits(const std::filesystem::path& directory,
+                                                    const std::filesystem::path& images = {});
 
 /// Cameras of the surface light fields of Wood et al. (Fish, Elephant). Sizes are those of the
 /// photographs. @param file  index.cams
-Result<Import, InputError> import_index_cams(const std::filesystem::path& file);
+Result<Import, InputError> import_index_cams(const std::filesystem::path& file,
+                                             const std::filesystem::path& images = {});
 
-/// Cameras of Bundler, with its points. Photographs are those of list.txt, beside the file or its
-/// folder, and give the sizes. @param file  bundle.out
-Result<Import, InputError> import_bundler(const std::filesystem::path& file);
+/// Cameras of Bundler, with its points. Photographs are those of list.txt, beside the file, its
+/// folder or the photographs (of x.bundle.out, COLMAP's, x.list.txt), and give the sizes. @param
+/// file  bundle.out
+Result<Import, InputError> import_bundler(const std::filesystem::path& file,
+                                          const std::filesystem::path& images = {});
 /// Cameras of openMVG, with the points of its structure. @param file  sfm_data.json
 Result<Import, InputError> import_openmvg(const std::filesystem::path& file);
 /// Cameras of Metashape. Photographs are found by their labels. @param file  XML

@@ -3,7 +3,6 @@
 #include "capture/las_reader.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -12,6 +11,7 @@
 
 #include "capture/exact_positions.h"
 #include "capture/input_file.h"
+#include "capture/little_endian.h"
 #include "capture/ply_colours.h"
 
 namespace slf {
@@ -38,18 +38,6 @@ constexpr std::array<LasFormat, 11> kLasFormats{{{20, 0},
                                                  {38, 30},
                                                  {59, 0},
                                                  {67, 30}}};
-
-template <class T>
-T little(std::span<const std::uint8_t> bytes, std::size_t at) {
-  std::make_unsigned_t<T> value = 0;
-  for (std::size_t i = sizeof(T); i-- > 0;)
-    value = static_cast<decltype(value)>(value << 8 | bytes[at + i]);
-  return static_cast<T>(value);
-}
-
-double little_double(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return std::bit_cast<double>(little<std::uint64_t>(bytes, at));
-}
 
 struct LasHeader {
   std::uint64_t points_at = 0, count = 0;

@@ -32,23 +32,23 @@ Result<Import, InputError> import_colmap(const fs::path& directory, const std::s
 }
 
 // By content: any name will do for a JSON file.
-Result<Import, InputError> import_json(const fs::path& file) {
+Result<Import, InputError> import_json(const fs::path& file, const fs::path& images) {
   if (file.filename() == "cameras.json") return import_cameras_json(file);
   SLF_TRY(const auto text, read_file(file, kMaxJsonBytes));
   SLF_TRY(const auto document, parse_json(file.string(), text));
   const JsonView json(document, file.string());
-  if (json.find("frames")) return import_transforms_json(file);
+  if (json.find("frames")) return import_transforms_json(file, images);
   if (json.find("cameras")) return import_cameras_json(file);
   if (json.find("sfm_data_version")) return import_openmvg(file);
   if (const std::string what = foreign_capture(file); !what.empty()) return json.error(what);
   return json.error("neither 'cameras' nor 'frames': not a capture");
 }
 
-Result<Import, InputError> import_file(const fs::path& file) {
+Result<Import, InputError> import_file(const fs::path& file, const fs::path& images) {
   const std::string extension = extension_of(file);
-  if (extension == ".json") return import_json(file);
-  if (extension == ".cams") return import_index_cams(file);
-  if (extension == ".out") return import_bundler(file);
+  if (extension == ".json") return import_json(file, images);
+  if (extension == ".cams") return import_index_cams(file, images);
+  if (extension == ".out") return import_bundler(file, images);
   if (extension == ".xml") return import_metashape(file);
   const std::string stem = file.stem().string();
   const bool colmap = stem == "cameras" || stem == "images" || stem == "points3D";
@@ -72,17 +72,18 @@ Result<Import, InputError> import_found(const ColmapPlace& model) {
   return import;
 }
 
-Result<Import, InputError> import_directory(const fs::path& directory) {
+Result<Import, InputError> import_directory(const fs::path& directory, const fs::path& images) {
   if (is_file(directory / "cameras.json")) return import_cameras_json(directory / "cameras.json");
   if (const auto model = find_colmap(directory)) return import_found(*model);
   if (is_file(directory / "transforms.json"))
-    return import_transforms_json(directory / "transforms.json");
-  if (is_file(directory / "transforms_train.json")) return import_transforms_splits(directory);
+    return import_transforms_json(directory / "transforms.json", images);
+  if (is_file(directory / "transforms_train.json"))
+    return import_transforms_splits(directory, images);
   if (const auto model = find_colmap(directory / "colmap")) return import_found(*model);
-  if (is_file(directory / "index.cams")) return import_index_cams(directory / "index.cams");
+  if (is_file(directory / "index.cams")) return import_index_cams(directory / "index.cams", images);
   if (is_file(directory / "cameras.xml")) return import_metashape(directory / "cameras.xml");
   for (const char* name : {"bundle.out", "bundle.rd.out", "bundle/bundle.out"})
-    if (is_file(directory / name)) return import_bundler(directory / name);
+    if (is_file(directory / name)) return import_bundler(directory / name, images);
   if (is_file(directory / "sfm_data.json")) return import_openmvg(directory / "sfm_data.json");
   const std::string what = foreign_capture(directory);
   return InputError{Errc::kInvalidInput, directory.string() +
@@ -210,22 +211,12 @@ bool may_lack_points(const CaptureOptions& options, const Import& import) {
   return !in_model && !is_file(geometry_file(import));
 }
 
-// Where photograph i is: in the capture, or in a folder that was named.
-Result<fs::path, InputError> image_file(const Import& import, std::size_t i,
-                                        const fs::path& folder) {
-  const std::string& label = import.labels[i];
-  if (folder.empty()) return path_inside(import.capture.root, import.images[i], label);
-  const auto found = picture_named(folder, import.capture.cameras[i].name);
-  SLF_TRY(const fs::path whole,
-          path_inside(folder, found.value_or(import.capture.cameras[i].name), label));
-  if (is_file(whole)) return whole;
-  return path_inside(folder, fs::path(import.images[i]).filename().string(), label);
-}
-
+// Photographs are in the capture, or in a folder that was named.
 Result<Done, InputError> resolve_files(const fs::path& folder, Import& import) {
   auto& capture = import.capture;
   for (std::size_t i = 0; i < import.images.size(); ++i) {
-    SLF_TRY(auto image, image_file(import, i, folder));
+    SLF_TRY(auto image, photograph_file(capture.root, import.images[i], folder,
+                                        capture.cameras[i].name, import.labels[i]));
     capture.image_files.push_back(std::move(image));
     if (import.masks.empty()) continue;
     fs::path mask;
@@ -247,7 +238,8 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   if (given.empty() || !fs::exists(status))
     return InputError{Errc::kUnreadable, given.string() + ": no such file or directory"};
 
-  SLF_TRY(Import import, fs::is_directory(status) ? import_directory(path) : import_file(path));
+  SLF_TRY(Import import, fs::is_directory(status) ? import_directory(path, options.images)
+                                                  : import_file(path, options.images));
   const bool lone_cloud = import.labels.empty() && import.cloud_file == path;
   if (import.capture.cameras.empty() && !lone_cloud)
     return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};

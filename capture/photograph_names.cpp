@@ -5,6 +5,7 @@
 #include <array>
 
 #include "capture/file_names.h"
+#include "capture/importer.h"
 
 namespace slf {
 
@@ -27,6 +28,16 @@ std::string find_photograph(const fs::path& root, std::string given) {
     for (const char* folder : {"", "images/", "input/"})
       if (auto found = picture_named(root, folder + path)) return *std::move(found);
   return name;
+}
+
+Result<fs::path, InputError> photograph_file(const fs::path& root, const std::string& image,
+                                             const fs::path& folder, const std::string& name,
+                                             const std::string& label) {
+  if (folder.empty()) return path_inside(root, image, label);
+  SLF_TRY(const fs::path whole,
+          path_inside(folder, picture_named(folder, name).value_or(name), label));
+  if (is_file(whole)) return whole;
+  return path_inside(folder, fs::path(image).filename().string(), label);
 }
 
 }  // namespace slf

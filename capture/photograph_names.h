@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "slf/capture.h"
+
 namespace slf {
 
 /// `path`, or with an extension of a picture where only that is a file; nothing where none is.
@@ -16,5 +18,16 @@ std::optional<std::string> picture_named(const std::filesystem::path& root,
 /// in images/ or input/. Paths of other machines, C:\x\a.jpg too, count by their names. Its name
 /// alone where it is nowhere.
 std::string find_photograph(const std::filesystem::path& root, std::string given);
+
+/// A photograph's file: `image` of the capture, or, of a folder that was named, `name` (with an
+/// extension of a picture where it lacks one), else the last part of `image`.
+/// @param folder  empty: photographs are in the capture
+/// @param label   for messages
+/// @errors kInvalidInput: leads out of capture or folder
+Result<std::filesystem::path, InputError> photograph_file(const std::filesystem::path& root,
+                                                          const std::string& image,
+                                                          const std::filesystem::path& folder,
+                                                          const std::string& name,
+                                                          const std::string& label);
 
 }  // namespace slf

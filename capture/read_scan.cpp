@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "capture/child_process.h"
+#include "capture/e57_reader.h"
 #include "capture/file_names.h"
 #include "capture/json.h"
 #include "capture/las_reader.h"
@@ -30,9 +31,9 @@ struct Summary {
 InputError no_pdal(const std::filesystem::path& file) {
   return {Errc::kUnsupported,
           file.string() +
-              ": scans of this format are read by PDAL, which is not there: install "
+              ": LAZ is read by PDAL, which is not there: install "
               "its package pdal (of conda-forge, or of a Debian that has it), or "
-              "make a PLY of it elsewhere"};
+              "make a LAS, an E57 or a PLY of it elsewhere"};
 }
 
 /// The last line that a program had to say.
@@ -144,6 +145,7 @@ Result<Scan, InputError> read_scan(const std::filesystem::path& file,
                                    std::vector<std::string>* warnings) {
   if (!is_file(file)) return InputError{Errc::kUnreadable, file.string() + ": no such file"};
   if (is_plain_las(file)) return read_las(file, warnings);
+  if (extension_of(file) == ".e57") return read_e57(file, warnings);
   SLF_TRY(const Summary summary, summary_of(file));
   SLF_TRY(Mesh points, read_points(file, summary, "uint16_t", warnings));
   if (has_eight_bits(points.vertices))

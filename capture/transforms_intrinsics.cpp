@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capture/json_numbers.h"
+#include "capture/radial_distortion.h"
 
 namespace slf {
 
@@ -90,11 +91,11 @@ Result<Done, InputError> check_model(const JsonView& frame, const JsonView& docu
   for (const char* name : {"ftheta_p0", "latlong", "equirectangular"})
     if (frame.find(name) || document.find(name))
       return frame.error(std::string("cameras with '") + name + "' are not supported");
-  for (const char* name : {"k3", "k4", "k5", "k6"}) {
+  for (const char* name : {"k5", "k6"}) {
     SLF_TRY(const double k, number_of(frame, document, name, 0));
     if (k != 0)
       return frame.error(std::string("distortion ") + name +
-                         " is not supported; only k1, k2, p1, p2");
+                         " is not supported; only k1 to k4, p1, p2");
   }
   return Done{};
 }
@@ -102,16 +103,20 @@ Result<Done, InputError> check_model(const JsonView& frame, const JsonView& docu
 }  // namespace
 
 Result<Done, InputError> read_transforms_intrinsics(const JsonView& frame, const JsonView& document,
-                                                    Camera& camera) {
+                                                    Camera& camera, double& worst) {
   SLF_CHECK(check_model(frame, document));
   SLF_CHECK(read_focal(frame, document, camera));
   SLF_TRY(camera.cx, number_of(frame, document, "cx", 0.5 * camera.width));
   SLF_TRY(camera.cy, number_of(frame, document, "cy", 0.5 * camera.height));
-  constexpr std::array<const char*, 4> names{"k1", "k2", "p1", "p2"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    SLF_TRY(camera.distortion[i], number_of(frame, document, names[i], 0));
+  SLF_TRY(camera.distortion[2], number_of(frame, document, "p1", 0));
+  SLF_TRY(camera.distortion[3], number_of(frame, document, "p2", 0));
+  // As nerfstudio's camera_utils has them: k3 of r^6, k4 of r^8.
+  RadialTerms radial{};
+  constexpr std::array<const char*, 4> kNames{"k1", "k2", "k3", "k4"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    SLF_TRY(radial[i], number_of(frame, document, kNames[i], 0));
   }
-  return Done{};
+  return set_radial(radial, frame.error("camera").message, camera, worst);
 }
 
 Result<std::optional<ImageSize>, InputError> read_transforms_size(const JsonView& frame,

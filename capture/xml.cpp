@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMostNesting = 32;
 constexpr std::size_t kMostElements = std::size_t{1} << 20;  // 120 bytes each, of 4 in a file
-constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kSpace = " \t\r\n", kData = "<![CDATA[";
 
 class XmlParser {
  public:
@@ -82,6 +82,13 @@ class XmlParser {
         advance(1);
         return Done{};
       }
+      if (at(kData)) {
+        const std::size_t close = text_.find("]]>", at_);
+        if (close == text_.npos) return invalid("CDATA does not end");
+        of.text += text_.substr(at_ + kData.size(), close - at_ - kData.size());
+        advance(close + 3 - at_);
+        continue;
+      }
       SLF_TRY(const bool skipped, skip_aside());
       if (skipped || at_ >= text_.size()) continue;
       SLF_TRY(XmlElement child, element(depth + 1));
@@ -102,7 +109,7 @@ class XmlParser {
   Result<bool, InputError> skip_aside() {
     const bool comment = at("<!--"), instruction = at("<?");
     if (!comment && !instruction) {
-      if (at("<!")) return invalid("document types and CDATA are not read");
+      if (at("<!")) return invalid("document types are not read");
       return false;
     }
     const std::string_view close = comment ? "-->" : "?>";

@@ -28,7 +28,7 @@ struct XmlElement {
 };
 
 /// The root element. Comments and processing instructions are left out; refused are document types,
-/// entities but for the five of XML itself, CDATA, and nesting deeper than 32.
+/// entities but for the five of XML itself, and nesting deeper than 32.
 /// @param file  for messages
 /// @errors kInvalidInput: names the line
 Result<XmlElement, InputError> parse_xml(const std::string& file,

@@ -19,7 +19,7 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
       ->required();
   verb.add_option(
           "--points", o.points,
-          "Cloud (PLY; LAS, LAZ, E57 with PDAL) or mesh (PLY with faces, OBJ, GLB) in place of the "
+          "Cloud (PLY, LAS, E57; LAZ with PDAL) or mesh (PLY with faces, OBJ, GLB) in place of the "
           "capture's own")
       ->type_name("FILE");
   verb.add_option("--images", o.images,

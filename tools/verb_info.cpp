@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "tools/decode_cost_text.h"
 #include "tools/describe.h"
 #include "tools/frame_source.h"
 #include "tools/info_syntax.h"
@@ -94,16 +95,6 @@ Outcome check_limits(const StreamFile& file, const DecodeCost& cost, const InfoO
                         decode_options(file.info, {}, given.limits, given.common));
 }
 
-nlohmann::ordered_json decode_cost_json(const DecodeCost& cost) {
-  return {{"memory", cost.memory}, {"memory_most", cost.memory_most}, {"work", cost.work}};
-}
-
-std::string cost_text(const DecodeCost& cost) {
-  return text("  decoding      takes %s MiB of memory, %s at most; %s steps at most\n",
-              grouped(cost.memory >> 20).c_str(), grouped(cost.memory_most >> 20).c_str(),
-              grouped(cost.work).c_str());
-}
-
 nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
                                  const std::vector<FrameInfo>& frames, const DecodeCost& cost) {
   nlohmann::ordered_json json;
@@ -113,7 +104,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["level"] = info.level;
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
-  json["decode"] = decode_cost_json(cost);
+  json["decode"] = decode_cost_json(cost, page_memory(info, cost, frames.size()));
   if (frames.size() > 1) json["frames"] = frames_json(frames);
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
@@ -231,7 +222,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
               is_partial(info) ? " of the whole" : "");
   if (info.base_levels > 0) out += base_text(info);
   if (info.cut) out += cut_text(*info.cut);
-  out += cost_text(cost);
+  out += decode_cost_text(cost, page_memory(info, cost, frames.size()));
   out += header_text(info.header);
   out += text("  coders        %s geometry", info.geometry_coder.c_str());
   out += info.header.num_functions > 0 ? ", " + info.coefficient_coder + " coefficients" : "";

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "contents.h"
 #include "fields.h"
 
 namespace slf::python {
@@ -37,14 +38,14 @@ void add_decoding(py::module_& m) {
            }),
            py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("layers"),
            py::arg("max_bytes"), py::arg("region"), py::arg("threads"), py::arg("max_memory"))
-      .def("info", &Field::info)
-      .def("shape", &Field::shape)
-      .def("positions", &Field::positions)
-      .def("components", &Field::components)
-      .def("normals", &Field::normals)
-      .def("radii", &Field::radii)
-      .def("mean_colours", &Field::mean_colours)
-      .def("radiance", &Field::radiance, py::arg("points"), py::arg("directions"));
+      .def("info", checked(&Field::info))
+      .def("shape", checked(&Field::shape))
+      .def("positions", checked(&Field::positions))
+      .def("components", checked(&Field::components))
+      .def("normals", checked(&Field::normals))
+      .def("radii", checked(&Field::radii))
+      .def("mean_colours", checked(&Field::mean_colours))
+      .def("radiance", checked(&Field::radiance), py::arg("points"), py::arg("directions"));
 }
 
 }  // namespace slf::python

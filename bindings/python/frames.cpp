@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 
+#include "contents.h"
 #include "fields.h"
 
 namespace slf::python {
@@ -83,9 +84,9 @@ void add_frames(py::module_& m) {
            }),
            py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("region"),
            py::arg("threads"), py::arg("max_memory"))
-      .def("count", &Frames::count)
-      .def("info", &Frames::info, py::arg("place"))
-      .def("decode", &Frames::decode, py::arg("place"));
+      .def("count", checked(&Frames::count))
+      .def("info", checked(&Frames::info), py::arg("place"))
+      .def("decode", checked(&Frames::decode), py::arg("place"));
 }
 
 }  // namespace slf::python

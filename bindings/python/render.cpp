@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "cameras.h"
+#include "contents.h"
 #include "failure.h"
 #include "module.h"
 #include "ranges.h"
@@ -157,10 +158,10 @@ void add_rendering(py::module_& m) {
            }),
            py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("layers"),
            py::arg("max_bytes"), py::arg("region"), py::arg("threads"), py::arg("max_memory"))
-      .def("render", &FieldRenderer::render, py::arg("camera"), py::arg("background"),
+      .def("render", checked(&FieldRenderer::render), py::arg("camera"), py::arg("background"),
            py::arg("view_dependent"))
-      .def("orbit", &FieldRenderer::orbit, py::arg("turn"), py::arg("elevation"), py::arg("width"),
-           py::arg("height"), py::arg("fov"));
+      .def("orbit", checked(&FieldRenderer::orbit), py::arg("turn"), py::arg("elevation"),
+           py::arg("width"), py::arg("height"), py::arg("fov"));
   py::class_<FramePictures>(m, "FramePictures")
       .def(py::init([](const py::object& source, std::uint32_t levels, std::uint32_t groups,
                        const std::optional<std::array<int, 6>>& region, int threads,
@@ -170,7 +171,7 @@ void add_rendering(py::module_& m) {
            }),
            py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("region"),
            py::arg("threads"), py::arg("max_memory"))
-      .def("renderer", &FramePictures::renderer, py::arg("place"));
+      .def("renderer", checked(&FramePictures::renderer), py::arg("place"));
 }
 
 }  // namespace slf::python

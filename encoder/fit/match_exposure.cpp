@@ -155,6 +155,7 @@ Capture small_photographs(const Capture& capture, std::span<const int> cameras) 
   Capture small;
   small.cameras = capture.cameras;
   small.image_files = capture.image_files;
+  small.orientation = capture.orientation;
   small.mask_files = capture.mask_files;
   small.reduction = capture.reduction;
   small.reduction.resize(capture.cameras.size());

@@ -157,11 +157,11 @@ Result<Done, InputError> write_png(const std::filesystem::path& file, const Imag
 /// @errors as read_mesh
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings = nullptr);
-/// PLY (its faces; none: a cloud), OBJ, STL or GLB, by the name's extension; LAS; LAZ and E57 with
+/// PLY (its faces; none: a cloud), OBJ, STL or GLB, by the name's extension; LAS and E57; LAZ with
 /// the program `pdal` of PDAL where it is on PATH (docs/captures.md). Polygons are taken apart
 /// into fans; nodes of a GLB are put where they stand; materials, textures and points that no face
 /// has are left out.
-/// @errors kUnreadable. kUnsupported: a scan (LAZ, E57) without PDAL.
+/// @errors kUnreadable. kUnsupported: LAZ without PDAL.
 ///         kInvalidInput: names the file, the face or vertex and the cause: an index
 ///         that is no vertex, a coordinate that is not finite, a damaged file, no vertices.
 ///         Bounded: OBJ, STL, GLB files of up to 2 GiB, scenes of up to 2^24 triangles.

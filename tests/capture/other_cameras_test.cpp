@@ -38,6 +38,32 @@ TEST(Bundler, CamerasArePutIntoOurAxesWithTheirLensAndPoints) {
   }
 }
 
+// Sizes are those of the photographs, so the importer itself has to look where they are.
+TEST(Bundler, PhotographsAndTheirListMayBeInAFolderThatIsNamed) {
+  const std::string names = "a.png\nc.png 0 30\nsub/b.png 0 30\n";
+  const std::vector<std::array<const char*, 2>> kPlaces = {
+      {"cameras/bundle.out", "photographs/list.txt"},
+      {"cameras/bundle.out", "cameras/list.txt"},
+      {"cameras/model.bundle.out", "cameras/model.list.txt"}};  // as COLMAP writes them
+  for (const auto& [cameras, list] : kPlaces) {
+    const TemporaryDirectory directory;
+    for (const char* folder : {"cameras", "photographs"})
+      fs::create_directories(directory / folder);
+    write_images(directory / "photographs");
+    write_text(directory / cameras, kBundleOut);
+    write_text(directory / list, names);
+    const auto missing = load_capture(directory / cameras);
+    EXPECT_THAT(message_of(missing), HasSubstr("cameras/"));
+    CaptureOptions options;
+    options.images = directory / "photographs";
+    const auto capture = load_capture(directory / cameras, options);
+    ASSERT_TRUE(capture) << capture.error().message;
+    ASSERT_EQ(capture->image_files.size(), 2u);
+    EXPECT_EQ(capture->image_files[1], directory / "photographs/b.png");
+    EXPECT_EQ(capture->cameras[1].width, kWidth);
+  }
+}
+
 std::string bundler_refusal(const std::string& from, const std::string& to) {
   return message_of(load_with(
       [&](const fs::path& p) { write_bundler(p, "bundle.out", replaced(kBundleOut, from, to)); }));

@@ -28,6 +28,39 @@ TEST(Transforms, FrameValuesOverrideThoseOfTheDocument) {
   EXPECT_EQ(capture->cameras[0].name, "images/a.png");
 }
 
+// nerfstudio's k3 and k4: a camera has the k1 and k2 that come nearest.
+TEST(Transforms, HigherRadialTermsAreExpressedByTheFirstTwo) {
+  const auto capture = load_with([](const fs::path& p) {
+    write_transforms(p, replaced(kTransformsJson, "\"file_path\": \"images/b.png\"",
+                                 "\"file_path\": \"images/b.png\", \"fl_x\": 24, \"fl_y\": 24, "
+                                 "\"k1\": 0.1, \"k3\": 4, \"k4\": 1"));
+  });
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_THAT(capture->cameras[0].distortion, ElementsAre(0, 0, 0, 0));
+  const Camera& b = capture->cameras[1];
+  for (const double x : {0.1, 0.2, 0.3}) {
+    const double s = x * x, bent = x * (1 + s * (0.1 + s * s * (4 + s)));
+    EXPECT_NEAR((*b.project({-x, 0, 0}))[0], (*b.project({0, 0, 0}))[0] - 24 * bent / 4, 0.5);
+  }
+  EXPECT_GT(b.distortion[1], 0.5);                       // of k3
+  EXPECT_THAT(capture->warnings, ::testing::IsEmpty());  // less than a tenth of a pixel
+}
+
+// Blender scenes have no sizes: their photographs are looked for where they are said to be.
+TEST(Transforms, SizesAreThoseOfPhotographsInAFolderThatIsNamed) {
+  const TemporaryDirectory directory;
+  write_images(directory / "elsewhere");
+  write_points(directory / "points.ply");
+  write_text(directory / "transforms.json", replaced(kTransformsJson, "\"w\": 16, \"h\": 12,", ""));
+  EXPECT_FALSE(load_capture(directory.path()));
+  CaptureOptions options;
+  options.images = directory / "elsewhere";
+  const auto capture = load_capture(directory.path(), options);
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_EQ(capture->cameras[0].width, kWidth);
+  EXPECT_EQ(capture->image_files[1], directory / "elsewhere/b.png");
+}
+
 // NeRF's Blender scenes: only a field of view, sizes and masks from RGBA images, two files.
 TEST(Transforms, ABlenderSceneTakesSizeAndMaskFromItsImages) {
   const TemporaryDirectory directory;

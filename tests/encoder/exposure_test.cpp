@@ -8,10 +8,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "capture/upright.h"
 #include "encoder/fit/match_exposure.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "slf/evaluate.h"
+#include "tests/capture/capture_support.h"
 #include "tools/synth/exposure_drift.h"
 #include "traced_scene.h"
 
@@ -117,6 +119,23 @@ TEST_F(ExposureTest, WithoutPointsThatAnyoneSeesPhotographsStay) {
   EXPECT_TRUE(report->gains.empty());
   far.cloud = {};
   EXPECT_TRUE(match_exposure(far, input_, MatchExposure::kOn, 0)->gains.empty());
+}
+
+// As phones store them.
+TEST_F(ExposureTest, PhotographsOnTheirSideAreTurnedBeforeTheyAreCompared) {
+  const test::TemporaryDirectory directory;
+  Capture files = drifting_;
+  files.images.clear();
+  files.orientation.assign(files.cameras.size(), 6);
+  for (std::size_t i = 0; i < drifting_.images.size(); ++i) {
+    files.image_files.push_back(directory / (std::to_string(i) + ".png"));
+    ASSERT_TRUE(write_png(files.image_files[i], upright(drifting_.images[i], 8)));
+  }
+  const auto stored = match_exposure(files, input_, MatchExposure::kOn, 0),
+             seen = match_exposure(drifting_, input_, MatchExposure::kOn, 0);
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_FALSE(seen->gains.empty());
+  EXPECT_EQ(stored->gains, seen->gains);
 }
 
 TEST_F(ExposureTest, ARenderingOfAnotherExposureIsJudgedByItsPattern) {

@@ -53,8 +53,13 @@ export function readOptions(query, page = {}) {
     speed: number('speed', 1 / 16, 16, 1),
     lang: text('lang'),
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
-    memory: number('memory', 16, 3500, 2048) * 2 ** 20,
+    memory: number('memory', 16, 3500, memoryOfDevice()) * 2 ** 20,
   };
+}
+
+/** MiB that a decode may take: a quarter of the device's memory, of which browsers tell up to 8 GiB, or nothing. */
+export function memoryOfDevice(gibibytes = globalThis.navigator?.deviceMemory) {
+  return gibibytes > 0 ? Math.min(2048, Math.max(128, 256 * gibibytes)) : 2048;
 }
 
 /** "x,y,z" or three numbers; null where it is neither. */

@@ -7,7 +7,7 @@
 import { markup, style } from '../made/viewer_markup.js';
 import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
-import { backgroundOf, readOptions } from './options.js';
+import { backgroundOf, memoryOfDevice, readOptions } from './options.js';
 import { placeAt } from './pick.js';
 import { Viewer } from './viewer.js';
 import { viewParameters } from './view_link.js';
@@ -211,7 +211,7 @@ export class SlfViewerElement extends HTMLElement {
     this.#elements = new Elements(this.shadowRoot, frame, words);
     const source = this.#opened,
       page = { scroll: 'polite' };
-    const memory = Number(this.getAttribute('memory')) || 2048;
+    const memory = Number(this.getAttribute('memory')) || memoryOfDevice();
     const loader = new FieldLoader({ ...SlfViewerElement.parts, maxMemory: memory * 2 ** 20 });
     if (source) Object.assign(page, { file: source.source, name: source.name });
     this.viewer = new Viewer({ ...page, loader }, {

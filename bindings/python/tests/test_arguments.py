@@ -36,6 +36,17 @@ class ArgumentsTest(unittest.TestCase):
         with self.assertRaises(slf.LimitError):
             _slf.Renderer(self.encoded.data, **{**made.call_args.kwargs, 'max_memory': 1000})
 
+    def test_objects_without_contents_are_type_errors(self):
+        for cls, method, arguments in ((_slf.Field, 'positions', ()), (_slf.Field, 'info', ()),
+                                       (_slf.Field, 'radiance', ([0], [0.0, 0.0, 1.0])),
+                                       (_slf.Frames, 'count', ()), (_slf.FramePictures, 'renderer', (0,)),
+                                       (_slf.Renderer, 'orbit', (0.0, 60.0, 8, 8, 40.0))):
+            with self.subTest(cls.__name__ + '.' + method):
+                with self.assertRaisesRegex(TypeError, 'without its contents'):
+                    getattr(cls.__new__(cls), method)(*arguments)
+                with self.assertRaisesRegex(TypeError, 'self is no ' + cls.__name__):
+                    getattr(cls, method)(7, *arguments)
+
     def test_reading_names_what_is_no_whole_number(self):
         for name in ('levels', 'groups', 'layers', 'max_bytes', 'threads', 'max_memory'):
             for wrong in (-1, 1.5, '1', None, 2**64):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory of a page with a file, against what decoding it takes (`slf info`): MiB of the renderer's process.
+// Memory of a page with a file, against the forecast of `slf info`: MiB of the renderer's process.
 //   node web/test/browser/memory.mjs FILE.slf
 import { readdirSync, readFileSync } from 'node:fs';
 import { basename, dirname, resolve } from 'node:path';
@@ -45,7 +45,7 @@ await page.waitForTimeout(2000);
 await page.evaluate(() => gc());
 await page.waitForTimeout(1000);
 const { bytes, points, layers } = await page.evaluate(() => window.viewer.stage.field ?? {});
-const forecast = info.decode.memory / MIB;
+const forecast = info.decode.page.memory / MIB;
 console.log(`${basename(file)}: ${state}, ${points} points, ${layers} layers; forecast of slf info ${forecast.toFixed(0)} MiB, textures ${(bytes / MIB).toFixed(0)} MiB`);
 console.log(`renderer: empty ${empty}, peak +${peak - empty}, at rest +${renderers() - empty} MiB`);
 await chrome.close();

@@ -145,6 +145,12 @@ test('parse() of every loader has one decoder', { skip }, async () => {
   }
 });
 
+test('a decode may take a quarter of what a device says that it has', async () => {
+  const { memoryOfDevice, readOptions } = await import('../../viewer/options.js');
+  assert.deepEqual([undefined, 0, 0.25, 2, 4, 8, 32].map((each) => memoryOfDevice(each)), [2048, 2048, 128, 512, 1024, 2048, 2048]);
+  assert.equal(readOptions(new URLSearchParams('memory=300'), {}).memory, 300 * 2 ** 20);
+});
+
 test('the view of a page is that of its camera, unless the address names another', async () => {
   const { readOptions } = await import('../../viewer/options.js');
   const page = { azimuth: 30, view: { eye: [0, 0, 0] } }, view = (query) => readOptions(new URLSearchParams(query), page).view;
