@@ -4,6 +4,7 @@
 #include "codec/decoder/base_decoder.h"
 #include "codec/decoder/decode_cost.h"
 #include "codec/decoder/decode_units.h"
+#include "codec/decoder/frame_chain.h"
 #include "codec/decoder/scene_decoder.h"
 #include "slf/decoder.h"
 
@@ -32,8 +33,9 @@ Result<Done> decode_scene(const Units& units, const SceneUnits& scene, const Req
 }  // namespace
 
 Result<LightField> decode(std::span<const std::uint8_t> stream, const DecodeOptions& options) {
-  SLF_TRY(const OpenStream opened, open_stream(stream, options.limits, options.max_bytes));  // 7
-  return decode_units(opened, options);
+  FrameUnits all;  // a chain of one: nothing is kept for a frame that would follow
+  all.bytes = stream.size();
+  return FrameChain().decode(stream, all, options);  // 7
 }
 
 Result<LightField> decode_units(const OpenStream& opened, const DecodeOptions& options,

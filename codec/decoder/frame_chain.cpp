@@ -49,10 +49,11 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
                                             FrameState& kept) {
   const auto bytes =
       stream.subspan(static_cast<std::size_t>(frame.offset), static_cast<std::size_t>(frame.bytes));
-  SLF_TRY(group_, open_stream(bytes, options.limits));
+  SLF_TRY(group_, open_stream(bytes, options.limits, options.max_bytes));
+  if (!frame.moves()) return decode_units(*group_, options);  // none follows
   request_.emplace();
   FrameContext context;
-  if (frame.moves()) context.kept = &kept;
+  context.kept = &kept;
   context.asked = &*request_;
   return decode_units(*group_, options, context);
 }

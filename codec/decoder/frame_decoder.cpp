@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any frame of a stream: those before it that it needs, and it. Spec 8.12.
-#include <optional>
 #include <utility>
 
-#include "codec/decoder/frame_chain.h"
+#include "codec/decoder/frame_walk.h"
 #include "slf/frames.h"
 
 namespace slf {
@@ -13,15 +12,7 @@ struct FrameDecoder::Impl {
   DecodeOptions options;
   std::vector<FrameUnits> frames;
   std::vector<FrameInfo> infos;
-  FrameChain chain;
-  std::optional<std::size_t> at;  // place of the frame that was decoded last
-
-  Result<LightField> decode_next(std::size_t place) {
-    at.reset();
-    auto field = chain.decode(stream, frames[place], options);
-    if (field) at = place;
-    return field;
-  }
+  FrameWalk walk;
 };
 
 namespace {
@@ -55,12 +46,10 @@ Result<FrameDecoder> FrameDecoder::open(std::span<const std::uint8_t> stream,
 
 Result<LightField> FrameDecoder::decode(std::size_t frame) {
   Impl& self = *impl_;
-  if (frame >= self.frames.size()) return Error{Errc::kInvalidArgument, "frame"};
-  std::size_t first = frame;
-  while (self.frames[first].header.predicted()) --first;
-  if (self.at && *self.at >= first && *self.at < frame) first = *self.at + 1;
-  for (; first < frame; ++first) SLF_CHECK(self.decode_next(first));
-  return self.decode_next(frame);
+  return self.walk.decode(self.infos, frame, self.options,
+                          [&self](std::size_t place) -> Result<FrameBytes> {
+                            return FrameBytes{self.stream, &self.frames[place]};
+                          });
 }
 
 const std::vector<FrameInfo>& FrameDecoder::frames() const { return impl_->infos; }

@@ -2,33 +2,23 @@
 // Frames of a stream that is still on its way. Spec 7.13, 8.12.
 #include "slf/frame_reader.h"
 
-#include <optional>
 #include <utility>
 
 #include "codec/decoder/arriving_frames.h"
-#include "codec/decoder/frame_chain.h"
+#include "codec/decoder/frame_walk.h"
 
 namespace slf {
 
 struct FrameReader::Impl {
   DecodeOptions options;
   ArrivingFrames arriving;
-  FrameChain chain;
-  std::optional<std::size_t> at;  // place of the frame that was decoded last
+  FrameWalk walk;
 
-  /// What was decoded last is of no use any more.
-  void forget() {
-    chain = {};
-    at.reset();
-  }
-  Result<LightField> decode_next(std::size_t place) {
+  Result<FrameBytes> find(std::size_t place) const {
     const ArrivedFrame& frame = arriving.frames()[place];
-    at.reset();
     if (frame.lost) return *frame.lost;
     if (frame.bytes.empty()) return Error{Errc::kUnreadable, "frame"};
-    auto field = chain.decode(frame.bytes, frame.units, options, arriving.infos()[place].offset);
-    if (field) at = place;
-    return field;
+    return FrameBytes{frame.bytes, &frame.units, arriving.infos()[place].offset};
   }
 };
 
@@ -51,30 +41,26 @@ Result<Done> FrameReader::finish() { return impl_->arriving.finish(); }
 
 Result<LightField> FrameReader::decode(std::size_t frame) {
   Impl& self = *impl_;
-  if (frame >= frames().size()) return Error{Errc::kInvalidArgument, "frame"};
-  std::size_t first = group_of(frame);
-  if (self.at && *self.at >= first && *self.at < frame) first = *self.at + 1;
-  for (; first < frame; ++first) SLF_CHECK(self.decode_next(first));
-  return self.decode_next(frame);
+  return self.walk.decode(frames(), frame, self.options,
+                          [&self](std::size_t place) { return self.find(place); });
 }
 
 std::size_t FrameReader::group_of(std::size_t frame) const {
-  while (frames()[frame].predicted && !frames()[frame].lost) --frame;
-  return frame;
+  return slf::group_of(frames(), frame);
 }
 
 void FrameReader::drop_before(std::size_t frame) {
   if (frame >= frames().size()) return;
   const std::size_t first = group_of(frame);
   for (std::size_t place = 0; place < first; ++place) impl_->arriving.drop(place);
-  if (impl_->at && *impl_->at < first) impl_->forget();
+  impl_->walk.forget_before(first);
 }
 
 Result<Done> FrameReader::seek(std::size_t frame) {
   const bool known = frame < frames().size();
   if (!known || frames()[frame].predicted || frames()[frame].lost)
     return Error{Errc::kInvalidArgument, "frame"};
-  impl_->forget();
+  impl_->walk = {};
   impl_->arriving.begin_at(frame);
   return Done{};
 }
