@@ -158,7 +158,7 @@ Result<Done, InputError> read_structure(const JsonView& document, PointCloud& cl
 Result<Import, InputError> import_openmvg(const fs::path& file) {
   SLF_TRY(const auto text, read_file(file, kMaxJsonBytes));
   SLF_TRY(const auto value, parse_json(file.string(), text));
-  const JsonView document(value, file.string());
+  const JsonView document(value, file.string() + " (openMVG)");
   SLF_TRY(const Keyed views, keyed(document, "views"));
   SLF_TRY(const Keyed lenses, keyed(document, "intrinsics"));
   SLF_TRY(const Keyed poses, keyed(document, "extrinsics"));

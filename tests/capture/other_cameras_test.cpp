@@ -165,7 +165,8 @@ TEST(OpenMvg, WhatIsNotReadIsNamedWithItsPlace) {
   EXPECT_THAT(openmvg_refusal("\"focal_length\": 30,", ""), HasSubstr("no pinholes"));
   EXPECT_THAT(openmvg_refusal("\"key\": 7", "\"key\": 3"), HasSubstr("twice"));
   EXPECT_THAT(openmvg_refusal("\"id_pose\": 7", "\"id_pose\": -1"), HasSubstr("an id of"));
-  EXPECT_THAT(openmvg_refusal("\"extrinsics\"", "\"poses\""), HasSubstr("extrinsics"));
+  EXPECT_THAT(openmvg_refusal("\"extrinsics\"", "\"poses\""),
+              AllOf(HasSubstr("(openMVG)"), HasSubstr("extrinsics")));
 }
 
 // A lens of Metashape has k3: what k1 and k2 miss of it is below what is seen, or refused.
