@@ -2,6 +2,7 @@
 #include "encoder/matched_frame.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "geometry/morton.h"
 
@@ -10,6 +11,8 @@ namespace {
 
 /// Grey levels that are as far apart as the side of a cell.
 constexpr double kGreyPerCell = 24;
+constexpr int kReach = 2;            // cells around a place that are looked at
+constexpr double kAnywhere = 1e300;  // squared distance
 
 }  // namespace
 
@@ -36,19 +39,41 @@ CoarseFrame coarsen(const FramePoints& points, int dropped) {
   return out;
 }
 
-/// Those within two cells of a place.
 template <class Step>
-void MatchedFrame::for_cells(const Place& at, const Step& step) {
-  constexpr int kReach = 2;
-  const Voxel cell = {static_cast<std::int32_t>(std::floor(at[0] / side_)),
-                      static_cast<std::int32_t>(std::floor(at[1] / side_)),
-                      static_cast<std::int32_t>(std::floor(at[2] / side_))};
-  for (int z = -kReach; z <= kReach; ++z)
-    for (int y = -kReach; y <= kReach; ++y)
-      for (int x = -kReach; x <= kReach; ++x)
-        if (const std::uint32_t i = walk_.find({cell[0] + x, cell[1] + y, cell[2] + z});
-            i != ReferenceLevel::kNone)
-          step(i);
+void MatchedFrame::for_cells(const Place& at, int reach, double square, const Step& step) {
+  Voxel cell;
+  for (std::size_t i = 0; i < 3; ++i)
+    cell[i] = static_cast<std::int32_t>(std::floor(at[static_cast<int>(i)] / side_));
+  const auto apart = [&](std::size_t axis, int by) {  // squared, of the place and a slab of cells
+    if (by == 0) return 0.0;
+    const double in = at[static_cast<int>(axis)] - side_ * (cell[axis] + (by > 0 ? by : by + 1));
+    return in * in;
+  };
+  for (int z = -reach; z <= reach; ++z)
+    for (int y = -reach; y <= reach; ++y) {
+      const double of_row = apart(2, z) + apart(1, y);
+      if (of_row > square) continue;
+      for (int x = -reach; x <= reach; ++x)
+        if (of_row + apart(0, x) <= square)
+          if (const std::uint32_t i = walk_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+              i != ReferenceLevel::kNone)
+            step(i);
+    }
+}
+
+/// Of the points within kReach cells; ReferenceLevel::kNone where there is none.
+std::uint32_t MatchedFrame::nearest(const Place& at) {
+  double most = kAnywhere;
+  for_cells(at, 1, kAnywhere, [&](std::uint32_t i) {
+    most = std::min(most, (frame_.centres[i] - at).squaredNorm());
+  });
+  double best = kAnywhere;
+  std::uint32_t nearest = ReferenceLevel::kNone;
+  for_cells(at, kReach, most, [&](std::uint32_t i) {  // the first of those that are as near
+    const double d = (frame_.centres[i] - at).squaredNorm();
+    if (d < best) best = d, nearest = i;
+  });
+  return nearest;
 }
 
 /// A plane through what is around, and a slope of brightness in it.
@@ -58,7 +83,7 @@ const MatchedFrame::Surface& MatchedFrame::surface(std::uint32_t at) {
   known_[at] = true;
   Place mean = Place::Zero();
   double count = 0, bright = 0;
-  for_cells(frame_.centres[at], [&](std::uint32_t i) {
+  for_cells(frame_.centres[at], kReach, kAnywhere, [&](std::uint32_t i) {
     mean += frame_.centres[i];
     bright += brightness(frame_.colours[i]);
     ++count;
@@ -68,7 +93,7 @@ const MatchedFrame::Surface& MatchedFrame::surface(std::uint32_t at) {
   bright /= count;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   Place slope = Place::Zero();
-  for_cells(frame_.centres[at], [&](std::uint32_t i) {
+  for_cells(frame_.centres[at], kReach, kAnywhere, [&](std::uint32_t i) {
     const Place d = frame_.centres[i] - mean;
     spread += d * d.transpose();
     slope += d * (brightness(frame_.colours[i]) - bright);
@@ -84,12 +109,7 @@ const MatchedFrame::Surface& MatchedFrame::surface(std::uint32_t at) {
 /// Along the normal to the surface, along it to where colours agree.
 Match MatchedFrame::match(const Place& place, const Place& colour, const Place& guess) {
   const Place q = place + guess;
-  double best = 1e300;
-  std::uint32_t nearest = ReferenceLevel::kNone;
-  for_cells(q, [&](std::uint32_t i) {
-    const double d = (frame_.centres[i] - q).squaredNorm();
-    if (d < best) best = d, nearest = i;
-  });
+  const std::uint32_t nearest = this->nearest(q);
   Match match{place, Eigen::Matrix3d::Zero(), Place::Zero()};
   if (nearest == ReferenceLevel::kNone) return match;
   const Place to = frame_.centres[nearest] - place;

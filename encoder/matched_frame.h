@@ -52,8 +52,11 @@ class MatchedFrame {
     Place gradient = Place::Zero();  ///< of the brightness, grey levels a voxel, along the surface
   };
   const Surface& surface(std::uint32_t at);
+  /// Cells within so many of a place, no farther than the root of `square` from it, as far as
+  /// their sides tell: step(cell).
   template <class Step>
-  void for_cells(const Place& at, const Step& step);
+  void for_cells(const Place& at, int reach, double square, const Step& step);
+  std::uint32_t nearest(const Place& at);
   static double brightness(const Place& colour) { return colour.sum() / 3; }
 
   CoarseFrame frame_;

@@ -195,7 +195,7 @@ def seeking(place):
     return ['Files of 32 frames in two groups of 16 (`tests/bench/bench_seek`, one thread): what a reader needs from nothing to a frame of the first group, mean '
             'and worst over its frames, and how many frames are not shown where the largest unit of a frame is missing. Frames of the second group are never '
             'among them.', '',
-            *table(['sequence', 'bytes, mean', 'worst', 'ms, mean', 'worst', 'frames lost, mean', 'worst'], rows)]
+            *table(['sequence', 'mean, bytes', 'worst, bytes', 'mean, ms', 'worst, ms', 'frames lost, mean', 'worst'], rows)]
 
 
 def packed(file):
