@@ -11,7 +11,8 @@ namespace {
 
 /// Bytes of a node: its code, and its brick, which takes one of four places of a table. A brick has
 /// ten nodes usually, one at the worst.
-constexpr double kUsualNode = 8 + 4 * 32 / 10, kMostNode = 8 + 4 * 32;
+constexpr int kBrick = 4 * 32, kUsualBrick = kBrick / 10;
+constexpr double kUsualNode = 8 + kUsualBrick, kMostNode = 8 + kBrick;
 constexpr double kUsualNodes = 1.5;   // of a point, at all levels
 constexpr double kTerms = 4 + 8 * 8;  // ReferenceTerms, of a node of one level
 constexpr double kLatticePoint = 12;
