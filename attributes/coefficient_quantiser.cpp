@@ -65,7 +65,7 @@ class LevelQuantiser {
                   .subspan(level_->nodes.size() - 1,
                            level_->child_rows.size() - 1 - level_->nodes.size());
     if (input_.predict) means_.resize(level_->num_slots * planes_);
-    const std::vector<std::uint8_t> modes =
+    std::vector<std::uint8_t> modes =
         input_.predict && (level_->nodes.size() > 1 || input_.reference != nullptr)
             ? choose_modes()
             : std::vector<std::uint8_t>(input_.groups.size(), 0);
@@ -166,9 +166,9 @@ class LevelQuantiser {
       std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(level_->rows[nodes[i]] * planes_),
                   planes_, parents.begin() + static_cast<std::ptrdiff_t>(i * planes_));
     std::array<std::vector<ModeTrial>, kModesWithReference> tried;
-    for (std::uint8_t mode = 0; mode < num_modes(); ++mode) {
+    for (std::size_t mode = 0; mode < num_modes(); ++mode) {
       tried[mode].resize(planes_);
-      const std::vector<std::uint8_t> same(planes_, mode);
+      const std::vector<std::uint8_t> same(planes_, static_cast<std::uint8_t>(mode));
       parallel_ranges(planes_, kPredictionLanes, threads_, [&](std::size_t begin, std::size_t end) {
         code(begin, end, same, tried[mode].data());
         for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "bitstream/syntax.h"
+#include "bitstream/checked_syntax.h"
+#include "bitstream/unchecked_headers.h"
 
 namespace slf {
 namespace {
@@ -29,6 +30,14 @@ void index_boxes(V& v, Boxes& boxes, std::uint32_t base_levels) {
     for (std::size_t i = 0; i < 6; ++i)
       v.u(bits, "index_box", box[i],
           Range{i < 3 ? 0 : std::int64_t{box[i - 3]}, (std::int64_t{1} << bits) - 1});
+}
+
+/// Of an index that is there.
+template <class V>
+void whole_index(V& v, const Index& index, const SequenceParameterSet& set) {
+  v.ue("index_num_units", index.entries.size(), Range{0, 0xFFFFFFFE});
+  for (const IndexEntry& entry : index.entries) index_entry(v, entry, set);
+  index_boxes(v, index.boxes, set.sps_base_levels);
 }
 
 Result<Done> check_entry(const IndexEntry& entry, const Unit& unit, const SequenceParameterSet& set,
@@ -78,13 +87,13 @@ Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set) {
   return in_unit(unit, parse_index(unit.payload, set));
 }
 
-std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set) {
-  BitWriter out;
-  WriteSyntax write{out};
-  write.ue("index_num_units", index.entries.size(), Range{0, 0xFFFFFFFE});
-  for (const IndexEntry& entry : index.entries) index_entry(write, entry, set);
-  index_boxes(write, index.boxes, set.sps_base_levels);
-  return out.take();
+Result<std::vector<std::uint8_t>, InputError> write_index(const Index& index,
+                                                          const SequenceParameterSet& set) {
+  return checked_header([&](auto& v) { whole_index(v, index, set); });
+}
+
+std::vector<std::uint8_t> index_as_is(const Index& index, const SequenceParameterSet& set) {
+  return header_as_is([&](auto& v) { whole_index(v, index, set); });
 }
 
 Result<std::optional<Index>> find_index(const Units& units, const SequenceParameterSet& set) {

@@ -35,7 +35,9 @@ Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceP
                           SyntaxLog* log = nullptr);
 /// Of a unit of the stream, which its errors name.
 Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set);
-std::vector<std::uint8_t> write_index(const Index& index, const SequenceParameterSet& set);
+/// The payload. @errors kInvalidArgument: an element that a reader would refuse
+Result<std::vector<std::uint8_t>, InputError> write_index(const Index& index,
+                                                          const SequenceParameterSet& set);
 
 /// The first index unit there is, parsed.
 Result<std::optional<Index>> find_index(const Units& units, const SequenceParameterSet& set);

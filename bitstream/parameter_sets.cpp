@@ -3,6 +3,9 @@
 
 #include <array>
 
+#include "bitstream/checked_syntax.h"
+#include "bitstream/unchecked_headers.h"
+
 namespace slf {
 namespace {
 
@@ -17,6 +20,15 @@ constexpr std::array<const char*, 32> kFeatures = {
     "sps_feature[30]", "sps_feature[31]"};
 
 constexpr std::uint64_t kMostExtensionBytes = 1 << 16;
+
+/// The element that does not go with the plane table; nullptr: none. Every group has a function.
+const char* broken_rule(const SequenceParameterSet& set) {
+  std::uint32_t used = 0;  // groups, by bit
+  for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;
+  if (used + 1 != 1u << set.num_groups()) return "sps_num_groups_minus1";
+  if (set.sps_cut_groups > set.num_groups()) return "sps_cut_groups";
+  return nullptr;
+}
 
 }  // namespace
 
@@ -41,18 +53,28 @@ Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::u
   sequence_parameter_set(parse, set);
   later_elements(parse, set);
   if (!in.ok()) return in.error();
-  std::uint32_t used = 0;  // groups, by bit: each has a function
-  for (const PlaneRun& run : set.runs) used |= 1u << run.sps_plane_group;
-  if (used + 1 != 1u << set.num_groups()) return Error{Errc::kOutOfRange, "sps_num_groups_minus1"};
-  if (set.sps_cut_groups > set.num_groups()) return Error{Errc::kOutOfRange, "sps_cut_groups"};
+  if (const char* element = broken_rule(set)) return Error{Errc::kOutOfRange, element};
   return set;
 }
 
-std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set) {
-  BitWriter out;
-  WriteSyntax write{out};
-  sequence_parameter_set(write, set);
-  std::vector<std::uint8_t> payload = out.take();
+Result<Done, InputError> check_sequence_parameter_set(const SequenceParameterSet& set) {
+  CheckSyntax check;
+  sequence_parameter_set(check, set);
+  if (const char* element = check.ok() ? broken_rule(set) : nullptr)
+    check.require(false, Errc::kOutOfRange, element);
+  check.require((set.features & ~kKnownFeatures) == 0, Errc::kUnsupported, "sps_feature");
+  if (!check.ok()) return refusal(check);
+  return Done{};
+}
+
+Result<std::vector<std::uint8_t>, InputError> write_sequence_parameter_set(
+    const SequenceParameterSet& set) {
+  SLF_CHECK(check_sequence_parameter_set(set));
+  return sequence_as_is(set);
+}
+
+std::vector<std::uint8_t> sequence_as_is(const SequenceParameterSet& set) {
+  auto payload = header_as_is([&](auto& v) { sequence_parameter_set(v, set); });
   for (int shift = 24; set.features != 0 && shift >= 0; shift -= 8)
     payload.push_back(static_cast<std::uint8_t>(set.features >> shift));
   return payload;

@@ -181,5 +181,9 @@ void later_elements(ParseSyntax& parse, SequenceParameterSet& set);
 
 /// The version is that of this decoder: it stands before the payload (Unit).
 Result<SequenceParameterSet> parse_sequence_parameter_set(std::span<const std::uint8_t> payload);
-std::vector<std::uint8_t> write_sequence_parameter_set(const SequenceParameterSet& set);
+/// @errors kInvalidArgument: an element that a reader would refuse
+Result<Done, InputError> check_sequence_parameter_set(const SequenceParameterSet& set);
+/// The payload. @errors those of check_sequence_parameter_set
+Result<std::vector<std::uint8_t>, InputError> write_sequence_parameter_set(
+    const SequenceParameterSet& set);
 }  // namespace slf

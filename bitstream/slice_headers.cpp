@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/slice_headers.h"
 
+#include "bitstream/checked_syntax.h"
+#include "bitstream/unchecked_headers.h"
+
 namespace slf {
+namespace {
+
+bool cells_fit(const SliceTable& table, std::uint32_t base_levels) {
+  return base_levels == 0 || table.num_cells() <= kMaxCells;
+}
+
+}  // namespace
 
 Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
                                      const SequenceParameterSet& set) {
@@ -11,17 +21,22 @@ Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
   slice_table(parse, table, set.sps_base_levels);
   in.trailing_bits("slices_trailing_bits");
   if (!in.ok()) return in.error();
-  if (set.sps_base_levels > 0 && table.num_cells() > kMaxCells)
+  if (!cells_fit(table, set.sps_base_levels))
     return Error{Errc::kOutOfRange, "slice_num_cells_minus1"};
   return table;
 }
 
-std::vector<std::uint8_t> write_slice_table(const SliceTable& table,
+Result<std::vector<std::uint8_t>, InputError> write_slice_table(const SliceTable& table,
+                                                                const SequenceParameterSet& set) {
+  return checked_header([&](auto& v) {
+    slice_table(v, table, set.sps_base_levels);
+    v.require(cells_fit(table, set.sps_base_levels), Errc::kOutOfRange, "slice_num_cells_minus1");
+  });
+}
+
+std::vector<std::uint8_t> slice_table_as_is(const SliceTable& table,
                                             const SequenceParameterSet& set) {
-  BitWriter out;
-  WriteSyntax write{out};
-  slice_table(write, table, set.sps_base_levels);
-  return out.take();
+  return header_as_is([&](auto& v) { slice_table(v, table, set.sps_base_levels); });
 }
 
 }  // namespace slf

@@ -125,7 +125,7 @@ void unit_ids(V& v, Header& h, UnitType type, const SequenceParameterSet& set,
 template <class V, class Header>
 void slice_unit_header(V& v, Header& h, UnitType type, const SequenceParameterSet& set) {
   unit_ids(v, h, type, set);
-  if (type != UnitType::kCoefficients) return;
+  if (type != UnitType::kCoefficients || !v.ok()) return;
   if (set.sps_prediction_flag) {
     v.resize("cu_prediction", h.cu_prediction,
              set.coefficient_end(h.range) - set.coefficient_begin(h.range));
@@ -139,7 +139,8 @@ void slice_unit_header(V& v, Header& h, UnitType type, const SequenceParameterSe
 /// @errors of parsing; kOutOfRange also where cells are too many.
 Result<SliceTable> parse_slice_table(std::span<const std::uint8_t> payload,
                                      const SequenceParameterSet& set);
-std::vector<std::uint8_t> write_slice_table(const SliceTable& table,
-                                            const SequenceParameterSet& set);
+/// The payload. @errors kInvalidArgument: an element that a reader would refuse
+Result<std::vector<std::uint8_t>, InputError> write_slice_table(const SliceTable& table,
+                                                                const SequenceParameterSet& set);
 
 }  // namespace slf

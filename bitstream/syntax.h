@@ -106,7 +106,7 @@ struct ParseSyntax {
   std::uint64_t last_begin_ = 0;
 };
 
-/// Writes. Values are within range: CheckSyntax.
+/// Writes what it is given. See checked_header().
 struct WriteSyntax {
   BitWriter& out;
 
@@ -134,6 +134,7 @@ struct WriteSyntax {
 };
 
 /// Checks what is about to be written: a reader would refuse what this does. See ParseSyntax.
+/// A list has as many elements as are coded.
 struct CheckSyntax {
   const char* element = nullptr;  ///< the first that is wrong; nullptr: none
   std::int64_t found = 0;
@@ -159,7 +160,9 @@ struct CheckSyntax {
     require(std::isfinite(value) && (!positive || value > 0), Errc::kOutOfRange, name);
   }
   template <class T>
-  void resize(const char*, const std::vector<T>&, std::uint64_t) {}
+  void resize(const char* name, const std::vector<T>& list, std::uint64_t count) {
+    require(list.size() == count, Errc::kOutOfRange, name);
+  }
   void require(bool condition, Errc, const char* name) {
     if (ok() && !condition) element = name;
   }

@@ -21,7 +21,7 @@ std::optional<std::string> picture_named(const fs::path& root, const std::string
 
 std::string find_photograph(const fs::path& root, std::string given) {
   std::replace(given.begin(), given.end(), '\\', '/');
-  const std::string name = given.substr(given.find_last_of('/') + 1);
+  std::string name = given.substr(given.find_last_of('/') + 1);
   const bool relative = !given.starts_with('/') && given.find("..") == std::string::npos &&
                         given.find(':') == std::string::npos;
   for (const std::string& path : {relative ? given : name, name})

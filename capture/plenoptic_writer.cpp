@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plenoptic cloud as a binary little endian PLY, with the properties that it came with.
 #include <bit>
-#include <charconv>
 #include <cmath>
 
+#include "base/shortest.h"
 #include "capture/plenoptic_columns.h"
 #include "slf/plenoptic.h"
 
 namespace slf {
 
 namespace {
-
-std::string number_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 void put_bytes(std::vector<std::uint8_t>& out, std::uint64_t bits, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out.push_back(static_cast<std::uint8_t>(bits >> 8 * i));
@@ -37,7 +32,7 @@ std::string header_of(const PlenopticCloud& cloud) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (std::size_t v = 0; v < cloud.view_positions.size(); ++v) {
     header += "comment view " + std::to_string(v);
-    for (const double x : cloud.view_positions[v]) header.append(" ").append(number_text(x));
+    for (const double x : cloud.view_positions[v]) header.append(" ").append(shortest(x));
     header.append("\n");
   }
   header += "element vertex " + std::to_string(cloud.num_points()) + "\n";

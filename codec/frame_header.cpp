@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bitstream/checked_syntax.h"
 #include "entropy/binarisation.h"
 #include "entropy/range_decoder.h"
 #include "entropy/range_encoder.h"
@@ -122,19 +123,18 @@ Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const Reference
   return decoder.finish("frame_vectors");
 }
 
-std::vector<std::uint8_t> frame_payload(FrameHeader header, std::span<const std::uint8_t> vectors) {
+Result<std::vector<std::uint8_t>, InputError> frame_payload(FrameHeader header,
+                                                            std::span<const std::uint8_t> vectors) {
   if (header.frame_lattice_flag != 0)
     for (auto& size : header.motion.lattice_size) --size;
-  BitWriter out;
-  WriteSyntax write{out};
-  frame_unit(write, header);
-  std::vector<std::uint8_t> payload = out.take();
+  SLF_TRY(auto payload, checked_header([&](auto& v) { frame_unit(v, std::as_const(header)); }));
   payload.insert(payload.end(), vectors.begin(), vectors.end());
   return payload;
 }
 
-std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const ReferenceCells* reference,
-                                             int bits) {
+Result<std::vector<std::uint8_t>, InputError> write_frame_header(FrameHeader& header,
+                                                                 const ReferenceCells* reference,
+                                                                 int bits) {
   Motion& motion = header.motion;
   header.frame_motion_flag = motion.is_zero() ? 0 : 1;
   header.frame_lattice_flag = motion.lattice_log2 > 0 ? 1 : 0;

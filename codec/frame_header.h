@@ -43,6 +43,7 @@ void frame_motion(V& v, Header& h) {
   std::int64_t points = 1;
   for (auto& size : h.motion.lattice_size) {
     v.ue("frame_lattice_size_minus1", size, Range{0, kMostLattice / points - 1});
+    if (!v.ok()) return;
     points *= std::int64_t{size} + 1;
   }
 }
@@ -70,10 +71,14 @@ Result<Done> read_lattice(std::span<const std::uint8_t> vectors, const Reference
                           int bits, Motion& motion);
 
 /// The payload: the elements and the vectors as they were coded.
-std::vector<std::uint8_t> frame_payload(FrameHeader header, std::span<const std::uint8_t> vectors);
+/// @errors kInvalidArgument: an element that a reader would refuse
+Result<std::vector<std::uint8_t>, InputError> frame_payload(FrameHeader header,
+                                                            std::span<const std::uint8_t> vectors);
 
 /// The payload. Vectors that are not coded become zero in `header`.
-std::vector<std::uint8_t> write_frame_header(FrameHeader& header, const ReferenceCells* reference,
-                                             int bits);
+/// @errors those of frame_payload
+Result<std::vector<std::uint8_t>, InputError> write_frame_header(FrameHeader& header,
+                                                                 const ReferenceCells* reference,
+                                                                 int bits);
 
 }  // namespace slf

@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "bitstream/bit_writer.h"
+#include "bitstream/checked_syntax.h"
+#include "bitstream/unchecked_headers.h"
 #include "codec/scene_units.h"
 #include "conformance/fields.h"
 
@@ -56,12 +58,11 @@ void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
                 std::optional<std::uint32_t> bytes) {
   PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, before);
   part.header.cu_matrix_bytes = bytes.value_or(static_cast<std::uint32_t>(matrix.size()));
-  BitWriter out;
-  WriteSyntax write{out};
-  slice_unit_header(write, part.header, unit.type, after);
-  out.append(matrix);
-  out.append(part.payload);
-  unit.payload = out.take();
+  Bytes payload =
+      header_as_is([&](auto& v) { slice_unit_header(v, part.header, unit.type, after); });
+  payload.insert(payload.end(), matrix.begin(), matrix.end());
+  payload.insert(payload.end(), part.payload.begin(), part.payload.end());
+  unit.payload = std::move(payload);
 }
 
 void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
@@ -69,11 +70,9 @@ void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
   PartUnit part = *read_part_unit({unit.type, unit.payload, 0, 0}, set);
   if (part.header.cu_prediction.size() != modes.size()) return;
   part.header.cu_prediction.assign(modes.begin(), modes.end());
-  BitWriter out;
-  WriteSyntax write{out};
-  slice_unit_header(write, part.header, unit.type, set);
-  out.append(part.payload);
-  unit.payload = out.take();
+  Bytes payload = header_as_is([&](auto& v) { slice_unit_header(v, part.header, unit.type, set); });
+  payload.insert(payload.end(), part.payload.begin(), part.payload.end());
+  unit.payload = std::move(payload);
 }
 
 Bytes packed_bare(const LightField& field, CodingParameters parameters) {
@@ -91,7 +90,7 @@ void edit_sequence(std::vector<EditableUnit>& units,
                    const std::function<void(SequenceParameterSet&)>& edit) {
   SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
   edit(set);
-  units[0].payload = write_sequence_parameter_set(set);
+  units[0].payload = sequence_as_is(set);
 }
 
 EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type) {

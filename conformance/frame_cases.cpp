@@ -193,7 +193,7 @@ void add_transform(std::vector<Case>& cases) {
       set_matrix(unit, before, set, columns.empty() ? Bytes{} : write_columns(transform, columns));
     }
     units.insert(units.begin() + 2,
-                 {UnitType::kTransform, write_transform(transform, set.num_groups())});
+                 {UnitType::kTransform, *write_transform(transform, set.num_groups())});
   });
   Case c = case_of_stream("frames-transform", "matrices of the first frame are those of its group",
                           {"7.11", "7.13"}, joined({first, writer.frames()[1]}));

@@ -5,6 +5,7 @@
 
 #include "attributes/coefficient_decoder.h"
 #include "bitstream/parameter_sets.h"
+#include "bitstream/unchecked_headers.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
 #include "conformance/fields.h"
@@ -96,7 +97,7 @@ void edit_set(std::vector<EditableUnit>& units,
               const std::function<void(SequenceParameterSet&)>& edit) {
   auto set = *parse_sequence_parameter_set(units[0].payload);
   edit(set);
-  units[0].payload = write_sequence_parameter_set(set);
+  units[0].payload = sequence_as_is(set);
 }
 
 /// A coefficient of 2^27 - 2048, 256 without three of its layers: what that stands for is more.

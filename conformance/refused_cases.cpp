@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bitstream/parameter_sets.h"
+#include "bitstream/unchecked_headers.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
@@ -17,7 +18,7 @@ Bytes with_sequence(const std::function<void(SequenceParameterSet&)>& edit) {
   return edited([&](std::vector<EditableUnit>& units) {
     auto set = *parse_sequence_parameter_set(units[0].payload);
     edit(set);
-    units[0].payload = write_sequence_parameter_set(set);
+    units[0].payload = sequence_as_is(set);
   });
 }
 

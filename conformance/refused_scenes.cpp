@@ -4,7 +4,9 @@
 #include <functional>
 #include <optional>
 
+#include "bitstream/checked_syntax.h"
 #include "bitstream/index.h"
+#include "bitstream/unchecked_headers.h"
 #include "codec/encoder/coded_unit.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
@@ -25,7 +27,8 @@ void edit_ids(std::vector<EditableUnit>& units, UnitType type, std::size_t nth,
     PartUnit part = *read_part_unit({type, unit.payload, 0, 0}, set);
     const Bytes body(part.payload.begin(), part.payload.end());
     edit(part.header);
-    unit.payload = part_unit(type, part.header, body, set).payload;
+    unit.payload = header_as_is([&](auto& v) { slice_unit_header(v, part.header, type, set); });
+    unit.payload.insert(unit.payload.end(), body.begin(), body.end());
     return;
   }
 }
@@ -56,7 +59,7 @@ void add_slice_table(std::vector<RefusedCase>& cases) {
       auto& payload = first_of(units, UnitType::kSlices).payload;
       SliceTable table = *parse_slice_table(payload, set);
       edit(table);
-      payload = write_slice_table(table, set);
+      payload = slice_table_as_is(table, set);
     });
   };
   add_table("cells-more", "a slice of more cells than points",
@@ -166,7 +169,7 @@ void recode_classes(std::vector<EditableUnit>& units, std::optional<std::uint8_t
   SliceUnitHeader header;
   header.range = 1;
   last.payload =
-      part_unit(UnitType::kGeometry, header, octree.encode(options.levels, classes), set).payload;
+      part_unit(UnitType::kGeometry, header, octree.encode(options.levels, classes), set)->payload;
 }
 
 void add_weight_classes(std::vector<RefusedCase>& cases) {
@@ -200,7 +203,7 @@ Bytes with_index(const std::function<void(Index&)>& edit, std::size_t most = 1 <
   Index index = *parse_index(units.units[1].payload, set);
   edit(index);
   Bytes s(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[1].offset));
-  Bytes payload = write_index(index, set);
+  Bytes payload = index_as_is(index, set);
   payload.resize(std::min(payload.size(), most));
   append_unit(s, UnitType::kIndex, payload);
   s.insert(s.end(), whole.begin() + static_cast<std::ptrdiff_t>(units.units[2].offset),

@@ -6,6 +6,7 @@
 #include "bitstream/bit_writer.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/transform_header.h"
+#include "bitstream/unchecked_headers.h"
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
@@ -71,7 +72,7 @@ void add_transforms(std::vector<RefusedCase>& cases) {
     auto set = *parse_sequence_parameter_set(units[0].payload);
     set.sps_profile = kTextureProfile;
     set.sps_coefficient_coder = kTextureCoder;
-    units[0].payload = write_sequence_parameter_set(set);
+    units[0].payload = sequence_as_is(set);
   });
 }
 

@@ -131,7 +131,7 @@ Bytes with_transforms(
   add_columns(units, before, set, made);
   for (std::size_t i = made.size(); i-- > 0;)
     units.insert(units.begin() + 1,
-                 {UnitType::kTransform, write_transform(made[i], set.num_groups())});
+                 {UnitType::kTransform, *write_transform(made[i], set.num_groups())});
   return stream_of(units);
 }
 

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/encode_metadata.h"
 
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "base/shortest.h"
 #include "encoder/setting_rows.h"
 #include "lightfield/render/reference_kernel.h"
 
 namespace slf {
 namespace {
 
-/// The shortest form that reads back as the same number, whatever the locale.
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
+std::string text(double value) { return shortest(value); }  // in any locale
 
 std::string hundredths(double value) { return text(std::round(value * 100) / 100); }
 

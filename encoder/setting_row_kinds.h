@@ -8,14 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/shortest.h"
 #include "encoder/setting_rows.h"
 
 namespace slf::row_kinds {
-
-inline std::string shown(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
-}
 
 /// A number that was checked: of any other text the result is 0.
 template <class T>
@@ -37,7 +33,7 @@ SettingRow number(const char* name, Member member, double low, double high, cons
   using T = std::remove_reference_t<decltype(member(settings))>;
   constexpr auto kind = std::is_floating_point_v<T> ? SettingInfo::kNumber : SettingInfo::kWhole;
   const auto value = [member](const EncoderSettings& s) {
-    return shown(static_cast<double>(member(s)));
+    return shortest(static_cast<double>(member(s)));
   };
   return {{name, kind, low, high, {}, value(settings), help, "", {}},
           [member](EncoderSettings& s, const std::string& text) { member(s) = number_of<T>(text); },

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/shortest.h"
 #include "encoder/fit_setting_rows.h"
 #include "encoder/setting_row_kinds.h"
 #include "encoder/setting_rows.h"
@@ -17,8 +18,6 @@ namespace {
 using Outcome = Result<Done, InputError>;
 
 InputError wrong(const std::string& what) { return {Errc::kInvalidArgument, what}; }
-
-using row_kinds::shown;
 
 /// All of the text as one number.
 template <class T>
@@ -45,7 +44,7 @@ std::string wrong_number(std::string_view text, double low, double high) {
   const std::string given(text);
   if (error == std::errc::invalid_argument) return given + " is not a number";
   if (error != std::errc() || !(value >= low && value <= high))
-    return given + " is not in the range " + shown(low) + " to " + shown(high);
+    return given + " is not in the range " + shortest(low) + " to " + shortest(high);
   return "";
 }
 

@@ -6,6 +6,7 @@
 #include "attributes/texture/padding.h"
 #include "attributes/texture/texture_header.h"
 #include "attributes/video/hevc_encoder.h"
+#include "bitstream/checked_syntax.h"
 
 namespace slf {
 namespace {
@@ -48,11 +49,8 @@ Result<std::vector<std::uint8_t>, InputError> encode_texture(
                         "components: least, plus step times the largest sample, reaches 2^30"};
     if (planes[j].tx_picture_flag) pictures.push_back(j);
   }
-  BitWriter out;
-  WriteSyntax write{out};
-  texture_header(write, planes);
-  out.align();
-  if (pictures.empty()) return out.take();
+  SLF_TRY(auto payload, checked_header([&](auto& v) { texture_header(v, std::as_const(planes)); }));
+  if (pictures.empty()) return payload;
 
   std::vector<std::uint8_t> occupied(static_cast<std::size_t>(atlas.width) *
                                      static_cast<std::size_t>(atlas.height));
@@ -63,8 +61,8 @@ Result<std::vector<std::uint8_t>, InputError> encode_texture(
     return picture_of(values, planes[j].tx_offset, steps[j], settings.bits, atlas, occupied);
   };
   SLF_TRY(const auto stream, encode_hevc(pictures.size(), picture, hevc_settings(settings)));
-  out.append(stream);
-  return out.take();
+  payload.insert(payload.end(), stream.begin(), stream.end());
+  return payload;
 }
 
 }  // namespace slf

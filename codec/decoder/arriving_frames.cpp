@@ -98,7 +98,8 @@ Result<bool> ArrivingFrames::take_first() {
   ArrivedFrame frame;
   frame.units.bytes = rest().size();
   frame.bytes.assign(rest().begin(), rest().end());
-  SLF_CHECK(add(info_of(frame.units, offset()), std::move(frame)));
+  const FrameInfo info = info_of(frame.units, offset());
+  SLF_CHECK(add(info, std::move(frame)));
   return false;
 }
 
@@ -116,7 +117,8 @@ Result<bool> ArrivingFrames::take_frame() {
   const auto bytes = rest().first(static_cast<std::size_t>(frame->bytes));
   own.bytes.assign(bytes.begin(), bytes.end());
   SLF_TRY(own.units, read_frame(own.bytes, 0));
-  SLF_CHECK(add(info_of(own.units, offset()), std::move(own)));
+  const FrameInfo info = info_of(own.units, offset());
+  SLF_CHECK(add(info, std::move(own)));
   return true;
 }
 

@@ -141,7 +141,7 @@ Result<Done> decode_values_unit(const PartUnit& unit, const Request& request,
 Result<Done> reconstruct(const Request& request, const ComponentRows& rows, CodedCoefficients coded,
                          std::span<std::int32_t> components, int threads, bool keep) {
   auto done = transform_back(request, rows, coded, components, threads, keep);
-  return coded.last == nullptr ? done : in_unit(*coded.last, std::move(done));
+  return coded.last == nullptr ? done : in_unit(*coded.last, done);
 }
 
 void to_means(const ComponentRows& rows, std::size_t planes, std::span<std::int32_t> components) {

@@ -52,18 +52,24 @@ std::vector<std::uint8_t> end_payload(std::size_t units_before) {
   return end.take();
 }
 
-void append_sequence(std::vector<std::uint8_t>& stream, const SequenceParameterSet& set) {
-  append_unit(stream, UnitType::kSequence, write_sequence_parameter_set(set), set.version_minor());
+Result<Done, InputError> append_sequence(std::vector<std::uint8_t>& stream,
+                                         const SequenceParameterSet& set) {
+  SLF_TRY(const auto payload, write_sequence_parameter_set(set));
+  append_unit(stream, UnitType::kSequence, payload, set.version_minor());
+  return Done{};
 }
 
-std::vector<std::uint8_t> assemble(SequenceParameterSet set, std::span<const CodedUnit> units,
-                                   const std::optional<std::vector<CellBox>>& boxes) {
+Result<std::vector<std::uint8_t>, InputError> assemble(
+    SequenceParameterSet set, std::span<const CodedUnit> units,
+    const std::optional<std::vector<CellBox>>& boxes) {
   const auto end = end_payload(units.size() + (boxes ? 2 : 1));
   std::vector<std::uint8_t> index;
-  if (boxes) index = write_index(index_of(units, end, *boxes), set);
+  if (boxes) {
+    SLF_TRY(index, write_index(index_of(units, end, *boxes), set));
+  }
   set.sps_level = level_of(set, units, most_bytes(units, index.size()));
   std::vector<std::uint8_t> stream(kSignature.begin(), kSignature.end());
-  append_sequence(stream, set);
+  SLF_CHECK(append_sequence(stream, set));
   if (boxes) append_unit(stream, UnitType::kIndex, index);
   for (const CodedUnit& unit : units) append_unit(stream, unit.type, unit.payload);
   append_unit(stream, UnitType::kEnd, end);

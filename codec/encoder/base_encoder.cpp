@@ -9,7 +9,8 @@
 
 namespace slf {
 
-EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& layout) {
+Result<EncodedBase, InputError> encode_base_geometry(const SliceCoding& coding,
+                                                     const SceneLayout& layout) {
   EncodedBase base{OccupancyStates(layout.table.num_points()), {}, {}, {}, {}, {}};
   if (layout.base_levels == 0) return base;
   OctreeEncoder octree(layout.cells, layout.base_levels, base.geometry);
@@ -20,16 +21,19 @@ EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& l
     const auto body = end < layout.base_levels || coding.set.sps_num_functions == 0
                           ? octree.encode(end)
                           : octree.encode(end, layout.classes);
-    base.units.push_back(
-        part_unit(slot.type, ids_of(slot, SliceUnitHeader::kBase), body, coding.set));
+    SLF_TRY(CodedUnit unit,
+            part_unit(slot.type, ids_of(slot, SliceUnitHeader::kBase), body, coding.set));
+    base.units.push_back(std::move(unit));
   }
   base.geometry = octree.states();
   return base;
 }
 
-void encode_base_components(const SliceCoding& coding, const SceneLayout& layout,
-                            std::vector<std::int32_t> input, int threads, EncodedBase& base) {
-  if (layout.base_levels == 0 || coding.planes() == 0) return;
+Result<Done, InputError> encode_base_components(const SliceCoding& coding,
+                                                const SceneLayout& layout,
+                                                std::vector<std::int32_t> input, int threads,
+                                                EncodedBase& base) {
+  if (layout.base_levels == 0 || coding.planes() == 0) return Done{};
   const SequenceParameterSet& set = coding.set;
   const int dropped = coding.grid_bits() - layout.base_levels;
   std::vector<std::uint64_t> codes = layout.cells;
@@ -48,9 +52,12 @@ void encode_base_components(const SliceCoding& coding, const SceneLayout& layout
   ComponentEncoder encoder(coding, tree, 0, base.quantised, base.coefficients, models);
   const UnitLayout units = layout_of(set);
   for (const UnitSlot& slot : slots_of(units, Owner::kBase))
-    if (has_values(slot.type))
-      base.units.push_back(encoder.encode(ids_of(slot, SliceUnitHeader::kBase)));
+    if (has_values(slot.type)) {
+      SLF_TRY(CodedUnit unit, encoder.encode(ids_of(slot, SliceUnitHeader::kBase)));
+      base.units.push_back(std::move(unit));
+    }
   base.states = models.all_states();
+  return Done{};
 }
 
 }  // namespace slf

@@ -23,10 +23,13 @@ struct EncodedBase {
   std::vector<CoefficientStates> states;   ///< [layers][groups]
 };
 
-EncodedBase encode_base_geometry(const SliceCoding& coding, const SceneLayout& layout);
+Result<EncodedBase, InputError> encode_base_geometry(const SliceCoding& coding,
+                                                     const SceneLayout& layout);
 
 /// @param input  [cells][planes] of put_into_base
-void encode_base_components(const SliceCoding& coding, const SceneLayout& layout,
-                            std::vector<std::int32_t> input, int threads, EncodedBase& base);
+Result<Done, InputError> encode_base_components(const SliceCoding& coding,
+                                                const SceneLayout& layout,
+                                                std::vector<std::int32_t> input, int threads,
+                                                EncodedBase& base);
 
 }  // namespace slf

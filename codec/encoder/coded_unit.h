@@ -42,11 +42,13 @@ struct SliceCoding {
 };
 
 /// A unit of the base or of a slice: header and body.
-CodedUnit part_unit(UnitType type, SliceUnitHeader header, std::span<const std::uint8_t> body,
-                    const SequenceParameterSet& set);
+Result<CodedUnit, InputError> part_unit(UnitType type, SliceUnitHeader header,
+                                        std::span<const std::uint8_t> body,
+                                        const SequenceParameterSet& set);
 
 /// A unit of coefficients, the first of a group with its columns.
-CodedUnit coefficient_unit(SliceUnitHeader header, std::vector<std::uint8_t> codeword,
-                           const SliceCoding& coding);
+Result<CodedUnit, InputError> coefficient_unit(SliceUnitHeader header,
+                                               std::vector<std::uint8_t> codeword,
+                                               const SliceCoding& coding);
 
 }  // namespace slf

@@ -22,7 +22,7 @@ std::vector<std::int32_t> without_bits(const SliceCoding& coding, std::uint32_t 
 
 }  // namespace
 
-CodedUnit ComponentEncoder::encode(SliceUnitHeader ids) {
+Result<CodedUnit, InputError> ComponentEncoder::encode(SliceUnitHeader ids) {
   const SequenceParameterSet& set = coding_.set;
   const int bits = coding_.grid_bits();
   const CoefficientRows rows{tree_, values_of(ids.layer), coding_.planes()};

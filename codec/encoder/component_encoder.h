@@ -28,7 +28,7 @@ class ComponentEncoder {
         models_(models) {}
 
   /// The unit with these ids. A model goes on from the unit before: they come in their order.
-  CodedUnit encode(SliceUnitHeader ids);
+  Result<CodedUnit, InputError> encode(SliceUnitHeader ids);
 
   /// cu_prediction of the levels of a range.
   std::vector<std::uint32_t> modes_of(const SliceUnitHeader& ids) const;

@@ -9,6 +9,7 @@
 
 #include "attributes/raht_forward.h"
 #include "base/signed_index.h"
+#include "bitstream/checked_syntax.h"
 #include "bitstream/transform_header.h"
 #include "codec/encoder/forward_columns.h"
 #include "codec/transform_units.h"
@@ -269,8 +270,8 @@ std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
   return transforms;
 }
 
-std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
-                                          std::uint32_t num_groups) {
+Result<std::vector<std::uint8_t>, InputError> write_transform(const ForwardTransform& transform,
+                                                              std::uint32_t num_groups) {
   const PlaneTransform& t = transform.inverse;
   TransformHeader header;
   header.tr_first_group = static_cast<std::uint32_t>(t.first_group);
@@ -279,10 +280,7 @@ std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
   header.tr_rank_minus1 = static_cast<std::uint32_t>(t.rank - 1);
   header.tr_colour_flag = t.colour != PlaneTransform::kNoColour;
   header.tr_colour = t.colour;
-  BitWriter out;
-  WriteSyntax write{out};
-  transform_header(write, header, num_groups);
-  return out.take();
+  return checked_header([&](auto& v) { transform_header(v, std::as_const(header), num_groups); });
 }
 
 std::vector<std::uint8_t> write_columns(const ForwardTransform& transform, ColumnRange columns) {

@@ -40,7 +40,7 @@ std::vector<ForwardTransform> derive_transforms(const TransformInput& input,
 std::vector<std::uint8_t> write_columns(const ForwardTransform& transform, ColumnRange columns);
 
 /// Payload of the unit of a transform. Spec 7.11.
-std::vector<std::uint8_t> write_transform(const ForwardTransform& transform,
-                                          std::uint32_t num_groups);
+Result<std::vector<std::uint8_t>, InputError> write_transform(const ForwardTransform& transform,
+                                                              std::uint32_t num_groups);
 
 }  // namespace slf

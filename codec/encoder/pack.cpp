@@ -22,11 +22,13 @@ namespace slf {
 namespace {
 
 /// The frame unit of an intra frame with these units: it says how many bytes they have.
-CodedUnit frame_unit_before(std::span<const CodedUnit> units, FrameHeader& frame) {
+Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
+                                                FrameHeader& frame) {
   std::uint64_t bytes = unit_bytes(UnitType::kEnd, end_payload(units.size() + 2).size());
   for (const CodedUnit& unit : units) bytes += unit_bytes(unit.type, unit.payload.size());
   frame.frame_bytes = static_cast<std::uint32_t>(bytes);
-  return {UnitType::kFrame, write_frame_header(frame, nullptr, 0), {}};
+  SLF_TRY(auto payload, write_frame_header(frame, nullptr, 0));
+  return CodedUnit{UnitType::kFrame, std::move(payload), {}};
 }
 
 /// What a texture is coded with beside the steps, which have to fit its samples.
@@ -71,15 +73,19 @@ Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& fiel
     *group = {group->level,  group->features, set,
               coding.groups, coding.steps,    std::move(chosen.transforms),
               chosen.coded};
-  units.push_back({UnitType::kSlices, write_slice_table(layout.table, set), {}});  // 7.3
-  SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));     // 8.4 - 8.10
+  SLF_TRY(auto table, write_slice_table(layout.table, set));  // 7.3
+  units.push_back({UnitType::kSlices, std::move(table), {}});
+  SLF_TRY(auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
   std::move(parts.begin(), parts.end(), std::back_inserter(units));
   if (!parameters.metadata.empty())
     units.push_back({UnitType::kMetadata, write_metadata(parameters.metadata), {}});  // 7.8
   std::optional<std::vector<CellBox>> boxes;
   if (parameters.index) boxes = boxes_of(layout);
-  if (frame != nullptr) units.insert(units.begin(), frame_unit_before(units, *frame));  // 7.13
-  return assemble(set, units, boxes);                                                   // 7.1, 7.7
+  if (frame != nullptr) {
+    SLF_TRY(CodedUnit unit, frame_unit_before(units, *frame));  // 7.13
+    units.insert(units.begin(), std::move(unit));
+  }
+  return assemble(set, units, boxes);  // 7.1, 7.7
 }
 
 }  // namespace

@@ -51,18 +51,6 @@ Result<Done, InputError> check_shapes(const LightField& field, const CodingParam
   return Done{};
 }
 
-/// The ranges of clause 7.2, as a reader has them.
-Result<Done, InputError> check_sequence(const SequenceParameterSet& set) {
-  CheckSyntax check;
-  sequence_parameter_set(check, set);
-  if (check.ok()) return Done{};
-  std::string cause = std::string(check.element) + ": does not go with the rest of the header";
-  if (check.range.min <= check.range.max)
-    cause = std::string(check.element) + ": " + std::to_string(check.found) + ", not " +
-            std::to_string(check.range.min) + " to " + std::to_string(check.range.max);
-  return InputError{Errc::kInvalidArgument, cause};
-}
-
 /// Points are on the grid, normals have the bits that the header says.
 Result<Done, InputError> check_points(const LightField& field) {
   const int bits = field.header.grid.bits, normal_bits = field.normals.bits;
@@ -217,7 +205,7 @@ Result<SequenceParameterSet, InputError> sequence_of_checked(const LightField& f
   set.sps_coefficient_range_end = coded_ends(p.coefficient_level_ends);
   set.sps_num_coefficient_ranges_minus1 =
       static_cast<std::uint32_t>(set.sps_coefficient_range_end.size());
-  SLF_CHECK(check_sequence(set));
+  SLF_CHECK(check_sequence_parameter_set(set));
   SLF_CHECK(check_points(field));
   return set;
 }

@@ -19,9 +19,14 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
   SLF_TRY(SortedField sorted, sort_points(field));                              // 6.2
   SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));  // 7.3
   // The vectors that are not coded are known after this; the length of the frame is not yet.
+<<<<<<< HEAD
   write_frame_header(frame, &before.cells, bits);  // 7.13
   LevelTerms terms;
   const FrameReference reference{before, {before.cells, frame.motion, bits}, terms};
+=======
+  SLF_CHECK(write_frame_header(frame, &before.cells, bits));  // 7.13
+  const FrameReference reference{before, {before.cells, frame.motion, bits}};
+>>>>>>> house
   SliceCoding coding{
       set, group.groups, group.steps, parameters.digest, parameters.texture, parameters.rdo};
   coding.reference = &reference;
@@ -30,13 +35,15 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
         find_components(group.transforms, group.coded, static_cast<std::size_t>(field.num_planes()),
                         sorted.components, parameters.threads);  // 8.7.5
   std::vector<std::uint8_t> rest;
-  append_unit(rest, UnitType::kSlices, write_slice_table(layout.table, set));
+  SLF_TRY(const auto table, write_slice_table(layout.table, set));
+  append_unit(rest, UnitType::kSlices, table);
   SLF_TRY(const auto parts, code_scene(sorted, layout, coding, parameters.threads));  // 8.4 - 8.10
   for (const CodedUnit& unit : parts) append_unit(rest, unit.type, unit.payload);
   append_unit(rest, UnitType::kEnd, end_payload(parts.size() + 2));
   frame.frame_bytes = static_cast<std::uint32_t>(rest.size());
   std::vector<std::uint8_t> bytes;
-  append_unit(bytes, UnitType::kFrame, write_frame_header(frame, &before.cells, bits));
+  SLF_TRY(const auto header, write_frame_header(frame, &before.cells, bits));
+  append_unit(bytes, UnitType::kFrame, header);
   bytes.insert(bytes.end(), rest.begin(), rest.end());
   return bytes;
 }

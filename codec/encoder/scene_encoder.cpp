@@ -28,7 +28,7 @@ class SceneEncoder {
   }
 
   Result<CodedUnits, InputError> encode() {
-    EncodedBase base = encode_base_geometry(coding_, layout_);  // 8.4
+    SLF_TRY(EncodedBase base, encode_base_geometry(coding_, layout_));  // 8.4
     const EncodedBase* start = layout_.table.apart() ? nullptr : &base;
     std::vector<std::int32_t> base_input(
         layout_.base_levels > 0 ? layout_.cells.size() * coding_.planes() : 0);
@@ -39,7 +39,8 @@ class SceneEncoder {
       SLF_TRY(trees[s], transform_slice(slice, base_input, slice_threads()));  // 8.6, 8.8
       return Done{};
     }));
-    encode_base_components(coding_, layout_, std::move(base_input), threads_, base);  // 8.6 - 8.8
+    SLF_CHECK(encode_base_components(coding_, layout_, std::move(base_input), threads_,
+                                     base));  // 8.6 - 8.8
     SLF_CHECK(for_each_slice([&](const SliceToEncode& slice, std::size_t s) -> Step {
       const CloseAtEnd<CoefficientStates> close{lead_.coefficients, s == 0};
       SLF_TRY(CodedUnits values, encode_slice_values(slice, std::move(trees[s]), start,

@@ -83,8 +83,9 @@ Quantised quantise(const SliceToEncode& slice, const SliceTree& tree, const Enco
   return quantise_coefficients(rows, slice.input.components, threads);
 }
 
-CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree,
-                               const EncodedBase* base, const Quantised& quantised) {
+Result<CodedUnits, InputError> encode_coefficients(const SliceToEncode& slice,
+                                                   const SliceTree& tree, const EncodedBase* base,
+                                                   const Quantised& quantised) {
   const SequenceParameterSet& set = slice.coding.set;
   CoefficientModels models(slice.coding.groups, tree.tree, slice.input.morton, tree.first,
                            set.has_vectors(), {}, set.num_layers());
@@ -108,7 +109,8 @@ CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree
       models.start_from(slot.group, known(slice.lead->coefficients.wait(place)), slot.layer);
     if (const FrameReference* reference = slice.coding.reference)
       models.start_from(slot.group, *reference->state.coefficients[place], slot.layer);
-    units.push_back(encoder.encode(ids_of(slot, slice.slice_id())));
+    SLF_TRY(CodedUnit unit, encoder.encode(ids_of(slot, slice.slice_id())));
+    units.push_back(std::move(unit));
     if (slice.leads())
       slice.lead->coefficients.publish(place, models.states(slot.group, slot.layer));
   }
@@ -116,12 +118,14 @@ CodedUnits encode_coefficients(const SliceToEncode& slice, const SliceTree& tree
 }
 
 /// @param components  as a decoder gets them
-void add_digest(const SliceToEncode& slice, std::span<const std::int32_t> components,
-                CodedUnits& units) {
-  if (!slice.coding.digest) return;
+Result<Done, InputError> add_digest(const SliceToEncode& slice,
+                                    std::span<const std::int32_t> components, CodedUnits& units) {
+  if (!slice.coding.digest) return Done{};
   const auto digest = slice_digest(slice.input.positions, components, slice.input.normals);
-  units.push_back(part_unit(UnitType::kDigest, ids_of(slice.slots.back(), slice.slice_id()), digest,
-                            slice.coding.set));
+  SLF_TRY(CodedUnit unit, part_unit(UnitType::kDigest, ids_of(slice.slots.back(), slice.slice_id()),
+                                    digest, slice.coding.set));
+  units.push_back(std::move(unit));
+  return Done{};
 }
 
 }  // namespace
@@ -147,7 +151,8 @@ Result<CodedUnits, InputError> encode_slice_geometry(const SliceToEncode& slice,
     } else {
       body = encode_octree_unit(slice, place, octree);
     }
-    units.push_back(part_unit(slot.type, ids_of(slot, slice.slice_id()), body, set));
+    SLF_TRY(CodedUnit unit, part_unit(slot.type, ids_of(slot, slice.slice_id()), body, set));
+    units.push_back(std::move(unit));
   }
   return units;
 }
@@ -183,12 +188,12 @@ Result<CodedUnits, InputError> encode_slice_values(const SliceToEncode& slice, S
     SLF_TRY(units, encode_slice_texture(slice, threads));
   }
   if (slice.coding.planes() == 0 || slice.coding.set.has_texture()) {
-    add_digest(slice, slice.input.components, units);
+    SLF_CHECK(add_digest(slice, slice.input.components, units));
     return units;
   }
   const Quantised quantised = quantise(slice, tree, base, threads);
-  units = encode_coefficients(slice, tree, base, quantised);
-  add_digest(slice, quantised.values, units);
+  SLF_TRY(units, encode_coefficients(slice, tree, base, quantised));
+  SLF_CHECK(add_digest(slice, quantised.values, units));
   return units;
 }
 

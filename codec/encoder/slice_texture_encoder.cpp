@@ -55,7 +55,9 @@ Result<CodedUnits, InputError> encode_slice_texture(const SliceToEncode& slice, 
   for (const UnitSlot& slot : slice.slots) {
     if (!has_values(slot.type)) continue;
     SLF_TRY(Payload payload, std::move(*coded[slot.group]));
-    units.push_back(coefficient_unit(ids_of(slot, slice.slice_id()), std::move(payload), coding));
+    SLF_TRY(CodedUnit unit,
+            coefficient_unit(ids_of(slot, slice.slice_id()), std::move(payload), coding));
+    units.push_back(std::move(unit));
   }
   return units;
 }

@@ -41,8 +41,10 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
   set_base(layout, set);
   set.sps_transform_flag = 1;
   set.sps_num_transforms_minus1 = static_cast<std::uint32_t>(transforms.size() - 1);
-  for (const ForwardTransform& transform : transforms)
-    units.push_back({UnitType::kTransform, write_transform(transform, set.num_groups()), {}});
+  for (const ForwardTransform& transform : transforms) {
+    SLF_TRY(auto payload, write_transform(transform, set.num_groups()));
+    units.push_back({UnitType::kTransform, std::move(payload), {}});
+  }
   coding.matrices.resize(coding.groups.size());
   for (const ForwardTransform& transform : transforms)
     for (std::size_t g = 0; g < coding.groups.size(); ++g)

@@ -30,14 +30,15 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
                                                   std::span<const CodedUnit> units,
                                                   const std::optional<std::vector<CellBox>>& boxes,
                                                   std::uint64_t max_bytes) {
-  auto whole = assemble(set, units, boxes);
+  SLF_TRY(auto whole, of_what_was_read(assemble(set, units, boxes)));
   if (max_bytes == 0 || whole.size() <= max_bytes) return whole;
   std::size_t fits = 0, too_many = units.size();
   while (fits + 1 < too_many) {
     const std::size_t middle = fits + (too_many - fits) / 2;
-    (assemble(set, units.first(middle), boxes).size() <= max_bytes ? fits : too_many) = middle;
+    SLF_TRY(const auto some, of_what_was_read(assemble(set, units.first(middle), boxes)));
+    (some.size() <= max_bytes ? fits : too_many) = middle;
   }
-  auto some = assemble(set, units.first(fits), boxes);
+  SLF_TRY(auto some, of_what_was_read(assemble(set, units.first(fits), boxes)));
   if (some.size() > max_bytes) return Error{Errc::kInvalidArgument, "max_bytes"};
   return some;
 }

@@ -37,7 +37,7 @@ class FrameCutter {
     if (request.whole) return copy_of(frame);
     Bytes bytes(kSignature.begin(), kSignature.end());
     const auto all = all_slices(request);
-    append_sequence(bytes, cut_sequence(request, all, all));
+    SLF_CHECK(of_what_was_read(append_sequence(bytes, cut_sequence(request, all, all))));
     SLF_CHECK(append_frame(frame, group_->units, request, bytes));
     return bytes;
   }
@@ -77,7 +77,8 @@ class FrameCutter {
     if (own.complete) append_unit(rest, UnitType::kEnd, end_payload(before + kept.size()));
     FrameHeader header = frame.header;
     header.frame_bytes = static_cast<std::uint32_t>(rest.size());
-    append_unit(bytes, UnitType::kFrame, frame_payload(std::move(header), frame.vectors));
+    SLF_TRY(const auto payload, of_what_was_read(frame_payload(std::move(header), frame.vectors)));
+    append_unit(bytes, UnitType::kFrame, payload);
     bytes.insert(bytes.end(), rest.begin(), rest.end());
     return Done{};
   }

@@ -107,7 +107,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
   SLF_TRY(const auto scene, open_scene(plan, work));
   SLF_TRY(const DepthMaps depth,
           DepthMaps::in(work.directory, capture, scene->cells, plan, scene->settings));
-  const SceneParts none = parts_of(*scene);
+  SLF_TRY(const SceneParts none, parts_of(*scene));
   SceneParts parts = none;
   SLF_TRY(const SceneBase no_base, code_base(none, work.threads));  // of files that we read again
   const auto slices = slices_of(plan, part);
@@ -126,7 +126,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
     const std::string report = line_of(slice);
     SceneParts one = none;
     add_slice(one, std::move(slice));
-    const auto bytes = join(one, no_base, true);
+    SLF_TRY(const auto bytes, join(one, no_base, true));
     SLF_CHECK(write_file(file, bytes.data(), bytes.size()));
     parts.slices[s] = std::move(one.slices[s]);
     if (work.log) {
@@ -160,7 +160,7 @@ Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, b
     return InputError{Errc::kInvalidInput, std::move(cause)};
   }
   SLF_TRY(const SceneBase base, code_base(parts, threads));
-  merged.stream = join(parts, base, false);
+  SLF_TRY(merged.stream, join(parts, base, false));
   return merged;
 }
 

@@ -31,7 +31,7 @@ SequenceParameterSet cut_slices(SequenceParameterSet set) {
 }
 
 /// A stream with the head and the geometry of the base alone, to be read as a decoder reads it.
-std::vector<std::uint8_t> beginning(const SceneParts& parts) {
+Result<std::vector<std::uint8_t>, InputError> beginning(const SceneParts& parts) {
   std::vector<CodedUnit> units = parts.head;
   units.insert(units.end(), parts.base.begin(), parts.base.end());
   return assemble(cut_slices(parts.set), units, std::nullopt);
@@ -88,7 +88,7 @@ CodedUnit part_of(const SceneParts& parts) {
 }  // namespace
 
 Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
-  const std::vector<std::uint8_t> head = beginning(parts);
+  SLF_TRY(const auto head, beginning(parts));
   const auto read = split_units(head);
   if (!read) return damaged(read.error());
   const auto scene = collect_units(*read, cut_slices(parts.set));
@@ -103,13 +103,14 @@ Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads) {
                            no_texture, parts.rdo,       parts.matrices};
   SceneBase base{known_layout(parts, *std::move(known)), coding.planes(), {}};
   EncodedBase coded{OccupancyStates(1), parts.base, {}, {}, {}, {}};
-  encode_base_components(coding, base.layout, base_input(parts, base.layout, base.planes), threads,
-                         coded);
+  SLF_CHECK(encode_base_components(coding, base.layout, base_input(parts, base.layout, base.planes),
+                                   threads, coded));
   base.units = std::move(coded.units);
   return base;
 }
 
-std::vector<std::uint8_t> join(const SceneParts& parts, const SceneBase& base, bool as_part) {
+Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, const SceneBase& base,
+                                                   bool as_part) {
   const bool partial = as_part || !parts.missing().empty();
   std::vector<CodedUnit> body = base.units;
   add_slices(parts, !partial, body);

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plan as JSON. The way back: plan_reader.cpp.
 #include <array>
-#include <charconv>
 
+#include "base/shortest.h"
 #include "encoder/parts/planned_scene.h"
 #include "encoder/setting_rows.h"
 
 namespace slf {
 namespace {
 
-/// The shortest form that reads back as the same number.
-std::string text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
+std::string text(double value) { return shortest(value); }
 
 std::string text(const std::string& value) {
   std::string quoted = "\"";

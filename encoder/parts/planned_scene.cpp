@@ -88,7 +88,8 @@ Result<Done, InputError> set_up_coding(PlannedScene& scene) {
     SLF_TRY(scene.coded, use_transforms(field, layout, parameters, scene.transforms, scene.set,
                                         *scene.coding, scene.head));
   }
-  scene.head.push_back({UnitType::kSlices, write_slice_table(layout.table, scene.set), {}});
+  SLF_TRY(auto table, write_slice_table(layout.table, scene.set));
+  scene.head.push_back({UnitType::kSlices, std::move(table), {}});
   return Done{};
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/error_words.h"
 #include "codec/decoder/request.h"
+#include "codec/encoder/assemble.h"
 #include "codec/encoder/base_encoder.h"
 #include "codec/sequence.h"
 #include "codec/split_frames.h"
@@ -83,7 +84,8 @@ class PartReader {
       if (!sums.digest.empty()) {
         SliceUnitHeader header;
         header.slice_id = static_cast<std::uint32_t>(sums.slice);
-        piece.digest = part_unit(UnitType::kDigest, header, sums.digest, parts_.set);
+        SLF_TRY(piece.digest,
+                of_what_was_read(part_unit(UnitType::kDigest, header, sums.digest, parts_.set)));
       }
       piece.sums = std::move(sums.sums);
       piece.from = part_.name;
@@ -124,14 +126,15 @@ std::vector<std::size_t> SceneParts::missing() const {
   return none;
 }
 
-SceneParts parts_of(const PlannedScene& scene) {
+Result<SceneParts, InputError> parts_of(const PlannedScene& scene) {
   SceneParts parts;
   parts.plan = digest_of(scene.plan);
   parts.rdo = scene.coding->rdo;
   parts.set = scene.set;
   parts.table = scene.cells.layout.table;
   parts.head = scene.head;
-  parts.base = encode_base_geometry(*scene.coding, scene.cells.layout).units;
+  SLF_TRY(EncodedBase base, encode_base_geometry(*scene.coding, scene.cells.layout));
+  parts.base = std::move(base.units);
   parts.matrices = scene.coding->matrices;
   parts.metadata = scene.plan.metadata;
   parts.slices.resize(parts.table.slices.size());

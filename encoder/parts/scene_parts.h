@@ -41,7 +41,7 @@ struct SceneParts {
 };
 
 /// Without slices.
-SceneParts parts_of(const PlannedScene& scene);
+Result<SceneParts, InputError> parts_of(const PlannedScene& scene);
 
 /// Moves a slice to its place.
 void add_slice(SceneParts& parts, CodedSlice slice);
@@ -60,7 +60,9 @@ Result<SceneBase, InputError> code_base(const SceneParts& parts, int threads);
 /// A stream of the slices that are there. As a part it can be read again and is partial; as a whole
 /// it is a light field, partial where slices are missing.
 /// @param base  of these slices; of a stream that is only read again any of the same plan
-std::vector<std::uint8_t> join(const SceneParts& parts, const SceneBase& base, bool as_part);
+/// @errors those of assemble
+Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, const SceneBase& base,
+                                                   bool as_part);
 
 /// @errors kInvalidInput: not a part, or a damaged one; names it
 Result<SceneParts, InputError> read_part(const PartStream& part);

@@ -35,7 +35,7 @@ Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t>
     kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
   }
   kept.push_back({kApplicationUnit, with_identifier(kCorrections, payload), {}});
-  return assemble(set, kept, boxes);
+  return of_what_was_read(assemble(set, kept, boxes));
 }
 
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {

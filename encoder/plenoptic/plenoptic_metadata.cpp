@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/shortest.h"
 #include "capture/plenoptic_columns.h"
 
 namespace slf {
@@ -21,11 +22,6 @@ std::string_view value_of(const Metadata& metadata, std::string_view key) {
   for (const auto& [name, value] : metadata)
     if (name == key) return value;
   return {};
-}
-
-std::string number_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 /// Values are lines of words.
@@ -88,7 +84,7 @@ Metadata write_record(const PlenopticRecord& record) {
   for (const PlenopticProperty& p : record.properties)
     properties.append(p.type).append(" ").append(p.name).append("\n");
   for (const Vec3& view : record.view_positions) {
-    for (const double x : view) views.append(number_text(x)).append(" ");
+    for (const double x : view) views.append(shortest(x)).append(" ");
     views.back() = '\n';
   }
   for (const int view : record.hold_out) hold_out.append(std::to_string(view)).append(" ");

@@ -24,6 +24,8 @@ class GaussianRenderer {
   /// @param settings  `radius` has no meaning here
   /// O(splats).
   explicit GaussianRenderer(const Gaussians& gaussians, const RenderSettings& settings = {});
+  explicit GaussianRenderer(Gaussians&&,
+                            const RenderSettings& = {}) = delete;  // they would be gone
 
   /// Coverage is what the splats leave of the background, taken from 1; depth that of the centre
   /// with which half of the pixel is covered, +inf where less is. Colours are display values,

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bitstream/index.h"
+#include "bitstream/unchecked_headers.h"
 #include "bitstream/units.h"
 #include "codec/encoder/assemble.h"
 #include "codec/stream/stream_parts.h"
@@ -83,7 +84,7 @@ Bytes indexed_with_unit(int type) {
     units.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, ids});
   }
   units.push_back({static_cast<UnitType>(type), kPayload, {}});
-  return assemble(set, units, (*find_index(split, set))->boxes);
+  return *assemble(set, units, (*find_index(split, set))->boxes);
 }
 
 TEST(Spec_7_1_1_UnitTypes, AreRefusedWhereTheIndexAloneShowsThem) {
@@ -129,10 +130,10 @@ TEST(Spec_7_2_1_Features, ThoseThatAreKnownAreReadWrittenAndGivenTheirVersion) {
       *parse_sequence_parameter_set(read_unit(base_stream(false), kSignature.size())->payload);
   EXPECT_EQ(set.features, 0u);
   EXPECT_EQ(set.version_minor(), 0);
-  const std::size_t before = write_sequence_parameter_set(set).size();
+  const std::size_t before = sequence_as_is(set).size();
   set.features = kReferenceContexts;
   EXPECT_EQ(set.version_minor(), 1);
-  const Bytes payload = write_sequence_parameter_set(set);
+  const Bytes payload = sequence_as_is(set);
   EXPECT_EQ(payload.size(), before + 4);
   const auto again = parse_sequence_parameter_set(payload);
   ASSERT_TRUE(again);

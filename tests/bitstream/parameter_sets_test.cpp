@@ -8,9 +8,13 @@
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "bitstream/parameter_sets.h"
+#include "bitstream/unchecked_headers.h"
+#include "tests/bitstream/header_sets.h"
 
 namespace slf::parameter_sets_test {
 namespace {
+
+using namespace header_sets;
 
 struct SetCase {
   const char* name;
@@ -18,64 +22,13 @@ struct SetCase {
 };
 void PrintTo(const SetCase& c, std::ostream* out) { *out << c.name; }
 
-SequenceParameterSet full_set() {
-  SequenceParameterSet s;
-  s.sps_grid_bits_minus1 = 20;
-  s.sps_unit_grid_flag = 0;
-  s.sps_origin = {-1, 2.5, 1e300};
-  s.sps_step = 1e-9;
-  s.sps_up_axis = 3;
-  s.sps_left_handed_flag = s.sps_metres_flag = 1;
-  s.sps_metres_per_unit = 0.001;
-  s.sps_normal_bits = 12;
-  s.sps_num_geometry_ranges_minus1 = 2;
-  s.sps_geometry_range_end = {5, 20};
-  s.sps_num_functions = 128;
-  s.sps_basis_flag = 1;
-  s.sps_order_minus1 = 3;
-  s.sps_scales_theta = 4;
-  s.sps_scales_gamma = 3;
-  s.sps_colour_idc = s.sps_transfer_idc = s.sps_coefficient_coder = 1;
-  s.sps_gamma_min = -90;
-  s.sps_gamma_max = 127;
-  s.sps_directions_idc = 1;
-  s.sps_normal_cell_log2 = s.sps_grid_bits_minus1;
-  s.sps_num_groups_minus1 = 2;
-  s.sps_num_coefficient_ranges_minus1 = 1;
-  s.sps_coefficient_range_end = {19};
-  s.runs = {
-      {0, 0, 6, 1, {1, 1, 1}}, {99, 1, 15, 0, {1, 2, (1u << 27) - 1}}, {26, 2, 0, 1, {77, 1, 1}}};
-  return s;
-}
-
-SequenceParameterSet texture_set() {
-  SequenceParameterSet s = full_set();
-  s.sps_profile = kTextureProfile;
-  s.sps_coefficient_coder = kTextureCoder;
-  s.sps_texture_bits = 2;
-  s.sps_texture_cell_log2 = 7;
-  s.sps_num_coefficient_ranges_minus1 = 0;
-  s.sps_coefficient_range_end = {};
-  return s;
-}
-
-SequenceParameterSet layered_set() {
-  SequenceParameterSet s = full_set();
-  s.sps_coefficient_coder = kLayeredCoder;
-  s.sps_num_layers_minus1 = {3, 0, 2};
-  s.sps_cut_flag = 1;
-  s.sps_cut_levels = 21;
-  s.sps_cut_layers = 3;
-  return s;
-}
-
 class SequenceParameterSetTest : public testing::TestWithParam<SetCase> {};
 
 TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
-  const auto bytes = write_sequence_parameter_set(GetParam().set);
+  const auto bytes = sequence_as_is(GetParam().set);
   const auto parsed = parse_sequence_parameter_set(bytes);
   ASSERT_TRUE(parsed) << to_string(parsed.error());
-  EXPECT_EQ(write_sequence_parameter_set(*parsed), bytes);
+  EXPECT_EQ(sequence_as_is(*parsed), bytes);
   EXPECT_EQ(parsed->sps_origin, GetParam().set.sps_origin);
   EXPECT_EQ(parsed->runs.size(), GetParam().set.runs.size());
   EXPECT_EQ(parsed->sps_gamma_min, GetParam().set.sps_gamma_min);
@@ -83,7 +36,7 @@ TEST_P(SequenceParameterSetTest, ParsesToWhatWasWritten) {
 }
 
 TEST_P(SequenceParameterSetTest, EveryTruncationIsReportedAndNothingIsReadPastTheEnd) {
-  const auto whole = write_sequence_parameter_set(GetParam().set);
+  const auto whole = sequence_as_is(GetParam().set);
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::vector<std::uint8_t> cut(whole.begin(),
                                         whole.begin() + static_cast<std::ptrdiff_t>(size));
@@ -95,27 +48,17 @@ TEST_P(SequenceParameterSetTest, EveryTruncationIsReportedAndNothingIsReadPastTh
 }
 
 TEST_P(SequenceParameterSetTest, EveryFlippedBitGivesAValueOrAnError) {
-  const auto whole = write_sequence_parameter_set(GetParam().set);
+  const auto whole = sequence_as_is(GetParam().set);
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
     auto damaged = whole;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ 1 << bit % 8);
     const auto parsed = parse_sequence_parameter_set(damaged);
     if (parsed) {
-      EXPECT_EQ(write_sequence_parameter_set(*parsed), damaged);
+      EXPECT_EQ(sequence_as_is(*parsed), damaged);
     } else {
       EXPECT_STRNE(parsed.error().element, "");
     }
   }
-}
-
-SequenceParameterSet cut_set() {
-  SequenceParameterSet s = full_set();
-  s.sps_base_levels = 5;
-  s.sps_coefficient_range_end = {5};
-  s.sps_cut_flag = s.sps_cut_slices_flag = 1;
-  s.sps_cut_levels = 21;
-  s.sps_cut_groups = 3;
-  return s;
 }
 
 INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
@@ -128,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Spec_7_2, SequenceParameterSetTest,
 
 /// The element that a reader of the written set would refuse; "" for none.
 std::string refused_by_reader(const SequenceParameterSet& set) {
-  const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(set));
+  const auto parsed = parse_sequence_parameter_set(sequence_as_is(set));
   return parsed ? "" : parsed.error().element;
 }
 
@@ -178,7 +121,7 @@ TEST(Spec_7_2_Sequence, IsRefusedBeforeItIsWrittenWhereAReaderWouldRefuseIt) {
 }
 
 TEST(Spec_7_2_Layers, AreOfEveryGroupAndTheirCutLeavesOneOut) {
-  const auto parsed = parse_sequence_parameter_set(write_sequence_parameter_set(layered_set()));
+  const auto parsed = parse_sequence_parameter_set(sequence_as_is(layered_set()));
   ASSERT_TRUE(parsed) << to_string(parsed.error());
   EXPECT_EQ(parsed->sps_num_layers_minus1, layered_set().sps_num_layers_minus1);
   EXPECT_EQ(parsed->num_layers(), 4u);
@@ -186,7 +129,7 @@ TEST(Spec_7_2_Layers, AreOfEveryGroupAndTheirCutLeavesOneOut) {
   EXPECT_EQ(parsed->kept_layers(), 3u);
   SequenceParameterSet set = layered_set();
   set.sps_num_layers_minus1 = {2, 0, 2};
-  const auto refused = parse_sequence_parameter_set(write_sequence_parameter_set(set));
+  const auto refused = parse_sequence_parameter_set(sequence_as_is(set));
   ASSERT_FALSE(refused);
   EXPECT_STREQ(refused.error().element, "sps_cut_layers");
 }
@@ -214,10 +157,10 @@ TEST(Spec_7_2_Texture, ProfileAndCoderGoTogether) {
 TEST(Spec_7_3_Slices, ParseToWhatWasWrittenAndEveryTruncationIsReported) {
   SequenceParameterSet set = cut_set();
   const SliceTable table{3, 1, {{0, 0}, {5, 700}, {70000, kMaxSlicePoints - 1}, {0, 8}}};
-  const auto bytes = write_slice_table(table, set);
+  const auto bytes = slice_table_as_is(table, set);
   const auto parsed = parse_slice_table(bytes, set);
   ASSERT_TRUE(parsed) << to_string(parsed.error());
-  EXPECT_EQ(write_slice_table(*parsed, set), bytes);
+  EXPECT_EQ(slice_table_as_is(*parsed, set), bytes);
   EXPECT_EQ(parsed->num_cells(), table.num_cells());
   EXPECT_EQ(parsed->num_points(), table.num_points());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -230,7 +173,7 @@ TEST(Spec_7_3_Slices, ParseToWhatWasWrittenAndEveryTruncationIsReported) {
 TEST(Spec_7_3_Slices, CellsAreNoMoreThanPointsAnd2To22Together) {
   SequenceParameterSet set = cut_set();
   const auto element = [&](const SliceTable& table) -> std::string {
-    const auto parsed = parse_slice_table(write_slice_table(table, set), set);
+    const auto parsed = parse_slice_table(slice_table_as_is(table, set), set);
     return parsed ? "" : parsed.error().element;
   };
   EXPECT_EQ(element({0, 0, {{kMaxCells - 1, kMaxCells - 1}}}), "");

@@ -9,6 +9,7 @@
 
 #include "bitstream/bit_writer.h"
 #include "bitstream/slice_headers.h"
+#include "bitstream/unchecked_headers.h"
 #include "conformance/edit_units.h"
 #include "conformance/fields.h"
 #include "slf/capture.h"
@@ -60,7 +61,7 @@ void set_points(Units& units, std::uint32_t points) {
   auto& payload = conformance::first_of(units, UnitType::kSlices).payload;
   SliceTable table = *parse_slice_table(payload, set);
   table.slices[0].slice_num_points_minus1 = points - 1;
-  payload = write_slice_table(table, set);
+  payload = slice_table_as_is(table, set);
 }
 
 /// The header byte of a part, and nothing behind it.
@@ -84,7 +85,7 @@ Bytes many_values(int bits, std::uint32_t functions) {
     auto set = *parse_sequence_parameter_set(units[0].payload);
     set.sps_num_functions = functions;
     set.runs[0].sps_run_length_minus1 = functions - 1;
-    units[0].payload = write_sequence_parameter_set(set);
+    units[0].payload = sequence_as_is(set);
     std::erase_if(units, [](const EditableUnit& u) { return u.type == UnitType::kFiller; });
     auto& coefficients = conformance::first_of(units, UnitType::kCoefficients).payload;
     coefficients.resize(std::size_t{set.sps_prediction_flag ? 1u : 0u} + 1);

@@ -160,8 +160,7 @@ TEST(SettingTable, EveryPlaceKeepsWhatItsRowReads) {
     if (!row.apply || !row.value || row.info.kind == SettingInfo::kFlag) continue;
     std::vector<std::string> values = row.info.words;
     if (row.info.low < row.info.high)
-      values.insert(values.end(),
-                    {row_kinds::shown(row.info.low), row_kinds::shown(row.info.high)});
+      values.insert(values.end(), {shortest(row.info.low), shortest(row.info.high)});
     for (const std::string& value : values) {
       if (value == "auto" && row.info.kind == SettingInfo::kWord) continue;
       EncoderSettings settings;

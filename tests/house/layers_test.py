@@ -50,6 +50,7 @@ LAYERS = {
 }
 
 
+UNCHECKED = 'bitstream/unchecked_headers.h'  # for conformance streams and tests
 NOT_CODE = {'build', 'conformance', 'docs', 'include', 'spec', 'tests', 'web'}  # or tests of it
 
 
@@ -75,6 +76,8 @@ def wrong_includes(root):
                 included = re.match(r'#include "(?:([\w/]+)/)?\w+\.\w+"', line)
                 if included and included[1] and included[1] not in [*below, folder]:
                     yield f'{file.relative_to(root)}:{number}: {folder} must not include {included[1]}'
+                if included and UNCHECKED in line and folder != 'bitstream':
+                    yield f'{file.relative_to(root)}:{number}: a coder writes headers that were checked, not {UNCHECKED}'
 
 
 def missing_folders(root):

@@ -46,7 +46,7 @@ class PartTest : public CliTest {
       if (has_ids(unit.type)) coded.back().ids = *read_ids(unit, set);
     }
     coded.push_back({UnitType::kFiller, std::vector<std::uint8_t>(payload_bytes), {}});
-    const auto bytes = assemble(set, coded, find_index(units, set)->value().boxes);
+    const auto bytes = *assemble(set, coded, find_index(units, set)->value().boxes);
     write(name, {bytes.begin(), bytes.end()});
   }
 

@@ -159,19 +159,19 @@ function packPlaces(field, centre, texels) {
   const out = {
     places: new Float32Array(4 * texels),
     discs: new Float32Array(4 * texels),
-    frames: new Float32Array(4 * texels),
+    directions: new Float32Array(4 * texels),
     means: new Uint8Array(4 * texels),
   };
   for (let p = 0; p < points; ++p) {
     for (let k = 0; k < 3; ++k) {
       out.places[4 * p + k] = positions[3 * p + k] - centre[k];
       out.discs[4 * p + k] = normals[3 * p + k];
-      if (mirrorNormals) out.frames[4 * p + k] = mirrorNormals[3 * p + k];
+      if (mirrorNormals) out.directions[4 * p + k] = mirrorNormals[3 * p + k];
       out.means[4 * p + k] = means[3 * p + k];
       out.places[4 * p + 3] += (centres[3 * p + k] - positions[3 * p + k]) * normals[3 * p + k];
     }
     out.discs[4 * p + 3] = radii[p] / grid.step;
-    out.frames[4 * p + 3] = areas[p] / radii[p] ** 2;
+    out.directions[4 * p + 3] = areas[p] / radii[p] ** 2;
     out.means[4 * p + 3] = 255;
   }
   return out;

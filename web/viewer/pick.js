@@ -60,10 +60,10 @@ function meetDisc(discs, p, centre, along, near) {
 
 /** RGB 0 .. 1 of a point from `eye`, in the file's own transfer: the colour pass of shaders.js. Spec 6.4, 6.7. */
 export function colourFrom(packed, index, eye, meanOnly = false) {
-  const { places, frames, means, weights, functions, layers, columns, rows } = packed;
+  const { places, directions, means, weights, functions, layers, columns, rows } = packed;
   if (meanOnly) return [0, 1, 2].map((k) => means[4 * index + k] / 255);
   const texels = columns * rows,
-    at = tableAt(functions, direction(packed, places, frames, 4 * index, eye));
+    at = tableAt(functions, direction(packed, places, directions, 4 * index, eye));
   const sum = [0, 0, 0];
   for (let layer = 0; layer < layers; ++layer)
     for (let f = 0; f < 4; ++f) {
@@ -74,9 +74,9 @@ export function colourFrom(packed, index, eye, meanOnly = false) {
 }
 
 /** The direction to the eye in the point's frame, within what cameras saw. */
-function direction({ gamma }, places, frames, p, eye) {
+function direction({ gamma }, places, directions, p, eye) {
   let w = normalised([0, 1, 2].map((k) => eye[k] - places[p + k])) ?? [1, 0, 0];
-  const n = frames ? [frames[p], frames[p + 1], frames[p + 2]] : [0, 0, 0];
+  const n = directions ? [directions[p], directions[p + 1], directions[p + 2]] : [0, 0, 0];
   if (dot(n, n) > FLAT) {
     const twice = 2 * dot(n, w);
     w = w.map((x, k) => twice * n[k] - x);

@@ -137,7 +137,7 @@ export class PointPipeline {
     if (this.coloured === key) return;
     this.coloured = key;
     const uniforms = use(gl, this.programs.colour);
-    bind(gl, uniforms, { places: t.places, frames: t.frames, means: t.means });
+    bind(gl, uniforms, { places: t.places, directions: t.directions, means: t.means });
     bind(gl, uniforms, { weights: t.weights, functions: t.functions }, gl.TEXTURE_2D_ARRAY, 3);
     gl.uniform3fv(uniforms.eye, eye);
     gl.uniform2fv(uniforms.gamma, field.gamma);

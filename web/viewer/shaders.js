@@ -28,7 +28,7 @@ void main() {
 /** One fragment a point: its colour along the direction to the eye. Spec 6.4, 6.7. */
 export const COLOUR_FRAGMENT = `${HEAD}
 uniform sampler2D places;         // x, y, z, shift along the normal
-uniform sampler2D frames;         // normal that mirrors the direction (0: none, directions of the world), area share
+uniform sampler2D directions;     // normal that mirrors the direction (0: none, directions of the world), area share
 uniform sampler2D means;          // mean colour
 uniform isampler2DArray weights;  // layer 3 l + c: weights in channel c of functions 4 l .. 4 l + 3
 uniform sampler2DArray functions; // layer l: functions 4 l .. 4 l + 3, scaled to the weights
@@ -77,7 +77,7 @@ void main() {
     colour = texelFetch(means, at, 0);
     return;
   }
-  vec2 place = tablePlace(direction(texelFetch(places, at, 0).xyz, texelFetch(frames, at, 0).xyz));
+  vec2 place = tablePlace(direction(texelFetch(places, at, 0).xyz, texelFetch(directions, at, 0).xyz));
   vec3 sum = vec3(0);
   for (int l = 0; l < layers; ++l) {
     vec4 e = textureLod(functions, vec3(place, float(l)), 0.0);
@@ -89,7 +89,7 @@ void main() {
 }`;
 
 const DISC_VERTEX = (blending) => `${HEAD}
-uniform sampler2D places, discs, frames, colours;
+uniform sampler2D places, discs, directions, colours;
 uniform mat3 rotation;   // world to camera: right, down, forward
 uniform vec3 eye;
 uniform vec2 focal, centre, size;  // pixels; rows upwards
@@ -153,7 +153,7 @@ void main() {
   float inverse = 1.0 / (uu * vv - uv * uv);
   plane = vec4(near, slope, p.z * p.z / band);
   ellipse = vec4(vv, -uv, uu, 0) * inverse;
-  vec4 frame = texelFetch(frames, texel, 0);
+  vec4 frame = texelFetch(directions, texel, 0);
   ellipse.w = frame.w * max(abs(area) * sqrt(inverse), 3.2e-5);
 ${
   blending

@@ -25,7 +25,7 @@ export class SplatPipeline extends PointPipeline {
   allocate(packed, images) {
     super.allocate(packed, images);
     const { gl } = this; // no direction is mirrored
-    this.textures.frames = image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.textures.directions = image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   upload(packed, images) {

@@ -14,9 +14,9 @@ export class SurfelPipeline extends PointPipeline {
     });
   }
 
-  ownTexels({ discs, frames }) {
+  ownTexels({ discs, directions }) {
     const { gl } = this;
-    return { discs: [gl.RGBA32F, gl.RGBA, gl.FLOAT, discs], frames: [gl.RGBA32F, gl.RGBA, gl.FLOAT, frames] };
+    return { discs: [gl.RGBA32F, gl.RGBA, gl.FLOAT, discs], directions: [gl.RGBA32F, gl.RGBA, gl.FLOAT, directions] };
   }
 
   drawPoints(view, eye, share) {
@@ -29,7 +29,7 @@ export class SurfelPipeline extends PointPipeline {
       gl.uniform1f(uniforms.thinning, field.points / drawn);
       gl.uniform1f(uniforms.nearest, this.nearest);
     };
-    const own = { places: t.places, discs: t.discs, frames: t.frames, colours: t.colours, depth: sums.depth };
+    const own = { places: t.places, discs: t.discs, directions: t.directions, colours: t.colours, depth: sums.depth };
     gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.depthTarget);
     gl.enable(gl.DEPTH_TEST);

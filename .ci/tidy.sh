@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# clang-tidy with the checks of .clang-tidy; a finding is an error. It reads the files of a unity build by the dozen.
+#
+#   .ci/tidy.sh BUILD ROOM...    BUILD: a tree of clang with -DCMAKE_UNITY_BUILD=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+#                                ROOM: a folder of the tree; none: all of them
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+shift
+rooms=$(IFS='|'; echo "$*")
+units() {
+  /usr/bin/python3 - "$build" "$@" <<'EOF'
+import json, pathlib, re, sys
+build, rooms = pathlib.Path(sys.argv[1]), sys.argv[2:]
+for file in sorted({entry['file'] for entry in json.loads((build / 'compile_commands.json').read_text())}):
+    unity = re.search(r'/unity_([^/]*)_\d+_cxx\.cxx$', file)
+    room = unity[1] if unity else pathlib.Path(file).relative_to(pathlib.Path.cwd()).parent.as_posix().replace('/', '_')
+    if file.endswith(('.cpp', '.cxx')) and (not rooms or any(f'{room}_'.startswith(f'{r}_') for r in rooms)):
+        print(file)
+EOF
+}
+units "$@" | xargs -r -d '\n' -P "$(nproc)" -n 1 \
+  clang-tidy --quiet -p "$build" --warnings-as-errors='*' --header-filter="^$PWD/($rooms)[^.]*\.(h|cpp)$"
