@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any frame of a sequence, and what a lost unit costs: bench_seek FILE [FILE ...]. Files as `slf
-// encode` of frames makes them, at least two groups. For every frame of the first group: bytes that a
-// reader needs, milliseconds of a processor from nothing to the frame, and how many frames are not
-// shown where its largest unit is missing.
+// encode` of frames makes them, at least two groups. For every frame of the first group: bytes that
+// a reader needs, milliseconds of a processor from nothing to the frame, and how many frames are
+// not shown where its largest unit is missing.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
