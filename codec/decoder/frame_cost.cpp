@@ -11,19 +11,13 @@ namespace {
 
 /// Bytes of a node: its code, and its brick, which takes one of four places of a table. A brick has
 /// ten nodes usually, one at the worst.
-<<<<<<< HEAD
-constexpr double kUsualNode = 8 + 4 * 32 / 10, kMostNode = 8 + 4 * 32;
+constexpr int kBrick = 4 * 32, kUsualBrick = kBrick / 10;
+constexpr double kUsualNode = 8 + kUsualBrick, kMostNode = 8 + kBrick;
 constexpr double kUsualNodes = 1.5;  // of a point, at all levels
 /// ReferenceTerms of a node: half of the places hold something, as a rule.
 constexpr double kUsualTerms = 4 + 4 * 8, kMostTerms = 4 + 8 * 8;
 /// Nodes of all levels that have siblings, of a point: a merge joins two at the most.
 constexpr double kUsualSiblings = 1.33, kMostSiblings = 2;
-=======
-constexpr int kBrick = 4 * 32, kUsualBrick = kBrick / 10;
-constexpr double kUsualNode = 8 + kUsualBrick, kMostNode = 8 + kBrick;
-constexpr double kUsualNodes = 1.5;   // of a point, at all levels
-constexpr double kTerms = 4 + 8 * 8;  // ReferenceTerms, of a node of one level
->>>>>>> house
 constexpr double kLatticePoint = 12;
 constexpr std::uint64_t kStates = sizeof(VectorStates) + ReferenceStates::kBytes;  // of a group
 /// ReferenceCoefficients, of a row: places and nodes; codes, weights and marks of a level.

@@ -19,14 +19,9 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
   SLF_TRY(SortedField sorted, sort_points(field));                              // 6.2
   SLF_TRY(const SceneLayout layout, lay_out(sorted.morton, bits, parameters));  // 7.3
   // The vectors that are not coded are known after this; the length of the frame is not yet.
-<<<<<<< HEAD
-  write_frame_header(frame, &before.cells, bits);  // 7.13
+  SLF_CHECK(write_frame_header(frame, &before.cells, bits));  // 7.13
   LevelTerms terms;
   const FrameReference reference{before, {before.cells, frame.motion, bits}, terms};
-=======
-  SLF_CHECK(write_frame_header(frame, &before.cells, bits));  // 7.13
-  const FrameReference reference{before, {before.cells, frame.motion, bits}};
->>>>>>> house
   SliceCoding coding{
       set, group.groups, group.steps, parameters.digest, parameters.texture, parameters.rdo};
   coding.reference = &reference;
