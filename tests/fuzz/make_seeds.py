@@ -16,6 +16,8 @@ import subprocess
 import tempfile
 import zlib
 
+from scan_seeds import scans
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MARK = b"\xff\xfe\xff"  # between the files of one input
 MOST_BYTES = 4096
@@ -243,7 +245,7 @@ def scene(program):
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode frames render truncate hevc npy ply obj glb image cameras colmap splats igc part plan".split()}
+            "decode frames render truncate hevc npy ply scan obj glb image cameras colmap splats igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
         if name.startswith("frames-"):
@@ -262,6 +264,7 @@ def seeds(program):
     made["obj"]["triangle"] = b"v 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -1 -2 -3 1\n"
     made["obj"].update(stl())
     made["ply"]["plenoptic"] = plenoptic()
+    made["scan"] = scans()
     made["glb"] = {"triangle": glb(), "draco": glb_draco()}
     made["image"] = {"grey.png": png(8, 0, 1), "rgb16.png": png(16, 2, 3), "rgba.png": png(8, 6, 4),
                      "palette.png": png(8, 3, 1, bytes(range(12))), "grey.jpg": jpeg(),
