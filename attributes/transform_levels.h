@@ -30,7 +30,7 @@ struct TransformLevel {
   std::vector<std::uint32_t> means_end;  ///< [nodes] of `means`, those that nodes 0 .. n need
   /// [nodes] where its mean is kept until the last node that needs it; undefined for others.
   std::vector<std::uint32_t> slot;
-  /// Of children that have siblings, in a frame that is predicted; else nullptr.
+  /// Terms of children that have siblings, in a frame that is predicted; else nullptr.
   const ReferenceTerms* reference = nullptr;
   std::vector<std::uint32_t> first_term;  ///< [nodes] place in it of a node's first child
   std::uint32_t num_slots = 0;  ///< far fewer than means: what is needed at a time fits a cache

@@ -32,7 +32,7 @@ void index_boxes(V& v, Boxes& boxes, std::uint32_t base_levels) {
           Range{i < 3 ? 0 : std::int64_t{box[i - 3]}, (std::int64_t{1} << bits) - 1});
 }
 
-/// Of an index that is there.
+/// An index that is there.
 template <class V>
 void whole_index(V& v, const Index& index, const SequenceParameterSet& set) {
   v.ue("index_num_units", index.entries.size(), Range{0, 0xFFFFFFFE});

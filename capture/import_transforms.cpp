@@ -92,7 +92,7 @@ Result<Done, InputError> read_named_split(const JsonView& json, const char* key,
   return Done{};
 }
 
-// Of all frames: where photographs are, or empty, and how far lenses miss, in pixels.
+// For all frames: where photographs are, or empty, and how far lenses miss, in pixels.
 struct FrameInputs {
   const fs::path& images;
   double worst = 0;

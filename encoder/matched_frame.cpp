@@ -61,7 +61,7 @@ void MatchedFrame::for_cells(const Place& at, int reach, double square, const St
     }
 }
 
-/// Of the points within kReach cells; ReferenceLevel::kNone where there is none.
+/// A point within kReach cells; ReferenceLevel::kNone where there is none.
 std::uint32_t MatchedFrame::nearest(const Place& at) {
   double most = kAnywhere;
   for_cells(at, 1, kAnywhere, [&](std::uint32_t i) {

@@ -32,7 +32,7 @@ class MotionModel {
   /// One of half the distance in its place, which is the same motion.
   void refine_lattice(const CoarseFrame& points);
 
-  /// Of the cell that a place is in: points of the lattice, and how much each counts.
+  /// The cell that a place is in: points of the lattice, and how much each counts.
   struct Corners {
     std::array<std::size_t, 8> point;
     std::array<double, 8> weight;

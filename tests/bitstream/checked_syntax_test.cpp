@@ -77,7 +77,7 @@ struct SpoilSyntax {
   }
 };
 
-/// Of a header that is good: each element beyond its range, above and below, is refused by name.
+/// Each element of a good header, put beyond its range above and below, is refused by name.
 /// @return the names of its elements
 template <class Header, class Visit>
 std::set<std::string> expect_each_refused(const Header& good, const Visit& visit) {
