@@ -10,6 +10,7 @@
 #include "capture/glb_draco.h"
 #include "capture/gltf_transform.h"
 #include "capture/json_numbers.h"
+#include "capture/little_endian.h"
 #include "capture/mesh_formats.h"
 
 namespace slf {
@@ -243,12 +244,6 @@ class SceneReader {
   Mesh mesh_;
 };
 
-std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = word << 8 | bytes[at + i];
-  return word;
-}
-
 }  // namespace
 
 // [4.4] Magic, version and length; then chunks of length, type and data: JSON first, then BIN.
@@ -258,17 +253,21 @@ Result<Mesh, InputError> parse_glb(const std::string& name, std::span<const std:
     return InputError{Errc::kInvalidInput, name + ": " + cause};
   };
   constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
-  if (file.size() < 20 || word_at(file, 0) != kMagic) return invalid("not a GLB file");
-  if (word_at(file, 4) != 2) return invalid("GLB of another version than 2");
-  if (word_at(file, 8) != file.size()) return invalid("GLB of another length than it says");
-  const std::size_t json_bytes = word_at(file, 12);
-  if (word_at(file, 16) != kJson || json_bytes > file.size() - 20 || json_bytes > kMaxJsonBytes)
+  if (file.size() < 20 || little<std::uint32_t>(file, 0) != kMagic)
+    return invalid("not a GLB file");
+  if (little<std::uint32_t>(file, 4) != 2) return invalid("GLB of another version than 2");
+  if (little<std::uint32_t>(file, 8) != file.size())
+    return invalid("GLB of another length than it says");
+  const std::size_t json_bytes = little<std::uint32_t>(file, 12);
+  if (little<std::uint32_t>(file, 16) != kJson || json_bytes > file.size() - 20 ||
+      json_bytes > kMaxJsonBytes)
     return invalid("GLB without a whole JSON chunk");
   const auto rest = file.subspan(20 + json_bytes);
   std::span<const std::uint8_t> binary;
-  if (rest.size() >= 8 && word_at(rest, 4) == kBinary) {
-    if (word_at(rest, 0) > rest.size() - 8) return invalid("GLB: the binary chunk is cut off");
-    binary = rest.subspan(8, word_at(rest, 0));
+  if (rest.size() >= 8 && little<std::uint32_t>(rest, 4) == kBinary) {
+    if (little<std::uint32_t>(rest, 0) > rest.size() - 8)
+      return invalid("GLB: the binary chunk is cut off");
+    binary = rest.subspan(8, little<std::uint32_t>(rest, 0));
   }
   SLF_TRY(const JsonValue document, parse_json(name, file.subspan(20, json_bytes)));
   return SceneReader(JsonView(document, name), binary, {}).read(warnings);

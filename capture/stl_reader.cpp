@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "capture/exact_positions.h"
+#include "capture/little_endian.h"
 #include "capture/mesh_formats.h"
 
 namespace slf {
@@ -55,16 +56,10 @@ class StlCorners {
   Mesh mesh_;
 };
 
-std::uint32_t stl_word(std::span<const std::uint8_t> bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = word << 8 | bytes[at + i];
-  return word;
-}
-
 /// The number of facets, where the file is as long as that.
 bool is_binary_stl(std::span<const std::uint8_t> file) {
   return file.size() >= kStlHeader &&
-         (file.size() - kStlHeader) / kStlFacet == stl_word(file, kStlHeader - 4) &&
+         (file.size() - kStlHeader) / kStlFacet == little<std::uint32_t>(file, kStlHeader - 4) &&
          (file.size() - kStlHeader) % kStlFacet == 0;
 }
 
@@ -76,8 +71,7 @@ Result<Mesh, InputError> parse_binary_stl(const std::string& name,
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t at = kStlHeader + f * kStlFacet + 12 * (c + 1);  // behind the normal
       Vec3 corner{};
-      for (std::size_t k = 0; k < 3; ++k)
-        corner[k] = double{std::bit_cast<float>(stl_word(file, at + 4 * k))};
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = double{little_float(file, at + 4 * k)};
       for (const double x : corner)
         if (!std::isfinite(x))
           return InputError{Errc::kInvalidInput,

@@ -153,8 +153,7 @@ void main() {
   float inverse = 1.0 / (uu * vv - uv * uv);
   plane = vec4(near, slope, p.z * p.z / band);
   ellipse = vec4(vv, -uv, uu, 0) * inverse;
-  vec4 frame = texelFetch(directions, texel, 0);
-  ellipse.w = frame.w * max(abs(area) * sqrt(inverse), 3.2e-5);
+  ellipse.w = texelFetch(directions, texel, 0).w * max(abs(area) * sqrt(inverse), 3.2e-5);
 ${
   blending
     ? `
