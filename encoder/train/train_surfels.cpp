@@ -39,7 +39,7 @@ constexpr int kGrowEvery = 100;
 constexpr float kSmallest = 2.5f;  // pixels: radius of what splits
 
 // Shares of the iterations that the coarser photographs have.
-constexpr double kCoarseShare = 0.25;
+constexpr double kCoarseShare = 0.3;
 
 /// Every photograph once, then every one again in another order.
 class Order {
@@ -187,12 +187,13 @@ class Training {
     picture_loss(view, drawn_.picture, shares, drawn_box(tiles, view.camera), settings_.threads,
                  buffers_, loss_);
     const float focal = std::max(view.camera.fx, view.camera.fy);
-    const auto projected = surfel_gradients(tiles, view, drawn_, loss_.gradient,
-                                            settings_.spread * focal * focal, settings_.threads);
+    surfel_gradients(tiles, view, drawn_, loss_.gradient, settings_.spread * focal * focal,
+                     settings_.threads, projected_);
     gradients_.assign(surfels_.size(), {});
-    add_surfel_gradients(surfels_, view.camera, tiles, projected, gradients_, settings_.threads);
+    add_surfel_gradients(surfels_, view.camera, tiles, projected_.sums, gradients_,
+                         settings_.threads);
     pull(done);
-    use_.add(tiles, projected);
+    use_.add(tiles, projected_.sums);
     adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), settings_.threads,
               adam_, surfels_);
     ++drawn_views_;
@@ -233,7 +234,8 @@ class Training {
   std::vector<TrainedSurfel> gradients_;
   SurfelNeighbours neighbours_;
   DrawnSurfels drawn_;
-  LossBuffers buffers_;
+  ProjectedGradients projected_;
+  SimilarityBuffers buffers_;
   PictureLoss loss_;
   Order order_;
   std::size_t drawn_views_ = 0;
