@@ -51,7 +51,7 @@ Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capt
           pictures_quality(
               capture, held_out, [&](const Camera& camera) { return renderer.render(camera); },
               settings.threads));
-  return TrialFile{quality.psnr, quality.ssim, file.stream.size()};
+  return trial_of(quality, file.stream.size());
 }
 
 Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {

@@ -13,8 +13,8 @@
 namespace slf {
 namespace {
 
-constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
-constexpr float kSquared = 0.5f;     // of a loss of magnitudes highlights are outliers
+constexpr float kThickness = 1e-2f;   // of the lesser deviation: pictures see none
+constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are outliers
 constexpr std::size_t kJudgedPerRange = 64;
 
 }  // namespace
@@ -22,7 +22,7 @@ constexpr std::size_t kJudgedPerRange = 64;
 Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
                                      int threads, TrainedSurfels& surfels) {
   SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, threads));
-  if (!are_outlined(outlines, cameras.size())) return Done{};
+  if (!are_outlined(outlines.size(), cameras.size())) return Done{};
   std::vector<std::uint8_t> inside(surfels.size());
   parallel_ranges(
       surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
