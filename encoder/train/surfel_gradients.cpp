@@ -12,6 +12,8 @@
 namespace slf {
 namespace {
 
+constexpr std::int32_t kMagnitude = 0x7fffffff;  // of a float: all but its sign
+
 /// What one block of a tile has left, nearest surfels first.
 struct BackwardBlock {
   Lanes transparency, remaining;  // remaining: sum over what follows of weight * worth
@@ -31,7 +33,8 @@ template <bool kGaussian>
                                                 std::size_t i, float spread, float most_near,
                                                 BackwardBlock& block, SurfelSums& sums) {
   BlockSurfel p;
-  if (!set_block_surfel<kGaussian>(s, left, top, i, block.transparency, p)) return;
+  set_place(s, left, top, i, block.transparency, p);
+  set_alpha<kGaussian>(s, p);
   const Lanes weight = p.alpha * block.transparency;
   // What a change of the weight is worth.
   Lanes worth = s.colour[0] * block.red + s.colour[1] * block.green + s.colour[2] * block.blue;
@@ -48,8 +51,7 @@ template <bool kGaussian>
   }
   block.remaining -= weight * worth;
   const Lanes by_alpha = block.transparency * worth - block.remaining / (1 - p.alpha);
-  const LaneMask free = p.shows & (p.alpha < kMostAlpha);
-  const Lanes by_kernel = free ? by_alpha : Lanes{};
+  const Lanes by_kernel = p.alpha < kMostAlpha ? by_alpha : Lanes{};
   const Lanes by_square = kGaussian ? (-kGaussianReach / 2 * s.opacity) * by_kernel * p.kernel
                                     : (-4 * s.opacity) * by_kernel * p.inside * p.inside * p.inside;
   const Lanes by_u = by_square * p.du, by_v = by_square * p.dv;
@@ -64,7 +66,8 @@ template <bool kGaussian>
   sums.uv += by_u * p.dv;
   sums.vv += by_v * p.dv;
   const Lanes gu = s.a * by_u + s.b * by_v, gv = s.b * by_u + s.c * by_v;
-  sums.pull += (gu < 0 ? -gu : gu) + (gv < 0 ? -gv : gv);
+  sums.pull += __builtin_bit_cast(Lanes, __builtin_bit_cast(LaneMask, gu) & kMagnitude) +
+               __builtin_bit_cast(Lanes, __builtin_bit_cast(LaneMask, gv) & kMagnitude);
   block.transparency -= weight;
 }
 

@@ -134,7 +134,7 @@ inline constexpr std::array<Lanes, 8> kBlockV = {kRows,         kRows + 2.0f, kR
 
 /// A surfel in the pixels of a block.
 struct BlockSurfel {
-  Lanes du, dv, inside, kernel, alpha, near;
+  Lanes du, dv, square, inside, kernel, alpha, near;  // square: r^2
   LaneMask shows;
 };
 /// exp(-reach r2 / 2) for r2 of 0 .. 1: within 2 % of itself where it is least, 0.02 % at one
@@ -145,21 +145,24 @@ struct BlockSurfel {
   for (int i = 0; i < 5; ++i) k = k * k;
 }
 
+/// Where the surfel is from a block's pixels, and which of them show it.
 /// @param left, top  pixel of the tile's corner
-/// @return whether any pixel of the block shows it
-template <bool kGaussian>
-[[gnu::always_inline]] inline bool set_block_surfel(const ProjectedSurfel& s, float left, float top,
-                                                    std::size_t block, const Lanes& transparency,
-                                                    BlockSurfel& b) {
+[[gnu::always_inline]] inline void set_place(const ProjectedSurfel& s, float left, float top,
+                                             std::size_t block, const Lanes& transparency,
+                                             BlockSurfel& b) {
   b.du = (left + 0.5f - s.u) + kBlockU[block % kTileBlocks];
   b.dv = (top + 0.5f - s.v) + kBlockV[block / kTileBlocks];
-  const Lanes r2 = b.du * (s.a * b.du + 2 * s.b * b.dv) + s.c * b.dv * b.dv;
-  b.shows = (r2 < s.reach) & (transparency > kLeastTransparency);
-  if (!any(b.shows)) return false;
-  b.inside = b.shows ? 1 - r2 : Lanes{};
+  b.square = b.du * (s.a * b.du + 2 * s.b * b.dv) + s.c * b.dv * b.dv;
+  b.shows = (b.square < s.reach) & (transparency > kLeastTransparency);
+}
+
+/// What they show of it: 0 where they do not.
+template <bool kGaussian>
+[[gnu::always_inline]] inline void set_alpha(const ProjectedSurfel& s, BlockSurfel& b) {
+  b.inside = b.shows ? 1 - b.square : Lanes{};
   const Lanes square = b.inside * b.inside;
   if constexpr (kGaussian) {
-    set_gaussian(r2, b.kernel);
+    set_gaussian(b.square, b.kernel);
     b.kernel = b.shows ? b.kernel : Lanes{};
   } else {
     b.kernel = square * square;
@@ -167,6 +170,16 @@ template <bool kGaussian>
   const Lanes alpha = s.opacity * b.kernel;
   b.alpha = alpha < kMostAlpha ? alpha : Lanes{} + kMostAlpha;
   b.near = s.near + s.near_du * b.du + s.near_dv * b.dv;
+}
+
+/// @return whether any pixel of the block shows it
+template <bool kGaussian>
+[[gnu::always_inline]] inline bool set_block_surfel(const ProjectedSurfel& s, float left, float top,
+                                                    std::size_t block, const Lanes& transparency,
+                                                    BlockSurfel& b) {
+  set_place(s, left, top, block, transparency, b);
+  if (!any(b.shows)) return false;
+  set_alpha<kGaussian>(s, b);
   return true;
 }
 
