@@ -34,6 +34,7 @@ struct SurfaceChoice {
   const EncoderSettings& settings;
   SurfaceReport& report;
   const Progress& progress;
+  TrainingCache& cache;
   bool splats;  // they may be chosen
 };
 
@@ -61,6 +62,7 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   training.seconds = share * job.settings.surface_seconds;
   training.photograph_bytes = double(job.settings.surface_memory) * (1 << 20);
   training.is_volume = job.report.start == StartId::kVolume;
+  training.cache = &job.cache;
   auto trained = train_geometry(job.capture, cameras, training, std::move(before), job.progress);
   job.report.seconds_train += watch.lap();
   if (trained) job.report.surfels = trained->surfels.size();
@@ -89,7 +91,8 @@ Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeom
 }
 
 SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
-  return {job.capture, job.report.start, parts.matched, parts.held_out, job.settings, job.progress};
+  return {job.capture,  job.report.start, parts.matched, parts.held_out,
+          job.settings, job.progress,     job.cache};
 }
 
 /// Whether a file of splats is worth more than one of the best surface: both are made, of some
@@ -206,7 +209,7 @@ Result<VoxelCloud, InputError> chosen_from_mesh(const SurfaceChoice& job) {
   Capture points = job.capture;
   points.mesh = {};
   SLF_TRY(VoxelCloud cloud, chosen_from_points({points, job.cameras, job.settings, job.report,
-                                                job.progress, job.splats}));
+                                                job.progress, job.cache, job.splats}));
   if (job.report.kept != Surface::kGiven) return cloud;
   return voxelise_capture(job.capture, job.cameras, job.settings);
 }
@@ -279,11 +282,13 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,
                                               SurfaceReport& report, const Progress& progress,
-                                              bool splats) {
+                                              bool splats, TrainingCache* cache) {
+  TrainingCache own;
   report = {};
   report.start = start;
   report.points_before = capture.cloud.positions.size();
-  auto cloud = chosen_surface({capture, cameras, settings, report, progress, splats});
+  auto cloud = chosen_surface(
+      {capture, cameras, settings, report, progress, cache != nullptr ? *cache : own, splats});
   if (cloud) report.points_after = cloud->positions.size();
   if (progress) progress("train", 1);
   return cloud;

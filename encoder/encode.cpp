@@ -121,8 +121,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
+  TrainingCache cache;
   SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
-                                    may_be_splats(given)));
+                                    may_be_splats(given), &cache));
   std::optional<Capture> of_points;  // a mesh that other points took the place of hides nothing
   if (encoded.surface.kept != Surface::kGiven && !capture.mesh.triangles.empty()) {
     of_points = capture;
@@ -130,7 +131,7 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   }
   const Capture& seen = of_points ? *of_points : capture;
   if (encoded.surface.kept == Surface::kSplats) {
-    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress));
+    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress, cache));
     return with_choice(std::move(splats), encoded.surface);
   }
   encoded.points = job.cloud.positions.size();
@@ -180,7 +181,8 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
     recorded.metadata.emplace_back("exposure", "matched");
   }
   const Capture& seen = changed ? *changed : capture;
-  SLF_TRY(Encoded encoded, splats ? encode_splats(seen, start, cameras, recorded, progress)
+  TrainingCache cache;
+  SLF_TRY(Encoded encoded, splats ? encode_splats(seen, start, cameras, recorded, progress, cache)
                                   : encode_from(seen, start, cameras, recorded, progress));
   if (settings.match_exposure == MatchExposure::kOn && exposure.gains.empty() && !cameras.empty())
     encoded.warnings.push_back(

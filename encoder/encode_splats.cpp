@@ -26,7 +26,8 @@ constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than
 constexpr std::size_t kFewestSplats = 500;  // that a target in bytes leaves
 constexpr double kSplatBytes = 13;          // at Q 7, of a die, a vase and the dino: 12 to 15
 
-TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations) {
+TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations,
+                                  TrainingCache& cache) {
   TrainGeometrySettings training;
   training.iterations = iterations;
   training.threads = settings.threads;
@@ -35,6 +36,7 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   training.seconds = settings.surface_seconds;
   training.photograph_bytes = double(settings.surface_memory) * (1 << 20);
   training.is_volume = start == StartId::kVolume;
+  training.cache = &cache;
   return training;
 }
 
@@ -49,13 +51,14 @@ Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capt
           pictures_quality(
               capture, held_out, [&](const Camera& camera) { return renderer.render(camera); },
               settings.threads));
-  return TrialFile{quality.psnr, quality.ssim, file.stream.size()};
+  return trial_of(quality, file.stream.size());
 }
 
 Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
-  SLF_TRY(const Gaussians splats,
-          train_gaussians(job.capture, job.fitted, training_of(job.settings, job.start, iterations),
-                          job.progress));
+  SLF_TRY(
+      const Gaussians splats,
+      train_gaussians(job.capture, job.fitted,
+                      training_of(job.settings, job.start, iterations, job.cache), job.progress));
   if (splats.size() == 0) return TrialFile{};
   return coded(splats, job.capture, job.held_out, job.settings);
 }
@@ -87,8 +90,8 @@ Result<TrialFile, InputError> glance_at_splats(const SplatJob& job) {
 
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings,
-                                          const Progress& progress) {
+                                          const EncoderSettings& settings, const Progress& progress,
+                                          TrainingCache& cache) {
   const std::string obstacle =
       cameras.empty() ? "there are no photographs" : training_obstacle(capture, cameras);
   if (!obstacle.empty())
@@ -99,7 +102,7 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  TrainGeometrySettings training = training_of(settings, start, kSplatIterations);
+  TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
   if (settings.target_bytes > 0)
     training.most_splats =
         std::max(std::size_t(double(settings.target_bytes) / kSplatBytes), kFewestSplats);

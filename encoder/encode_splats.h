@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "encoder/train/training_cache.h"
 #include "slf/encoder.h"
 
 namespace slf {
@@ -16,6 +17,7 @@ struct SplatJob {
   std::span<const int> fitted, held_out;
   const EncoderSettings& settings;
   const Progress& progress;
+  TrainingCache& cache;  ///< of the capture
 };
 
 /// A file of splats of some cameras, for others. bytes 0: photographs agree on no splat.
@@ -35,10 +37,11 @@ bool splats_win(const SurfaceReport& report, std::size_t points);
 
 /// A target in bytes allows no more splats than it has room for at the usual step.
 /// @param start  where the capture's points are from
+/// @param cache  of the capture
 /// @errors kInvalidInput: photographs train nothing; those of train_gaussians, encode_gaussians
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
                                           std::span<const int> cameras,
-                                          const EncoderSettings& settings,
-                                          const Progress& progress);
+                                          const EncoderSettings& settings, const Progress& progress,
+                                          TrainingCache& cache);
 
 }  // namespace slf

@@ -10,6 +10,8 @@
 #include "encoder/fit_capture.h"
 #include "encoder/measure/picture_background.h"
 #include "encoder/measure/ssim.h"
+#include "encoder/train/object_outline.h"
+#include "encoder/train/outlines.h"
 #include "slf/parallel.h"
 #include "slf/render.h"
 
@@ -18,15 +20,50 @@ namespace {
 
 constexpr int kEffort = 1;  // of the fit: degree 2, nothing searched
 
-/// Of some photographs.
-struct PictureSums {
+/// Over pixels of some photographs.
+struct PixelSums {
   ErrorSum errors;
-  double similarity = 0;  // sum over pixels
+  double similarity = 0;
 
-  DrawnQuality quality() const {
-    return {errors.psnr(), similarity / double(std::max<std::uint64_t>(errors.count, 1))};
+  void add_all(const PixelSums& other) {
+    errors.add_all(other.errors);
+    similarity += other.similarity;
+  }
+  double mean_similarity() const {
+    return similarity / double(std::max<std::uint64_t>(errors.count, 1));
   }
 };
+
+struct PictureSums {
+  PixelSums all, inside;
+  std::size_t outlined = 0;  // photographs that tell the object's outline
+
+  DrawnQuality quality(std::size_t photographs) const {
+    DrawnQuality out{all.errors.psnr(), all.mean_similarity()};
+    if (inside.errors.count == 0 || !are_outlined(outlined, photographs)) return out;
+    out.inside_psnr = inside.errors.psnr();
+    out.inside_ssim = inside.mean_similarity();
+    return out;
+  }
+};
+
+/// @param mask  pixels that count
+PixelSums pixel_sums(const Image& photograph, const Image& picture,
+                     std::span<const std::uint8_t> mask) {
+  PixelSums sums;
+  std::vector<float> was(mask.size()), is(mask.size());
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    was[i] = float(luma(&photograph.data[3 * i]));
+    is[i] = float(luma(&picture.data[3 * i]));
+    if (mask[i] == 0) continue;
+    std::array<double, 3> error{};
+    for (std::size_t c = 0; c < 3; ++c)
+      error[c] = double(picture.data[3 * i + c]) - double(photograph.data[3 * i + c]);
+    sums.errors.add(error);
+  }
+  sums.similarity = ssim(was, is, mask, picture.width, picture.height).sum;
+  return sums;
+}
 
 Result<PictureSums, InputError> photograph_sums(
     const Capture& capture, int index, const std::function<Rendering(const Camera&)>& draw) {
@@ -42,17 +79,11 @@ Result<PictureSums, InputError> photograph_sums(
   const Image photograph = over_background(loaded, background);
   const Image picture = over_background(drawn, background);
   PictureSums sums;
-  std::vector<float> was(pixels), is(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    std::array<double, 3> error{};
-    for (std::size_t c = 0; c < 3; ++c)
-      error[c] = double(picture.data[3 * i + c]) - double(photograph.data[3 * i + c]);
-    sums.errors.add(error);
-    was[i] = float(luma(&photograph.data[3 * i]));
-    is[i] = float(luma(&picture.data[3 * i]));
-  }
-  const std::vector<std::uint8_t> all(pixels, 1);
-  sums.similarity = ssim(was, is, all, picture.width, picture.height).sum;
+  sums.all = pixel_sums(photograph, picture, std::vector<std::uint8_t>(pixels, 1));
+  const std::vector<std::uint8_t> outline = object_outline(loaded);
+  if (outline.empty()) return sums;
+  sums.outlined = 1;
+  sums.inside = pixel_sums(photograph, picture, outline);
   return sums;
 }
 
@@ -103,10 +134,11 @@ Result<DrawnQuality, InputError> pictures_quality(
   PictureSums all;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (failures[i]) return *failures[i];
-    all.errors.add_all(sums[i].errors);
-    all.similarity += sums[i].similarity;
+    all.all.add_all(sums[i].all);
+    all.inside.add_all(sums[i].inside);
+    all.outlined += sums[i].outlined;
   }
-  return all.quality();
+  return all.quality(cameras.size());
 }
 
 }  // namespace slf

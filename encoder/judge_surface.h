@@ -10,11 +10,12 @@
 
 namespace slf {
 
-/// Quality over all pixels of some photographs' pictures. What is not drawn counts as what stands
-/// behind it.
+/// Quality of some photographs' pictures. What is not drawn counts as what stands behind it.
 struct DrawnQuality {
-  double psnr = 0;  ///< dB
+  double psnr = 0;  ///< dB, of all pixels
   double ssim = 0;
+  /// Of the object as outlines of the photographs have it, whatever is drawn; 0: they do not tell.
+  double inside_psnr = 0, inside_ssim = 0;
 };
 
 /// Of the held-out cameras' pictures, drawn from view maps of low degree that are fitted to the

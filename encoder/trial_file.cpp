@@ -15,13 +15,25 @@ namespace {
 
 constexpr double kDoubling = 0.5;  // dB that twice the bytes have to gain: docs/decisions/035
 
+/// Of PSNR and of SSIM in decibels.
+double mean_look(double psnr, double ssim) {
+  return (psnr - 10 * std::log10(std::max(1 - ssim, 1e-6))) / 2;
+}
+
 }  // namespace
 
 double look_of(const DrawnQuality& drawn) {
-  return (drawn.psnr - 10 * std::log10(std::max(1 - drawn.ssim, 1e-6))) / 2;
+  const double all = mean_look(drawn.psnr, drawn.ssim);
+  return drawn.inside_psnr > 0 ? (all + mean_look(drawn.inside_psnr, drawn.inside_ssim)) / 2 : all;
 }
 
-double look_of(const TrialFile& file) { return look_of(DrawnQuality{file.psnr, file.ssim}); }
+double look_of(const TrialFile& file) {
+  return look_of(DrawnQuality{file.psnr, file.ssim, file.inside_psnr, file.inside_ssim});
+}
+
+TrialFile trial_of(const DrawnQuality& drawn, std::size_t bytes) {
+  return {drawn.psnr, drawn.ssim, bytes, drawn.inside_psnr, drawn.inside_ssim};
+}
 
 double worth_of(const TrialFile& file) {
   return look_of(file) - kDoubling * std::log2(double(std::max<std::size_t>(file.bytes, 1)));
@@ -53,7 +65,7 @@ Result<TrialFile, InputError> try_surface(const Capture& capture, std::span<cons
   const auto decoded = decode(stream, options);
   if (!decoded) return InputError{decoded.error().code, "a trial file does not decode"};
   SLF_TRY(const DrawnQuality quality, surface_quality(capture, held_out, *decoded, trial.threads));
-  return TrialFile{quality.psnr, quality.ssim, stream.size()};
+  return trial_of(quality, stream.size());
 }
 
 }  // namespace slf

@@ -254,12 +254,12 @@ nlohmann::ordered_json surface_json(const SurfaceReport& r) {
   json["held_out_psnr_before"] = nullptr;
   json["held_out_psnr_trained"] = nullptr;
   json["held_out_psnr_splats"] = nullptr;
-  if (r.before_psnr > 0) {
-    json["held_out_psnr_before"] = r.before_psnr;
-    if (r.trained_psnr > 0) json["held_out_psnr_trained"] = r.trained_psnr;
-  }
-  const auto trial = [](const TrialFile& file) {
-    return nlohmann::ordered_json{{"psnr", file.psnr}, {"ssim", file.ssim}, {"bytes", file.bytes}};
+  if (r.before_psnr > 0) json["held_out_psnr_before"] = r.before_psnr;
+  if (r.before_psnr > 0 && r.trained_psnr > 0) json["held_out_psnr_trained"] = r.trained_psnr;
+  const auto trial = [](const TrialFile& f) {
+    nlohmann::ordered_json out{{"psnr", f.psnr}, {"ssim", f.ssim}, {"bytes", f.bytes}};
+    if (f.inside_psnr > 0) out["inside"] = {{"psnr", f.inside_psnr}, {"ssim", f.inside_ssim}};
+    return out;
   };
   if (r.as_splats.bytes > 0) {
     json["held_out_psnr_splats"] = r.as_splats.psnr;

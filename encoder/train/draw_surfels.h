@@ -10,11 +10,13 @@
 
 namespace slf {
 
-/// A surfel in a picture: alpha = opacity (1 - r^2)^4 where r^2 = a du^2 + 2 b du dv + c dv^2 < 1.
+/// A surfel in a picture, where r^2 = a du^2 + 2 b du dv + c dv^2 < reach: alpha = opacity times
+/// (1 - r^2)^4, or a Gaussian's.
 struct ProjectedSurfel {
   float u = 0, v = 0;                     ///< pixels, corner convention
   float a = 0, b = 0, c = 0;              ///< 1 / pixel^2
-  float half_width = 0, half_height = 0;  ///< of the ellipse's box
+  float reach = 1;                        ///< less: alpha is less than 1/255 sooner
+  float half_width = 0, half_height = 0;  ///< of the box within the reach
   float opacity = 0;
   Float3 colour{};
   /// Inverse depth of its plane in units of 1 / TrainingCamera::depth: linear in the picture.
@@ -38,8 +40,9 @@ struct SurfelTiles {
   int columns = 0, rows = 0;
   std::vector<std::uint32_t> first;       ///< [tiles + 1] where each one's list begins
   std::vector<std::uint32_t> list;        ///< indices of `projected`, ascending in each tile
+  std::vector<std::uint32_t> blocks;      ///< [list] blocks of the tile that it may touch
   std::vector<std::uint32_t> pair_first;  ///< [projected + 1]
-  std::vector<std::uint32_t> pair;        ///< places in `list`, projected by projected
+  std::vector<std::uint32_t> pair;        ///< [list] its place, projected by projected
 };
 
 /// What a pixel sums up.
@@ -48,6 +51,14 @@ struct DrawnSurfels {
   std::vector<float> transparency;       ///< [height][width] share of the background
   std::vector<float> near, near_square;  ///< sums of weighted inverse depths less `pivot`
   std::vector<float> pivot;              ///< the nearest surfel's inverse depth: keeps digits
+  std::vector<std::uint32_t> blocks;     ///< [SurfelTiles::list] blocks that show it
+};
+
+/// Gradients of a picture's loss.
+struct ProjectedGradients {
+  std::vector<ProjectedGradient> sums;  ///< [projected]
+  std::vector<ProjectedGradient>
+      pairs;  ///< [list] of a tile each, in the order of SurfelTiles::pair
 };
 
 SurfelTiles tile_surfels(const TrainedSurfels& surfels, const TrainingCamera& camera, int threads);
@@ -58,11 +69,10 @@ void draw_surfels(const SurfelTiles& tiles, const TrainingView& view, int thread
 ///   spread * sum over pixels of sum_i<j w_i w_j (near_i - near_j)^2,
 /// which draws what a pixel sums up together in depth, and so planes into one another.
 /// @param picture  gradient by the picture, as DrawnSurfels::picture
-/// @return [projected]. The same for any number of threads.
-std::vector<ProjectedGradient> surfel_gradients(const SurfelTiles& tiles, const TrainingView& view,
-                                                const DrawnSurfels& drawn,
-                                                const PlanarPicture& picture, float spread,
-                                                int threads);
+/// The same for any number of threads.
+void surfel_gradients(const SurfelTiles& tiles, const TrainingView& view, const DrawnSurfels& drawn,
+                      const PlanarPicture& picture, float spread, int threads,
+                      ProjectedGradients& gradients);
 
 /// From gradients of projected surfels to those of the surfels.
 /// @param gradients  [surfels], 0 where nothing is seen

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <vector>
 
+#include "base/multiversion.h"
 #include "encoder/train/cover_views.h"
 #include "encoder/train/distance_blocks.h"
 #include "encoder/train/shown_surface.h"
+#include "lightfield/render/lanes.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -49,34 +52,77 @@ std::vector<BlockKey> blocks_near(const ShownSurface& shown, const Lattice& latt
   return keys;
 }
 
-/// Distances are at most `apart`, world units, and fade behind the surface.
-void add_distance(const ShownSurface& shown, const Float3& node, float apart, float& distance,
-                  float& weight) {
-  const TrainingCamera& camera = *shown.camera;
-  const Float3 at = camera.in_camera(node);
-  if (!(at[2] > 0)) return;
-  const float u = camera.fx * at[0] / at[2] + camera.cx, v = camera.fy * at[1] / at[2] + camera.cy;
-  if (!(u >= 0 && v >= 0 && u < float(camera.width) && v < float(camera.height))) return;
-  const std::size_t pixel = std::size_t(v) * std::size_t(camera.width) + std::size_t(u);
-  const float depth = shown.depths.depth[pixel];
-  if (shown.nearest[pixel] - at[2] > kBeyond * apart) {
-    distance += kEmptyWeight * apart;
-    weight += kEmptyWeight;
-    return;
-  }
-  if (!(depth > 0)) return;
-  const Float3 point = shown.point(pixel), to_camera = minus(camera.centre, point);
+/// Sums of a node.
+struct NodeSums {
+  float &distance, &weight;
+};
+
+/// Distance to the plane that the node's pixel shows: at most `apart`, world units, and fading
+/// behind the surface.
+/// @param pixel  of the node, shows something
+void add_plane(const ShownSurface& shown, const Float3& node, std::size_t pixel, float apart,
+               NodeSums sums) {
+  const Float3 point = shown.point(pixel), to_camera = minus(shown.camera->centre, point);
   const Float3& normal = shown.normals[shown.depths.surfel[pixel]];
   const float cosine = dot(to_camera, normal) / std::sqrt(dot(to_camera, to_camera));
   if (cosine < kFlattest) return;
-  const float behind = at[2] - depth;
-  if (std::abs(behind) > kBeyond * apart) return;
   float to_plane = dot(normal, minus(node, point));
   if (to_plane <= -apart) return;
   to_plane = std::min(to_plane, apart);
   const float own = cosine * cosine;
-  distance += own * to_plane;
-  weight += own;
+  sums.distance += own * to_plane;
+  sums.weight += own;
+}
+
+constexpr Lanes kAlong = {0, 1, 2, 3, 4, 5, 6, 7};
+static_assert(kBlockNodes == 8);
+
+/// A row of a block's nodes in a camera.
+struct NodeRow {
+  Lanes depth;
+  std::array<std::int32_t, kBlockNodes> pixel;  // -1: it is not in the picture
+};
+
+/// @param first  in the camera
+/// @param step  to the next one
+[[gnu::always_inline]] inline void set_row(const TrainingCamera& camera, const Float3& first,
+                                           const Float3& step, NodeRow& row) {
+  row.depth = first[2] + step[2] * kAlong;
+  const Lanes inverse = 1 / row.depth;
+  const Lanes u = camera.fx * (first[0] + step[0] * kAlong) * inverse + camera.cx;
+  const Lanes v = camera.fy * (first[1] + step[1] * kAlong) * inverse + camera.cy;
+  const LaneMask inside = (row.depth > 0.0f) & (u >= 0.0f) & (v >= 0.0f) &
+                          (u < float(camera.width)) & (v < float(camera.height));
+  const LaneMask x = __builtin_convertvector(inside ? u : Lanes{}, LaneMask);
+  const LaneMask y = __builtin_convertvector(inside ? v : Lanes{}, LaneMask);
+  const LaneMask pixel = inside ? y * camera.width + x : LaneMask{} - 1;
+  std::memcpy(row.pixel.data(), &pixel, sizeof pixel);
+}
+
+SLF_MULTIVERSION_ALL void add_block(const ShownSurface& shown, const DistanceBlocks& all,
+                                    float apart, DistanceBlock& block) {
+  const TrainingCamera& camera = *shown.camera;
+  const auto lattice_step = float(all.lattice.step);
+  const Float3 step = {lattice_step * camera.rotation[0][0], lattice_step * camera.rotation[1][0],
+                       lattice_step * camera.rotation[2][0]};
+  std::size_t i = 0;
+  for (int z = 0; z < kBlockNodes; ++z)
+    for (int y = 0; y < kBlockNodes; ++y) {
+      NodeRow row;
+      set_row(camera, camera.in_camera(all.world(block.key, 0, y, z)), step, row);
+      for (int x = 0; x < kBlockNodes; ++x, ++i) {
+        if (row.pixel[std::size_t(x)] < 0) continue;
+        const auto pixel = std::size_t(row.pixel[std::size_t(x)]);
+        const float depth = shown.depths.depth[pixel];
+        if (shown.nearest[pixel] - row.depth[x] > kBeyond * apart) {
+          block.distance[i] += kEmptyWeight * apart;
+          block.weight[i] += kEmptyWeight;
+        } else if (depth > 0 && std::abs(row.depth[x] - depth) <= kBeyond * apart) {
+          add_plane(shown, all.world(block.key, x, y, z), pixel, apart,
+                    {block.distance[i], block.weight[i]});
+        }
+      }
+    }
 }
 
 /// Greatest depths of the view in squares of pixels; infinite where one shows no surface.
@@ -135,12 +181,7 @@ void add_distances(const ShownSurface& shown, float apart, int threads, Distance
       constexpr int kMiddle = kBlockNodes / 2;
       if (farthest.hide(all.world(block.key, kMiddle, kMiddle, kMiddle), radius, kBeyond * apart))
         continue;
-      std::size_t i = 0;
-      for (int z = 0; z < kBlockNodes; ++z)
-        for (int y = 0; y < kBlockNodes; ++y)
-          for (int x = 0; x < kBlockNodes; ++x, ++i)
-            add_distance(shown, all.world(block.key, x, y, z), apart, block.distance[i],
-                         block.weight[i]);
+      add_block(shown, all, apart, block);
     }
   });
 }

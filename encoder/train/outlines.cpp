@@ -65,8 +65,8 @@ Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
   return outlines;
 }
 
-bool are_outlined(const std::vector<Outline>& outlines, std::size_t cameras) {
-  return double(outlines.size()) >= kOutlined * double(cameras);
+bool are_outlined(std::size_t outlines, std::size_t cameras) {
+  return double(outlines) >= kOutlined * double(cameras);
 }
 
 }  // namespace slf

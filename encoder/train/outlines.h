@@ -23,7 +23,7 @@ Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
                                                      std::span<const int> cameras, int threads);
 
 /// Whether so many photographs tell that the object has a hull.
-bool are_outlined(const std::vector<Outline>& outlines, std::size_t cameras);
+bool are_outlined(std::size_t outlines, std::size_t cameras);
 
 /// Whether the object may be at a point, half_side to either side: all outlines but a few say so,
 /// and enough cameras see it.

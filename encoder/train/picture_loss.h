@@ -2,16 +2,9 @@
 // How far a drawn picture is from its photograph, and which way is nearer.
 #pragma once
 
-#include <vector>
-
-#include "encoder/train/draw_surfels.h"
+#include "encoder/train/structure_loss.h"
 
 namespace slf {
-
-/// Pixels of a picture that are looked at: left, top, width, height. Empty: all of them.
-struct PictureBox {
-  int left = 0, top = 0, width = 0, height = 0;
-};
 
 /// (1 - structure) * mean over channels of (1 - squared) |error| + squared 4 error^2
 /// + structure * (1 - SSIM of the luma): Kerbl et al. (2023) with one channel in place of three,
@@ -20,13 +13,7 @@ struct PictureBox {
 struct PictureLoss {
   double value = 0;        ///< mean over the pixels that are looked at
   PlanarPicture gradient;  ///< of the sum over pixels, by the drawn picture; 0 outside of the box
-};
-
-/// Buffers that live longer than a call.
-struct LossBuffers {
-  std::vector<float> luma, photograph, rows;
-  PlanarPicture photograph_box, drawn_box, gradient_box;
-  std::vector<std::vector<float>> moments;
+  PictureBox box;          ///< with what windows see around it
 };
 
 /// Shares of the loss, each 0 .. 1.
@@ -39,6 +26,7 @@ struct LossShares {
 ///             window of SSIM needs what is around it.
 /// The same for any number of threads. O(pixels of the box).
 void picture_loss(const TrainingView& view, const PlanarPicture& drawn, const LossShares& shares,
-                  const PictureBox& box, int threads, LossBuffers& buffers, PictureLoss& loss);
+                  const PictureBox& box, int threads, SimilarityBuffers& buffers,
+                  PictureLoss& loss);
 
 }  // namespace slf

@@ -157,7 +157,7 @@ Result<StartingPoints, InputError> starting_points(const Capture& capture,
                                                    std::span<const int> cameras, int threads) {
   SLF_TRY(const LookedAt ball, looked_at(capture, cameras));
   SLF_TRY(const auto outlines, outlines_of(capture, cameras, threads));
-  if (are_outlined(outlines, cameras.size())) {
+  if (are_outlined(outlines.size(), cameras.size())) {
     PointCloud hull = hull_of(outlines, ball, threads);
     if (hull.positions.size() >= kLeastHull) return StartingPoints{std::move(hull), StartId::kHull};
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
+
 #include "base/multiversion.h"
 #include "encoder/train/draw_surfels.h"
 #include "encoder/train/tile_pixels.h"
@@ -16,29 +18,29 @@ SLF_MULTIVERSION_ALL void find_depths(const SurfelTiles& tiles, const TrainingCa
   for (Lanes& t : transparency) t += 1.0f;
   for (std::uint32_t k = tiles.first[tile]; k < tiles.first[tile + 1]; ++k) {
     const ProjectedSurfel& s = tiles.projected[tiles.list[k]];
-    const BlockBox box = blocks_of(s, float(x), float(y));
-    for (int row = box.top; row <= box.bottom; ++row)
-      for (int column = box.left; column <= box.right; ++column) {
-        Lanes& t = transparency[std::size_t(kTileBlocks * row + column)];
-        const int left = x + kBlockColumns * column, top = y + kBlockRows * row;
-        BlockSurfel b;
-        const bool shows = camera.gaussian
-                               ? set_block_surfel<true>(s, float(left), float(top), t, b)
-                               : set_block_surfel<false>(s, float(left), float(top), t, b);
-        if (!shows) continue;
-        const Lanes after = t - b.alpha * t;
-        const LaneMask here = (t >= kOpaque) & (after < kOpaque);
-        t = after;
-        if (!any(here)) continue;
-        for (int i = 0; i < 8; ++i) {
-          const int u = left + i % kBlockColumns, v = top + i / kBlockColumns;
-          if (here[i] == 0 || u >= camera.width || v >= camera.height) continue;
-          if (!(b.near[i] > 0)) continue;
-          const std::size_t pixel = std::size_t(v) * std::size_t(camera.width) + std::size_t(u);
-          depths.depth[pixel] = camera.depth / b.near[i];
-          depths.surfel[pixel] = s.surfel;
-        }
+    for (BlockSet rest = tiles.blocks[k]; rest != 0; rest &= rest - 1) {
+      const auto block = std::size_t(std::countr_zero(rest));
+      Lanes& t = transparency[block];
+      const int left = x + kBlockColumns * int(block % kTileBlocks);
+      const int top = y + kBlockRows * int(block / kTileBlocks);
+      BlockSurfel b;
+      const bool shows = camera.gaussian
+                             ? set_block_surfel<true>(s, float(x), float(y), block, t, b)
+                             : set_block_surfel<false>(s, float(x), float(y), block, t, b);
+      if (!shows) continue;
+      const Lanes after = t - b.alpha * t;
+      const LaneMask here = (t >= kOpaque) & (after < kOpaque);
+      t = after;
+      if (!any(here)) continue;
+      for (int i = 0; i < 8; ++i) {
+        const int u = left + i % kBlockColumns, v = top + i / kBlockColumns;
+        if (here[i] == 0 || u >= camera.width || v >= camera.height) continue;
+        if (!(b.near[i] > 0)) continue;
+        const std::size_t pixel = std::size_t(v) * std::size_t(camera.width) + std::size_t(u);
+        depths.depth[pixel] = camera.depth / b.near[i];
+        depths.surfel[pixel] = s.surfel;
       }
+    }
   }
 }
 

@@ -40,6 +40,12 @@ float slope(float at, float focal, float principal, int size) {
   return std::clamp(at, std::min(low, 0.0f), std::max(high, 0.0f));
 }
 
+/// Squared radii at which alpha is 1/255, where GaussianRenderer ends it: 0 .. 1
+/// @param opacity  more than that
+float gaussian_reach(float opacity) {
+  return std::clamp(1 + 2 * std::log(opacity) / kGaussianReach, 0.0f, 1.0f);
+}
+
 bool set_ellipse(float filter_square, SurfelProjection& p) {
   float uu = filter_square, uv = 0, vv = filter_square;
   for (const auto& axis : p.across) {
@@ -52,8 +58,8 @@ bool set_ellipse(float filter_square, SurfelProjection& p) {
   p.projected.a = vv / determinant;
   p.projected.b = -uv / determinant;
   p.projected.c = uu / determinant;
-  p.projected.half_width = std::sqrt(uu);
-  p.projected.half_height = std::sqrt(vv);
+  p.projected.half_width = std::sqrt(uu * p.projected.reach);
+  p.projected.half_height = std::sqrt(vv * p.projected.reach);
   return true;
 }
 
@@ -133,6 +139,7 @@ std::optional<SurfelProjection> project_surfel(const TrainedSurfel& surfel,
     const Float3 axis = turned(camera.rotation, k == 0 ? p.axes.first : p.axes.second);
     for (std::size_t i = 0; i < 2; ++i) p.across[k][i] = p.radius[k] * dot(p.jacobian[i], axis);
   }
+  if (camera.gaussian) p.projected.reach = gaussian_reach(p.projected.opacity);
   if (!set_ellipse(camera.gaussian ? kGaussianFilter : kFilterSquare, p)) return {};
   const ProjectedSurfel& s = p.projected;
   if (!(s.u + s.half_width > 0 && s.u - s.half_width < float(camera.width) &&

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/multiversion.h"
 #include "encoder/train/draw_surfels.h"
 #include "encoder/train/surfel_projection.h"
 #include "encoder/train/tile_pixels.h"
@@ -24,34 +25,44 @@ TileBox tiles_of(const ProjectedSurfel& s, int columns, int rows) {
           std::min(tile(std::max(s.v + s.half_height, 0.0f)), rows - 1)};
 }
 
-template <class Visit>
-void for_each_tile(const SurfelTiles& tiles, Visit&& visit) {
+/// Places of a surfel: a tile that shows it, and the blocks there.
+struct TilePair {
+  std::uint32_t tile;
+  BlockSet blocks;
+};
+
+/// Tiles of each surfel, projected by projected.
+SLF_MULTIVERSION_ALL void find_pairs(SurfelTiles& tiles, std::vector<TilePair>& pairs) {
   for (std::size_t i = 0; i < tiles.projected.size(); ++i) {
-    const TileBox box = tiles_of(tiles.projected[i], tiles.columns, tiles.rows);
+    const ProjectedSurfel& s = tiles.projected[i];
+    const TileBox box = tiles_of(s, tiles.columns, tiles.rows);
     for (int y = box.top; y <= box.bottom; ++y)
-      for (int x = box.left; x <= box.right; ++x) visit(i, std::size_t(y * tiles.columns + x));
+      for (int x = box.left; x <= box.right; ++x)
+        if (const BlockSet blocks = blocks_of(s, float(x * kTileSide), float(y * kTileSide)))
+          pairs.push_back({std::uint32_t(y * tiles.columns + x), blocks});
+    tiles.pair_first[i + 1] = std::uint32_t(pairs.size());
   }
 }
 
 void bin(SurfelTiles& tiles) {
   const std::size_t count = std::size_t(tiles.columns) * std::size_t(tiles.rows);
-  tiles.first.assign(count + 1, 0);
+  std::vector<TilePair> pairs;
   tiles.pair_first.assign(tiles.projected.size() + 1, 0);
-  for_each_tile(tiles, [&](std::size_t i, std::size_t tile) {
-    ++tiles.first[tile + 1];
-    ++tiles.pair_first[i + 1];
-  });
+  find_pairs(tiles, pairs);
+  tiles.first.assign(count + 1, 0);
+  for (const TilePair& pair : pairs) ++tiles.first[pair.tile + 1];
   for (std::size_t t = 0; t < count; ++t) tiles.first[t + 1] += tiles.first[t];
-  for (std::size_t i = 0; i < tiles.projected.size(); ++i)
-    tiles.pair_first[i + 1] += tiles.pair_first[i];
-  tiles.list.resize(tiles.first.back());
-  tiles.pair.resize(tiles.list.size());
+  tiles.list.resize(pairs.size());
+  tiles.blocks.resize(pairs.size());
+  tiles.pair.resize(pairs.size());
   std::vector<std::uint32_t> next(tiles.first.begin(), tiles.first.end() - 1);
-  std::size_t pair = 0;
-  for_each_tile(tiles, [&](std::size_t i, std::size_t tile) {
-    tiles.pair[pair++] = next[tile];
-    tiles.list[next[tile]++] = std::uint32_t(i);
-  });
+  for (std::size_t i = 0; i < tiles.projected.size(); ++i)
+    for (std::uint32_t p = tiles.pair_first[i]; p < tiles.pair_first[i + 1]; ++p) {
+      const std::uint32_t place = next[pairs[p].tile]++;
+      tiles.pair[place] = p;
+      tiles.list[place] = std::uint32_t(i);
+      tiles.blocks[place] = pairs[p].blocks;
+    }
 }
 
 }  // namespace

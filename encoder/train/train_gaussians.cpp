@@ -13,8 +13,9 @@
 namespace slf {
 namespace {
 
-constexpr float kThickness = 1e-2f;  // of the lesser deviation: pictures see none
-constexpr float kSquared = 0.5f;     // of a loss of magnitudes highlights are outliers
+constexpr float kThickness = 1e-2f;   // of the lesser deviation: pictures see none
+constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are outliers
+constexpr double kCoarseShare = 0.3;  // of the iterations: of the dino 20 % less time, no dB less
 constexpr std::size_t kJudgedPerRange = 64;
 
 }  // namespace
@@ -22,7 +23,7 @@ constexpr std::size_t kJudgedPerRange = 64;
 Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
                                      int threads, TrainedSurfels& surfels) {
   SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, threads));
-  if (!are_outlined(outlines, cameras.size())) return Done{};
+  if (!are_outlined(outlines.size(), cameras.size())) return Done{};
   std::vector<std::uint8_t> inside(surfels.size());
   parallel_ranges(
       surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
@@ -71,6 +72,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   TrainSettings& training = start.settings;
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
+  training.coarse = kCoarseShare;
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
   if (settings.most_splats > 0) training.surfels = std::min(training.surfels, settings.most_splats);
   TrainedSurfels surfels = first_surfels(start, settings);

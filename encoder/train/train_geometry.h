@@ -8,6 +8,7 @@
 #include <string>
 
 #include "encoder/train/trained_surfel.h"
+#include "encoder/train/training_cache.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 #include "slf/types.h"
@@ -25,6 +26,7 @@ struct TrainGeometrySettings {
   double photograph_bytes = double(1 << 30);  ///< most, as floats: they are halved to fit
   std::filesystem::path work = {};            ///< TrainSettings
   bool resume = false;
+  TrainingCache* cache = nullptr;  ///< of the capture; or none
   int threads = 0;
 };
 

@@ -38,9 +38,6 @@ constexpr double kGrowFirst = 0.05, kGrowLast = 0.6;  // of the iterations
 constexpr int kGrowEvery = 100;
 constexpr float kSmallest = 2.5f;  // pixels: radius of what splits
 
-// Shares of the iterations that the coarser photographs have.
-constexpr double kCoarseShare = 0.25;
-
 /// Every photograph once, then every one again in another order.
 class Order {
  public:
@@ -75,8 +72,9 @@ TrainedSurfel rates_at(double done, double pixel) {
 }
 
 /// Which size of photographs an iteration has: 0 is the whole.
-std::size_t level_at(double done, std::size_t levels) {
-  const auto passed = std::size_t(done / kCoarseShare);
+/// @param share  of the iterations, that each smaller size has
+std::size_t level_at(double done, double share, std::size_t levels) {
+  const auto passed = std::size_t(done / share);
   return passed + 1 >= levels ? 0 : levels - 1 - passed;
 }
 
@@ -129,8 +127,8 @@ TrainingDigest digest_of(std::span<const TrainingView> views, const TrainSetting
                               double(settings.surfels),    double(settings.levels),
                               double(settings.structure),  double(settings.squared),
                               double(settings.spread),     double(settings.together),
-                              double(settings.decided),    double(views.size()),
-                              double(surfels.size())};
+                              double(settings.decided),    settings.coarse,
+                              double(views.size()),        double(surfels.size())};
   add(numbers.data(), numbers.size());
   for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
   for (const TrainingView& view : views) {
@@ -176,7 +174,7 @@ class Training {
 
   /// @param done  share of the schedule, below 1
   void step(double done) {
-    const std::size_t level = level_at(done, coarser_.size() + 1);
+    const std::size_t level = level_at(done, settings_.coarse, coarser_.size() + 1);
     const std::size_t index = order_.next();
     const TrainingView& view = level == 0 ? views_[index] : coarser_[level - 1][index];
     const SurfelTiles tiles = tile_surfels(surfels_, view.camera, settings_.threads);
@@ -187,12 +185,13 @@ class Training {
     picture_loss(view, drawn_.picture, shares, drawn_box(tiles, view.camera), settings_.threads,
                  buffers_, loss_);
     const float focal = std::max(view.camera.fx, view.camera.fy);
-    const auto projected = surfel_gradients(tiles, view, drawn_, loss_.gradient,
-                                            settings_.spread * focal * focal, settings_.threads);
+    surfel_gradients(tiles, view, drawn_, loss_.gradient, settings_.spread * focal * focal,
+                     settings_.threads, projected_);
     gradients_.assign(surfels_.size(), {});
-    add_surfel_gradients(surfels_, view.camera, tiles, projected, gradients_, settings_.threads);
+    add_surfel_gradients(surfels_, view.camera, tiles, projected_.sums, gradients_,
+                         settings_.threads);
     pull(done);
-    use_.add(tiles, projected);
+    use_.add(tiles, projected_.sums);
     adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), settings_.threads,
               adam_, surfels_);
     ++drawn_views_;
@@ -233,7 +232,8 @@ class Training {
   std::vector<TrainedSurfel> gradients_;
   SurfelNeighbours neighbours_;
   DrawnSurfels drawn_;
-  LossBuffers buffers_;
+  ProjectedGradients projected_;
+  SimilarityBuffers buffers_;
   PictureLoss loss_;
   Order order_;
   std::size_t drawn_views_ = 0;

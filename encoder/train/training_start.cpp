@@ -13,12 +13,17 @@ constexpr double kMostPixels = 1 << 20;                      // of a photograph
 constexpr double kPixelBytes = 3 * sizeof(float) * 4.0 / 3;  // with those of the coarser sizes
 constexpr float kThinOpacity = 0.1f;                         // of surfels that start anywhere
 
-SurfacePoints start_of(const Capture& capture, int threads) {
+SurfacePoints start_of(const Capture& capture, int threads, TrainingCache* cache) {
   SurfacePoints points{capture.cloud.positions, capture.cloud.normals, {}};
   if (!points.normals.empty()) return points;
+  if (cache != nullptr && cache->normals.size() == points.size()) {
+    points.normals = cache->normals;
+    return points;
+  }
   std::vector<Vec3> viewpoints;
   for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
   points.normals = estimate_normals(capture.cloud, viewpoints, 16, threads);
+  if (cache != nullptr) cache->normals = points.normals;
   return points;
 }
 
@@ -43,13 +48,13 @@ Result<TrainingStart, InputError> training_start(const Capture& capture,
                                                  const TrainGeometrySettings& settings,
                                                  const Progress& progress) {
   TrainingStart start;
-  start.points = start_of(capture, settings.threads);
+  start.points = start_of(capture, settings.threads, settings.cache);
   start.spacing = typical_spacing(start.points.positions);
   if (!(start.spacing > 0)) return start;
   SLF_TRY(start.views,
           load_training_views(capture, cameras, start.points, start.spacing,
                               reduction_of(capture, cameras, settings.photograph_bytes),
-                              settings.threads));
+                              settings.threads, settings.cache));
   TrainSettings& training = start.settings;
   training.iterations = settings.iterations;
   training.threads = settings.threads;

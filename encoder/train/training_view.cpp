@@ -99,39 +99,48 @@ PlanarPicture picture_of(const Camera& camera, const Image& image) {
   return picture;
 }
 
-Result<TrainingView, InputError> load_training_view(const Capture& capture, int index,
-                                                    const SurfacePoints& surface, double spacing,
-                                                    int log2) {
-  const auto camera = std::size_t(index);
-  SLF_TRY(const Image image, load_image(capture, index));
+ViewSetting setting_of(const Capture& capture, std::size_t camera, const Image& image,
+                       const SurfacePoints& surface, double spacing) {
   const bool has_mask = camera < capture.mask_files.size() && !capture.mask_files[camera].empty();
   const Camera& whole = capture.cameras[camera];
   std::vector<std::uint8_t> object = object_of(whole, surface, spacing);
   if (image.channels == 4)
     for (std::size_t i = 0; i < object.size(); ++i) object[i] = shows_object(image.data[4 * i + 3]);
-  const auto background = picture_background(image, object, has_mask);
+  return {picture_background(image, object, has_mask), depth_of(whole, surface)};
+}
+
+/// @param setting  found where it is not known
+Result<TrainingView, InputError> load_training_view(const Capture& capture, int index,
+                                                    const SurfacePoints& surface, double spacing,
+                                                    int log2, std::optional<ViewSetting>& setting) {
+  const auto camera = std::size_t(index);
+  SLF_TRY(const Image image, load_image(capture, index));
+  if (!setting) setting = setting_of(capture, camera, image, surface, spacing);
+  const Camera& whole = capture.cameras[camera];
   TrainingView view;
   view.index = index;
   view.camera = pinhole(whole);
-  view.camera.depth = depth_of(whole, surface);
-  view.picture = picture_of(whole, over_background(image, background));
-  for (std::size_t c = 0; c < 3; ++c) view.background[c] = float(background[c]) / 255;
+  view.camera.depth = setting->depth;
+  view.picture = picture_of(whole, over_background(image, setting->background));
+  for (std::size_t c = 0; c < 3; ++c) view.background[c] = float(setting->background[c]) / 255;
   for (int i = 0; i < log2; ++i) view = half(view);
   return view;
 }
 
 }  // namespace
 
-Result<std::vector<TrainingView>, InputError> load_training_views(const Capture& capture,
-                                                                  std::span<const int> cameras,
-                                                                  const SurfacePoints& surface,
-                                                                  double spacing, int log2,
-                                                                  int threads) {
+Result<std::vector<TrainingView>, InputError> load_training_views(
+    const Capture& capture, std::span<const int> cameras, const SurfacePoints& surface,
+    double spacing, int log2, int threads, TrainingCache* cache) {
+  TrainingCache own;
+  if (cache == nullptr) cache = &own;
+  cache->views.resize(capture.cameras.size());
   std::vector<TrainingView> views(cameras.size());
   std::vector<std::optional<InputError>> failures(cameras.size());
   parallel_ranges(cameras.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto view = load_training_view(capture, cameras[i], surface, spacing, log2);
+      auto view = load_training_view(capture, cameras[i], surface, spacing, log2,
+                                     cache->views[std::size_t(cameras[i])]);
       if (view)
         views[i] = *std::move(view);
       else

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/surface_points.h"
+#include "encoder/train/training_cache.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 
@@ -49,12 +50,11 @@ struct TrainingView {
 
 /// Photographs with sides of a 2^log2-th, of `cameras`, in their order.
 /// @param surface  what they look at: for depths, and to tell the background
+/// @param cache  nullptr: none
 /// @errors those of load_image
-Result<std::vector<TrainingView>, InputError> load_training_views(const Capture& capture,
-                                                                  std::span<const int> cameras,
-                                                                  const SurfacePoints& surface,
-                                                                  double spacing, int log2,
-                                                                  int threads);
+Result<std::vector<TrainingView>, InputError> load_training_views(
+    const Capture& capture, std::span<const int> cameras, const SurfacePoints& surface,
+    double spacing, int log2, int threads, TrainingCache* cache = nullptr);
 
 /// With sides of half the size, each pixel the mean of four; an odd last row or column is dropped.
 TrainingView half(const TrainingView& view);

@@ -25,10 +25,11 @@ enum class StartId : std::uint8_t {
   kVolume,  ///< points anywhere in what the cameras look at
 };
 
-/// A file of some photographs, for others, all of their pixels; bytes 0: none was made.
+/// A file of some photographs, for others; bytes 0: none was made.
 struct TrialFile {
-  double psnr = 0, ssim = 0;
+  double psnr = 0, ssim = 0;  ///< of all pixels
   std::size_t bytes = 0;
+  double inside_psnr = 0, inside_ssim = 0;  ///< of the object's pixels; 0: no outline is known
 };
 
 /// What became of the capture's points before anything else. PSNRs are of input photographs that

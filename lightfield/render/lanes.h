@@ -20,9 +20,11 @@ inline constexpr Lanes kRows{0, 0, 0, 0, 1, 1, 1, 1};
 // with it share.
 
 inline bool any(const LaneMask& mask) {
-  std::array<std::uint64_t, 4> words;
-  std::memcpy(words.data(), &mask, sizeof mask);
-  return (words[0] | words[1] | words[2] | words[3]) != 0;
+  const auto halves = __builtin_shufflevector(mask, mask, 0, 1, 2, 3) |
+                      __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  std::array<std::uint64_t, 2> words;
+  std::memcpy(words.data(), &halves, sizeof halves);
+  return (words[0] | words[1]) != 0;
 }
 
 inline void set_root(const Lanes& square, Lanes& root) {

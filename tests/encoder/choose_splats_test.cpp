@@ -133,6 +133,12 @@ TEST_F(QuickSplats, HaveThePsnrOfPhotographsThatWasAskedFor) {
   EXPECT_GT(most->stream.size(), coded->stream.size());
 }
 
+TEST(TrialFile, CountsTheObjectAsMuchAsAllPixelsWhereItIsKnown) {
+  const TrialFile all{30, 0.95, 40'000}, object{26, 0.9, 40'000};
+  const TrialFile both{30, 0.95, 40'000, 26, 0.9};
+  EXPECT_NEAR(worth_of(both), (worth_of(all) + worth_of(object)) / 2, 1e-9);
+}
+
 TEST(TrialFile, IsWorthWhatPicturesShowLessWhatItTakes) {
   const TrialFile file{26, 0.9, 40'000};
   EXPECT_NEAR(worth_of(file) - worth_of({26, 0.9, 80'000}), 0.5, 1e-9);

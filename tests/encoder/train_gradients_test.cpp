@@ -95,9 +95,9 @@ std::vector<TrainedSurfel> gradients_of(const Scene& s, float spread, int thread
   (void)loss_of(s, spread, &picture, drawn);
   const SurfelTiles tiles = tile_surfels(s.surfels, s.view.camera, threads);
   std::vector<TrainedSurfel> gradients(s.surfels.size());
-  add_surfel_gradients(s.surfels, s.view.camera, tiles,
-                       surfel_gradients(tiles, s.view, drawn, picture, spread, threads), gradients,
-                       threads);
+  ProjectedGradients projected;
+  surfel_gradients(tiles, s.view, drawn, picture, spread, threads, projected);
+  add_surfel_gradients(s.surfels, s.view.camera, tiles, projected.sums, gradients, threads);
   return gradients;
 }
 
@@ -190,7 +190,7 @@ TEST(TrainGradientsTest, LossIsThatOfDifferences) {
   const Scene s = scene(12);
   DrawnSurfels drawn;
   draw_surfels(tile_surfels(s.surfels, s.view.camera, 1), s.view, 1, drawn);
-  LossBuffers buffers;
+  SimilarityBuffers buffers;
   PictureLoss loss, more, less;
   picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, {}, 1, buffers, loss);
   const auto pixels = double(drawn.picture.pixels());
@@ -238,7 +238,7 @@ TEST(PictureLoss, OfABoxHasTheGradientOfTheWholePictureInIt) {
   const SurfelTiles tiles = tile_surfels(s.surfels, s.view.camera, 1);
   DrawnSurfels drawn;
   draw_surfels(tiles, s.view, 1, drawn);
-  LossBuffers buffers;
+  SimilarityBuffers buffers;
   PictureLoss whole, part;
   picture_loss(s.view, drawn.picture, {0.5f, 0.4f}, {}, 1, buffers, whole);
   const PictureBox box{13, 10, 9, 5};

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every training of a capture would find anew.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "capture/surface_points.h"
+
+namespace slf {
+
+/// What stands behind the object in a photograph, and how far the object is.
+struct ViewSetting {
+  std::array<std::uint8_t, 3> background{};
+  float depth = 1;  ///< TrainingCamera::depth
+};
+
+/// For trainings of one capture, one after the other. It fills as they run and changes nothing but
+/// their time.
+struct TrainingCache {
+  std::vector<Float3> normals;                    ///< [points] where the capture has none
+  std::vector<std::optional<ViewSetting>> views;  ///< [cameras]
+};
+
+}  // namespace slf
