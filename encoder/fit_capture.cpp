@@ -25,6 +25,15 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
   return normals;
 }
 
+std::size_t functions_of(const LightFieldHeader& header) {
+  return static_cast<std::size_t>(header.num_functions);
+}
+
+/// The most that a slice of a scene of so many points may weigh.
+std::size_t slice_points_of(std::size_t points) {
+  return std::min<std::size_t>(2 * points, kMostBaseWeight);
+}
+
 }  // namespace
 
 ObservedPoints world_points(const VoxelCloud& cloud) {
@@ -166,11 +175,13 @@ Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
   return fit;
 }
 
-LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
-                         const EncoderSettings& settings, const std::vector<int>& shift) {
-  LightField field;
-  LightFieldHeader& header = field.header;
-  header.grid = moved(cloud.grid, origin);
+namespace {
+
+/// All of quantise_grid but positions, normals, shift and components.
+LightFieldHeader header_on_grid(const Grid& grid, const CaptureFit& fit, const Vec3& origin,
+                                UpAxis up, const EncoderSettings& settings) {
+  LightFieldHeader header;
+  header.grid = moved(grid, origin);
   header.basis = settings.fit.basis;
   header.num_functions = header.basis.num_functions();
   header.directions = settings.fit.directions;
@@ -181,15 +192,36 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
   header.gamma_max_q7 = fit.gamma_max_q7;
   if (header.directions == Directions::kReflected)
     header.normal_cell_log2 = settings.fit.normal_cell_log2;
+  return header;
+}
+
+}  // namespace
+
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
+                         const EncoderSettings& settings, const std::vector<int>& shift) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header = header_on_grid(cloud.grid, fit, origin, up, settings);
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
   header.shift = shift;
   if (shift.empty())
-    header.shift =
-        component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
-                         std::min<std::size_t>(2 * cloud.positions.size(), kMostBaseWeight));
+    header.shift = component_shifts(fit.coefficients, functions_of(header),
+                                    slice_points_of(cloud.positions.size()));
   field.components = to_components(fit.coefficients, header.shift, settings.threads);
   field.positions = cloud.positions;
   field.normals = coded_normals(cloud, settings.normal_bits);
+  return field;
+}
+
+LightField quantise_rows(const Grid& grid, std::vector<Voxel> positions, FittedRows rows,
+                         const CaptureFit& fit, const EncoderSettings& settings) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header = header_on_grid(grid, fit, {0, 0, 0}, UpAxis::kUnknown, settings);
+  for (auto& piece : rows.pieces()) to_coded_channels(piece, header.colour, settings.threads);
+  header.shift = component_shifts(rows, functions_of(header), slice_points_of(positions.size()));
+  field.components = to_components(std::move(rows), header.shift, settings.threads);
+  field.positions = std::move(positions);
   return field;
 }
 

@@ -188,7 +188,7 @@ struct AllOptions {
 Outcome encode_any(const AllOptions& o) {
   if (is_frame_input(o.encode, o.frames)) return encode_frame_list(o.encode, o.frames);
   if (is_plenoptic_input(o.encode, o.plenoptic))
-    return encode_plenoptic_file(o.encode, o.plenoptic);
+    return encode_plenoptic_file(o.encode, o.plenoptic, o.scene.memory);
   if (o.plenoptic.given() && o.plenoptic.as != "colour")
     return Failure{kUsage, "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
                                o.encode.capture + " has no views"};
