@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/release.h"
 #include "base/stopwatch.h"
 #include "bitstream/parameter_sets.h"
 #include "capture/spacing.h"
@@ -104,8 +105,8 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   Stopwatch watch;
   const FitSettings& chosen = fit.chosen.settings;
   const VoxelCloud& cloud = of.cloud;
-  const Observations seen = in_local(std::move(world), chosen.directions, cloud.positions,
-                                     chosen.normal_cell_log2, settings.threads);
+  Observations seen = in_local(std::move(world), chosen.directions, cloud.positions,
+                               chosen.normal_cell_log2, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     fit.unobserved_points += seen.first[p] == seen.first[p + 1];
@@ -117,6 +118,10 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
   fit.seconds_fit = watch.lap();
   if (chosen.pictures.rounds == 0) return Done{};
+  seen = of.hold_out
+             ? observations_of(seen, held_out_points(cloud.positions, chosen.normal_cell_log2))
+             : Observations{};
+  trim_heap();
   const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
   const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
   std::vector<int> trusted;
