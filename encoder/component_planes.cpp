@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "attributes/quantiser.h"
+#include "base/release.h"
 #include "slf/given_planes.h"
 #include "slf/parallel.h"
 #include "slf/view_map.h"
@@ -21,6 +22,44 @@ int group_of_degree(int degree) { return degree == 0 ? 0 : degree <= 2 ? 1 : deg
 
 /// 0 for the constant, k + 1 for a wavelet of scale k.
 int scale_of(unsigned index) { return static_cast<int>(std::bit_width(index)); }
+
+/// @param largest  [K] of the magnitudes so far
+void take_largest(std::span<const float> coefficients, std::vector<float>& largest) {
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    float& most = largest[i / 3 % largest.size()];
+    most = std::max(most, std::abs(coefficients[i]));
+  }
+}
+
+std::vector<int> shifts_for(const std::vector<float>& largest, std::size_t slice_points) {
+  std::vector<int> shifts(largest.size(), kMostShift);
+  const double root = std::floor(std::sqrt(static_cast<double>(slice_points))) + 2;
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    while (shifts[k] > 0 && (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >=
+                                static_cast<double>(kCoefficientLimit))
+      --shifts[k];
+  return shifts;
+}
+
+/// [3 K]
+std::vector<float> scales_of(const std::vector<int>& shifts) {
+  std::vector<float> scale(3 * shifts.size());
+  for (std::size_t j = 0; j < scale.size(); ++j) scale[j] = static_cast<float>(1 << shifts[j / 3]);
+  return scale;
+}
+
+/// @param scale  [row]
+void round_rows(std::span<const float> coefficients, const std::vector<float>& scale, int threads,
+                std::int32_t* components) {
+  const std::size_t row = scale.size();
+  parallel_ranges(
+      coefficients.size() / row, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+          for (std::size_t j = 0; j < row; ++j)
+            components[p * row + j] = static_cast<std::int32_t>(
+                std::lround(std::clamp(coefficients[p * row + j] * scale[j], -1e9f, 1e9f)));
+      });
+}
 
 }  // namespace
 
@@ -43,32 +82,36 @@ void to_coded_channels(std::span<float> coefficients, ColourTransform transform,
 std::vector<int> component_shifts(std::span<const float> coefficients, std::size_t functions,
                                   std::size_t slice_points) {
   std::vector<float> largest(functions, 0);
-  for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    float& most = largest[i / 3 % functions];
-    most = std::max(most, std::abs(coefficients[i]));
-  }
-  std::vector<int> shifts(functions, kMostShift);
-  const double root = std::floor(std::sqrt(static_cast<double>(slice_points))) + 2;
-  for (std::size_t k = 0; k < functions; ++k)
-    while (shifts[k] > 0 && (std::ldexp(static_cast<double>(largest[k]), shifts[k]) + 1) * root >=
-                                static_cast<double>(kCoefficientLimit))
-      --shifts[k];
-  return shifts;
+  take_largest(coefficients, largest);
+  return shifts_for(largest, slice_points);
+}
+
+std::vector<int> component_shifts(FittedRows& coefficients, std::size_t functions,
+                                  std::size_t slice_points) {
+  std::vector<float> largest(functions, 0);
+  for (const auto& piece : coefficients.pieces()) take_largest(piece, largest);
+  return shifts_for(largest, slice_points);
 }
 
 std::vector<std::int32_t> to_components(std::span<const float> coefficients,
                                         const std::vector<int>& shifts, int threads) {
-  const std::size_t row = 3 * shifts.size();
-  std::vector<float> scale(row);
-  for (std::size_t j = 0; j < row; ++j) scale[j] = static_cast<float>(1 << shifts[j / 3]);
   std::vector<std::int32_t> components(coefficients.size());
-  parallel_ranges(
-      coefficients.size() / row, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-          for (std::size_t j = 0; j < row; ++j)
-            components[p * row + j] = static_cast<std::int32_t>(
-                std::lround(std::clamp(coefficients[p * row + j] * scale[j], -1e9f, 1e9f)));
-      });
+  round_rows(coefficients, scales_of(shifts), threads, components.data());
+  return components;
+}
+
+std::vector<std::int32_t> to_components(FittedRows coefficients, const std::vector<int>& shifts,
+                                        int threads) {
+  std::vector<std::int32_t> components;
+  std::size_t all = 0;
+  for (const auto& piece : coefficients.pieces()) all += piece.size();
+  components.reserve(all);  // pages that nothing is in yet take no memory
+  for (auto& piece : coefficients.pieces()) {
+    const std::size_t at = components.size();
+    components.resize(at + piece.size());
+    round_rows(piece, scales_of(shifts), threads, components.data() + at);
+    release(piece);
+  }
   return components;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "encoder/fit/fitted_rows.h"
 #include "slf/encoder.h"
 #include "slf/types.h"
 
@@ -19,10 +20,17 @@ void to_coded_channels(std::span<float> coefficients, ColourTransform transform,
 /// slice_points. Six bits below a grey level are far below any useful step.
 std::vector<int> component_shifts(std::span<const float> coefficients, std::size_t functions,
                                   std::size_t slice_points);
+std::vector<int> component_shifts(FittedRows& coefficients, std::size_t functions,
+                                  std::size_t slice_points);
 
 /// round(coefficient * 2^shift).
 std::vector<std::int32_t> to_components(std::span<const float> coefficients,
                                         const std::vector<int>& shifts, int threads);
+
+/// The same of all pieces, which are given up one after the other: what is held is little more than
+/// the components.
+std::vector<std::int32_t> to_components(FittedRows coefficients, const std::vector<int>& shifts,
+                                        int threads);
 
 /// What a decoder has: R, G, B coefficients [P][K][3].
 std::vector<float> decoded_coefficients(const LightField& field, int threads);

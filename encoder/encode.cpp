@@ -4,8 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/release.h"
 #include "base/stopwatch.h"
 #include "capture/density.h"
+#include "codec/encoder/pack_frame.h"
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/choose_surface.h"
@@ -27,17 +29,25 @@ struct Job {
   EncoderSettings settings;
   VoxelCloud cloud;
   CaptureFit fit;
+  LightField field;
   Encoded encoded;
 };
 
-/// Integers and bytes with the step q.
-Result<Done, InputError> code(Job& job, double q) {
+/// What does not depend on the step. The fit is given up.
+void quantise(Job& job) {
+  job.field = quantise_grid(job.cloud, std::move(job.fit), job.capture.origin, job.capture.up,
+                            job.settings);  // 6.3, 6.5
+  trim_heap();
+}
+
+/// Bytes with the step q.
+/// @param last  no other step is tried: the field is given up
+Result<Done, InputError> code(Job& job, double q, bool last) {
   job.encoded.q = job.settings.q = q;
-  const LightField field = quantise_grid(job.cloud, job.fit, job.capture.origin, job.capture.up,
-                                         job.settings);  // 6.3, 6.5
-  CodingParameters parameters = coding_parameters(field, job.settings);
+  CodingParameters parameters = coding_parameters(job.field, job.settings);
   parameters.metadata = encoder_metadata(job.settings, job.encoded, job.cameras.size());
-  SLF_TRY(job.encoded.stream, pack(field, parameters));  // spec 7, 8
+  SLF_TRY(job.encoded.stream, last ? pack_taken(std::move(job.field), parameters)
+                                   : pack(job.field, parameters));  // spec 7, 8
   return Done{};
 }
 
@@ -111,7 +121,7 @@ Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
 Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
                                         std::span<const int> cameras, const EncoderSettings& given,
                                         const Progress& progress) {
-  Job job{capture, cameras, given, {}, {}, {}};
+  Job job{capture, cameras, given, {}, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
   if (cameras.empty() && !capture.cameras.empty())
@@ -149,9 +159,10 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   SLF_CHECK(resolve_step(job));
   watch.lap();
   if (progress) progress("code", 0);
-  const auto code_with = [&](double q) { return code(job, q); };
+  quantise(job);
+  const auto code_with = [&](double q) { return code(job, q, false); };
   SLF_CHECK(has_target(settings) ? code_to_target(settings, seen, cameras, code_with, encoded)
-                                 : code_with(settings.q));
+                                 : code(job, settings.q, true));
   encoded.seconds_code = watch.lap();
   if (progress) progress("code", 1);
   return std::move(job.encoded);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "codec/encoder/pack_frame.h"
 #include "encoder/gaussian_coding.h"
 #include "encoder/gaussian_planes.h"
 #include "encoder/rate_control.h"
@@ -22,21 +24,24 @@ constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and do
 /// What the reference rasteriser never draws.
 const double kLeastLogit = -std::log(254.0);
 
-Gaussians that_show(const Gaussians& splats) {
-  Gaussians kept;
-  kept.degree = splats.degree;
-  kept.up = splats.up;
+Gaussians that_show(Gaussians splats) {
   const std::size_t row = 3 * splats.num_harmonics();
+  std::size_t kept = 0;
   for (std::size_t p = 0; p < splats.size(); ++p) {
     if (double{splats.logits[p]} < kLeastLogit) continue;
-    kept.positions.push_back(splats.positions[p]);
-    kept.log_deviations.push_back(splats.log_deviations[p]);
-    kept.rotations.push_back(splats.rotations[p]);
-    kept.logits.push_back(splats.logits[p]);
-    const float* from = &splats.harmonics[p * row];
-    kept.harmonics.insert(kept.harmonics.end(), from, from + row);
+    splats.positions[kept] = splats.positions[p];
+    splats.log_deviations[kept] = splats.log_deviations[p];
+    splats.rotations[kept] = splats.rotations[p];
+    splats.logits[kept] = splats.logits[p];
+    std::copy_n(&splats.harmonics[p * row], row, &splats.harmonics[kept * row]);
+    ++kept;
   }
-  return kept;
+  splats.positions.resize(kept);
+  splats.log_deviations.resize(kept);
+  splats.rotations.resize(kept);
+  splats.logits.resize(kept);
+  splats.harmonics.resize(kept * row);
+  return splats;
 }
 
 /// The median deviation along the middle axis, world units.
@@ -72,9 +77,9 @@ class GaussianEncoder {
     parameters.metadata = {{"quality", std::to_string(q)}};
     parameters.metadata.insert(parameters.metadata.begin(), settings_.metadata.begin(),
                                settings_.metadata.end());
-    SLF_TRY(out.stream, pack(field, parameters));
     out.q = q;
     out.grid = field.header.grid;
+    SLF_TRY(out.stream, pack_taken(std::move(field), parameters));
     return std::log(static_cast<double>(out.stream.size()));
   }
 
@@ -134,7 +139,7 @@ Result<Gaussians, InputError> decoded_gaussians(std::span<const std::uint8_t> st
   return gaussians_of(*decoded, threads);
 }
 
-Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
+Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin) {
   if (settings.target_bitrate > 0)
@@ -143,9 +148,10 @@ Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
     return InputError{Errc::kInvalidArgument, "target PSNR: 0 to 100 dB"};
   if (settings.target_psnr > 0 && settings.target_bytes > 0)
     return InputError{Errc::kInvalidArgument, "target: bytes or PSNR, not both"};
-  const Gaussians shown = that_show(splats);
+  const std::size_t given = splats.size();
+  const Gaussians shown = that_show(std::move(splats));
   if (shown.size() == 0)
-    return InputError{Errc::kInvalidInput, splats.size() == 0
+    return InputError{Errc::kInvalidInput, given == 0
                                                ? "has no splats"
                                                : "has no splat with an opacity of 1/255 or more"};
   const GaussianEncoder encoder(shown, settings, origin);
@@ -158,7 +164,7 @@ Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
     SLF_CHECK(encoder.code(settings.q == kAutomaticQ ? kGaussianQ : settings.q, out));
   }
   out.splats = shown.size();
-  out.left_out = splats.size() - shown.size();
+  out.left_out = given - shown.size();
   return out;
 }
 

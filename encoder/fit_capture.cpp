@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/release.h"
 #include "base/stopwatch.h"
 #include "bitstream/parameter_sets.h"
 #include "capture/spacing.h"
@@ -23,6 +24,15 @@ CodedNormals coded_normals(const VoxelCloud& cloud, int bits) {
     for (const auto& n : cloud.normals)
       normals.octahedral.push_back(quantise_normal({n[0], n[1], n[2]}, bits));
   return normals;
+}
+
+std::size_t functions_of(const LightFieldHeader& header) {
+  return static_cast<std::size_t>(header.num_functions);
+}
+
+/// The most that a slice of a scene of so many points may weigh.
+std::size_t slice_points_of(std::size_t points) {
+  return std::min<std::size_t>(2 * points, kMostBaseWeight);
 }
 
 }  // namespace
@@ -95,8 +105,8 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   Stopwatch watch;
   const FitSettings& chosen = fit.chosen.settings;
   const VoxelCloud& cloud = of.cloud;
-  const Observations seen = in_local(std::move(world), chosen.directions, cloud.positions,
-                                     chosen.normal_cell_log2, settings.threads);
+  Observations seen = in_local(std::move(world), chosen.directions, cloud.positions,
+                               chosen.normal_cell_log2, settings.threads);
   fit.observations = seen.colour.size();
   for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
     fit.unobserved_points += seen.first[p] == seen.first[p + 1];
@@ -108,6 +118,10 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, chosen, progress));
   fit.seconds_fit = watch.lap();
   if (chosen.pictures.rounds == 0) return Done{};
+  seen = of.hold_out
+             ? observations_of(seen, held_out_points(cloud.positions, chosen.normal_cell_log2))
+             : Observations{};
+  trim_heap();
   const CodedNormals normals = coded_normals(cloud, settings.normal_bits);
   const std::array gamma_range = {float(fit.gamma_min_q7) / 127, float(fit.gamma_max_q7) / 127};
   std::vector<int> trusted;
@@ -166,11 +180,13 @@ Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
   return fit;
 }
 
-LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
-                         const EncoderSettings& settings, const std::vector<int>& shift) {
-  LightField field;
-  LightFieldHeader& header = field.header;
-  header.grid = moved(cloud.grid, origin);
+namespace {
+
+/// All of quantise_grid but positions, normals, shift and components.
+LightFieldHeader header_on_grid(const Grid& grid, const CaptureFit& fit, const Vec3& origin,
+                                UpAxis up, const EncoderSettings& settings) {
+  LightFieldHeader header;
+  header.grid = moved(grid, origin);
   header.basis = settings.fit.basis;
   header.num_functions = header.basis.num_functions();
   header.directions = settings.fit.directions;
@@ -181,15 +197,36 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
   header.gamma_max_q7 = fit.gamma_max_q7;
   if (header.directions == Directions::kReflected)
     header.normal_cell_log2 = settings.fit.normal_cell_log2;
+  return header;
+}
+
+}  // namespace
+
+LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
+                         const EncoderSettings& settings, const std::vector<int>& shift) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header = header_on_grid(cloud.grid, fit, origin, up, settings);
   to_coded_channels(fit.coefficients, header.colour, settings.threads);
   header.shift = shift;
   if (shift.empty())
-    header.shift =
-        component_shifts(fit.coefficients, static_cast<std::size_t>(header.num_functions),
-                         std::min<std::size_t>(2 * cloud.positions.size(), kMostBaseWeight));
+    header.shift = component_shifts(fit.coefficients, functions_of(header),
+                                    slice_points_of(cloud.positions.size()));
   field.components = to_components(fit.coefficients, header.shift, settings.threads);
   field.positions = cloud.positions;
   field.normals = coded_normals(cloud, settings.normal_bits);
+  return field;
+}
+
+LightField quantise_rows(const Grid& grid, std::vector<Voxel> positions, FittedRows rows,
+                         const CaptureFit& fit, const EncoderSettings& settings) {
+  LightField field;
+  LightFieldHeader& header = field.header;
+  header = header_on_grid(grid, fit, {0, 0, 0}, UpAxis::kUnknown, settings);
+  for (auto& piece : rows.pieces()) to_coded_channels(piece, header.colour, settings.threads);
+  header.shift = component_shifts(rows, functions_of(header), slice_points_of(positions.size()));
+  field.components = to_components(std::move(rows), header.shift, settings.threads);
+  field.positions = std::move(positions);
   return field;
 }
 

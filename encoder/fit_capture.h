@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "encoder/fit/fitted_rows.h"
 #include "encoder/fit/held_out_pictures.h"
 #include "encoder/fit/observe_points.h"
 #include "slf/encoder.h"
@@ -76,6 +77,12 @@ Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<con
 /// @param shift     of the functions; empty: as fine as they can be
 LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& origin, UpAxis up,
                          const EncoderSettings& settings, const std::vector<int>& shift = {});
+
+/// The same of coefficients in pieces, without normals and at the origin of the grid; what is held
+/// is little more than the components.
+/// @param fit  without its coefficients
+LightField quantise_rows(const Grid& grid, std::vector<Voxel> positions, FittedRows rows,
+                         const CaptureFit& fit, const EncoderSettings& settings);
 
 /// Without cameras: the colours that the points have.
 /// @errors kInvalidInput: they have none

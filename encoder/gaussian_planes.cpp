@@ -126,6 +126,7 @@ Result<LightField, InputError> light_field_of(const Gaussians& splats, double st
                    [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
   std::sort(codes.begin(), codes.end());
   while (!spread(codes, field.header.grid.bits)) ++field.header.grid.bits;
+  field.positions.reserve(codes.size());
   for (const std::uint64_t code : codes) field.positions.push_back(from_morton(code));
   const std::size_t row = 3 * static_cast<std::size_t>(field.header.num_functions);
   field.components.resize(splats.size() * row);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
 
 #include "tools/describe.h"
 #include "tools/output.h"
@@ -39,7 +40,8 @@ Outcome check_alone(const EncodeOptions& given) {
 }
 
 struct Run {
-  PlenopticCloud cloud;
+  PlenopticCloud cloud;  // without its points
+  std::size_t points = 0;
   PlenopticEncoded encoded;
   StreamInfo info;
   double load = 0;
@@ -49,7 +51,7 @@ nlohmann::ordered_json report_json(const Run& run) {
   const PlenopticEncoded& e = run.encoded;
   const PlenopticBits bits = plenoptic_bits(run.info, e.stream.size());
   return {{"bytes", e.stream.size()},
-          {"points", run.cloud.num_points()},
+          {"points", run.points},
           {"merged", run.cloud.merged},
           {"views", run.cloud.views},
           {"own_colour", run.cloud.own_colour},
@@ -71,7 +73,7 @@ std::string report_text(const Run& run) {
   const PlenopticEncoded& e = run.encoded;
   const PlenopticBits bits = plenoptic_bits(run.info, e.stream.size());
   std::string out = text("taken         %s\n", run.cloud.taken.c_str());
-  out += text("points        %s (%s merged), %d bits\n", grouped(run.cloud.num_points()).c_str(),
+  out += text("points        %s (%s merged), %d bits\n", grouped(run.points).c_str(),
               grouped(run.cloud.merged).c_str(), run.cloud.grid.bits);
   out +=
       text("coded as      %s, %s: %s\n", e.as == PlenopticCoding::kPlanes ? "planes" : "view maps",
@@ -128,7 +130,8 @@ bool is_plenoptic_input(const EncodeOptions& given, const PlenopticVerbOptions& 
          count_plenoptic_views(given.capture) > 0;
 }
 
-Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic) {
+Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic,
+                              std::uint64_t memory) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_CHECK(check_alone(given));
@@ -139,6 +142,7 @@ Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOpt
   if (std::any_of(given.given.begin(), given.given.end(),
                   [](const auto& setting) { return setting.first == "degree"; }))
     settings.memory = 0;
+  settings.most_memory = memory;
   settings.hold_out = plenoptic.hold_out;
   std::sort(settings.hold_out.begin(), settings.hold_out.end());
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
@@ -156,7 +160,14 @@ Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOpt
   run.load = watch.lap();
   line.clear();
   warn(warnings, given.common.quiet);
-  SLF_TRY(run.encoded, from(given.capture, encode_plenoptic(run.cloud, settings, line.callback())));
+  run.points = run.cloud.num_points();
+  auto positions = std::exchange(run.cloud.positions, {});
+  auto colours = std::exchange(run.cloud.colours, {});
+  PlenopticCloud cloud = run.cloud;
+  cloud.positions = std::move(positions);
+  cloud.colours = std::move(colours);
+  SLF_TRY(run.encoded,
+          from(given.capture, encode_plenoptic(std::move(cloud), settings, line.callback())));
   line.clear();
   SLF_CHECK(save(given.output, run.encoded.stream.data(), run.encoded.stream.size()));
   SLF_TRY(run.info, from(given.output, read_info(run.encoded.stream, DecodeLimits::none())));

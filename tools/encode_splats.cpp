@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
 
 #include "slf/encode_gaussians.h"
 #include "tools/output.h"
@@ -11,6 +13,8 @@
 
 namespace slf::tools {
 namespace {
+
+constexpr std::uint64_t kMostInput = std::uint64_t{1} << 32;
 
 /// What splats have no use for. A setting that changes nothing would be a promise not kept.
 Outcome check_given(const EncodeOptions& given) {
@@ -36,12 +40,15 @@ Outcome check_given(const EncodeOptions& given) {
 Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
   SLF_CHECK(check_given(given));
   Stopwatch watch;
-  SLF_TRY(GaussianFile file, read_splat_file("encode", given.capture, {}, {}, given.common));
+  LimitOptions limits;  // as of any file that is encoded: 16 million splats of degree 3
+  limits.limits.max_stream_bytes = limits.limits.max_memory = kMostInput;
+  SLF_TRY(GaussianFile file, read_splat_file("encode", given.capture, {}, limits, given.common));
   if (given.up_given) file.gaussians.up = given.up;
   const double load = watch.lap();
+  const int degree = file.gaussians.degree;
   settings.metadata.insert(settings.metadata.begin(), {"source", file.format});
   SLF_TRY(const EncodedGaussians coded,
-          from(given.capture, encode_gaussians(file.gaussians, settings)));
+          from(given.capture, encode_gaussians(std::move(file.gaussians), settings)));
   const double code = watch.lap();
   SLF_CHECK(save(given.output, coded.stream.data(), coded.stream.size()));
   const double each = static_cast<double>(coded.stream.size()) / static_cast<double>(coded.splats);
@@ -52,7 +59,7 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
         {"splats", coded.splats},
         {"left_out", file.left_out + coded.left_out},
         {"mended", file.mended},
-        {"degree", file.gaussians.degree},
+        {"degree", degree},
         {"q", coded.q},
         {"grid", {{"bits", coded.grid.bits}, {"step", coded.grid.step}}},
         {"bytes_per_splat", each},
@@ -64,9 +71,9 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
                "quality       Q %.4g; grid of %d bits, voxels of %.4g\n"
                "seconds       load %.2f, code %.2f\n"
                "file          %s bytes, %.1f a splat\n",
-               grouped(coded.splats).c_str(), file.gaussians.degree,
-               grouped(coded.left_out).c_str(), coded.q, coded.grid.bits, coded.grid.step, load,
-               code, grouped(coded.stream.size()).c_str(), each);
+               grouped(coded.splats).c_str(), degree, grouped(coded.left_out).c_str(), coded.q,
+               coded.grid.bits, coded.grid.step, load, code, grouped(coded.stream.size()).c_str(),
+               each);
   return Done{};
 }
 

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 
 #include "slf/capture.h"
 #include "tools/exit_codes.h"
@@ -16,12 +17,25 @@ namespace {
 volatile std::sig_atomic_t deferred = 0;
 volatile std::sig_atomic_t pending = 0;
 
+constexpr std::size_t kMostName = 4096;
+char temporary_file[kMostName], temporary_directory[kMostName];
+volatile std::sig_atomic_t has_temporary = 0;
+
+/// Of calls that a signal handler may make.
+[[noreturn]] void leave() {
+  if (has_temporary != 0) {
+    ::unlink(temporary_file);
+    ::rmdir(temporary_directory);
+  }
+  _exit(kCancelled);
+}
+
 extern "C" void on_interrupt(int) {
   pending = 1;
   const int before = errno;
   end_other_program();
   errno = before;
-  if (deferred == 0) _exit(kCancelled);
+  if (deferred == 0) leave();
 }
 
 }  // namespace
@@ -46,6 +60,14 @@ DeferInterrupts::~DeferInterrupts() {
 
 bool interrupt_pending() { return pending != 0; }
 
-void exit_cancelled() { _exit(kCancelled); }
+void remove_at_interrupt(const char* file, const char* directory) {
+  has_temporary = 0;
+  if (*file == 0 || std::strlen(file) >= kMostName || std::strlen(directory) >= kMostName) return;
+  std::strcpy(temporary_file, file);
+  std::strcpy(temporary_directory, directory);
+  has_temporary = 1;
+}
+
+void exit_cancelled() { leave(); }
 
 }  // namespace slf::tools

@@ -20,6 +20,10 @@ class DeferInterrupts {
 /// An interrupt has been noted and waits.
 bool interrupt_pending();
 
+/// An interrupt removes this file and this directory, of names shorter than 4096 bytes. Empty:
+/// none.
+void remove_at_interrupt(const char* file, const char* directory);
+
 /// Ends the program as an interrupt does, without running destructors.
 [[noreturn]] void exit_cancelled();
 

@@ -25,7 +25,9 @@ void add_plenoptic(CLI::App& verb, PlenopticVerbOptions& options);
 bool is_plenoptic_input(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic);
 
 /// slf encode, of such a cloud.
-Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic);
+/// @param memory  bytes that it may take; 0: any
+Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic,
+                              std::uint64_t memory);
 
 /// What slf eval prints of such a file against the cloud it was made of.
 struct PlenopticEval {

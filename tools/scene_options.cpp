@@ -30,7 +30,8 @@ std::string now() {
 void add_work(CLI::App& verb, SceneOptions& o) {
   verb.add_option("--memory", o.memory,
                   "Code the scene slice by slice within so many bytes (K, M and G are 2^10, 2^20, "
-                  "2^30): at least 256M")
+                  "2^30): at least 256M. Of a plenoptic cloud: the degree of view maps that it has "
+                  "room for")
       ->type_name("BYTES")
       ->transform(byte_range(std::int64_t{1} << 28, std::int64_t{1} << 50));
   verb.add_option("--work", o.work,

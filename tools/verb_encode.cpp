@@ -18,6 +18,7 @@
 #include "tools/progress.h"
 #include "tools/scene_options.h"
 #include "tools/splat_input.h"
+#include "tools/spooled_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -176,32 +177,45 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   return Done{};
 }
 
+struct AllOptions {
+  EncodeOptions encode;
+  SceneOptions scene;
+  PlenopticVerbOptions plenoptic;
+  FrameOptions frames;
+};
+
+/// By what the capture is.
+Outcome encode_any(const AllOptions& o) {
+  if (is_frame_input(o.encode, o.frames)) return encode_frame_list(o.encode, o.frames);
+  if (is_plenoptic_input(o.encode, o.plenoptic))
+    return encode_plenoptic_file(o.encode, o.plenoptic, o.scene.memory);
+  if (o.plenoptic.given() && o.plenoptic.as != "colour")
+    return Failure{kUsage, "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
+                               o.encode.capture + " has no views"};
+  return o.scene.in_parts() ? encode_scene(o.encode, o.scene) : run_encode(o.encode, o.scene);
+}
+
 }  // namespace
 
 void add_encode(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand("encode", "From photographs and points to an .slf file");
-  struct Options {
-    EncodeOptions encode;
-    SceneOptions scene;
-    PlenopticVerbOptions plenoptic;
-    FrameOptions frames;
-  };
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<AllOptions>();
   add_encode_options(*verb, o->encode);
+  CLI::Option* capture = verb->get_option("CAPTURE");
+  capture->description(capture->get_description() +
+                       ", a scan or Gaussian splats; - is a cloud, a scan or splats on standard "
+                       "input");
   add_scene(*verb, o->scene);
   add_plenoptic(*verb, o->plenoptic);
   add_frames(*verb, o->frames);
   verb->callback([&run, o] {
     run = [o]() -> Outcome {
-      if (is_frame_input(o->encode, o->frames)) return encode_frame_list(o->encode, o->frames);
-      if (is_plenoptic_input(o->encode, o->plenoptic))
-        return encode_plenoptic_file(o->encode, o->plenoptic);
-      if (o->plenoptic.given() && o->plenoptic.as != "colour")
-        return Failure{kUsage,
-                       "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
-                           o->encode.capture + " has no views"};
-      return o->scene.in_parts() ? encode_scene(o->encode, o->scene)
-                                 : run_encode(o->encode, o->scene);
+      if (o->encode.capture != "-") return encode_any(*o);
+      SLF_TRY(const SpooledInput input, SpooledInput::read());
+      o->encode.capture = input.path();
+      Outcome done = encode_any(*o);
+      if (!done) return input.named(done.error());
+      return done;
     };
   });
 }

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <optional>
 
-#include "base/release.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/encoder/assemble.h"
@@ -47,7 +46,7 @@ Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
 }
 
 /// What follows the sorting.
-/// @param field  without its components
+/// @param field  perhaps without its points
 Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& field,
                                                           SequenceParameterSet set,
                                                           SortedField sorted,
@@ -68,7 +67,10 @@ Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& fiel
   SLF_TRY(ChosenTransforms chosen,
           choose_transforms(field, {sorted.morton, sorted.components, layout.cuts}, layout,
                             parameters, set, coding, units));  // 7.11
-  if (!chosen.transforms.empty()) sorted.components = std::move(chosen.components);
+  if (!chosen.transforms.empty())
+    sorted.components = find_components(chosen.transforms, chosen.coded,
+                                        static_cast<std::size_t>(field.num_planes()),
+                                        std::move(sorted.components), parameters.threads);
   if (group != nullptr)
     *group = {group->level,  group->features, set,
               coding.groups, coding.steps,    std::move(chosen.transforms),
@@ -106,8 +108,7 @@ Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field
 Result<std::vector<std::uint8_t>, InputError> pack_taken(LightField field,
                                                          const CodingParameters& parameters) {
   SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));  // 7.2
-  SLF_TRY(SortedField sorted, sort_points(field));                    // 6.2
-  release(field.components);
+  SLF_TRY(SortedField sorted, take_points(field));                    // 6.2
   return pack_sorted(field, std::move(set), std::move(sorted), parameters, nullptr, nullptr);
 }
 

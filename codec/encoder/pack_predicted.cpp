@@ -28,7 +28,7 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
   if (!group.transforms.empty())
     sorted.components =
         find_components(group.transforms, group.coded, static_cast<std::size_t>(field.num_planes()),
-                        sorted.components, parameters.threads);  // 8.7.5
+                        std::move(sorted.components), parameters.threads);  // 8.7.5
   std::vector<std::uint8_t> rest;
   SLF_TRY(const auto table, write_slice_table(layout.table, set));
   append_unit(rest, UnitType::kSlices, table);

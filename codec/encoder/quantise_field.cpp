@@ -28,8 +28,10 @@ Result<LightField, InputError> quantise_field(const LightField& given, CodingPar
           choose_transforms(given, {codes, given.components, layout.cuts, scale}, layout,
                             parameters, set, coding, units));  // 8.7.5
   if (!chosen.transforms.empty()) {
+    field.components = find_components(chosen.transforms, chosen.coded,
+                                       static_cast<std::size_t>(given.num_planes()),
+                                       std::move(field.components), parameters.threads);
     field.header.coded = std::move(chosen.coded);
-    field.components = std::move(chosen.components);
     for (auto& t : chosen.transforms) field.header.transforms.push_back(std::move(t.inverse));
   }
   const RahtTree tree = build_raht_tree(codes);

@@ -2,9 +2,11 @@
 #include "codec/encoder/sorted_field.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
+#include "base/release.h"
 #include "geometry/morton.h"
 
 namespace slf {
@@ -31,6 +33,25 @@ Result<SortedField, InputError> sort_points(const LightField& field) {
                              row + static_cast<std::ptrdiff_t>(planes));
     if (field.normals.bits > 0) sorted.normals.push_back(field.normals.octahedral[i]);
   }
+  return sorted;
+}
+
+Result<SortedField, InputError> take_points(LightField& field) {
+  SortedField sorted;
+  sorted.morton.reserve(field.num_points());
+  for (const Voxel& v : field.positions) sorted.morton.push_back(morton(v));
+  const bool in_order = std::adjacent_find(sorted.morton.begin(), sorted.morton.end(),
+                                           std::greater_equal<>()) == sorted.morton.end();
+  if (!in_order) {
+    SLF_TRY(sorted, sort_points(field));
+  } else {
+    sorted.components = std::move(field.components);
+    if (field.normals.bits > 0) sorted.normals = std::move(field.normals.octahedral);
+    sorted.positions = std::move(field.positions);
+  }
+  release(field.positions);
+  release(field.components);
+  release(field.normals.octahedral);
   return sorted;
 }
 

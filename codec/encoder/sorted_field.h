@@ -22,6 +22,9 @@ struct SortedField {
 /// @errors kInvalidArgument: two points in one voxel
 Result<SortedField, InputError> sort_points(const LightField& field);
 
+/// The same, and the field has no points after it: those that are in order are not copied.
+Result<SortedField, InputError> take_points(LightField& field);
+
 /// Base and slices.
 Result<std::vector<CodedUnit>, InputError> code_scene(SortedField& sorted,
                                                       const SceneLayout& layout,

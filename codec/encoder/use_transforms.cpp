@@ -63,20 +63,25 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
 
 std::vector<std::int32_t> find_components(const std::vector<ForwardTransform>& transforms,
                                           const std::vector<std::uint16_t>& coded, std::size_t row,
-                                          std::span<const std::int32_t> planes, int threads) {
+                                          std::vector<std::int32_t> planes, int threads) {
   constexpr std::size_t kPointGrain = 256;
+  // A transform has no more components than functions: width <= row.
   const std::size_t points = planes.size() / row, width = 3 * coded.size();
-  std::vector<std::int32_t> components(points * width);
   parallel_ranges(points, kPointGrain, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<ComponentFinder> finders(transforms.begin(), transforms.end());
+    std::vector<std::int32_t> found(width);
     for (std::size_t p = begin; p < end; ++p) {
-      const std::int32_t* given = &planes[p * row];
+      std::int32_t* given = &planes[p * row];
       for (std::size_t r = 0; r < coded.size(); ++r)  // those of no transform stay
-        std::copy_n(given + std::size_t{3} * coded[r], 3, &components[p * width + 3 * r]);
-      for (ComponentFinder& finder : finders) finder.find(given, &components[p * width]);
+        std::copy_n(given + std::size_t{3} * coded[r], 3, &found[3 * r]);
+      for (ComponentFinder& finder : finders) finder.find(given, found.data());
+      std::copy(found.begin(), found.end(), given);
     }
   });
-  return components;
+  for (std::size_t p = 1; p < points && width < row; ++p)
+    std::copy_n(&planes[p * row], width, &planes[p * width]);
+  planes.resize(points * width);
+  return planes;
 }
 
 namespace {
@@ -105,8 +110,6 @@ Result<ChosenTransforms, InputError> choose_transforms(
   if (chosen.transforms.empty()) return chosen;
   SLF_TRY(chosen.coded,
           use_transforms(given, layout, parameters, chosen.transforms, set, coding, units));
-  chosen.components = find_components(chosen.transforms, chosen.coded, 3 * weights.size(),
-                                      input.components, parameters.threads);
   return chosen;
 }
 

@@ -26,16 +26,15 @@ Result<std::vector<std::uint16_t>, InputError> use_transforms(
     std::vector<ForwardTransform>& transforms, SequenceParameterSet& set, SliceCoding& coding,
     std::vector<CodedUnit>& units);
 
-/// The given planes [P][row] to components [P][3 R]. row: 3 K
+/// The given planes [P][row] to components [P][3 R], in their place. row: 3 K
 std::vector<std::int32_t> find_components(const std::vector<ForwardTransform>& transforms,
                                           const std::vector<std::uint16_t>& coded, std::size_t row,
-                                          std::span<const std::int32_t> planes, int threads);
+                                          std::vector<std::int32_t> planes, int threads);
 
-/// Transforms that pay, the functions that their components stand in, and all components.
+/// Transforms that pay, and the functions that their components stand in.
 struct ChosenTransforms {
   std::vector<ForwardTransform> transforms;  ///< none where none pays
   std::vector<std::uint16_t> coded;          ///< [R]
-  std::vector<std::int32_t> components;      ///< [P][3 R]
 };
 
 /// Derives transforms of the given field and uses them.

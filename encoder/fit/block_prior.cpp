@@ -12,8 +12,9 @@ namespace slf {
 BlockPrior::BlockPrior(std::span<const Voxel> positions, int block_log2, std::size_t functions)
     : tree_(positions, block_log2), functions_(functions), width_(padded(functions + 3)) {
   for (std::size_t level = 0; level < tree_.levels(); ++level) {
-    sums_.emplace_back(tree_.blocks(level));
-    for (Sums& sums : sums_.back()) sums.matrix.assign(width_ * width_, 0);
+    const std::size_t blocks = tree_.blocks(level);
+    sums_.push_back(
+        {std::vector<float>(blocks * width_ * width_, 0.0f), std::vector<double>(blocks, 0.0)});
   }
 }
 
@@ -25,21 +26,20 @@ void BlockPrior::add(std::size_t b, const PointColumns& seen) {
   for (std::size_t k = 0; k < functions_; ++k) take(&seen.functions[k * seen.stride], k);
   for (std::size_t c = 0; c < 3; ++c) take(&seen.colours[c * seen.stride], functions_ + c);
   centre_rows(seen.count, rows.data(), width_, mean.data());
-  Sums& sums = sums_.front()[b];
-  add_square(seen.count, rows.data(), width_, sums.matrix.data());
-  sums.observations += static_cast<double>(seen.count);
+  add_square(seen.count, rows.data(), width_, matrix_of(0, b));
+  sums_.front().observations[b] += static_cast<double>(seen.count);
 }
 
 void BlockPrior::sum_up(int threads) {
   for (std::size_t level = 1; level < sums_.size(); ++level)
-    parallel_ranges(sums_[level].size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(tree_.blocks(level), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b)
         for (std::size_t child = tree_.first(level, b); child < tree_.first(level, b + 1);
              ++child) {
-          const Sums& from = sums_[level - 1][child];
-          Sums& to = sums_[level][b];
-          for (std::size_t i = 0; i < to.matrix.size(); ++i) to.matrix[i] += from.matrix[i];
-          to.observations += from.observations;
+          const float* from = matrix_of(level - 1, child);
+          float* to = matrix_of(level, b);
+          for (std::size_t i = 0; i < width_ * width_; ++i) to[i] += from[i];
+          sums_[level].observations[b] += sums_[level - 1].observations[child];
         }
     });
 }
@@ -58,19 +58,20 @@ BlockPrior::Solution BlockPrior::from_above(std::size_t level, std::size_t b,
 
 /// Element 0 is 0.
 /// @param penalty  [K] in full
-BlockPrior::Solution BlockPrior::solve_block(const Sums& sums, Solution above,
+BlockPrior::Solution BlockPrior::solve_block(std::size_t level, std::size_t b, Solution above,
                                              std::span<const double> penalty) const {
   const std::size_t n = functions_ - 1;
-  if (sums.observations == 0 || n == 0) return above;
+  if (sums_[level].observations[b] == 0 || n == 0) return above;
+  const float* matrix = sums_[level].matrix.data() + b * width_ * width_;
   std::vector<Lanes<double>> residual(n);
   std::vector<double> factor(packed_size(n));
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t c = 0; c < 3; ++c)
-      residual[j].c[c] = double{sums.matrix[(functions_ + c) * width_ + j + 1]};
+      residual[j].c[c] = double{matrix[(functions_ + c) * width_ + j + 1]};
   for (std::size_t j = 0; j < n; ++j) {
     double* column = factor.data() + packed_column(n, j);
     for (std::size_t i = j; i < n; ++i) {
-      const double a = column[i - j] = double{sums.matrix[(i + 1) * width_ + j + 1]};
+      const double a = column[i - j] = double{matrix[(i + 1) * width_ + j + 1]};
       for (std::size_t c = 0; c < 3; ++c) {
         residual[i].c[c] -= a * above[3 * (j + 1) + c];
         if (i > j) residual[j].c[c] -= a * above[3 * (i + 1) + c];
@@ -92,10 +93,9 @@ std::vector<float> BlockPrior::solve(double strength, std::span<const double> pe
     std::vector<Solution> here(tree_.blocks(level));
     parallel_ranges(here.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
-        const Sums& sums = sums_[level][b];
         std::vector<double> full(penalty.begin(), penalty.end());
-        for (double& p : full) p *= strength * sums.observations;
-        here[b] = solve_block(sums, from_above(level, b, above), full);
+        for (double& p : full) p *= strength * sums_[level].observations[b];
+        here[b] = solve_block(level, b, from_above(level, b, above), full);
       }
     });
     above = std::move(here);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/release.h"
 #include "encoder/fit/block_tree.h"
 #include "slf/types.h"
 
@@ -42,20 +43,28 @@ class BlockPrior {
   /// @return [finest blocks][K][3]; element 0 of each is 0
   std::vector<float> solve(double strength, std::span<const double> penalty, int threads) const;
 
+  /// Gives the sums up; solve() must not be called after it.
+  void forget_sums() { release(sums_); }
+
  private:
-  /// Colours are three more functions: their products with those are the right-hand sides.
-  struct Sums {
-    std::vector<float> matrix;  // [width_][width_], lower triangle; row and column 0 are 0
-    double observations = 0;
+  /// Sums of the blocks of a level. Colours are three more functions: their products with those are
+  /// the right-hand sides.
+  struct LevelSums {
+    std::vector<float> matrix;  // [blocks][width_][width_], lower triangle; row and column 0 are 0
+    std::vector<double> observations;  // [blocks]
   };
   using Solution = std::vector<double>;  // [K][3]
   Solution from_above(std::size_t level, std::size_t b, std::span<const Solution> above) const;
-  Solution solve_block(const Sums& sums, Solution above, std::span<const double> penalty) const;
+  Solution solve_block(std::size_t level, std::size_t b, Solution above,
+                       std::span<const double> penalty) const;
+  float* matrix_of(std::size_t level, std::size_t b) {
+    return sums_[level].matrix.data() + b * width_ * width_;
+  }
 
   BlockTree tree_;
-  std::size_t functions_;                // K
-  std::size_t width_;                    // K + 3, up to whole lanes
-  std::vector<std::vector<Sums>> sums_;  // [levels][blocks]
+  std::size_t functions_;        // K
+  std::size_t width_;            // K + 3, up to whole lanes
+  std::vector<LevelSums> sums_;  // [levels]
 };
 
 }  // namespace slf

@@ -37,16 +37,19 @@ std::vector<int> camera_folds(std::span<const Vec3> towards_camera) {
   return cluster;
 }
 
-CameraFolds camera_folds(const Observations& observations,
+CameraFolds camera_folds(const PointwiseObservations& observations,
                          std::span<const std::array<float, 3>> normals) {
   std::vector<Vec3> towards;  // sums
-  for (std::size_t p = 0; p + 1 < observations.first.size(); ++p)
-    for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
-      const std::size_t camera = observations.camera[j];
+  SeenRoom room;
+  for (std::size_t p = 0; p < observations.points(); ++p) {
+    const SeenPoint seen = observations.of(p, room);
+    for (std::size_t j = 0; j < seen.count(); ++j) {
+      const std::size_t camera = seen.camera[j];
       if (camera >= towards.size()) towards.resize(camera + 1, Vec3{});
-      const Vec3 w = vector_of(to_local(normals, p, observations.direction[j]));
+      const Vec3 w = vector_of(to_local(normals, p, seen.direction[j]));
       for (std::size_t a = 0; a < 3; ++a) towards[camera][a] += w[a];
     }
+  }
   CameraFolds folds;
   folds.of_camera.assign(towards.size(), -1);
   std::vector<std::size_t> seen;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "slf/fit.h"
+#include "encoder/fit/pointwise_observations.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -23,7 +23,7 @@ std::vector<int> camera_folds(std::span<const Vec3> towards_camera);
 
 /// The same of the cameras of observations, each in the mean direction of its observations.
 /// @param normals  those that directions are mirrored at; none: directions of the world
-CameraFolds camera_folds(const Observations& observations,
+CameraFolds camera_folds(const PointwiseObservations& observations,
                          std::span<const std::array<float, 3>> normals);
 
 }  // namespace slf

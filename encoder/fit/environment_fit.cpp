@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/signed_index.h"
-#include "encoder/fit/camera_folds.h"
 #include "encoder/fit/lane_products.h"
 #include "lightfield/directions.h"
 #include "lightfield/harmonics.h"
@@ -15,8 +14,6 @@
 
 namespace slf {
 namespace {
-
-using NoNormals = std::span<const std::array<float, 3>>;
 
 constexpr double kLightPenalty = 0.8, kGrowth = 1.3;  // as the blocks of the hierarchical fit have
 constexpr std::size_t kMostTriedViews = 30000;
@@ -194,21 +191,21 @@ MirrorPoints mirror_points(std::span<const Voxel> positions, int cell_log2, int 
   return points;
 }
 
-ReflectedViews reflected_views(const Observations& observations, const MirrorPoints& points,
-                               Directions directions, std::size_t most) {
-  const std::size_t every =
-      std::max<std::size_t>(1, (observations.direction.size() + most - 1) / most);
+ReflectedViews reflected_views(const PointwiseObservations& observations,
+                               const MirrorPoints& points, Directions directions,
+                               std::size_t most) {
+  const std::size_t every = std::max<std::size_t>(1, (observations.count() + most - 1) / most);
   ReflectedViews views;
   views.first.push_back(0);
+  SeenRoom room;
   for (std::size_t p = 0; p < points.position.size(); p += every) {
-    if (observations.first[p] == observations.first[p + 1]) continue;
-    for (auto j = observations.first[p]; j < observations.first[p + 1]; ++j) {
-      const auto& d = observations.direction[j];
+    const SeenPoint seen = observations.of(p, room);
+    if (seen.count() == 0) continue;
+    for (const auto& d : seen.direction)
       views.reflected.push_back(
           vector_of(directions == Directions::kReflected ? d : to_local(points.normal, p, d)));
-      views.colour.push_back(observations.colour[j]);
-      views.camera.push_back(observations.camera[j]);
-    }
+    views.colour.insert(views.colour.end(), seen.colour.begin(), seen.colour.end());
+    views.camera.insert(views.camera.end(), seen.camera.begin(), seen.camera.end());
     views.position.push_back(points.position[p]);
     views.first.push_back(views.colour.size());
   }
@@ -244,17 +241,15 @@ std::vector<float> solve_environment(const ReflectedViews& views, double radius,
   return light;
 }
 
-EnvironmentSettings with_radius(const Observations& observations, const MirrorPoints& points,
-                                const FitSettings& settings) {
+EnvironmentSettings with_radius(const PointwiseObservations& observations,
+                                const MirrorPoints& points, const FitSettings& settings,
+                                const CameraFolds& folds) {
   EnvironmentSettings chosen = settings.environment;
   if (chosen.degree == 0 || chosen.radius != 0) return chosen;
   const auto none = [&] {
     chosen.degree = 0;
     return chosen;
   };
-  const bool reflected = settings.directions == Directions::kReflected;
-  const CameraFolds folds =
-      camera_folds(observations, reflected ? std::span(points.normal) : NoNormals{});
   if (folds.count < 3) return none();
   const auto views = reflected_views(observations, points, settings.directions, kMostTriedViews);
   if (views.colour.empty()) return none();
@@ -272,13 +267,16 @@ EnvironmentSettings with_radius(const Observations& observations, const MirrorPo
   return chosen;
 }
 
-std::optional<Environment> fit_environment(const Observations& observations,
+std::optional<Environment> fit_environment(const PointwiseObservations& observations,
                                            const MirrorPoints& points, const FitSettings& settings,
                                            std::size_t most_views) {
   const EnvironmentSettings& given = settings.environment;
   if (given.known.half > 0)
     return Environment(given.radius, given.degree, given.known.light, settings.threads);
-  const EnvironmentSettings e = with_radius(observations, points, settings);
+  EnvironmentSettings e = given;
+  if (e.degree > 0 && e.radius == 0)
+    e = with_radius(observations, points, settings,
+                    camera_folds(observations, points.normals(settings.directions)));
   if (e.degree == 0) return std::nullopt;
   const auto views = reflected_views(observations, points, settings.directions, most_views);
   if (views.colour.empty()) return std::nullopt;
@@ -286,12 +284,12 @@ std::optional<Environment> fit_environment(const Observations& observations,
                      settings.threads);
 }
 
-KnownLight known_light(const Observations& observations, std::span<const Voxel> positions,
+KnownLight known_light(const PointwiseObservations& observations, std::span<const Voxel> positions,
                        const FitSettings& settings) {
   const EnvironmentSettings& e = settings.environment;
-  if (e.degree == 0 || observations.colour.empty()) return {};
+  if (e.degree == 0 || observations.count() == 0) return {};
   const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
-  const auto views = reflected_views(observations, points, settings.directions, kMostViews);
+  const auto views = reflected_views(observations, points, settings.directions, kMostLightViews);
   if (views.colour.empty()) return {};
   const ObjectBox box(positions);
   return {box.centre(), box.half(), solve_environment(views, e.radius, e, settings.threads)};

@@ -8,6 +8,11 @@
 #include "slf/parallel.h"
 
 namespace slf {
+namespace {
+
+constexpr std::size_t kPriorGrain = 256;  // points
+
+}  // namespace
 
 std::array<float, 3> EnvironmentPrior::operator()(std::size_t p,
                                                   const std::array<float, 2>& direction) const {
@@ -17,34 +22,38 @@ std::array<float, 3> EnvironmentPrior::operator()(std::size_t p,
                    vector_of(reflected ? direction : to_local(points_.normal, p, direction)));
 }
 
-std::vector<float> EnvironmentPrior::along(const Observations& seen, int threads) const {
+std::vector<float> EnvironmentPrior::along(const PointwiseObservations& seen, int threads) const {
   if (!light_) return {};
-  constexpr std::size_t kGrain = 256;
-  std::vector<float> light(3 * seen.direction.size());
-  parallel_ranges(seen.first.size() - 1, kGrain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (auto j = static_cast<std::size_t>(seen.first[p]); j < seen.first[p + 1]; ++j) {
-        const auto colour = (*this)(p, seen.direction[j]);
-        std::copy(colour.begin(), colour.end(), light.begin() + static_cast<std::ptrdiff_t>(3 * j));
+  std::vector<float> light(3 * seen.count());
+  parallel_ranges(seen.points(), kPriorGrain, threads, [&](std::size_t begin, std::size_t end) {
+    SeenRoom room;
+    for (std::size_t p = begin; p < end; ++p) {
+      float* to = light.data() + 3 * seen.first(p);
+      for (const auto& direction : seen.of(p, room).direction) {
+        const auto colour = (*this)(p, direction);
+        to = std::copy(colour.begin(), colour.end(), to);
       }
+    }
   });
   return light;
 }
 
-std::vector<float> EnvironmentPrior::projected(const Observations& seen, const DirectionRows& basis,
-                                               int threads) const {
-  const std::size_t points = points_.position.size();
+void EnvironmentPrior::project(const PointwiseObservations& seen, const DirectionRows& basis,
+                               int threads, FittedRows& rows) const {
   auto outward = points_.normal;
-  for (std::size_t p = 0; p < points; ++p) {
-    double towards_cameras = 0;  // the cosine of the reflected direction is that of the view
-    for (auto j = seen.first[p]; j < seen.first[p + 1]; ++j) {
-      const Vec3 v = vector_of(seen.direction[j]);
-      for (std::size_t a = 0; a < 3; ++a) towards_cameras += v[a] * double(outward[p][a]);
+  parallel_ranges(outward.size(), kPriorGrain, threads, [&](std::size_t begin, std::size_t end) {
+    SeenRoom room;
+    for (std::size_t p = begin; p < end; ++p) {
+      double towards_cameras = 0;  // the cosine of the reflected direction is that of the view
+      for (const auto& direction : seen.of(p, room).direction) {
+        const Vec3 v = vector_of(direction);
+        for (std::size_t a = 0; a < 3; ++a) towards_cameras += v[a] * double(outward[p][a]);
+      }
+      if (towards_cameras < 0)
+        for (float& x : outward[p]) x = -x;
     }
-    if (towards_cameras < 0)
-      for (float& x : outward[p]) x = -x;
-  }
-  return project_environment(*light_, points_.position, outward, directions_, basis, threads);
+  });
+  project_environment(*light_, points_.position, outward, directions_, basis, threads, rows);
 }
 
 }  // namespace slf

@@ -8,7 +8,8 @@
 #include "encoder/fit/direction_rows.h"
 #include "encoder/fit/environment.h"
 #include "encoder/fit/environment_fit.h"
-#include "slf/fit.h"
+#include "encoder/fit/fitted_rows.h"
+#include "encoder/fit/pointwise_observations.h"
 
 namespace slf {
 
@@ -24,11 +25,12 @@ class EnvironmentPrior {
   std::array<float, 3> operator()(std::size_t p, const std::array<float, 2>& direction) const;
 
   /// [observations][3] what it tells along each; empty without light.
-  std::vector<float> along(const Observations& seen, int threads) const;
+  std::vector<float> along(const PointwiseObservations& seen, int threads) const;
 
-  /// [P][K][3] its part of the view maps, of functions of mean square 1. Only with light.
-  std::vector<float> projected(const Observations& seen, const DirectionRows& basis,
-                               int threads) const;
+  /// Its part of the view maps, of functions of mean square 1. Only with light.
+  /// @param rows  [P][K][3] receives it
+  void project(const PointwiseObservations& seen, const DirectionRows& basis, int threads,
+               FittedRows& rows) const;
 
  private:
   const std::optional<Environment>& light_;

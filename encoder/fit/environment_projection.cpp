@@ -124,15 +124,12 @@ class Projection {
 
 }  // namespace
 
-std::vector<float> project_environment(const Environment& environment,
-                                       std::span<const Vec3> positions,
-                                       std::span<const std::array<float, 3>> normals,
-                                       Directions directions, const DirectionRows& basis,
-                                       int threads) {
+void project_environment(const Environment& environment, std::span<const Vec3> positions,
+                         std::span<const std::array<float, 3>> normals, Directions directions,
+                         const DirectionRows& basis, int threads, FittedRows& rows) {
   constexpr std::size_t kPoints = Projection::kPoints, kColumns = Projection::kColumns;
   const Projection projection(basis);
   const auto bins = bins_of(normals);
-  std::vector<float> out(positions.size() * basis.size() * 3);
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> light(projection.count() * kColumns, 0.0f);
     for (std::size_t b = begin; b < end; ++b) {
@@ -150,13 +147,12 @@ std::vector<float> project_environment(const Environment& environment,
             for (std::size_t c = 0; c < 3; ++c)
               light[q * kColumns + 3 * (i - first) + c] = weights[q] * seen[c];
           }
-          solved.push_back(out.data() + p * basis.size() * 3);
+          solved.push_back(rows.of(p));
         }
         projection.solve(factor, light, solved);
       }
     }
   });
-  return out;
 }
 
 }  // namespace slf

@@ -2,11 +2,12 @@
 // An environment in the functions of a basis, per point.
 #pragma once
 
+#include <array>
 #include <span>
-#include <vector>
 
 #include "encoder/fit/direction_rows.h"
 #include "encoder/fit/environment.h"
+#include "encoder/fit/fitted_rows.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -16,11 +17,9 @@ namespace slf {
 /// can see, with a penalty that keeps it from growing there.
 /// @param positions  [P] in the object's box
 /// @param normals    [P] outward, unit
-/// @return [P][K][3], of the functions scaled to mean square 1
-std::vector<float> project_environment(const Environment& environment,
-                                       std::span<const Vec3> positions,
-                                       std::span<const std::array<float, 3>> normals,
-                                       Directions directions, const DirectionRows& basis,
-                                       int threads);
+/// @param rows       [P][K][3] receives it, of the functions scaled to mean square 1
+void project_environment(const Environment& environment, std::span<const Vec3> positions,
+                         std::span<const std::array<float, 3>> normals, Directions directions,
+                         const DirectionRows& basis, int threads, FittedRows& rows);
 
 }  // namespace slf

@@ -61,7 +61,12 @@ Result<std::vector<float>, InputError> fit_view_maps(const Observations& observa
   const UnobservedPoints unobserved(observations, positions, neighbours, settings.threads);
   const std::size_t size = 3 * static_cast<std::size_t>(settings.basis.num_functions());
   if (settings.method == FitMethod::kHierarchical) {
-    auto coefficients = fit_hierarchical(observations, positions, settings, progress);
+    MirrorPoints mirrors;
+    if (settings.environment.degree > 0)
+      mirrors = mirror_points(positions, settings.normal_cell_log2, settings.threads,
+                              settings.environment.known);
+    auto coefficients =
+        fit_hierarchical(observations, positions, mirrors, settings, points, progress).take();
     unobserved.fill(coefficients.data(), size, settings.threads);
     return coefficients;
   }

@@ -19,23 +19,22 @@ std::vector<double> penalties(const DirectionRows& rows, double scale, double gr
   return penalty;
 }
 
-/// What was seen of one point, read from the observations.
-/// @param light  [observations][3] subtracted from the colours, or empty
-void read_columns(const Observations& observations, std::span<const float> light, std::size_t point,
-                  const DirectionRows& basis, PointColumns& seen) {
-  const auto first = static_cast<std::size_t>(observations.first[point]),
-             last = static_cast<std::size_t>(observations.first[point + 1]);
-  seen.count = last - first;
+/// What was seen of one point, less the light that it reflects.
+/// @param light  [3] of each observation; called in their order
+template <class Light>
+void read_columns(const SeenPoint& from, const Light& light, const DirectionRows& basis,
+                  PointColumns& seen) {
+  seen.count = from.count();
   if (seen.count == 0) return;
   seen.stride = padded(seen.count);
   seen.functions.resize(basis.size() * seen.stride);
   seen.colours.assign(3 * seen.stride, 0.0f);
-  basis.evaluate_columns(std::span(observations.direction).subspan(first, seen.count),
-                         seen.functions.data(), seen.stride);
-  for (std::size_t i = first; i < last; ++i)
+  basis.evaluate_columns(from.direction, seen.functions.data(), seen.stride);
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    const std::array<float, 3> dark = light(i);
     for (std::size_t c = 0; c < 3; ++c)
-      seen.colours[c * seen.stride + i - first] =
-          observations.colour[i][c] - (light.empty() ? 0.0f : light[3 * i + c]);
+      seen.colours[c * seen.stride + i] = from.colour[i][c] - dark[c];
+  }
 }
 
 /// out += what is between blocks.
@@ -121,9 +120,16 @@ void HierarchicalFit::for_points(double from, double to, const Progress& progres
       blocks, 1, threads_,
       [&](std::size_t begin, std::size_t end) {
         PointColumns seen;
+        SeenRoom room;
         for (std::size_t b = begin; b < end; ++b)
           for (std::size_t p = tree.first(0, b); p < tree.first(0, b + 1); ++p) {
-            read_columns(observations_, light_, p, basis_, seen);
+            const SeenPoint point = observations_.of(p, room);
+            const auto light_of = [&](std::size_t i) -> std::array<float, 3> {
+              if (light_.empty()) return environment_(p, point.direction[i]);
+              const float* light = &light_[3 * (observations_.first(p) + i)];
+              return {light[0], light[1], light[2]};
+            };
+            read_columns(point, light_of, basis_, seen);
             if (seen.count > 0) each(b, p, seen);
           }
       },
@@ -132,12 +138,14 @@ void HierarchicalFit::for_points(double from, double to, const Progress& progres
       });
 }
 
-HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<const Voxel> positions,
-                                 const FitSettings& settings, const EnvironmentPrior& environment,
-                                 const Progress& progress)
+HierarchicalFit::HierarchicalFit(const PointwiseObservations& observations,
+                                 std::span<const Voxel> positions, const FitSettings& settings,
+                                 const EnvironmentPrior& environment, const Progress& progress)
     : observations_(observations),
       positions_(positions),
-      light_(environment.along(observations, settings.threads)),
+      environment_(environment),
+      light_(observations.kept() ? environment.along(observations, settings.threads)
+                                 : std::vector<float>{}),
       threads_(settings.threads),
       basis_(settings.basis),
       prior_(positions, settings.hierarchy.block_log2, basis_.size()) {
@@ -146,11 +154,17 @@ HierarchicalFit::HierarchicalFit(const Observations& observations, std::span<con
   prior_.sum_up(threads_);
 }
 
-void HierarchicalFit::solve(std::span<const HierarchySettings> tried, const Body& body,
-                            const Progress& progress) const {
+std::vector<std::vector<float>> HierarchicalFit::solve_blocks(
+    std::span<const HierarchySettings> tried) const {
   std::vector<std::vector<float>> blocks;
   for (const HierarchySettings& h : tried)
     blocks.push_back(prior_.solve(h.strength, penalties(basis_, kPenalty, h.growth), threads_));
+  return blocks;
+}
+
+void HierarchicalFit::solve_points(std::span<const HierarchySettings> tried,
+                                   std::span<const std::vector<float>> blocks, const Body& body,
+                                   const Progress& progress) const {
   std::vector<float> inverse_root;
   for (const double p : penalties(basis_, tried[0].point_penalty, tried[0].point_growth))
     inverse_root.push_back(static_cast<float>(1 / std::sqrt(p)));
@@ -170,26 +184,25 @@ void HierarchicalFit::solve(std::span<const HierarchySettings> tried, const Body
   });
 }
 
-std::vector<float> fit_hierarchical(const Observations& observations,
-                                    std::span<const Voxel> positions, const FitSettings& settings,
-                                    const Progress& progress) {
-  MirrorPoints points;
+FittedRows fit_hierarchical(const PointwiseObservations& observations,
+                            std::span<const Voxel> positions, const MirrorPoints& points,
+                            const FitSettings& settings, std::size_t of_piece,
+                            const Progress& progress) {
   std::optional<Environment> light;
-  if (settings.environment.degree > 0) {
-    points = mirror_points(positions, settings.normal_cell_log2, settings.threads,
-                           settings.environment.known);
-    light = fit_environment(observations, points, settings);
-  }
+  if (settings.environment.degree > 0) light = fit_environment(observations, points, settings);
   const EnvironmentPrior environment(light, points, settings.directions);
-  const HierarchicalFit fit(observations, positions, settings, environment, progress);
+  HierarchicalFit fit(observations, positions, settings, environment, progress);
+  const auto tried = std::span(&settings.hierarchy, 1);
+  const auto blocks = fit.solve_blocks(tried);
+  fit.forget_sums();
   const std::size_t size = 3 * fit.basis().size();
-  std::vector<float> coefficients(positions.size() * size, 0.0f);
-  if (light) coefficients = environment.projected(observations, fit.basis(), settings.threads);
+  FittedRows coefficients(positions.size(), size, of_piece);
+  if (light) environment.project(observations, fit.basis(), settings.threads, coefficients);
   const auto norms = fit.basis().norms();
-  fit.solve(
-      std::span(&settings.hierarchy, 1),
+  fit.solve_points(
+      tried, blocks,
       [&](std::size_t p, std::span<const float> a) {
-        float* of_point = coefficients.data() + p * size;
+        float* of_point = coefficients.of(p);
         for (std::size_t i = 0; i < size; ++i)
           of_point[i] = (of_point[i] + a[i]) / static_cast<float>(norms[i / 3]);
       },

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/release.h"
 #include "encoder/fit/camera_folds.h"
 #include "encoder/fit/held_out_pictures.h"
 #include "encoder/fit/picture_system.h"
@@ -54,8 +55,7 @@ void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, co
   for (const double pull : kPulls) {
     system.set_pull(pull);
     auto tried = colours;
-    PictureSystem::Vector z(colours.size());
-    system.improve(kept, kTriedSteps, tried, z);
+    system.improve(kept, kTriedSteps, tried, nullptr);
     const double gained = psnr(system.errors(tried), held_out);
     if (!(gained > fit.held_out_before)) continue;
     fit.held_out_after = gained;
@@ -82,7 +82,6 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   const std::vector<int> fold = camera_folds(towards(eyes, cloud));
   PictureSystem system(input.grid, input.positions, settings, input.gamma_range, pictures, eyes);
   auto colours = system.colours(coefficients);
-  PictureSystem::Vector z(colours.size());
   PictureFit fit;
   fit.pull = 1;
   const PictureFitSettings& s = settings.pictures;
@@ -100,13 +99,14 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
     done = 2;
   }
   fit.psnr_before = fit.psnr_after = psnr(system.errors(colours), all);
+  PictureSystem::Vector z(colours.size());
   for (int round = 0; fit.pull > 0 && round < s.rounds; ++round) {
     if (round > 0) {
       next();
       system.set_trust(colours, s.outlier);
     }
     system.set_pull(fit.pull);
-    system.improve(all, s.steps, colours, z);
+    system.improve(all, s.steps, colours, &z);
   }
   if (fit.pull > 0) {
     fit.psnr_after = psnr(system.errors(colours), all);
@@ -114,6 +114,8 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   }
   if (!hold_out) return fit;
   next();
+  release(colours);
+  release(z);
   SLF_TRY(*held_out, HeldOutPictures::of({input, settings, pictures, eyes, fold, fit.pull}));
   return fit;
 }

@@ -24,7 +24,8 @@ struct PictureFitInput {
   Transfer transfer = Transfer::kDisplay;  ///< of the coefficients
   std::array<float, 2> gamma_range{-1, 1};
   DepthOfCamera hidden_by = {};  ///< of points that are not among these; or empty
-  /// Local directions of the points: given, pictures are held out from another fit
+  /// Of local directions, of the points held_out_points() alone: given, pictures are held out from
+  /// another fit
   const Observations* seen = nullptr;
 };
 

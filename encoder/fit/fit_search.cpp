@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings of the hierarchical fit by cross-validation: choose_fit of slf/fit.h.
+// Settings of the hierarchical fit by cross-validation.
+#include "encoder/fit/fit_search.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "encoder/fit/camera_folds.h"
 #include "encoder/fit/fit_settings.h"
 #include "encoder/fit/fold_trial.h"
 #include "lightfield/directions.h"
@@ -117,19 +118,35 @@ Result<ChosenFit, InputError> choose_fit(const Observations& observations,
                                          const Progress& progress) {
   SLF_CHECK(check_fit_settings(settings));
   SLF_CHECK(check_observations(observations, positions.size()));
+  MirrorPoints points;
+  if (chooses_fit(settings, search))
+    points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
+  return choose_fit(PointwiseObservations(observations), positions, points, settings, search,
+                    progress);
+}
+
+bool chooses_fit(const FitSettings& settings, const FitSearch& search) {
+  return settings.method == FitMethod::kHierarchical &&
+         (settings.environment.degree > 0 || search.any());
+}
+
+Result<ChosenFit, InputError> choose_fit(const PointwiseObservations& observations,
+                                         std::span<const Voxel> positions,
+                                         const MirrorPoints& points, const FitSettings& settings,
+                                         const FitSearch& search, const Progress& progress) {
+  SLF_CHECK(check_fit_settings(settings));
   ChosenFit chosen{settings};
   if (settings.method != FitMethod::kHierarchical) {
     if (!search.any()) return chosen;
     return InputError{Errc::kInvalidArgument, "cross-validation is of the hierarchical fit"};
   }
-  if (settings.environment.degree == 0 && !search.any()) return chosen;
-  const MirrorPoints points = mirror_points(positions, settings.normal_cell_log2, settings.threads);
+  if (!chooses_fit(settings, search)) return chosen;
   FitSettings world = settings;
   world.directions = Directions::kWorld;
-  chosen.settings.environment = with_radius(observations, points, world);
+  const CameraFolds folds = camera_folds(observations, {});
+  chosen.settings.environment = with_radius(observations, points, world, folds);
   if (!search.any()) return chosen;
 
-  const CameraFolds folds = camera_folds(observations, {});
   if (folds.cameras < kLeastCameras || folds.count < kLeastFolds) {
     chosen.outcome = ChosenFit::kTooFewCameras;
     return chosen;

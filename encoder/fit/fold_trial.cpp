@@ -15,8 +15,8 @@ namespace {
 
 /// The observations that `kept` tells to keep: a camera's index is its argument.
 template <class Kept>
-void append(const Observations& from, std::size_t point, const Kept& kept, Observations& to) {
-  for (auto j = from.first[point]; j < from.first[point + 1]; ++j) {
+void append(const SeenPoint& from, const Kept& kept, Observations& to) {
+  for (std::size_t j = 0; j < from.count(); ++j) {
     if (!kept(from.camera[j])) continue;
     to.direction.push_back(from.direction[j]);
     to.colour.push_back(from.colour[j]);
@@ -27,10 +27,11 @@ void append(const Observations& from, std::size_t point, const Kept& kept, Obser
 
 }  // namespace
 
-FoldSample sample_blocks(const Observations& seen, std::span<const Voxel> positions,
+FoldSample sample_blocks(const PointwiseObservations& seen, std::span<const Voxel> positions,
                          const MirrorPoints& points, int block_log2, std::size_t about) {
   const std::size_t every = (positions.size() + about - 1) / about;
   FoldSample sample;
+  SeenRoom room;
   sample.seen.first.push_back(0);
   std::size_t block = 0;
   std::optional<std::uint64_t> last;
@@ -43,7 +44,7 @@ FoldSample sample_blocks(const Observations& seen, std::span<const Voxel> positi
     sample.points.position.push_back(points.position[p]);
     sample.points.normal.push_back(points.normal[p]);
     append(
-        seen, p, [](std::uint16_t) { return true; }, sample.seen);
+        seen.of(p, room), [](std::uint16_t) { return true; }, sample.seen);
   }
   return sample;
 }
@@ -51,9 +52,12 @@ FoldSample sample_blocks(const Observations& seen, std::span<const Voxel> positi
 Observations of_fold(const Observations& seen, const CameraFolds& folds, int fold, bool others) {
   Observations part;
   part.first.push_back(0);
-  for (std::size_t p = 0; p + 1 < seen.first.size(); ++p)
+  const PointwiseObservations all(seen);
+  SeenRoom room;
+  for (std::size_t p = 0; p < all.points(); ++p)
     append(
-        seen, p, [&](std::uint16_t c) { return (folds.of_camera[c] == fold) != others; }, part);
+        all.of(p, room), [&](std::uint16_t c) { return (folds.of_camera[c] == fold) != others; },
+        part);
   set_gamma_range(part);
   return part;
 }
@@ -72,21 +76,24 @@ class FoldFit {
         environment_(light, sample.points, settings.directions),
         fit_(kept_, sample.positions, settings, environment_) {
     if (project && light) {
-      projected_ = environment_.projected(kept_, fit_.basis(), settings.threads);
+      FittedRows rows(sample.positions.size(), 3 * fit_.basis().size());
+      environment_.project(kept_, fit_.basis(), settings.threads, rows);
+      projected_ = std::move(rows).take();
     } else {
       light_ = environment_.along(held_out_, settings.threads);
     }
   }
 
-  /// Of each of the settings tried; see HierarchicalFit::solve.
+  /// Of each of the settings tried; see HierarchicalFit::solve_points.
   std::vector<FoldError> errors(std::span<const HierarchySettings> tried) const {
     const std::size_t points = held_out_.first.size() - 1;
     std::vector<double> of_point(points * tried.size(), 0);
     std::vector<std::size_t> count(points, 0);
-    fit_.solve(tried, [&](std::size_t p, std::span<const float> a) {
-      add_point_errors(p, a, std::span(of_point).subspan(p * tried.size(), tried.size()));
-      count[p] = 3 * static_cast<std::size_t>(held_out_.first[p + 1] - held_out_.first[p]);
-    });
+    fit_.solve_points(
+        tried, fit_.solve_blocks(tried), [&](std::size_t p, std::span<const float> a) {
+          add_point_errors(p, a, std::span(of_point).subspan(p * tried.size(), tried.size()));
+          count[p] = 3 * static_cast<std::size_t>(held_out_.first[p + 1] - held_out_.first[p]);
+        });
     std::vector<FoldError> sums(tried.size());
     for (std::size_t p = 0; p < points; ++p)
       for (std::size_t t = 0; t < tried.size(); ++t) {

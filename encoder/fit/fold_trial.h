@@ -25,7 +25,7 @@ struct FoldSample {
 
 /// Whole blocks, every n-th: the sums of a block stay what they are. Blocks beside it are missing
 /// more often than not, so that less is interpolated.
-FoldSample sample_blocks(const Observations& seen, std::span<const Voxel> positions,
+FoldSample sample_blocks(const PointwiseObservations& seen, std::span<const Voxel> positions,
                          const MirrorPoints& points, int block_log2, std::size_t about);
 
 /// The observations of one fold, or of all others.
@@ -52,7 +52,7 @@ class FoldTrial {
             const FitSettings& settings);
   ~FoldTrial();
 
-  /// [tried][fold]; see HierarchicalFit::solve.
+  /// [tried][fold]; see HierarchicalFit::solve_points.
   std::vector<std::vector<FoldError>> errors(std::span<const HierarchySettings> tried) const;
   std::vector<FoldError> errors(const HierarchySettings& tried) const {
     return errors(std::span(&tried, 1)).front();

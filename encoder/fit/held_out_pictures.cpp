@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/stopwatch.h"
 #include "geometry/morton.h"
@@ -28,10 +29,10 @@ std::size_t cells_of(std::span<const Voxel> positions, int cell_log2) {
   return cells;
 }
 
-/// What `kept` tells of the observations of `points`; a camera's index is its argument.
+/// The observations that `kept` tells to keep; a camera's index is its argument.
 template <class Kept>
-Observations observations_of(const Observations& seen, std::span<const std::uint32_t> points,
-                             const Kept& kept) {
+Observations observations_that(const Observations& seen, std::span<const std::uint32_t> points,
+                               const Kept& kept) {
   Observations part;
   part.first.push_back(0);
   for (const std::uint32_t p : points) {
@@ -62,6 +63,15 @@ std::vector<bool> first_fold(const PictureViews& views, std::span<const int> fol
 
 }  // namespace
 
+std::vector<std::uint32_t> held_out_points(std::span<const Voxel> positions, int spacing_log2) {
+  return spread_cells(positions, spacing_log2,
+                      std::clamp(positions.size() / kShare, kFewestPoints, kMostPoints));
+}
+
+Observations observations_of(const Observations& seen, std::span<const std::uint32_t> points) {
+  return observations_that(seen, points, [](std::uint16_t) { return true; });
+}
+
 std::vector<std::uint32_t> spread_cells(std::span<const Voxel> positions, int spacing_log2,
                                         std::size_t about) {
   const std::size_t every =
@@ -86,8 +96,7 @@ Result<std::shared_ptr<const HeldOutPictures>, InputError> HeldOutPictures::of(c
   pictures->cameras_ = static_cast<std::size_t>(std::count(held_out.begin(), held_out.end(), true));
   if (pictures->cameras_ > 0) {
     const std::span<const Voxel> all = input.of.positions;
-    const auto points = spread_cells(all, input.settings.normal_cell_log2,
-                                     std::clamp(all.size() / kShare, kFewestPoints, kMostPoints));
+    const auto points = held_out_points(all, input.settings.normal_cell_log2);
     pictures->views_ = views_of_points(input.views, points, all.size(), held_out);
     for (const PictureView& view : pictures->views_.views) pictures->pixels_ += view.pixels();
     if (pictures->pixels_ > 0) SLF_CHECK(pictures->fit(input, points, held_out));
@@ -105,6 +114,8 @@ Result<Done, InputError> HeldOutPictures::fit(const Input& input,
   const PictureFitInput& of = input.of;
   grid_ = of.grid;
   for (const std::uint32_t p : points) positions_.push_back(of.positions[p]);
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
   std::vector<bool> used(held_out.size());
   std::vector<bool> saw(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, true);
   for (std::size_t v = 0; v < held_out.size(); ++v) {
@@ -112,7 +123,7 @@ Result<Done, InputError> HeldOutPictures::fit(const Input& input,
     saw[static_cast<std::size_t>(of.cameras[v])] = used[v];
   }
   SLF_TRY(coefficients_,
-          fit_view_maps(observations_of(*of.seen, points, [&](std::size_t c) { return saw[c]; }),
+          fit_view_maps(observations_that(*of.seen, all, [&](std::size_t c) { return saw[c]; }),
                         positions_, input.settings, {}));
   const auto system_of = [&](PictureViews& views) {
     return std::make_unique<PictureSystem>(grid_, positions_, input.settings, of.gamma_range, views,
@@ -126,7 +137,7 @@ Result<Done, InputError> HeldOutPictures::fit(const Input& input,
     PictureSystem::Vector z(colours.size());
     system->set_pull(input.pull);
     system->set_trust(colours, s.outlier);
-    system->improve([](std::size_t) { return true; }, s.steps, colours, z);
+    system->improve([](std::size_t) { return true; }, s.steps, colours, &z);
     system->add(z, coefficients_);
   }
   system_ = system_of(views_);

@@ -59,6 +59,14 @@ class HeldOutPictures {
   double seconds_ = 0;
 };
 
+/// Indices of the points that are fitted again.
+/// @param positions     Morton order
+/// @param spacing_log2  between points, voxels
+std::vector<std::uint32_t> held_out_points(std::span<const Voxel> positions, int spacing_log2);
+
+/// What was seen of some of the points.
+Observations observations_of(const Observations& seen, std::span<const std::uint32_t> points);
+
 /// Indices of about so many points: whole cells, spread evenly, that are as large as so few allow.
 /// @param positions     Morton order
 /// @param spacing_log2  between points, voxels

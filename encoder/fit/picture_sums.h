@@ -10,6 +10,11 @@
 
 namespace slf {
 
+/// What a vector of the solver has of a ray.
+using Colour3 = std::array<float, 3>;
+
+inline Colour4 widened(const Colour3& x) { return {x[0], x[1], x[2], 0}; }
+
 inline void add_scaled(float factor, const Colour4& x, Colour4& to) {
   for (std::size_t c = 0; c < 4; ++c) to[c] += factor * x[c];
 }
@@ -19,7 +24,7 @@ inline Colour4 mixed(const PictureView& view, std::size_t pixel,
                      const std::vector<Colour4>& local) {
   Colour4 sum{};
   for (auto j = view.first[pixel]; j < view.first[pixel + 1]; ++j)
-    add_scaled(view.weight[j], local[view.local[j]], sum);
+    add_scaled(view.weight[j], local[view.local(j)], sum);
   return sum;
 }
 
@@ -28,7 +33,8 @@ inline Colour4 error_of(const PictureView& view, std::size_t pixel,
                         const std::vector<Colour4>& local) {
   const Colour4 is = mixed(view, pixel, local);
   Colour4 error{};
-  for (std::size_t c = 0; c < 3; ++c) error[c] = view.photograph[pixel][c] - is[c];
+  const Colour4 photograph = view.photograph(pixel);
+  for (std::size_t c = 0; c < 3; ++c) error[c] = photograph[c] - is[c];
   return error;
 }
 
@@ -37,11 +43,11 @@ inline float square(const Colour4& error) {
 }
 
 /// The view's own part of a vector; colours as a renderer clamps them.
-inline std::vector<Colour4> gathered(const PictureView& view, const std::vector<Colour4>& x,
+inline std::vector<Colour4> gathered(const PictureView& view, const std::vector<Colour3>& x,
                                      bool clamped) {
   std::vector<Colour4> local(view.points.size());
   for (std::size_t i = 0; i < local.size(); ++i) {
-    local[i] = x[static_cast<std::size_t>(view.ray[i])];
+    local[i] = widened(x[static_cast<std::size_t>(view.ray[i])]);
     if (clamped)
       for (float& c : local[i]) c = std::clamp(c, 0.0f, 255.0f);
   }
@@ -50,16 +56,16 @@ inline std::vector<Colour4> gathered(const PictureView& view, const std::vector<
 
 /// x += W^T of what `pixel` gives for each.
 template <class Pixel>
-void spread(const PictureView& view, const Pixel& pixel, std::vector<Colour4>& x) {
+void spread(const PictureView& view, const Pixel& pixel, std::vector<Colour3>& x) {
   std::vector<Colour4> sums(view.points.size());
   for (std::size_t i = 0; i < view.pixels(); ++i) {
     Colour4 value = pixel(i);
     for (float& c : value) c *= view.trust[i];
     for (auto j = view.first[i]; j < view.first[i + 1]; ++j)
-      add_scaled(view.weight[j], value, sums[view.local[j]]);
+      add_scaled(view.weight[j], value, sums[view.local(j)]);
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
-    add_scaled(1, sums[i], x[static_cast<std::size_t>(view.ray[i])]);
+    for (std::size_t c = 0; c < 3; ++c) x[static_cast<std::size_t>(view.ray[i])][c] += sums[i][c];
 }
 
 }  // namespace slf

@@ -25,7 +25,7 @@ std::vector<double> penalties(const DirectionRows& rows, const PictureFitSetting
 }
 
 /// Inner products of the channels.
-std::array<double, 3> inner(const std::vector<Colour4>& a, const std::vector<Colour4>& b,
+std::array<double, 3> inner(const std::vector<Colour3>& a, const std::vector<Colour3>& b,
                             int threads) {
   std::vector<std::array<double, 3>> parts((a.size() + kRaysPerRange - 1) / kRaysPerRange);
   parallel_ranges(a.size(), kRaysPerRange, threads, [&](std::size_t begin, std::size_t end) {
@@ -84,9 +84,12 @@ PictureSystem::Vector PictureSystem::colours(std::span<const float> coefficients
       for (std::size_t c = 0; c < 3; ++c)
         of_point[k][c] =
             static_cast<float>(rows_.norms()[k]) * coefficients[3 * (size * p + k) + c];
-    for (std::size_t r = from; r < to; ++r)
+    for (std::size_t r = from; r < to; ++r) {
+      Colour4 sum{};
       for (std::size_t k = 0; k < size; ++k)
-        add_scaled(rows[(r - from) * size + k], of_point[k], colours[r]);
+        add_scaled(rows[(r - from) * size + k], of_point[k], sum);
+      colours[r] = {sum[0], sum[1], sum[2]};
+    }
   });
   return colours;
 }
@@ -96,8 +99,11 @@ void PictureSystem::add(const Vector& z, std::span<float> coefficients) const {
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
     const std::vector<float> rows = rows_of(p, from, to);
     std::vector<Colour4> sum(size);
-    for (std::size_t r = from; r < to; ++r)
-      for (std::size_t k = 0; k < size; ++k) add_scaled(rows[(r - from) * size + k], z[r], sum[k]);
+    for (std::size_t r = from; r < to; ++r) {
+      const Colour4 of_ray = widened(z[r]);
+      for (std::size_t k = 0; k < size; ++k)
+        add_scaled(rows[(r - from) * size + k], of_ray, sum[k]);
+    }
     for (std::size_t k = 0; k < size; ++k)
       for (std::size_t c = 0; c < 3; ++c)
         coefficients[3 * (size * p + k) + c] +=
@@ -135,36 +141,36 @@ std::vector<PictureError> PictureSystem::errors(const Vector& colours) const {
 }
 
 void PictureSystem::improve(const std::function<bool(std::size_t)>& used, int steps,
-                            Vector& colours, Vector& z) const {
+                            Vector& colours, Vector* z) const {
   std::vector<bool> uses;
   for (std::size_t v = 0; v < pictures_.views.size(); ++v) uses.push_back(used(v));
   const std::size_t n = colours.size();
-  // g_: G times the vector.
-  Vector left = residual(uses, colours), g_left(n), q;
-  apply_kernel(left, g_left);
-  Vector search = left, g_search = g_left;
-  auto rho = inner(left, g_left, threads_);
+  // g_: G times the vector. `product` is first what the search is of the system, then g_left.
+  Vector left = residual(uses, colours), product(n);
+  apply_kernel(left, product);
+  Vector search = left, g_search = product;
+  auto rho = inner(left, product, threads_);
   for (int step = 0; step < steps; ++step) {
-    q = search;
-    add_pictures(uses, g_search, q);
-    const Colour4 length = quotient(rho, inner(g_search, q, threads_));
+    product = search;
+    add_pictures(uses, g_search, product);
+    const Colour4 length = quotient(rho, inner(g_search, product, threads_));
     parallel_ranges(n, kRaysPerRange, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t c = 0; c < 4; ++c) {
-          z[i][c] += length[c] * search[i][c];
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (z != nullptr) (*z)[i][c] += length[c] * search[i][c];
           colours[i][c] += length[c] * g_search[i][c];
-          left[i][c] -= length[c] * q[i][c];
+          left[i][c] -= length[c] * product[i][c];
         }
     });
     if (step + 1 == steps) return;
-    apply_kernel(left, g_left);
-    const auto before = std::exchange(rho, inner(left, g_left, threads_));
+    apply_kernel(left, product);
+    const auto before = std::exchange(rho, inner(left, product, threads_));
     const Colour4 keep = quotient(rho, before);
     parallel_ranges(n, kRaysPerRange, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t c = 0; c < 3; ++c) {
           search[i][c] = left[i][c] + keep[c] * search[i][c];
-          g_search[i][c] = g_left[i][c] + keep[c] * g_search[i][c];
+          g_search[i][c] = product[i][c] + keep[c] * g_search[i][c];
         }
     });
   }
@@ -202,15 +208,15 @@ void PictureSystem::add_pictures(const std::vector<bool>& used, const Vector& x,
 /// out = G x.
 void PictureSystem::apply_kernel(const Vector& x, Vector& out) const {
   each_point([&](std::size_t p, std::size_t from, std::size_t to) {
-    const std::size_t rays = to - from;
     std::vector<Vec3> in_local;
-    if (kernel_.needs_local())
-      for (std::size_t r = from; r < to; ++r) in_local.push_back(direction(p, r));
-    const auto result = std::span(out).subspan(from, rays);
-    kernel_.apply(std::span(world_).subspan(from, rays), in_local, std::span(x).subspan(from, rays),
-                  result);
-    for (Colour4& colour : result)
-      for (float& c : colour) c /= pull_;
+    std::vector<Colour4> given, result(to - from);
+    for (std::size_t r = from; r < to; ++r) {
+      if (kernel_.needs_local()) in_local.push_back(direction(p, r));
+      given.push_back(widened(x[r]));
+    }
+    kernel_.apply(std::span(world_).subspan(from, to - from), in_local, given, result);
+    for (std::size_t r = from; r < to; ++r)
+      for (std::size_t c = 0; c < 3; ++c) out[r][c] = result[r - from][c] / pull_;
   });
 }
 

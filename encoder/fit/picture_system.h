@@ -39,7 +39,7 @@ struct PictureError {
 /// count.
 class PictureSystem {
  public:
-  using Vector = std::vector<Colour4>;
+  using Vector = std::vector<std::array<float, 3>>;  ///< R, G, B of each ray
 
   /// @param eyes  [views] the cameras' centres, world
   /// @param gamma_range  of directions, as the file will clamp them
@@ -61,10 +61,10 @@ class PictureSystem {
   /// Trusted error of each view.
   std::vector<PictureError> errors(const Vector& colours) const;
 
-  /// Colours changed by `steps` of conjugate gradients on the views that `used` tells; z is added
-  /// to.
+  /// Colours changed by `steps` of conjugate gradients on the views that `used` tells.
+  /// @param z  is added to; or null
   void improve(const std::function<bool(std::size_t view)>& used, int steps, Vector& colours,
-               Vector& z) const;
+               Vector* z) const;
 
  private:
   Vec3 towards(std::size_t point, std::size_t ray) const;

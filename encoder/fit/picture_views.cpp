@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/release.h"
 #include "capture/object_mask.h"
 #include "encoder/fit/observe_camera.h"
 #include "lightfield/render/splat_weights.h"
@@ -71,6 +72,19 @@ Result<std::vector<bool>, InputError> hidden_pixels(const SplatWeights& splatted
   return hidden;
 }
 
+/// @param local     [contributions] point of each
+/// @param local_of  index of a point into view.points
+void finish_view(std::vector<std::uint32_t>& local, const std::vector<std::uint32_t>& local_of,
+                 PictureView& view) {
+  for (std::uint32_t& p : local) p = local_of[p];
+  view.set_local(local);
+  view.weight.shrink_to_fit();
+  view.first.shrink_to_fit();
+  view.samples.shrink_to_fit();
+  view.points.shrink_to_fit();
+  view.trust.assign(view.pixels(), 1.0f);
+}
+
 Result<PictureView, InputError> picture_view(const Capture& capture, int camera_index,
                                              const std::array<float, 3>& gain,
                                              const SurfelCloud& cloud,
@@ -82,8 +96,10 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
       splat_weights(project_surfels(cloud, camera, 1), camera.width, camera.height, 1);
   SLF_TRY(const auto hidden, hidden_pixels(splatted, camera, camera_index, hidden_by));
   PictureView view;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < 256; ++i) view.level[c][i] = gain[c] * transfer[i];
   view.first.push_back(0);
-  std::vector<std::uint32_t> local_of(cloud.size(), kUnseen);
+  std::vector<std::uint32_t> local, local_of(cloud.size(), kUnseen);
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < splatted.coverage.size(); ++i) {
     const std::uint8_t* sample = &image.data[channels * i];
@@ -91,50 +107,47 @@ Result<PictureView, InputError> picture_view(const Capture& capture, int camera_
     if (hidden[i]) continue;
     if (gain != kNoGain && *std::max_element(sample, sample + 3) >= kClipped) continue;
     for (auto j = splatted.first[i]; j < splatted.first[i + 1]; ++j) {
-      view.local.push_back(splatted.point[j]);
+      local.push_back(splatted.point[j]);
       view.weight.push_back(splatted.weight[j]);
       local_of[splatted.point[j]] = 0;
     }
-    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
-    Colour4 colour{};
-    for (std::size_t c = 0; c < 3; ++c) colour[c] = gain[c] * transfer[sample[c]];
-    view.photograph.push_back(colour);
+    view.first.push_back(static_cast<std::uint32_t>(local.size()));
+    view.samples.push_back({sample[0], sample[1], sample[2]});
   }
   for (std::uint32_t p = 0; p < local_of.size(); ++p) {
     if (local_of[p] == kUnseen) continue;
     local_of[p] = static_cast<std::uint32_t>(view.points.size());
     view.points.push_back(p);
   }
-  for (std::uint32_t& p : view.local) p = local_of[p];
-  view.trust.assign(view.pixels(), 1.0f);
+  finish_view(local, local_of, view);
   return view;
 }
 
 /// The pixels of a view that show nothing but points that have a place.
 PictureView view_of_points(const PictureView& from, const std::vector<std::uint32_t>& place) {
   PictureView view;
+  view.level = from.level;
   view.first.push_back(0);
-  std::vector<std::uint32_t> local_of(from.points.size(), kUnseen);
+  std::vector<std::uint32_t> local, shown, local_of(from.points.size(), kUnseen);
   for (std::size_t i = 0; i < from.pixels(); ++i) {
-    const std::span all(from.local);
-    const auto shown = all.subspan(from.first[i], from.first[i + 1] - from.first[i]);
+    shown.clear();
+    for (auto j = from.first[i]; j < from.first[i + 1]; ++j) shown.push_back(from.local(j));
     if (std::any_of(shown.begin(), shown.end(),
                     [&](std::uint32_t l) { return place[from.points[l]] == kUnseen; }))
       continue;
     for (const std::uint32_t l : shown) local_of[l] = 0;
-    view.local.insert(view.local.end(), shown.begin(), shown.end());
+    local.insert(local.end(), shown.begin(), shown.end());
     view.weight.insert(view.weight.end(), from.weight.begin() + from.first[i],
                        from.weight.begin() + from.first[i + 1]);
-    view.first.push_back(static_cast<std::uint32_t>(view.local.size()));
-    view.photograph.push_back(from.photograph[i]);
+    view.first.push_back(static_cast<std::uint32_t>(local.size()));
+    view.samples.push_back(from.samples[i]);
   }
   for (std::size_t l = 0; l < local_of.size(); ++l) {
     if (local_of[l] == kUnseen) continue;
     local_of[l] = static_cast<std::uint32_t>(view.points.size());
     view.points.push_back(place[from.points[l]]);
   }
-  for (std::uint32_t& l : view.local) l = local_of[l];
-  view.trust.assign(view.pixels(), 1.0f);
+  finish_view(local, local_of, view);
   return view;
 }
 
@@ -148,14 +161,22 @@ Rays connect(std::vector<PictureView>& views, std::size_t points) {
   rays.view.resize(static_cast<std::size_t>(rays.first[points]));
   std::vector<std::uint64_t> next(rays.first.begin(), rays.first.end() - 1);
   for (std::size_t v = 0; v < views.size(); ++v)
-    for (const std::uint32_t p : views[v].points) {
+    for (const std::uint32_t p : views[v].points) {  // rays: far fewer than 2^32, by kMemory
       rays.view[static_cast<std::size_t>(next[p])] = static_cast<std::uint32_t>(v);
-      views[v].ray.push_back(next[p]++);
+      views[v].ray.push_back(static_cast<std::uint32_t>(next[p]++));
     }
   return rays;
 }
 
 }  // namespace
+
+void PictureView::set_local(std::span<const std::uint32_t> local) {
+  local_low.assign(local.begin(), local.end());
+  local_high.clear();
+  if (points.size() <= std::size_t{1} << 16) return;
+  local_high.reserve(local.size());
+  for (const std::uint32_t l : local) local_high.push_back(static_cast<std::uint16_t>(l >> 16));
+}
 
 Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
                                                std::span<const std::array<float, 3>> gains,
@@ -189,6 +210,7 @@ Result<PictureViews, InputError> picture_views(const Capture& capture, std::span
   for (PictureView& view : pictures.views)
     if (view.first.empty()) view.first.push_back(0);
   pictures.rays = connect(pictures.views, cloud.size());
+  trim_heap();
   return pictures;
 }
 

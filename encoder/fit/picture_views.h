@@ -16,17 +16,30 @@
 
 namespace slf {
 
-/// One photograph.
+/// One photograph. Contributions are most of what a picture fit holds, ten of 6 bytes a pixel.
 struct PictureView {
   std::vector<std::uint32_t> points;  ///< that it shows, ascending
-  std::vector<std::uint64_t> ray;     ///< [points] the place of each among all rays
+  std::vector<std::uint32_t> ray;     ///< [points] the place of each among all rays
   std::vector<std::uint32_t> first;   ///< [pixels + 1] contributions of each pixel that counts
-  std::vector<std::uint32_t> local;   ///< [contributions] index into points
-  std::vector<float> weight;          ///< [contributions] of sum 1 over a pixel
-  std::vector<Colour4> photograph;    ///< [pixels] 0 .. 255
-  std::vector<float> trust;           ///< [pixels] 0 .. 1
+  /// [contributions] index into points: its lower 16 bits, and those above, none where all are 0.
+  std::vector<std::uint16_t> local_low, local_high;
+  std::vector<float> weight;                         ///< [contributions] of sum 1 over a pixel
+  std::vector<std::array<std::uint8_t, 3>> samples;  ///< [pixels] of the photograph
+  std::array<std::array<float, 256>, 3> level{};     ///< of a sample, 0 .. 255 times the gain
+  std::vector<float> trust;                          ///< [pixels] 0 .. 1
 
-  std::size_t pixels() const { return photograph.size(); }
+  std::size_t pixels() const { return samples.size(); }
+
+  Colour4 photograph(std::size_t pixel) const {
+    const auto& sample = samples[pixel];
+    return {level[0][sample[0]], level[1][sample[1]], level[2][sample[2]], 0};
+  }
+
+  std::uint32_t local(std::size_t j) const {
+    return local_high.empty() ? local_low[j] : std::uint32_t{local_high[j]} << 16 | local_low[j];
+  }
+  /// @param local  [contributions] below points.size()
+  void set_local(std::span<const std::uint32_t> local);
 };
 
 /// The lines of sight between points and the cameras whose pictures show them, by point.

@@ -140,7 +140,7 @@ Result<CodedSlice, InputError> encode_slice(const PlannedScene& scene, const Cap
   const std::uint32_t weight = scene.cells.layout.weights().of(0, scene.cells.count());
   if (!scene.transforms.empty())  // 7.11
     components = find_components(scene.transforms, scene.coded, std::size_t{3} * plan.shift.size(),
-                                 components, scene.settings.threads);
+                                 std::move(components), scene.settings.threads);
   limit(components, std::max<std::uint64_t>(weight, coded.points));
   if (progress) progress("code", 0);
   SLF_CHECK(code(scene, region, std::move(components), coded));  // spec 8

@@ -67,13 +67,13 @@ PlenopticCoding choose_coding(const PlenopticSettings& settings, std::string& re
 }
 
 /// What encoder_metadata asks for, where there are no cameras.
+/// @param cloud  perhaps without its points
 Metadata metadata_of(const PlenopticCloud& cloud, const EncoderSettings& settings,
-                     const PlenopticRecord& record, const ChosenFit* fit) {
+                     const PlenopticRecord& record, const ChosenFit* fit, std::size_t points) {
   Encoded encoded;
   encoded.merged = cloud.merged;
   encoded.grid = cloud.grid;
-  if (fit != nullptr)
-    encoded.observations = cloud.num_points() * (cloud.views - record.hold_out.size());
+  if (fit != nullptr) encoded.observations = points * (cloud.views - record.hold_out.size());
   EncoderSettings plain = settings;
   plain.surface = Surface::kGiven;
   plain.grid_bits = cloud.grid.bits;
@@ -129,7 +129,7 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
   parameters.coefficient_level_ends = level_ends(cloud.grid.bits);
   if (settings.geometry == GeometryCoder::kOctree)
     parameters.geometry_level_ends = parameters.coefficient_level_ends;
-  parameters.metadata = metadata_of(cloud, settings, record, nullptr);
+  parameters.metadata = metadata_of(cloud, settings, record, nullptr, cloud.num_points());
   if (progress) progress("code", 0);
   SLF_TRY(encoded.stream, pack_taken(field_of_planes(cloud, record, shift), parameters));
   if (encoded.exact) SLF_CHECK(add_corrections(cloud, record, settings.threads, encoded));
@@ -137,18 +137,48 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
   return encoded;
 }
 
-/// Bytes of a coefficient: as a float, as an integer, and while it is coded.
-constexpr std::uint64_t kCoefficientBytes = 3 * 12;
+/// Bytes of a coefficient of three channels, as floats or as integers.
+constexpr std::uint64_t kCoefficientBytes = 3 * 4;
+/// What is held at once, measured at 0.3 and 4 million points (docs/decisions/042): for a function
+/// and point of view maps, where half as much is held again while transforms are derived, and again
+/// for the slices that two threads have in flight; for a colour and point of planes, which an exact
+/// file holds as bytes too; for a point in any case.
+constexpr std::uint64_t kHeldByFunction = 18, kHeldByColour = 25, kHeldByPoint = 150;
+constexpr std::uint64_t kPointsInFlight = 2 * kDefaultSlicePoints;
 
-void limit_degree(const PlenopticSettings& settings, std::size_t points, Basis& basis) {
-  if (settings.memory == 0 || basis.id != BasisId::kHarmonics) return;
-  while (basis.degree > 0 &&
-         static_cast<std::uint64_t>(basis.num_functions()) * points * kCoefficientBytes >
-             settings.memory)
-    --basis.degree;
+std::uint64_t held_by_view_maps(const PlenopticCloud& cloud, int functions) {
+  const std::uint64_t points = cloud.num_points();
+  return kHeldByFunction * static_cast<std::uint64_t>(functions) *
+             (points + std::min(points, kPointsInFlight)) +
+         points * (3 * cloud.num_colours() + kHeldByPoint);
 }
 
-Result<PlenopticEncoded, InputError> encode_view_maps(const PlenopticCloud& cloud,
+/// The degree as far as memory goes.
+Result<Done, InputError> limit_memory(const PlenopticSettings& settings,
+                                      const PlenopticCloud& cloud, PlenopticCoding as,
+                                      Basis& basis) {
+  const std::uint64_t points = cloud.num_points(), most = settings.most_memory;
+  const auto needed = [&] {
+    return as == PlenopticCoding::kPlanes
+               ? points * (kHeldByColour * cloud.num_colours() + kHeldByPoint)
+               : held_by_view_maps(cloud, basis.num_functions());
+  };
+  const auto too_much = [&] {
+    const auto coefficients =
+        static_cast<std::uint64_t>(basis.num_functions()) * points * kCoefficientBytes;
+    return (settings.memory > 0 && coefficients > settings.memory) || (most > 0 && needed() > most);
+  };
+  if (as == PlenopticCoding::kViewMaps && basis.id == BasisId::kHarmonics)
+    while (basis.degree > 0 && too_much()) --basis.degree;
+  if (most == 0 || needed() <= most) return Done{};
+  return InputError{Errc::kLimitExceeded, "--memory: " + std::to_string(points) + " points with " +
+                                              std::to_string(cloud.num_colours()) +
+                                              " colours take some " +
+                                              std::to_string((needed() >> 20) + 1) + " MiB"};
+}
+
+/// @param cloud  its points are given up
+Result<PlenopticEncoded, InputError> encode_view_maps(PlenopticCloud& cloud,
                                                       const PlenopticRecord& record,
                                                       EncoderSettings settings,
                                                       const Progress& progress) {
@@ -157,12 +187,13 @@ Result<PlenopticEncoded, InputError> encode_view_maps(const PlenopticCloud& clou
   encoded.q = settings.q;
   settings.fit.pictures.rounds = 0;
   settings.fit.threads = settings.threads;
+  const std::size_t points = cloud.num_points();
   Stopwatch watch;
   ChosenFit chosen;
   SLF_TRY(LightField field, fit_plenoptic(cloud, record, settings, chosen, progress));
   encoded.seconds_fit = watch.lap();
   CodingParameters parameters = coding_parameters(field, settings);
-  parameters.metadata = metadata_of(cloud, settings, record, &chosen);
+  parameters.metadata = metadata_of(cloud, settings, record, &chosen, points);
   if (progress) progress("code", 0);
   SLF_TRY(encoded.stream, pack_taken(std::move(field), parameters));
   encoded.seconds_code = watch.lap();
@@ -172,7 +203,7 @@ Result<PlenopticEncoded, InputError> encode_view_maps(const PlenopticCloud& clou
 
 }  // namespace
 
-Result<PlenopticEncoded, InputError> encode_plenoptic(const PlenopticCloud& cloud,
+Result<PlenopticEncoded, InputError> encode_plenoptic(PlenopticCloud cloud,
                                                       const PlenopticSettings& settings,
                                                       const Progress& progress) {
   std::string reason;
@@ -186,7 +217,7 @@ Result<PlenopticEncoded, InputError> encode_plenoptic(const PlenopticCloud& clou
   record.views = cloud.views;
   record.own_colour = cloud.own_colour;
   EncoderSettings encoder = settings.encoder;
-  limit_degree(settings, cloud.num_points(), encoder.fit.basis);
+  SLF_CHECK(limit_memory(settings, cloud, as, encoder.fit.basis));
   Stopwatch watch;
   SLF_TRY(PlenopticEncoded encoded, as == PlenopticCoding::kPlanes
                                         ? encode_planes(cloud, std::move(record), encoder, progress)

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/release.h"
+#include "encoder/fit/fit_hierarchical.h"
+#include "encoder/fit/fit_search.h"
+#include "lightfield/directions.h"
 #include "slf/parallel.h"
 #include "slf/view_map.h"
 
@@ -11,7 +16,9 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kViewGrain = 4096;  // points
-constexpr double kSamePlace = 1e-6;       // of a view's distance from the origin
+/// Large enough that memory that is given up is the system's again.
+constexpr std::size_t kPieceBytes = std::size_t{64} << 20;
+constexpr double kSamePlace = 1e-6;  // of a view's distance from the origin
 
 /// Views that are fitted to, ascending.
 std::vector<std::size_t> fitted_views(const PlenopticRecord& record, std::size_t views) {
@@ -23,32 +30,64 @@ std::vector<std::size_t> fitted_views(const PlenopticRecord& record, std::size_t
   return fitted;
 }
 
-Observations observations_of(const PlenopticCloud& cloud, const std::vector<std::size_t>& views,
-                             int threads) {
-  const std::size_t points = cloud.num_points(), each = views.size();
-  Observations seen;
-  seen.first.resize(points + 1);
-  for (std::size_t p = 0; p <= points; ++p) seen.first[p] = p * each;
-  seen.direction.resize(points * each);
-  seen.colour.resize(points * each);
-  seen.camera.resize(points * each);
-  const std::size_t row = 3 * cloud.num_colours(), own = cloud.own_colour ? 3 : 0;
-  parallel_ranges(points, kViewGrain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const Vec3 at = cloud.grid.world(cloud.positions[p]);
-      for (std::size_t i = 0; i < each; ++i) {
-        const Vec3& view = cloud.view_positions[views[i]];
-        const Vec3 to{view[0] - at[0], view[1] - at[1], view[2] - at[2]};
-        const std::uint8_t* colour = &cloud.colours[p * row + own + 3 * views[i]];
-        // A view inside the point has no direction; up is as good as any.
-        seen.direction[p * each + i] =
-            to == Vec3{0, 0, 0} ? std::array{0.f, 1.f} : direction_of(to);
-        seen.colour[p * each + i] = {float(colour[0]), float(colour[1]), float(colour[2])};
-        seen.camera[p * each + i] = static_cast<std::uint16_t>(views[i]);
-      }
-    }
-  });
-  return seen;
+/// Observations are made when they are read: what makes them is a ninth of their size.
+/// @param cloud, views  kept by reference
+PointwiseObservations observations_of(const PlenopticCloud& cloud,
+                                      const std::vector<std::size_t>& views) {
+  return {
+      cloud.num_points(), views.size(), [&](std::size_t point, SeenRoom& room) {
+        room.direction.clear();
+        room.colour.clear();
+        room.camera.clear();
+        const Vec3 at = cloud.grid.world(cloud.positions[point]);
+        const std::size_t first = point * cloud.num_colours() + (cloud.own_colour ? 1 : 0);
+        for (const std::size_t v : views) {
+          const Vec3& view = cloud.view_positions[v];
+          const Vec3 to{view[0] - at[0], view[1] - at[1], view[2] - at[2]};
+          const std::uint8_t* colour = &cloud.colours[3 * (first + v)];
+          // A view inside the point has no direction; up is as good as any.
+          room.direction.push_back(to == Vec3{0, 0, 0} ? std::array{0.f, 1.f} : direction_of(to));
+          room.colour.push_back({float(colour[0]), float(colour[1]), float(colour[2])});
+          room.camera.push_back(static_cast<std::uint16_t>(v));
+        }
+        return room.seen();
+      }};
+}
+
+/// All of them at once, in directions of settings: for the fit of the paper.
+Observations kept(const PointwiseObservations& seen, const FitSettings& settings,
+                  std::span<const Voxel> positions) {
+  Observations all;
+  SeenRoom room;
+  all.first.push_back(0);
+  for (std::size_t p = 0; p < seen.points(); ++p) {
+    const SeenPoint point = seen.of(p, room);
+    all.direction.insert(all.direction.end(), point.direction.begin(), point.direction.end());
+    all.colour.insert(all.colour.end(), point.colour.begin(), point.colour.end());
+    all.camera.insert(all.camera.end(), point.camera.begin(), point.camera.end());
+    all.first.push_back(all.direction.size());
+  }
+  return in_local(std::move(all), settings.directions, positions, settings.normal_cell_log2,
+                  settings.threads);
+}
+
+/// Every point has as many observations as any: there is nothing to fill in.
+/// @param points  of settings, where they are of the hierarchical fit
+Result<FittedRows, InputError> fit_rows(const PointwiseObservations& seen,
+                                        std::span<const Voxel> positions,
+                                        const MirrorPoints& points, const FitSettings& settings,
+                                        const Progress& progress) {
+  const std::size_t row = 3 * static_cast<std::size_t>(settings.basis.num_functions());
+  if (settings.method == FitMethod::kHierarchical) {
+    const bool reflected = settings.directions == Directions::kReflected;
+    return fit_hierarchical(reflected ? seen.mirrored_at(points.normal) : seen, positions, points,
+                            settings, kPieceBytes / (row * sizeof(float)) + 1, progress);
+  }
+  FittedRows rows(0, row);
+  SLF_TRY(std::vector<float> coefficients,
+          fit_view_maps(kept(seen, settings, positions), positions, settings, progress));
+  rows.pieces().push_back(std::move(coefficients));
+  return rows;
 }
 
 bool have_several_directions(const PlenopticCloud& cloud, const std::vector<std::size_t>& views) {
@@ -66,8 +105,7 @@ bool have_several_directions(const PlenopticCloud& cloud, const std::vector<std:
 
 }  // namespace
 
-Result<LightField, InputError> fit_plenoptic(const PlenopticCloud& cloud,
-                                             const PlenopticRecord& record,
+Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const PlenopticRecord& record,
                                              EncoderSettings& settings, ChosenFit& chosen,
                                              const Progress& progress) {
   const auto views = fitted_views(record, cloud.views);
@@ -75,22 +113,22 @@ Result<LightField, InputError> fit_plenoptic(const PlenopticCloud& cloud,
     return InputError{Errc::kInvalidInput,
                       "view maps need views in two places or more, which are not held out: planes "
                       "(--as planes) have no directions"};
+  const FitSettings given = in_spacings(settings.fit, cloud.positions, cloud.grid.bits);
+  const PointwiseObservations world = observations_of(cloud, views);
+  MirrorPoints points;
+  if (given.method == FitMethod::kHierarchical)
+    points = mirror_points(cloud.positions, given.normal_cell_log2, given.threads);
   CaptureFit fit;
-  {
-    Observations world = observations_of(cloud, views, settings.threads);
-    SLF_TRY(fit.chosen, choose_fit(world, cloud.positions,
-                                   in_spacings(settings.fit, cloud.positions, cloud.grid.bits),
-                                   settings.search, progress));
-    settings.fit = fit.chosen.settings;
-    const Observations seen = in_local(std::move(world), settings.fit.directions, cloud.positions,
-                                       settings.fit.normal_cell_log2, settings.threads);
-    SLF_TRY(fit.coefficients, fit_view_maps(seen, cloud.positions, settings.fit, progress));
-  }
+  SLF_TRY(fit.chosen, choose_fit(world, cloud.positions, points, given, settings.search, progress));
+  settings.fit = fit.chosen.settings;
+  trim_heap();
+  SLF_TRY(FittedRows rows, fit_rows(world, cloud.positions, points, settings.fit, progress));
+  points = {};
+  release(cloud.colours);
+  trim_heap();
   chosen = fit.chosen;
-  VoxelCloud voxels;
-  voxels.grid = cloud.grid;
-  voxels.positions = cloud.positions;
-  return quantise_grid(voxels, std::move(fit), {0, 0, 0}, UpAxis::kUnknown, settings);
+  return quantise_rows(cloud.grid, std::exchange(cloud.positions, {}), std::move(rows), fit,
+                       settings);
 }
 
 void look_from_views(const LightField& field, const PlenopticRecord& record, int threads,

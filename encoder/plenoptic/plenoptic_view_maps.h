@@ -9,9 +9,9 @@
 namespace slf {
 
 /// Fits view maps to what the views see that are not held out, as if they were cameras.
+/// @param cloud  its points are given up: what is held is little more than the field
 /// @errors kInvalidInput: fewer than two directions; those of choose_fit and fit_view_maps
-Result<LightField, InputError> fit_plenoptic(const PlenopticCloud& cloud,
-                                             const PlenopticRecord& record,
+Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const PlenopticRecord& record,
                                              EncoderSettings& settings, ChosenFit& chosen,
                                              const Progress& progress);
 

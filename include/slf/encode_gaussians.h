@@ -24,6 +24,7 @@ struct EncodedGaussians {
 /// Splats that no pixel can show (opacity below 1 / 255) are left out. One Q says how fine all is:
 /// harmonics have steps of Q grey levels, logits and logarithms of deviations steps in proportion,
 /// and so has the grid, against the median deviation along the middle axis.
+/// @param splats    move them in where they are not needed again: a copy is saved
 /// @param settings  q, or target_bytes, or target_psnr: of twelve pictures from around the splats,
 ///                  against those of the splats as they are given, where either shows something,
 ///                  to 0.05 dB more, or to 0.5 dB where no step that was tried meets that;
@@ -32,7 +33,7 @@ struct EncodedGaussians {
 /// @param origin  world place that positions are from
 /// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of range or
 ///         that no step meets; those of pack(). The same bytes for any thread count.
-Result<EncodedGaussians, InputError> encode_gaussians(const Gaussians& splats,
+Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin = {0, 0, 0});
 

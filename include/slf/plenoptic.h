@@ -75,9 +75,11 @@ struct PlenopticSettings {
   std::vector<int> hold_out;  ///< views that view maps are not fitted to
   /// encoder.q of kAutomaticQ: planes are exact, view maps have kPlainQ.
   EncoderSettings encoder;
-  /// Bytes that coefficients of view maps may take while they are fitted and coded: the degree of
+  /// Bytes that coefficients of view maps may take, 12 for a function and point: the degree of
   /// harmonics is lowered to it. 0: any.
-  std::uint64_t memory = std::uint64_t{4} << 30;
+  std::uint64_t memory = (std::uint64_t{4} << 30) / 3;
+  /// Bytes that all of it may take, about; the degree of harmonics is lowered to it. 0: any.
+  std::uint64_t most_memory = 0;
 };
 
 struct PlenopticEncoded {
@@ -90,9 +92,12 @@ struct PlenopticEncoded {
   double seconds_fit = 0, seconds_code = 0;
 };
 
-/// @param cloud  consumed: its colours are given up when they are planes
-/// @errors kInvalidArgument: a setting, names it; those of fit_view_maps and pack
-Result<PlenopticEncoded, InputError> encode_plenoptic(const PlenopticCloud& cloud,
+/// @param cloud  move it in where it is not needed again: it is given up on the way
+/// @errors kInvalidArgument: a setting, names it; kLimitExceeded: most_memory is not enough; those
+///         of fit_view_maps and pack
+/// Memory: some 18 bytes for a function and point of view maps, 25 for a colour and point of
+/// planes, and 150 for a point.
+Result<PlenopticEncoded, InputError> encode_plenoptic(PlenopticCloud cloud,
                                                       const PlenopticSettings& settings,
                                                       const Progress& progress = {});
 

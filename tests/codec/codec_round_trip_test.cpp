@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "bitstream/units.h"
+#include "codec/encoder/pack_frame.h"
 #include "field_support.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
@@ -80,6 +81,7 @@ TEST_P(CodecRoundTrip, PointsMayComeInAnyOrder) {
                     field.components.begin() + static_cast<std::ptrdiff_t>(6 * p + 6));
   field.components = reversed;
   EXPECT_EQ(packed(field, with_step(2, 4)), sorted);
+  EXPECT_EQ(*pack_taken(field, with_step(2, 4)), sorted);
 }
 
 INSTANTIATE_TEST_SUITE_P(Spec_8, CodecRoundTrip, testing::ValuesIn(test::clouds_of_every_shape()),

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "encoder/fit/direction_kernel.h"
+#include "encoder/fit/picture_views.h"
 #include "lightfield/directions.h"
 #include "lightfield/render/splat_weights.h"
 #include "lightfield/render/surfel_cloud.h"
@@ -260,6 +261,16 @@ TEST(DirectionRows, OfManyDirectionsAreThoseOfEach) {
         EXPECT_NEAR(of_vectors[i * one.size() + k], one[k], 2e-4f) << i << ' ' << k;
       }
     }
+  }
+}
+
+TEST(PictureView, TellsPointsApartWhereTheyAreMoreThan16BitsCount) {
+  PictureView view;
+  for (const std::uint32_t points : {65536u, 65537u, 200000u}) {
+    view.points.resize(points);
+    const std::vector<std::uint32_t> local = {0, 65535, points - 1, 65535, points / 2};
+    view.set_local(local);
+    for (std::size_t j = 0; j < local.size(); ++j) EXPECT_EQ(view.local(j), local[j]);
   }
 }
 

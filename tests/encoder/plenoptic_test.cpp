@@ -236,6 +236,24 @@ TEST(PlenopticViewMaps, PredictTheViewsThatAreHeldOut) {
   EXPECT_EQ(back.properties, cloud.properties);
 }
 
+TEST(PlenopticViewMaps, HaveTheDegreeThatMemoryHasRoomFor) {
+  const PlenopticCloud cloud = sphere_of_views(12);
+  PlenopticSettings settings;
+  settings.as = PlenopticCoding::kViewMaps;
+  settings.encoder.fit.basis.degree = 3;
+  const auto functions = [&] {
+    const auto encoded = encode_plenoptic(cloud, settings);
+    return encoded ? decode(encoded->stream)->header.num_functions : 0;
+  };
+  EXPECT_EQ(functions(), 16);
+  settings.memory = 12 * 9 * cloud.num_points();
+  EXPECT_EQ(functions(), 9);
+  settings.most_memory = (3 * cloud.num_colours() + 150 + 2 * 18 * 4) * cloud.num_points();
+  EXPECT_EQ(functions(), 4);
+  settings.most_memory = 150 * cloud.num_points();
+  EXPECT_EQ(encode_plenoptic(cloud, settings).error().code, Errc::kLimitExceeded);
+}
+
 TEST(PlenopticViewMaps, AreRefusedWithoutDirections) {
   PlenopticSettings settings;
   settings.as = PlenopticCoding::kViewMaps;

@@ -78,6 +78,43 @@ TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
   expect_failure(slf("encode x.ply -o w.slf --target-bytes 100"), 2, "", "target bytes");
 }
 
+TEST_F(SplatFileTest, IsCodedFromStandardInputAsFromAFile) {
+  ASSERT_EQ(slf("encode x.ply -o x.slf --quiet").code, 0);
+  const std::string in_here = "export TMPDIR=$PWD; ";
+  const Ran piped = slf("encode - -o piped.slf --quiet", in_here + "cat x.ply |");
+  ASSERT_EQ(piped.code, 0) << piped.err;
+  EXPECT_EQ(read("piped.slf"), read("x.slf"));
+  ASSERT_EQ(slf("export x.ply -o x.spz").code, 0);
+  ASSERT_EQ(slf("encode x.spz -o x.slf --quiet").code, 0);
+  ASSERT_EQ(slf("encode - -o piped.slf --quiet", in_here + "cat x.spz |").code, 0);
+  EXPECT_EQ(read("piped.slf"), read("x.slf"));
+  std::string text = read("x.ply");
+  text.resize(text.size() - 9);
+  write("cut.ply", text);
+  const Ran cut = slf("encode - -o piped.slf --quiet", in_here + "cat cut.ply |");
+  EXPECT_EQ(cut.code, 4);
+  EXPECT_NE(cut.err.find("standard input: "), std::string::npos) << cut.err;
+  EXPECT_EQ(cut.err.find("slf-"), std::string::npos) << cut.err;
+  for (const auto& entry : std::filesystem::directory_iterator(path(".")))
+    EXPECT_NE(entry.path().filename().string().rfind("slf-", 0), 0u) << "a file is left behind";
+}
+
+TEST_F(SplatFileTest, CloudsComeFromStandardInputAndNothingElseDoes) {
+  write("c.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "end_header\n0 0 0 1 2 3\n1 2 0 9 9 9\n5 5 5 200 0 7\n");
+  ASSERT_EQ(slf("encode c.ply -o c.slf --quiet && '" SLF_PROGRAM "' decode c.slf -o a.ply").code,
+            0);
+  ASSERT_EQ(slf("encode - -o c.slf --quiet <c.ply && '" SLF_PROGRAM "' decode c.slf -o b.ply").code,
+            0);
+  EXPECT_EQ(read("b.ply"), read("a.ply"));
+  expect_failure(slf("encode - -o n.slf"), 4, "standard input", "is empty");
+  write("t.json", "{\"frames\": []}");
+  expect_failure(slf("encode - -o n.slf <t.json"), 4, "standard input", "not a PLY");
+  EXPECT_FALSE(exists("n.slf"));
+}
+
 TEST_F(SplatFileTest, WarnsOfSplatsThatAreLeftOut) {
   write("bad.ply", [] {
     std::string text = test::ascii_header(2, test::kSplatNames);
