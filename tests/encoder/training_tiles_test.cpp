@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of a tile that a surfel may touch, and sums over their lanes.
+// Blocks of a tile that a surfel may touch, sums over their lanes, and what trainings share.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,6 +8,8 @@
 
 #include "encoder/train/chance.h"
 #include "encoder/train/tile_pixels.h"
+#include "encoder/train/training_view.h"
+#include "traced_scene.h"
 
 namespace slf::training_tiles_test {
 namespace {
@@ -70,6 +72,27 @@ TEST(TrainingTiles, SumsOfEightVectorsAreInTheirOrder) {
   Lanes sums;
   set_sums(v, sums);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(sums[i], float(800 * i + 140));
+}
+
+TEST(TrainingCache, GivesTheViewsThatATrainingWouldFind) {
+  const test::TracedScene traced("vase", 2, 4, 48, 1000);
+  const SurfacePoints points{traced.exact.positions, traced.exact.normals, {}};
+  TrainingCache cache;
+  const auto load = [&](TrainingCache* known) {
+    return *load_training_views(traced.capture, traced.cameras, points, traced.step, 0, 1, known);
+  };
+  const auto expected = load(nullptr);
+  for (int again = 0; again < 2; ++again) {
+    const auto views = load(&cache);
+    ASSERT_EQ(views.size(), expected.size());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_EQ(views[i].background, expected[i].background);
+      EXPECT_EQ(views[i].camera.depth, expected[i].camera.depth);
+      EXPECT_EQ(views[i].picture.value, expected[i].picture.value);
+    }
+  }
+  cache.views[std::size_t(traced.cameras[0])]->depth = 7;
+  EXPECT_EQ(load(&cache)[0].camera.depth, 7) << "it is not looked for again";
 }
 
 }  // namespace
