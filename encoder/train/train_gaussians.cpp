@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kThickness = 1e-2f;   // of the lesser deviation: pictures see none
 constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are outliers
+constexpr float kFaint = 0.1f;        // while splats grow: docs/decisions/045
 constexpr double kCoarseShare = 0.3;  // of the iterations: of the dino 20 % less time, no dB less
 constexpr std::size_t kJudgedPerRange = 64;
 
@@ -72,6 +73,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   TrainSettings& training = start.settings;
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
+  if (!settings.is_volume) training.least_opacity = kFaint;  // there all begin as faint
   training.coarse = kCoarseShare;
   if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
   if (settings.most_splats > 0) training.surfels = std::min(training.surfels, settings.most_splats);

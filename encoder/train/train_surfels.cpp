@@ -123,12 +123,13 @@ TrainingDigest digest_of(std::span<const TrainingView> views, const TrainSetting
   const auto add = [&](const auto* values, std::size_t count) {
     hash.update({reinterpret_cast<const std::uint8_t*>(values), count * sizeof *values});
   };
-  const std::array numbers = {double(settings.iterations), settings.from,
-                              double(settings.surfels),    double(settings.levels),
-                              double(settings.structure),  double(settings.squared),
-                              double(settings.spread),     double(settings.together),
-                              double(settings.decided),    settings.coarse,
-                              double(views.size()),        double(surfels.size())};
+  const std::array numbers = {double(settings.iterations),    settings.from,
+                              double(settings.surfels),       double(settings.levels),
+                              double(settings.structure),     double(settings.squared),
+                              double(settings.spread),        double(settings.together),
+                              double(settings.decided),       settings.coarse,
+                              double(settings.least_opacity), double(views.size()),
+                              double(surfels.size())};
   add(numbers.data(), numbers.size());
   for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
   for (const TrainingView& view : views) {
@@ -217,6 +218,7 @@ class Training {
     GrowSettings grow;
     grow.most = settings_.surfels;
     grow.smallest = float(kSmallest * pixel_);
+    grow.least_opacity = settings_.least_opacity;
     grow.all_seen = drawn_views_ >= views_.size();
     grow_surfels(grow, use_, adam_, surfels_);
     drawn_views_ = 0;
