@@ -154,7 +154,7 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   std::optional<DeferInterrupts> defer;
   if (!scene.work.empty()) defer.emplace();
   const Progress progress = defer ? interruptible(line.callback()) : line.callback();
-  SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
+  SLF_TRY(const CaptureInput input, load_input(given, line, PointsWanted::kOrPhotographs));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
   SLF_TRY(const Encoded encoded,
           from(given.capture, encode(input.capture, input.cameras, settings, progress)));
@@ -193,6 +193,7 @@ void add_encode(CLI::App& program, Run& run) {
   add_frames(*verb, o->frames);
   verb->callback([&run, o] {
     run = [o]() -> Outcome {
+      o->frames.part = o->scene.part;
       if (is_frame_input(o->encode, o->frames)) return encode_frame_list(o->encode, o->frames);
       if (is_plenoptic_input(o->encode, o->plenoptic))
         return encode_plenoptic_file(o->encode, o->plenoptic);
