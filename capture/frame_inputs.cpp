@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <tuple>
 
 #include "capture/file_names.h"
 #include "capture/frame_names.h"
-#include "capture/ply_header.h"
+#include "capture/ply_reader.h"
 #include "slf/capture.h"
 
 namespace slf {
@@ -19,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCapturePrefix = "frame_";
-constexpr std::size_t kMostHeaderBytes = std::size_t{1} << 20;  // of a PLY
 
 InputError bad_frame(const fs::path& path, const std::string& cause) {
   return {Errc::kInvalidInput, path.string() + ": " + cause};
@@ -119,15 +117,8 @@ Result<Done, InputError> check_cloud(const fs::path& file) {
   const std::uint64_t size = fs::file_size(file, error);
   if (error) return InputError{Errc::kUnreadable, file.string() + ": " + error.message()};
   if (size == 0) return bad_frame(file, "the frame is empty");
-  std::ifstream in(file, std::ios::binary);
-  std::vector<std::uint8_t> head(
-      static_cast<std::size_t>(std::min<std::uint64_t>(size, kMostHeaderBytes)));
-  in.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-  if (!in) return InputError{Errc::kUnreadable, file.string() + ": cannot be read"};
-  SLF_TRY(const auto header, parse_ply_header(file.string(), head, size));
-  for (const PlyElement& element : header.elements)
-    if (element.name == "vertex") return Done{};
-  return bad_frame(file, "a PLY without vertices");
+  SLF_CHECK(ply_vertices(file));
+  return Done{};
 }
 
 struct NamedSize {

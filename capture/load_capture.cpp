@@ -13,6 +13,7 @@
 #include "capture/mesh_sampling.h"
 #include "capture/mesh_sides.h"
 #include "capture/photograph_names.h"
+#include "capture/ply_reader.h"
 #include "capture/read_scan.h"
 #include "capture/wkt.h"
 
@@ -203,6 +204,14 @@ Result<std::string, InputError> load_cloud(const CaptureOptions& options, Import
                                "workspace (fused.ply); --points FILE names one")};
 }
 
+/// Is the geometry a PLY without vertices, and was that expected?
+Result<bool, InputError> is_empty(const CaptureOptions& options, const Import& import) {
+  const fs::path file = !options.points.empty() ? options.points : geometry_file(import);
+  if (!options.may_be_empty || extension_of(file) != ".ply") return false;
+  SLF_TRY(const std::uint64_t count, ply_vertices(file));
+  return count == 0;
+}
+
 /// Photographs and cameras alone are enough for whoever asked.
 bool may_lack_points(const CaptureOptions& options, const Import& import) {
   if (options.points_needed || !options.points.empty() || import.capture.cameras.empty())
@@ -252,6 +261,11 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
     import.capture.warnings.push_back(path.string() + ": no points: photographs find them");
     import.capture.cloud = {};
   } else if (options.cloud) {
+    SLF_TRY(const bool empty, is_empty(options, import));
+    if (empty) {
+      import.capture.cloud = {};
+      return std::move(import.capture);
+    }
     SLF_TRY(const auto cloud_name, load_cloud(options, import));
     SLF_CHECK(check_cloud(import.capture, cloud_name));
     turn_normals(cloud_name, import.capture);

@@ -205,6 +205,17 @@ Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool w
   return mesh;
 }
 
+Result<std::uint64_t, InputError> ply_vertices(const std::filesystem::path& file) {
+  SLF_TRY(InputFile input, InputFile::open(file));
+  std::vector<std::uint8_t> head(kMostHeader);
+  SLF_TRY(const std::size_t count, input.read(head));
+  head.resize(count);
+  SLF_TRY(const auto header, parse_ply_header(file.string(), head, input.size()));
+  for (const PlyElement& element : header.elements)
+    if (element.name == "vertex") return element.count;
+  return InputError{Errc::kInvalidInput, file.string() + ": a PLY without vertices"};
+}
+
 Result<PointCloud, InputError> read_ply(const std::filesystem::path& file,
                                         std::vector<std::string>* warnings) {
   SLF_TRY(Mesh mesh, read_ply_mesh(file, false, warnings));

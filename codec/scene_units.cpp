@@ -59,8 +59,9 @@ class Collector {
   bool head_is_whole() const { return heads_ == head_.size(); }
 
   /// That of a predicted frame, which the sequence of another stands before, was looked at there.
-  Result<Done> check_frame(const Unit& unit) const {
+  Result<Done> check_frame(const Unit& unit) {
     if (!set_.predicted && units_ != 2) return at(unit, "unit_type");
+    moves_ = true;
     return Done{};
   }
 
@@ -106,6 +107,7 @@ class Collector {
   }
 
   Result<Done> check_end(const Unit& unit) const {
+    if (set_.is_empty_frame() && !moves_) return at(unit, "unit_type");  // 7.13
     if (set_.sps_cut_flag) return Done{};
     bool whole = head_is_whole() && is_whole(base_, scene_.base.size());
     for (const PartUnits& units : scene_.slices) whole = whole && is_whole(slice_, units.size());
@@ -120,6 +122,7 @@ class Collector {
   std::size_t heads_ = 0;  // units of the head so far
   std::size_t units_ = 0;  // of all
   bool in_slices_ = false;
+  bool moves_ = false;  // there is a frame unit
 };
 
 /// Spec 7.13: what predicted frames are not made for.

@@ -36,6 +36,10 @@ void add_units_of(Owner owner, const SequenceParameterSet& set, UnitLayout& layo
 
 UnitLayout layout_of(const SequenceParameterSet& set) {
   UnitLayout layout{{UnitType::kSequence, Owner::kHead}};
+  if (set.is_empty_frame()) {  // 7.13
+    layout.push_back({UnitType::kEnd, Owner::kEnd});
+    return layout;
+  }
   for (std::uint32_t t = 0; t < set.num_transforms(); ++t)
     layout.push_back({UnitType::kTransform, Owner::kHead});
   layout.push_back({UnitType::kSlices, Owner::kHead});

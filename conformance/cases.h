@@ -63,6 +63,7 @@ std::vector<Case> attribute_cases();      ///< among them
 std::vector<Case> texture_cases();        ///< among them: planes as pictures
 std::vector<Case> frame_cases();          ///< among them: light fields that move
 std::vector<Case> frame_context_cases();  ///< among them
+std::vector<Case> empty_frame_cases();    ///< among them
 std::vector<Case> limit_cases();          ///< among them: limits that are hard to come to
 std::vector<Case> ordinary_cases();       ///< among them: what small streams do not show
 std::vector<Case> growth_cases();         ///< among them: what later versions add
@@ -86,8 +87,10 @@ std::vector<RefusedCase> refused_apart();         ///< among them
 std::vector<RefusedCase> refused_textures();      ///< among them
 std::vector<RefusedCase> refused_transforms();    ///< among them
 std::vector<RefusedCase> refused_first_frames();  ///< among them
+std::vector<RefusedCase> refused_empty_frames();  ///< among them
 /// Streams of frames of which those before one may be decoded, and that one is refused.
 std::vector<RefusedCase> refused_frames();
-RefusedCase refused_frame_rate();  ///< among them
+std::vector<RefusedCase> refused_behind_empty();  ///< among them
+RefusedCase refused_frame_rate();                 ///< among them
 
 }  // namespace slf::conformance

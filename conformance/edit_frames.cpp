@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "bitstream/crc32.h"
 #include "codec/encoder/assemble.h"
 
 namespace slf::conformance {
@@ -54,6 +55,16 @@ void FrameWriter::add(const LightField& field, const Motion& motion) {
   append(*pack_predicted(field, parameters_, group_, chain_.state(), header));
 }
 
+void FrameWriter::add_empty(LightField field) {
+  field.positions.clear();
+  field.components.clear();
+  field.normals.octahedral.clear();
+  FrameHeader header;
+  header.frame_number = static_cast<std::uint32_t>(frames_.size());
+  header.frame_time = 0.25 * static_cast<double>(frames_.size());
+  append(*pack_empty(field, parameters_, header));
+}
+
 void FrameWriter::append(Bytes bytes) {
   const auto field = chain_.decode(bytes, *read_frame(bytes, 0), {});
   if (!field) {
@@ -69,6 +80,17 @@ Bytes joined(const std::vector<Bytes>& frames) {
   Bytes all;
   for (const Bytes& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
   return all;
+}
+
+Bytes of_version(Bytes stream, int major, int minor) {
+  const std::size_t begin = kSignature.size();
+  const auto bytes = static_cast<std::size_t>(read_unit(stream, begin)->bytes);
+  stream[begin + 1] = static_cast<std::uint8_t>(major);
+  stream[begin + 2] = static_cast<std::uint8_t>(minor);
+  const std::uint32_t crc = crc32(std::span(stream).subspan(begin, bytes - 4));
+  for (std::size_t i = 0; i < 4; ++i)
+    stream[begin + bytes - 4 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+  return stream;
 }
 
 Bytes edited_frame(const Bytes& frame, const std::function<void(std::vector<EditableUnit>&)>& edit,

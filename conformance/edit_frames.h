@@ -21,6 +21,8 @@ class FrameWriter {
   void add(const LightField& field);
   /// One that is, with this motion.
   void add(const LightField& field, const Motion& motion);
+  /// One without points, with the header of a field.
+  void add_empty(LightField field);
 
   const std::vector<Bytes>& frames() const { return frames_; }
   Bytes stream() const;
@@ -35,6 +37,9 @@ class FrameWriter {
 };
 
 Bytes joined(const std::vector<Bytes>& frames);
+
+/// Another version in a stream that is sound but for it.
+Bytes of_version(Bytes stream, int major, int minor);
 
 /// A frame, its units changed; counts and frame_bytes are then sound.
 /// header: changes the frame unit after that

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What later versions add, as a decoder of this version meets it: units, features, elements of the
 // sequence header, minor versions. Spec 7.1.1, 7.1.2, 7.2.1.
-#include "bitstream/crc32.h"
 #include "conformance/cases.h"
 #include "conformance/edit_frames.h"
 #include "conformance/fields.h"
@@ -27,18 +26,6 @@ Bytes indexed_scene() {
   p.base_levels = 2;
   p.max_slice_points = 60;
   return *pack(field(sphere(4), 4, 3), p);
-}
-
-/// Another version in a stream that is sound but for it.
-Bytes of_version(Bytes stream, int major, int minor) {
-  const std::size_t begin = kSignature.size();
-  const auto bytes = static_cast<std::size_t>(read_unit(stream, begin)->bytes);
-  stream[begin + 1] = static_cast<std::uint8_t>(major);
-  stream[begin + 2] = static_cast<std::uint8_t>(minor);
-  const std::uint32_t crc = crc32(std::span(stream).subspan(begin, bytes - 4));
-  for (std::size_t i = 0; i < 4; ++i)
-    stream[begin + bytes - 4 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
-  return stream;
 }
 
 /// Behind the sequence header the word of features and bytes of a later version.

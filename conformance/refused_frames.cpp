@@ -191,6 +191,7 @@ std::vector<RefusedCase> refused_frames() {
   refused.add_units();
   refused.add_motion();
   refused.add_references();
+  for (RefusedCase& behind : refused_behind_empty()) cases.push_back(std::move(behind));
   cases.push_back(refused_frame_rate());
   return cases;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "bitstream/units.h"
 #include "capture/voxelise.h"
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
@@ -36,6 +37,12 @@ Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings&
   if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
     return of_frames("they are coded by the octree and vector coders");
   if (f.group < 1) return of_frames("a group has one at the least");
+  if (f.part < 0 || f.part >= f.parts) return of_frames("part: 0 to the number of parts - 1");
+  if (frames_of_part(frames, f).count == 0)
+    return of_frames("there are more parts than groups of frames");
+  if (f.parts > 1 && s.target_bitrate > 0) return of_frames("a bitrate is of all parts together");
+  if (f.parts > 1 && f.hold_over_groups)
+    return of_frames("parts hold still points within groups alone");
   if (!(f.rate > 0) || !std::isfinite(f.rate)) return of_frames("so many a second: above 0");
   return Done{};
 }
@@ -57,7 +64,7 @@ class SharedGrid {
  public:
   Result<Done, InputError> add(const LoadedFrame& frame, const EncoderSettings& settings) {
     const PointCloud& cloud = frame.capture.cloud;
-    if (cloud.positions.empty()) return of_frames("one has no points");
+    if (cloud.positions.empty()) return Done{};
     const Box box = box_in_world(frame.capture);
     if (points_ == 0) {
       const bool automatic = settings.grid_bits == 0 && settings.voxel_size == 0;
@@ -73,7 +80,11 @@ class SharedGrid {
     points_ += cloud.positions.size();
     return Done{};
   }
-  Result<Grid, InputError> grid() const { return choose_grid(box_, points_, bits_, step_); }
+  Result<Grid, InputError> grid() const {
+    if (points_ == 0) return of_frames("none has points");
+    return choose_grid(box_, points_, bits_, step_);
+  }
+  bool has_points() const { return points_ > 0; }
 
  private:
   Box box_;
@@ -103,6 +114,7 @@ struct ChosenForAll {
   EncoderSettings settings;
   std::vector<int> shift;
   CodingParameters parameters;
+  LightField empty;  ///< of no points, with the header of all
 };
 
 Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const VoxelCloud& cloud,
@@ -123,49 +135,79 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
   LightField field = quantise_grid(cloud, std::move(fit), frame.capture.origin, frame.capture.up,
                                    settings, chosen ? chosen->shift : std::vector<int>{});
   if (!chosen) {
-    chosen = ChosenForAll{settings, field.header.shift, coding_parameters(field, settings)};
+    LightField empty;
+    empty.header = field.header;
+    empty.normals.bits = field.normals.bits;
+    chosen = ChosenForAll{settings, field.header.shift, coding_parameters(field, settings), empty};
     chosen->settings.search = FitSearch::none();
     chosen->settings.check_cameras = false;
   }
   return field;
 }
 
+/// What the first frame with points chooses, where it is not the one that is coded first.
+Result<Done, InputError> choose_for_all(const Sequence& sequence, const EncoderSettings& own,
+                                        bool chooses, std::optional<ChosenForAll>& chosen) {
+  SLF_TRY(const LoadedFrame frame, sequence.load(sequence.chooser));
+  const VoxelCloud cloud = on_grid(frame, sequence.grid, own);
+  SLF_CHECK(light_field_of(frame, cloud, own, chooses, chosen, sequence.progress));
+  return Done{};
+}
+
 }  // namespace
 
-Result<Done, InputError> Sequence::code(double q, std::size_t count, const TakeFrame& take,
-                                        EncodedFrames& encoded) const {
+Result<Done, InputError> Sequence::code(double q, std::size_t first, std::size_t count,
+                                        const TakeFrame& take, EncodedFrames& encoded) const {
   EncoderSettings own = settings;
   own.q = q;
   const bool chooses = !clouds && q == kAutomaticQ;
   encoded.grid = grid;
   encoded.frames.clear();
   std::optional<ChosenForAll> chosen;
+  if (first != chooser) SLF_CHECK(choose_for_all(*this, own, chooses, chosen));
   std::optional<FrameEncoder> encoder;
   StillPoints still;
-  for (std::size_t f = 0; f < count; ++f) {
-    if (progress) progress("frames", static_cast<double>(f) / static_cast<double>(count));
+  for (std::size_t f = first; f < first + count; ++f) {
+    if (progress) progress("frames", static_cast<double>(f - first) / static_cast<double>(count));
     Stopwatch watch;
     SLF_TRY(const LoadedFrame frame, load(f));
-    const VoxelCloud cloud = on_grid(frame, grid, own);
-    SLF_TRY(LightField field, light_field_of(frame, cloud, own, chooses, chosen, progress));
+    const bool empty = frame.capture.cloud.positions.empty();
+    std::optional<LightField> field;
+    if (empty) {
+      field = chosen->empty;
+    } else {
+      const VoxelCloud cloud = on_grid(frame, grid, own);
+      SLF_TRY(field, light_field_of(frame, cloud, own, chooses, chosen, progress));
+    }
+    if (empty || (!frames.hold_over_groups && f % static_cast<std::size_t>(frames.group) == 0))
+      still = {};
     std::size_t held = 0;
-    if (frames.hold_still && !clouds) {
+    if (frames.hold_still && !clouds && !empty) {
       SLF_CHECK(still.see(frame, own.threads));
-      held = still.hold(frame, field, own.threads);
+      held = still.hold(frame, *field, own.threads);
     }
     if (!encoder) {
       encoded.q = chosen->settings.q;
       CodingParameters parameters = chosen->parameters;
       parameters.metadata = settings.metadata;
-      encoder.emplace(parameters, frames.group);
+      encoder.emplace(parameters, frames.group, static_cast<std::uint32_t>(f));
     }
-    SLF_TRY(const auto bytes, encoder->add(field, static_cast<double>(f) / frames.rate));
+    SLF_TRY(const auto bytes, encoder->add(*field, static_cast<double>(f) / frames.rate));
     SLF_CHECK(take(f, bytes));
-    encoded.frames.push_back({f % static_cast<std::size_t>(frames.group) != 0, field.num_points(),
-                              held, bytes.size(), watch.lap()});
+    encoded.frames.push_back({bytes.front() != kSignature.front(), field->num_points(), held,
+                              bytes.size(), watch.lap()});
   }
   if (progress) progress("frames", 1);
   return Done{};
+}
+
+FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings) {
+  const auto group = static_cast<std::size_t>(settings.group),
+             part = static_cast<std::size_t>(settings.part),
+             parts = static_cast<std::size_t>(settings.parts);
+  const std::size_t groups = (frames + group - 1) / group;
+  const auto begin = [&](std::size_t p) { return std::min(frames, groups * p / parts * group); };
+  return {begin(part), begin(part + 1) - begin(part)};
 }
 
 Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
@@ -174,19 +216,22 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
                                                 const TakeFrame& take, const Progress& progress) {
   SLF_CHECK(check_settings(given));
   SLF_CHECK(check_frames(frames, given, frame_settings));
-  Sequence sequence{frames, load, given, frame_settings, {}, false, progress};
+  Sequence sequence{frames, load, given, frame_settings, {}, false, 0, progress};
   sequence.settings.observe.threads = sequence.settings.fit.threads = given.threads;
   SharedGrid shared;
   for (std::size_t f = 0; f < frames; ++f) {
     SLF_TRY(const LoadedFrame frame, load(f));
-    sequence.clouds = frame.cameras.empty();
+    if (!shared.has_points()) sequence.chooser = f;
+    if (!frame.capture.cloud.positions.empty()) sequence.clouds = frame.cameras.empty();
     SLF_CHECK(shared.add(frame, sequence.settings));
   }
   if (sequence.clouds) fit_colours_alone(sequence.settings);
   SLF_TRY(sequence.grid, shared.grid());
+  const auto [first, count] = frames_of_part(frames, frame_settings);
   EncodedFrames encoded;
-  SLF_CHECK(given.target_bitrate > 0 ? code_to_bitrate(sequence, take, encoded)
-                                     : sequence.code(sequence.settings.q, frames, take, encoded));
+  SLF_CHECK(given.target_bitrate > 0
+                ? code_to_bitrate(sequence, take, encoded)
+                : sequence.code(sequence.settings.q, first, count, take, encoded));
   return encoded;
 }
 

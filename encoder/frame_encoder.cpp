@@ -79,7 +79,7 @@ struct FrameEncoder::Impl {
   double time = 0;
   std::vector<std::uint8_t> header;  // of all frames, as it is coded
   GroupCoding group;
-  bool outgrown = false;  // a frame was more than the level promised: no more promises
+  bool outgrown = false;  // a frame was more than the level promised: its group promises nothing
   FrameChain chain;
   FrameColours before;  // as decoded
 
@@ -89,17 +89,16 @@ struct FrameEncoder::Impl {
     if (parameters.geometry != GeometryCoder::kOctree ||
         parameters.coefficients != CoefficientCoder::kVector)
       return invalid_frame("they are coded by the octree and vector coders");
-    if (field.num_points() == 0) return invalid_frame("one has no points");
     if (field.num_points() > kMostSlicePoints)
       return invalid_frame("one has more than " + std::to_string(kMostSlicePoints) + " points");
-    if (!std::isfinite(at) || (number > 0 && at <= time))
+    if (!std::isfinite(at) || (!header.empty() && at <= time))
       return invalid_frame("times do not ascend");
     return Done{};
   }
 
   /// The gammas that cameras saw may differ; those of the first frame of a group stay.
   Result<std::vector<std::uint8_t>, InputError> coded_header(const LightField& field) const {
-    SLF_TRY(SequenceParameterSet set, sequence_of(field, parameters));
+    SLF_TRY(SequenceParameterSet set, sequence_of_frame(field, parameters));
     set.sps_gamma_min = set.sps_gamma_max = 0;
     return write_sequence_parameter_set(set);
   }
@@ -123,8 +122,16 @@ struct FrameEncoder::Impl {
                         static_cast<std::uint64_t>(field.header.num_functions)));
   }
 
+  /// What begins a group: the first of so many, one without points and the one behind it.
+  bool begins_group(const LightField& field) const {
+    return number % static_cast<std::uint32_t>(group_length) == 0 || field.num_points() == 0 ||
+           before.codes.empty();
+  }
+
   /// A frame that is too much for the level of its group begins one that has none.
   Result<std::vector<std::uint8_t>, InputError> code(const LightField& field, FrameHeader& frame) {
+    if (number % static_cast<std::uint32_t>(group_length) == 0) outgrown = false;
+    if (field.num_points() == 0) return pack_empty(field, parameters, frame);
     SLF_TRY(std::vector<std::uint8_t> bytes, code_in_level(field, frame));
     if (within_level(field, frame, bytes.size())) return bytes;
     outgrown = true;
@@ -146,8 +153,9 @@ struct FrameEncoder::Impl {
   }
 };
 
-FrameEncoder::FrameEncoder(const CodingParameters& parameters, int group)
+FrameEncoder::FrameEncoder(const CodingParameters& parameters, int group, std::uint32_t first)
     : impl_(std::make_unique<Impl>()) {
+  impl_->number = first;
   impl_->parameters = parameters_of_frames(parameters);
   impl_->group_length = std::max(group, 1);
 }
@@ -157,13 +165,12 @@ Result<std::vector<std::uint8_t>, InputError> FrameEncoder::add(const LightField
   Impl& self = *impl_;
   SLF_CHECK(self.check(field, time));
   SLF_TRY(std::vector<std::uint8_t> header, self.coded_header(field));
-  if (self.number > 0 && header != self.header)
+  if (!self.header.empty() && header != self.header)
     return invalid_frame("grid, functions or attributes are not those of the first");
   FrameHeader frame;
   frame.frame_number = self.number;
   frame.frame_time = time;
-  frame.frame_predicted_flag =
-      self.number % static_cast<std::uint32_t>(self.group_length) == 0 ? 0 : 1;
+  frame.frame_predicted_flag = self.begins_group(field) ? 0 : 1;
   SLF_TRY(std::vector<std::uint8_t> bytes, self.code(field, frame));
   const auto coded = read_frame(bytes, 0);
   DecodeOptions options;

@@ -22,14 +22,15 @@ struct Run {
   double bytes = 0;
 };
 
-Result<Run, InputError> run(const Sequence& sequence, double q, std::size_t count) {
+Result<Run, InputError> run(const Sequence& sequence, double q, std::size_t first,
+                            std::size_t count) {
   Run coded;
   const auto keep = [&](std::size_t, std::span<const std::uint8_t> bytes) {
     coded.frames.emplace_back(bytes.begin(), bytes.end());
     coded.bytes += static_cast<double>(bytes.size());
     return Result<Done, InputError>(Done{});
   };
-  SLF_CHECK(sequence.code(q, count, keep, coded.encoded));
+  SLF_CHECK(sequence.code(q, first, count, keep, coded.encoded));
   return coded;
 }
 
@@ -37,8 +38,11 @@ Result<Run, InputError> run(const Sequence& sequence, double q, std::size_t coun
 double expected_bytes(const Sequence& sequence, const Run& sample) {
   const auto group = static_cast<std::size_t>(sequence.frames.group);
   double intra = 0, num_intra = 0;
-  for (std::size_t f = 0; f < sample.frames.size(); f += group, ++num_intra)
-    intra += static_cast<double>(sample.frames[f].size());
+  for (const EncodedFrame& frame : sample.encoded.frames) {
+    if (frame.predicted) continue;
+    intra += static_cast<double>(frame.bytes);
+    ++num_intra;
+  }
   const double predicted = sample.bytes - intra,
                num_predicted = static_cast<double>(sample.frames.size()) - num_intra;
   const auto groups = static_cast<double>((sequence.length + group - 1) / group);
@@ -63,9 +67,9 @@ Result<Done, InputError> code_to_bitrate(const Sequence& sequence, const TakeFra
                       sequence.frames.rate;
   const StepGoal goal{std::log(most * (1 - kTolerance)), std::log(most)};
   double guess = kPlainQ, factor = kFactorOfWhole;
-  if (sequence.length > 2 * kSample) {
+  if (sequence.length > sequence.chooser + 2 * kSample) {
     const auto measure_sample = [&](double q) -> Result<double, InputError> {
-      SLF_TRY(const Run sample, run(sequence, q, kSample));
+      SLF_TRY(const Run sample, run(sequence, q, sequence.chooser, kSample));
       return std::log(expected_bytes(sequence, sample));
     };
     SLF_TRY(const StepFound found, find_step(guess, goal, measure_sample));
@@ -75,7 +79,7 @@ Result<Done, InputError> code_to_bitrate(const Sequence& sequence, const TakeFra
   }
   Run best;
   const auto measure = [&](double q) -> Result<double, InputError> {
-    SLF_TRY(Run whole, run(sequence, q, sequence.length));
+    SLF_TRY(Run whole, run(sequence, q, 0, sequence.length));
     const double bytes = whole.bytes;
     if (is_better(whole, best, most)) best = std::move(whole);
     return std::log(bytes);

@@ -15,13 +15,14 @@ struct Sequence {
   EncoderSettings settings;
   const FrameSettings& frames;
   Grid grid;
-  bool clouds;  ///< no frame has cameras
+  bool clouds;          ///< no frame has cameras
+  std::size_t chooser;  ///< the first frame with points: it chooses for all
   const Progress& progress;
 
-  /// Codes the first frames anew.
+  /// Codes some frames anew.
   /// @param q  Quantiser step, or kAutomaticQ
-  Result<Done, InputError> code(double q, std::size_t count, const TakeFrame& take,
-                                EncodedFrames& encoded) const;
+  Result<Done, InputError> code(double q, std::size_t first, std::size_t count,
+                                const TakeFrame& take, EncodedFrames& encoded) const;
 };
 
 /// Codes the frames with the step for which all of them have 97 to 100 % of

@@ -32,6 +32,7 @@ import hevc
 
 SEQUENCE, SLICES, GEOMETRY, NORMALS, COEFFICIENTS = 1, 2, 3, 4, 5
 INDEX, METADATA, DIGEST, TRANSFORM, REFINEMENT, FRAME, FILLER, END = 6, 7, 8, 9, 10, 11, 14, 15
+OF_POINTS = {SLICES, GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, TRANSFORM, REFINEMENT}
 MAX_VALUES = 1 << 28
 LEVELS = ((math.inf,) * 4, (1 << 20, 1 << 26, 1 << 24, 1 << 22), (1 << 24, 1 << 30, 1 << 28, 1 << 25))    # table 9-1
 
@@ -323,7 +324,7 @@ class Sequence:
         if left:
             for i in range(32):
                 if reader.u(1, f"sps_feature[{i}]"):
-                    require(i == BY_REFERENCE, f"sps_feature[{i}]", Unsupported)
+                    require(i in (BY_REFERENCE, EMPTY), f"sps_feature[{i}]", Unsupported)
                     features.add(i)
             require(left - 4 <= 1 << 16, "sps_extension")
         return features
@@ -1385,7 +1386,7 @@ def cell_values(base_values, points, weights):
 
 # ---- 8.7 Coefficients
 
-BY_REFERENCE = 1                            # the feature of 8.12.6
+BY_REFERENCE, EMPTY = 1, 2                  # the features of 8.12.6 and 7.13
 SHARES = [2, 2, 1, 3, 3, 3, 1]              # of the rows around, 8.7.2
 
 
@@ -2436,6 +2437,7 @@ class LightField:
     def __init__(self, sequence, frame=None, reference=None):
         """8.1: nothing but the sequence; of one that moves the frame unit, and of a predicted frame the reference."""
         self.frame, self.reference = frame, reference
+        self.empty = EMPTY in sequence.features
         self.left = {}                      # 8.12.5: the states after each unit
         self.sequence, self.slices, self.base, self.parts = sequence, None, None, []
         self.boxes = None
@@ -2447,6 +2449,7 @@ class LightField:
         for number, (unit_type, payload, _) in enumerate(units[1:], 1):
             require(unit_type != SEQUENCE, "unit_type")
             require(len(payload) <= LEVELS[self.sequence.level][2], "unit_length")              # 9
+            require(not self.empty or unit_type not in OF_POINTS, "unit_type (of an empty frame)")
             if unit_type == SLICES:
                 self.read_slices(payload)
             elif unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT):
@@ -2496,8 +2499,9 @@ class LightField:
             require(points <= rate * (self.frame.time - self.reference.time), "frame_time (points a second)")
 
     def check_whole(self):
-        """7.1: before the end unit nothing is missing that was not left out."""
-        if not self.sequence.cut:
+        """7.1: before the end unit nothing is missing that was not left out; 7.13: what is empty is a frame."""
+        require(self.frame or not self.empty, "unit_type (frame)")
+        if not self.empty and not self.sequence.cut:
             require(self.slices, "unit_type (slices)")
             for part in [self.base] * bool(self.base) + self.parts:
                 require(not part.expected, "unit_type (missing)")
@@ -2627,6 +2631,7 @@ def light_fields(data):
     for frame, own in list(split_frames(data)):
         units = read_units(own, bool(frame and frame.predicted))
         if frame and frame.predicted:
+            require(EMPTY not in sequence.features, "frame_predicted_flag")
             require(not {INDEX, METADATA} & {unit_type for unit_type, _, _ in units}, "unit_type (predicted frame)")
             light_field = LightField(copied(sequence, predicted=True), frame, reference)
         else:

@@ -42,12 +42,13 @@ Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
 }  // namespace
 
 Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
-                                         bool points_needed) {
+                                         PointsWanted wanted) {
   Stopwatch watch;
   if (const Progress progress = line.callback()) progress("load", 0);
   CaptureOptions options;
   options.points = given.points;
-  options.points_needed = points_needed;
+  options.points_needed = wanted != PointsWanted::kOrPhotographs;
+  options.may_be_empty = wanted == PointsWanted::kOrNone;
   options.images = given.images;
   if (const auto& c = given.crop; !c.empty())
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};

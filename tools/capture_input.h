@@ -2,6 +2,7 @@
 // What slf encode and slf igc begin with: the capture and its input cameras.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "slf/capture.h"
@@ -18,9 +19,15 @@ struct CaptureInput {
   double seconds = 0;        ///< of loading
 };
 
+/// What a capture may lack.
+enum class PointsWanted : std::uint8_t {
+  kNeeded,
+  kOrPhotographs,  ///< photographs with cameras are enough
+  kOrNone,         ///< a cloud may have no points
+};
+
 /// Loads the capture, prints its warnings, and picks the cameras of the split.
-/// @param points_needed  CaptureOptions
 Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
-                                         bool points_needed = true);
+                                         PointsWanted wanted = PointsWanted::kNeeded);
 
 }  // namespace slf::tools

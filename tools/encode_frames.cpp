@@ -11,6 +11,7 @@
 #include "tools/capture_input.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/scene_options.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -22,7 +23,10 @@ nlohmann::ordered_json frame_json(const EncodedFrame& f, std::uint32_t number) {
 }
 
 Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
-                      const EncodedFrames& encoded, std::size_t bytes, double rate) {
+                      const EncodedFrames& encoded, std::size_t bytes,
+                      const FrameSettings& settings) {
+  const double rate = settings.rate;
+  const std::size_t first = frames_of_part(inputs.frames.size(), settings).first;
   std::size_t predicted = 0, points = 0, held = 0;
   std::uint64_t of_predicted = 0;
   double seconds = 0;
@@ -37,7 +41,7 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
   if (given.common.json) {
     nlohmann::ordered_json json = {{"bytes", bytes}, {"q", encoded.q}, {"rate", rate}};
     for (std::size_t f = 0; f < count; ++f)
-      json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[f].number));
+      json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[first + f].number));
     return print(json);
   }
   if (given.common.quiet) return Done{};
@@ -66,7 +70,7 @@ class FrameLoader {
     EncodeOptions options = given_;
     options.capture = inputs_.frames[f].path.string();
     options.common.quiet = given_.common.quiet || loaded_;
-    auto input = load_input(options, line_);
+    auto input = load_input(options, line_, PointsWanted::kOrNone);
     if (!input) {
       failure_ = input.error();
       return InputError{Errc::kInvalidInput, failure_->message};
@@ -125,6 +129,10 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
     SLF_TRY(range, from("--frames", parse_frame_range(frames.range)));
   }
   SLF_TRY(const FrameInputs inputs, from(given.capture, list_frames(given.capture, range)));
+  FrameSettings own{frames.group, frames.rate, !frames.refit, frames.part.empty()};
+  SLF_TRY(const ScenePart part, part_of(frames.part));
+  own.part = part.index;
+  own.parts = part.count;
   ProgressLine line(given.common.quiet);
   FrameLoader loader(given, inputs, line);
   std::vector<std::uint8_t> stream;
@@ -133,14 +141,14 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
     return Result<Done, InputError>(Done{});
   };
   auto encoded = encode_frames(
-      inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings,
-      {frames.group, frames.rate, !frames.refit}, take, line.callback());
+      inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings, own, take,
+      line.callback());
   line.clear();
   if (!encoded && loader.failure()) return *loader.failure();
   SLF_TRY(const EncodedFrames all, from(given.capture, std::move(encoded)));
   warn(all.warnings, given.common.quiet);
   SLF_CHECK(save(given.output, stream.data(), stream.size()));
-  return report_frames(given, inputs, all, stream.size(), frames.rate);
+  return report_frames(given, inputs, all, stream.size(), own);
 }
 
 }  // namespace slf::tools

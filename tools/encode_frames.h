@@ -13,6 +13,7 @@ struct FrameOptions {
   int group = 16;
   double rate = 30;
   bool refit = false;  ///< points that stand still, too
+  std::string part;    ///< "i/n", from 1
 };
 void add_frames(CLI::App& verb, FrameOptions& options);
 

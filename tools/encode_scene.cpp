@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // slf encode of a scene that is coded in parts: with a plan, or making one.
 #include <array>
-#include <charconv>
 #include <filesystem>
 
 #include "tools/interrupt.h"
@@ -11,21 +10,6 @@
 
 namespace slf::tools {
 namespace {
-
-Result<ScenePart, Failure> part_of(const std::string& text) {
-  ScenePart part;
-  if (text.empty()) return part;
-  const Failure wrong{kUsage, "encode: --part " + text + " is not I/N, 1/N to N/N, N up to 4096"};
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, part.index);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return wrong;
-  const auto second = std::from_chars(first.ptr + 1, end, part.count);
-  if (second.ec != std::errc() || second.ptr != end) return wrong;
-  if (part.count < 1 || part.count > kMostParts || part.index < 1 || part.index > part.count)
-    return wrong;
-  --part.index;
-  return part;
-}
 
 std::string cost_text(const SceneCost& cost) {
   return text("points        %s in %zu slices\n", grouped(cost.points).c_str(), cost.slices) +

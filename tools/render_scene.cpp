@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/render_scene.h"
 
+#include <limits>
+
 namespace slf::tools {
 
 Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::string& file,
@@ -17,10 +19,13 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
   } else {
     SLF_TRY(DecodedFile decoded, decode_file(file, part, limits, common));
     SLF_CHECK(require_view_maps(decoded.field, file));
-    if (decoded.field.num_points() == 0)
+    const bool empty = decoded.field.num_points() == 0;
+    if (empty && decoded.field.partial && part.frame < 0)
       return Failure{kInputInvalid,
                      input_name(file) + ": has no points, or none in what was asked for"};
     scene->field_ = std::move(decoded.field);
+    scene->background_ = settings.background;
+    if (empty) return scene;
     watch.lap();
     if (has_gaussians(scene->field_.header)) {
       SLF_TRY(scene->file_.gaussians,
@@ -34,6 +39,32 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
   }
   scene->prepare_ = watch.lap();
   return scene;
+}
+
+Rendering RenderScene::render(const Camera& camera) const {
+  if (points_) return points_->render(camera);
+  if (splats_) return splats_->render(camera);
+  const std::size_t pixels =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  Rendering nothing;
+  nothing.image.width = camera.width;
+  nothing.image.height = camera.height;
+  nothing.image.channels = 3;
+  for (std::size_t i = 0; i < pixels; ++i)
+    nothing.image.data.insert(nothing.image.data.end(), background_.begin(), background_.end());
+  nothing.coverage.assign(pixels, 0);
+  nothing.depth.assign(pixels, std::numeric_limits<float>::infinity());
+  return nothing;
+}
+
+Camera RenderScene::orbit(double turn, double elevation_degrees, int width, int height,
+                          double fov_degrees) const {
+  if (points_) return points_->orbit(turn, elevation_degrees, width, height, fov_degrees);
+  if (splats_) return splats_->orbit(turn, elevation_degrees, width, height, fov_degrees);
+  Camera nowhere;
+  nowhere.width = width;
+  nowhere.height = height;
+  return nowhere;
 }
 
 }  // namespace slf::tools

@@ -2,6 +2,8 @@
 // What `slf render` draws: a light field, or Gaussian splats of another program.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,22 +14,20 @@ namespace slf::tools {
 
 class RenderScene {
  public:
-  /// @errors of reading and decoding; no points, no view maps
+  /// A frame may have no points.
+  /// @errors of reading and decoding; no points where a part was asked for, no view maps
   static Result<std::unique_ptr<RenderScene>, Failure> load(const std::string& file,
                                                             const RenderSettings& settings,
                                                             const PartOptions& part,
                                                             const LimitOptions& limits,
                                                             const CommonOptions& common);
 
-  Rendering render(const Camera& camera) const {
-    return points_ ? points_->render(camera) : splats_->render(camera);
-  }
-  /// As Renderer::orbit().
+  /// The background where there are no points.
+  Rendering render(const Camera& camera) const;
+  /// As Renderer::orbit(). Without points it looks nowhere.
   Camera orbit(double turn, double elevation_degrees, int width, int height,
-               double fov_degrees) const {
-    return points_ ? points_->orbit(turn, elevation_degrees, width, height, fov_degrees)
-                   : splats_->orbit(turn, elevation_degrees, width, height, fov_degrees);
-  }
+               double fov_degrees) const;
+  bool is_empty() const { return !points_ && !splats_; }
   bool partial() const { return field_.partial; }
   /// Seconds before the first picture, without reading and decoding.
   double prepare() const { return prepare_; }
@@ -38,6 +38,7 @@ class RenderScene {
   std::unique_ptr<const ViewMaps> maps_;            // of field_
   std::unique_ptr<const Renderer> points_;          // of maps_; or
   std::unique_ptr<const GaussianRenderer> splats_;  // of file_
+  std::array<std::uint8_t, 3> background_{};
   double prepare_ = 0;
 };
 

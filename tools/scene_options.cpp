@@ -2,6 +2,7 @@
 #include "tools/scene_options.h"
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <ctime>
 
@@ -48,7 +49,9 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
   add_work(verb, o);
   verb.add_option("--plan", o.plan, "What all parts share, from slf plan, in place of settings")
       ->type_name("FILE");
-  verb.add_option("--part", o.part, "Code part I of N of the plan: 1/4 .. 4/4, for slf merge")
+  verb.add_option(
+          "--part", o.part,
+          "Code part I of N of the plan, or of the groups of frames: 1/4 .. 4/4, for slf merge")
       ->type_name("I/N");
   verb.add_flag("--resume", o.resume, "Go on where an earlier run with the same --work was ended");
   verb.add_flag("--dry-run", o.dry_run,
@@ -56,6 +59,21 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
   for (const char* name :
        {"--memory", "--work", "--log", "--plan", "--part", "--resume", "--dry-run"})
     verb.get_option(name)->group(group);
+}
+
+Result<ScenePart, Failure> part_of(const std::string& text) {
+  ScenePart part;
+  if (text.empty()) return part;
+  const Failure wrong{kUsage, "encode: --part " + text + " is not I/N, 1/N to N/N, N up to 4096"};
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, part.index);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return wrong;
+  const auto second = std::from_chars(first.ptr + 1, end, part.count);
+  if (second.ec != std::errc() || second.ptr != end) return wrong;
+  if (part.count < 1 || part.count > kMostParts || part.index < 1 || part.index > part.count)
+    return wrong;
+  --part.index;
+  return part;
 }
 
 Result<std::unique_ptr<SceneLog>, Failure> SceneLog::open(const std::string& file,

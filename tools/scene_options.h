@@ -32,6 +32,10 @@ void add_work(CLI::App& verb, SceneOptions& options);
 /// Those of encode: also --plan, --part, --resume, --dry-run.
 void add_scene(CLI::App& verb, SceneOptions& options);
 
+/// Of --part; the only part where there is none.
+/// @errors kUsage
+Result<ScenePart, Failure> part_of(const std::string& text);
+
 /// A log in a file, a line at a time, and progress that ends at an interrupt.
 class SceneLog {
  public:

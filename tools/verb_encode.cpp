@@ -155,7 +155,7 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   std::optional<DeferInterrupts> defer;
   if (!scene.work.empty()) defer.emplace();
   const Progress progress = defer ? interruptible(line.callback()) : line.callback();
-  SLF_TRY(const CaptureInput input, load_input(given, line, /*points_needed=*/false));
+  SLF_TRY(const CaptureInput input, load_input(given, line, PointsWanted::kOrPhotographs));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
   SLF_TRY(const Encoded encoded,
           from(given.capture, encode(input.capture, input.cameras, settings, progress)));
@@ -210,6 +210,7 @@ void add_encode(CLI::App& program, Run& run) {
   add_frames(*verb, o->frames);
   verb->callback([&run, o] {
     run = [o]() -> Outcome {
+      o->frames.part = o->scene.part;
       if (o->encode.capture != "-") return encode_any(*o);
       SLF_TRY(const SpooledInput input, SpooledInput::read());
       o->encode.capture = input.path();

@@ -51,6 +51,13 @@ Outcome report(const EvalOptions& given, const Subject& subject,
   return print(eval_text(input_name(given.input), subject, measured, images));
 }
 
+/// Of a frame without points there is nothing to measure.
+Outcome report_empty(const EvalOptions& given, const Subject& subject) {
+  if (given.common.json)
+    return print(nlohmann::ordered_json{{"points", 0}, {"bytes", subject.bytes}});
+  return print(input_name(given.input) + ": the frame has no points, nothing is measured\n");
+}
+
 /// The floors of --min-psnr and --min-image-psnr, on the held-out cameras, else on the input.
 Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& measured) {
   const Measured& judged = measured.back();
@@ -68,6 +75,7 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
   options.points_needed = false;
+  options.may_be_empty = true;
   options.images = given.images;
   SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
   warn(capture.warnings, given.common.quiet);
@@ -165,6 +173,7 @@ Outcome run_eval(const EvalOptions& given) {
     return eval_splats(given, capture, splats);
   }
   SLF_TRY(Subject subject, decode_subject(given.input, capture, given.decode()));
+  if (subject.field.num_points() == 0) return report_empty(given, subject);
   if (capture.cloud.positions.empty()) {
     warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
     capture = with_points_of(subject.field, std::move(capture), given.common.threads);

@@ -23,7 +23,7 @@ struct RenderOptions {
   int orbit = 0;
   double azimuth = 0, elevation = 20, fov = 30, radius = 0;
   bool sheet = false, pair = false, transparent = false, diffuse_only = false;
-  std::optional<Camera> orbit_camera;  ///< of the first of several frames, for all of them
+  std::optional<Camera> orbit_camera;  ///< of the first frame with points, for all
   PartOptions part;
   LimitOptions limits;
   CommonOptions common;
@@ -193,8 +193,8 @@ Outcome run_render(RenderOptions& given) {
   if (views.empty()) {
     SLF_TRY(views, orbit_views(given, *scene));
     if (given.part.source) {  // frames: the camera stands
-      if (!given.orbit_camera) given.orbit_camera = views[0].camera;
-      views[0].camera = *given.orbit_camera;
+      if (!given.orbit_camera && !scene->is_empty()) given.orbit_camera = views[0].camera;
+      if (given.orbit_camera) views[0].camera = *given.orbit_camera;
     }
   }
   Rendered rendered = render_views(given, *scene, views);

@@ -31,6 +31,8 @@ bool in_time(const StreamHeader& stream, double seconds) {
 Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                   const OpenStream& group, std::uint64_t max_memory) {
   SequenceParameterSet set = group.scene.stream.set;
+  if (set.is_empty_frame())
+    return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
   set.predicted = true;
   SLF_TRY(const Units own, predicted_units(stream, frame, max_memory));
   Units units;  // behind sequence and transforms of the group

@@ -14,7 +14,9 @@ namespace slf {
 
 /// A predicted frame behind the sequence and the transforms of its group.
 /// @param max_memory  DecodeLimits::max_memory
-/// @errors those of predicted_units and collect_units
+/// @errors kOutOfRange: frame_predicted_flag behind a frame without points; those of
+/// predicted_units
+///         and collect_units
 Result<OpenStream> open_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                   const OpenStream& group, std::uint64_t max_memory);
 

@@ -20,16 +20,6 @@
 namespace slf {
 namespace {
 
-/// The frame unit of an intra frame with these units: it says how many bytes they have.
-Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
-                                                FrameHeader& frame) {
-  std::uint64_t bytes = unit_bytes(UnitType::kEnd, end_payload(units.size() + 2).size());
-  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.type, unit.payload.size());
-  frame.frame_bytes = static_cast<std::uint32_t>(bytes);
-  SLF_TRY(auto payload, write_frame_header(frame, nullptr, 0));
-  return CodedUnit{UnitType::kFrame, std::move(payload), {}};
-}
-
 /// What a texture is coded with beside the steps, which have to fit its samples.
 Result<Done, InputError> choose_texture(const SortedField& sorted, int bits,
                                         SequenceParameterSet& set) {
@@ -91,6 +81,15 @@ Result<std::vector<std::uint8_t>, InputError> pack_sorted(const LightField& fiel
 }
 
 }  // namespace
+
+Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
+                                                FrameHeader& frame) {
+  std::uint64_t bytes = unit_bytes(UnitType::kEnd, end_payload(units.size() + 2).size());
+  for (const CodedUnit& unit : units) bytes += unit_bytes(unit.type, unit.payload.size());
+  frame.frame_bytes = static_cast<std::uint32_t>(bytes);
+  SLF_TRY(auto payload, write_frame_header(frame, nullptr, 0));
+  return CodedUnit{UnitType::kFrame, std::move(payload), {}};
+}
 
 Result<std::vector<std::uint8_t>, InputError> pack(const LightField& field,
                                                    const CodingParameters& parameters) {

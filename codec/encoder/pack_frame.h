@@ -39,6 +39,18 @@ Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& f
                                                              const FrameState& before,
                                                              FrameHeader& frame);
 
+/// A frame without points, a group of frames of its own. Spec 7.13
+/// @param field  its header alone
+/// @param frame  its length is filled in
+/// @errors kInvalidArgument: names the parameter
+Result<std::vector<std::uint8_t>, InputError> pack_empty(const LightField& field,
+                                                         const CodingParameters& parameters,
+                                                         FrameHeader& frame);
+
+/// The frame unit of an intra frame with these units: it says how many bytes they have.
+Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
+                                                FrameHeader& frame);
+
 /// pack of a field that nobody needs afterwards: its components are not held twice.
 Result<std::vector<std::uint8_t>, InputError> pack_taken(LightField field,
                                                          const CodingParameters& parameters);

@@ -28,7 +28,6 @@ Result<Done, InputError> check_shapes(const LightField& field, const CodingParam
   const LightFieldHeader& h = field.header;
   const std::size_t points = field.num_points(),
                     functions = static_cast<std::size_t>(h.num_functions);
-  if (points == 0) return invalid("positions: there are none");
   if (!h.attributes.empty() && !h.has_basis)
     return invalid("attributes: of planes without a basis");
   if (!h.coded.empty() || !h.transforms.empty())
@@ -148,6 +147,12 @@ void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
 
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& p) {
+  if (field.num_points() == 0) return invalid("positions: there are none");
+  return sequence_of_frame(field, p);
+}
+
+Result<SequenceParameterSet, InputError> sequence_of_frame(const LightField& field,
+                                                           const CodingParameters& p) {
   SLF_CHECK(check_shapes(field, p));
   return sequence_of_checked(field, p);
 }

@@ -13,6 +13,10 @@ namespace slf {
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& parameters);
 
+/// The same of a frame, which may have no points.
+Result<SequenceParameterSet, InputError> sequence_of_frame(const LightField& field,
+                                                           const CodingParameters& parameters);
+
 /// The same of a field that was checked, whose components may have moved on.
 Result<SequenceParameterSet, InputError> sequence_of_checked(const LightField& field,
                                                              const CodingParameters& parameters);

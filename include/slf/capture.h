@@ -111,6 +111,7 @@ struct CaptureOptions {
   std::optional<WorldBox> crop = {};  ///< points and faces outside of it are left out
   bool cloud = true;          ///< false: cameras alone, as the file has them; Capture::origin is 0
   bool points_needed = true;  ///< false: a capture with cameras may have no points
+  bool may_be_empty = false;  ///< true: of a PLY without vertices come no points, and no error
   /// Where the photographs are, by their names in the capture, else by those without folders.
   /// Empty: where the format has them.
   std::filesystem::path images = {};

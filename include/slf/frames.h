@@ -84,12 +84,14 @@ class FrameEncoder {
   /// @param parameters  of every frame: no base, one layer, octree and vector coder, no index.
   ///                    A transform is that of the first frame of a group
   /// @param group       frames from one that is not predicted to the next, 1 or more
-  FrameEncoder(const CodingParameters& parameters, int group = 16);
+  /// @param first       number of the first frame; those that `group` divides begin groups
+  FrameEncoder(const CodingParameters& parameters, int group = 16, std::uint32_t first = 0);
   FrameEncoder(FrameEncoder&&) noexcept;
   FrameEncoder& operator=(FrameEncoder&&) noexcept;
   ~FrameEncoder();
 
-  /// @param field  of the same functions, grid and basis as those before; its points are its own
+  /// @param field  of the same functions, grid and basis as those before; its points are its own,
+  ///               and may be none: that frame is a group of its own (format 1.2)
   /// @param time   seconds, more than that of the frame before
   /// @return the bytes of the frame, which follow those of the frame before
   /// @errors kInvalidArgument: a parameter that frames do not have, another header, time; those of
@@ -108,7 +110,19 @@ struct FrameSettings {
   /// Points that stand where they stood, and where no photograph shows a change beyond its noise,
   /// keep the view maps that they had.
   bool hold_still = true;
+  /// Else they keep those of their own group alone, so that groups are coded without each other.
+  bool hold_over_groups = true;
+  /// Part `part` of `parts`, from 0: groups of about as many frames. All parts, one after the
+  /// other, are the bytes of one part that is all (hold_over_groups is false in all of them).
+  int part = 0, parts = 1;
 };
+
+/// Places of the frames of a part.
+struct FramesOfPart {
+  std::size_t first = 0, count = 0;
+};
+/// Whole groups; `count` is 0 where there are fewer groups than parts.
+FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings);
 
 /// What one frame is made of, loaded when it is its turn.
 struct LoadedFrame {
@@ -141,8 +155,9 @@ struct EncodedFrames {
 /// to 100 % of it: they are coded some five times, and the bytes of two such runs are held.
 /// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be
 /// coded
+/// Where a frame has no points it is empty (format 1.2); the first that has some chooses.
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
-///         textures); those of load, take, encode() and FrameEncoder
+///         textures), no frame with points; those of load, take, encode() and FrameEncoder
 /// One frame is in memory at a time, what is left of the one before, and a photograph of every
 /// camera to compare with. The same bytes for any
 /// thread count of one binary.

@@ -139,6 +139,10 @@ TEST(Spec_7_2_1_Features, ThoseThatAreKnownAreReadWrittenAndGivenTheirVersion) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->features, kReferenceContexts);
   EXPECT_TRUE(again->has_reference_contexts());
+  EXPECT_FALSE(again->is_empty_frame());
+  set.features = kEmptyFrame;
+  EXPECT_EQ(set.version_minor(), 2);
+  EXPECT_TRUE(parse_sequence_parameter_set(sequence_as_is(set))->is_empty_frame());
 }
 
 TEST(Spec_7_2_1_Features, EveryOtherIsUnsupportedByItsNumber) {

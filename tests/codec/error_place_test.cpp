@@ -51,6 +51,8 @@ constexpr Place kPlaces[] = {
     {"profile", Errc::kUnsupported, "sps_profile", "sequence", 96},
     {"normal-bits", Errc::kUnsupported, "sps_normal_bits", "sequence", 117},
     {"feature-last", Errc::kUnsupported, "sps_feature[31]", "sequence", 271},
+    {"frames-empty-slices", Errc::kOutOfRange, "unit_type", "slices", 368},
+    {"feature-empty-without-frame", Errc::kOutOfRange, "unit_type", "end", 240},
     {"unit-to-be-understood-29", Errc::kUnsupported, "unit_type", "type 29", 44920},
     {"step-zero", Errc::kOutOfRange, "sps_step", "sequence", 302},
     {"slices-longer", Errc::kOutOfRange, "slices_trailing_bits", "slices", 204},

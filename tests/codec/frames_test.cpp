@@ -285,9 +285,6 @@ TEST_F(FrameRefusals, NameLayersAndCodersThatFramesDoNotHave) {
   p = parameters_;
   p.coefficients = CoefficientCoder::kIndependent;
   EXPECT_THAT(message(p, field_, field_), testing::HasSubstr("coders"));
-  p = parameters_;
-  EXPECT_THAT(message(p, field_, make_field({}, kFrameBits, kFrameFunctions)),
-              testing::HasSubstr("points"));
 }
 
 TEST_F(FrameRefusals, OfTwoPointsInOneVoxelLeaveTheStreamAsItWas) {

@@ -57,9 +57,87 @@ TEST_F(CliFramesTest, TruncateKeepsFramesThatWereAskedForAndThoseTheyNeed) {
 }
 
 TEST_F(CliFramesTest, MergeRefusesByName) {
-  expect_failure(slf("merge x.slf x.slf -o y.slf --quiet"), 4, "x.slf",
-                 "a stream of several frames");
+  expect_failure(slf("merge x.slf x.slf -o y.slf --quiet"), 4, "x.slf", "is in x.slf too");
+  expect_failure(slf("merge x.slf x.slf -o y.slf --quiet --allow-missing"), 2, "merge",
+                 "frames follow each other");
   EXPECT_FALSE(exists("y.slf"));
+}
+
+TEST_F(CliFramesTest, MergeAppends) {
+  ASSERT_EQ(slf("merge x.slf x.slf -o y.slf --quiet --append").code, 0);
+  EXPECT_EQ(parsed(slf("info y.slf --json").out)["frames"].size(), 6u);
+  ASSERT_EQ(slf("decode x.slf -o x.ply --frame 2 --quiet").code, 0);
+  ASSERT_EQ(slf("decode y.slf -o y.ply --frame 5 --quiet").code, 0);
+  EXPECT_EQ(read("x.ply"), read("y.ply"));
+}
+
+/// Clouds NAME_0.ply .. NAME_4.ply, of which 0 and 3 have no vertex.
+class CliEmptyFramesTest : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    for (int f = 0; f < 5; ++f) write("walk_" + std::to_string(f) + ".ply", cloud(f));
+    ASSERT_EQ(slf("encode walk_%d.ply -o walk.slf --quiet --group 2 -q 4").code, 0);
+  }
+  static std::string cloud(int f) {
+    std::string rows;
+    int count = 0;
+    for (int i = 0; i < 400 && f != 0 && f != 3; ++i, ++count) {
+      const int x = i % 20, y = i / 20, z = (x * y) % 7 + f;
+      rows += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + " " +
+              std::to_string(10 * x) + " " + std::to_string(12 * y) + " 90\n";
+    }
+    return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+           "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+           "property uchar green\nproperty uchar blue\nend_header\n" +
+           rows;
+  }
+};
+
+TEST_F(CliEmptyFramesTest, AreWrittenAsCloudsWithoutVertices) {
+  ASSERT_EQ(slf("decode walk.slf --frames 0:4 -o out%d.ply --quiet").code, 0);
+  for (const int f : {0, 3})
+    EXPECT_NE(read("out" + std::to_string(f) + ".ply").find("element vertex 0\n"),
+              std::string::npos);
+  EXPECT_NE(read("out4.ply").find("element vertex 400\n"), std::string::npos);
+  const Ran again = slf("encode out%d.ply -o again.slf --json --quiet --group 2 -q 4");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(parsed(again.out)["frames"][3]["points"], 0);
+}
+
+TEST_F(CliEmptyFramesTest, ShowTheBackground) {
+  ASSERT_EQ(slf("render walk.slf --frames 0:4 -o v%d.png --size 40x30 --background 9,8,7").code, 0);
+  EXPECT_EQ(read("v0.png"), read("v3.png"));
+  EXPECT_NE(read("v0.png"), read("v4.png"));
+  ASSERT_EQ(slf("render walk.slf --frame 3 --orbit 2 --sheet -o s.png --size 40x30 --quiet").code,
+            0);
+  ASSERT_EQ(slf("render walk.slf -o t.png --size 40x30 --transparent --quiet").code, 0);
+}
+
+TEST_F(CliEmptyFramesTest, AreToldByInfoCutByTruncateAndMergedFromParts) {
+  const auto info = parsed(slf("info walk.slf --json").out);
+  EXPECT_EQ(info["points"], 0);
+  EXPECT_EQ(info["bits_per_point"], 0);
+  EXPECT_EQ(info["version"], (nlohmann::json{1, 2}));
+  EXPECT_EQ(info["frames"].size(), 5u);
+  EXPECT_EQ(slf("info walk.slf").code, 0);
+  EXPECT_EQ(slf("info walk.slf --syntax").code, 0);
+  ASSERT_EQ(slf("truncate walk.slf --frames 2:4 --levels 3 -o cut.slf --quiet").code, 0);
+  ASSERT_EQ(slf("decode cut.slf --frame 1 -o cut.ply --quiet").code, 0);
+  for (const char* part : {"1/3", "2/3", "3/3"})
+    ASSERT_EQ(slf("encode walk_%d.ply -o part" + std::string(1, part[0]) +
+                  ".slf --quiet --group 2 -q 4 --part " + part)
+                  .code,
+              0);
+  ASSERT_EQ(slf("merge part3.slf part1.slf part2.slf -o merged.slf --quiet").code, 0);
+  EXPECT_EQ(read("merged.slf"), read("walk.slf"));
+  EXPECT_EQ(slf("encode walk_%d.ply -o p.slf --quiet --group 2 --part 1/4").code, 2);
+}
+
+TEST_F(CliEmptyFramesTest, ExportWritesPointsAndRefusesSplatsByName) {
+  ASSERT_EQ(slf("export walk.slf --frame 3 --mean -o e.ply --quiet").code, 0);
+  EXPECT_NE(read("e.ply").find("element vertex 0\n"), std::string::npos);
+  expect_failure(slf("export walk.slf --frame 3 -o e.glb --quiet"), 4, "walk.slf", "no points");
 }
 
 TEST_F(CliFramesTest, HtmlHoldsAllFramesAndHowTheyPlay) {

@@ -130,12 +130,19 @@ function framedBox(positions) {
   return kept.length ? boxOf(kept, 0) : all;
 }
 
+/** What a view of a frame without points frames: where points of the others can be. */
+function wholeGrid(grid) {
+  const side = 2 ** (grid?.bits ?? 0),
+    reach = Math.max(1, (Math.sqrt(3) * side) / 2);
+  return { centre: [0, 0, 0].fill((side - 1) / 2), radius: reach, reach, size: [side, side, side] };
+}
+
 /**
  * The middle of the box that views frame, the farthest of its points from there (`radius`) and of all points
  * (`reach`); voxels.
  */
-export function boundingBall({ positions }) {
-  if (!positions.length) return { centre: [0, 0, 0], radius: 1, reach: 1, size: [1, 1, 1] };
+export function boundingBall({ positions, grid }) {
+  if (!positions.length) return wholeGrid(grid);
   const { low, high } = framedBox(positions),
     centre = low.map((v, k) => (v + high[k]) / 2);
   let square = 0,

@@ -45,7 +45,7 @@ export class SplatPipeline extends PointPipeline {
 
   drawPoints(view, eye, share, { withDepth = false, patient = false, sameOrder = false }) {
     const { gl, field, sums, textures: t, sorting } = this;
-    const drawn = Math.max(1, Math.round(field.points * Math.min(1, share)));
+    const drawn = Math.max(Math.min(1, field.points), Math.round(field.points * Math.min(1, share))); // none of an empty frame
     if (!(sameOrder && sorting.made) && sorting.towards(eye, view.rotation.slice(6), drawn, patient && sorting.made !== null)) this.putOrder();
     gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.blendTarget);
@@ -58,7 +58,7 @@ export class SplatPipeline extends PointPipeline {
     const own = { places: t.places, spreads: t.spreads, tilts: t.tilts, colours: t.colours, order: t.order };
     const set = (uniforms) => {
       this.setCamera(uniforms, view, eye);
-      gl.uniform1f(uniforms.thinning, field.points / drawn);
+      gl.uniform1f(uniforms.thinning, field.points / Math.max(1, drawn));
       gl.uniform1f(uniforms.nearest, field.nearest);
     };
     this.drawQuads(this.programs.splats, own, set, sorting.count);

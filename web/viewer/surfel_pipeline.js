@@ -21,12 +21,12 @@ export class SurfelPipeline extends PointPipeline {
 
   drawPoints(view, eye, share) {
     const { gl, field, sums, textures: t } = this;
-    const drawn = Math.max(1, Math.round(field.points * Math.min(1, share)));
+    const drawn = Math.max(Math.min(1, field.points), Math.round(field.points * Math.min(1, share))); // none of an empty frame
     const distance = Math.hypot(...eye) - field.radius / field.step;
     this.nearest = 1.75 / Math.max(1, distance); // a disc's plane changes by 3/4 within it
     const set = (uniforms) => {
       this.setCamera(uniforms, view, eye);
-      gl.uniform1f(uniforms.thinning, field.points / drawn);
+      gl.uniform1f(uniforms.thinning, field.points / Math.max(1, drawn));
       gl.uniform1f(uniforms.nearest, this.nearest);
     };
     const own = { places: t.places, discs: t.discs, directions: t.directions, colours: t.colours, depth: sums.depth };

@@ -13,4 +13,5 @@ test('a few points far away are not framed, but within reach', () => {
   assert.equal(object.reach, object.radius);
   assert.ok(all.reach > 50000);
   assert.equal(boundingBall({ positions: new Int32Array(0) }).radius, 1);
+  assert.deepEqual(boundingBall({ positions: new Int32Array(0), grid: { bits: 4 } }).centre, [7.5, 7.5, 7.5]);
 });
