@@ -87,6 +87,7 @@ std::vector<RefusedCase> refused_apart();         ///< among them
 std::vector<RefusedCase> refused_textures();      ///< among them
 std::vector<RefusedCase> refused_transforms();    ///< among them
 std::vector<RefusedCase> refused_first_frames();  ///< among them
+std::vector<RefusedCase> refused_alone();         ///< among them: one rule each, and no second
 std::vector<RefusedCase> refused_empty_frames();  ///< among them
 /// Streams of frames of which those before one may be decoded, and that one is refused.
 std::vector<RefusedCase> refused_frames();

@@ -150,6 +150,7 @@ std::vector<RefusedCase> refused_cases() {
   for (RefusedCase& apart : refused_apart()) cases.push_back(std::move(apart));
   for (RefusedCase& texture : refused_textures()) cases.push_back(std::move(texture));
   for (RefusedCase& frame : refused_first_frames()) cases.push_back(std::move(frame));
+  for (RefusedCase& alone : refused_alone()) cases.push_back(std::move(alone));
   for (RefusedCase& frame : refused_empty_frames()) cases.push_back(std::move(frame));
   for (RefusedCase& transform : refused_transforms()) cases.push_back(std::move(transform));
   return cases;

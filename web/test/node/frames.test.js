@@ -43,9 +43,9 @@ for (const one of moving)
   test(`${one.id}: every frame is what the suite says, whatever the pieces`, () => {
     let checked = 0;
     for (const piece of [7, one.bytes.length])
-      for (const asked of one.expect.filter((each) => each.frame !== undefined && !each.region)) {
+      for (const asked of one.expect.filter((each) => !each.region)) {
         const reader = readerOf(one.bytes, optionsOf(asked), piece);
-        const field = reader.decode(asked.frame);
+        const field = reader.decode(asked.frame ?? 0); // of one frame no entry names it
         assert.equal(field.points, asked.points);
         assert.equal(field.partial, asked.partial);
         const found = digestsOf(field);
