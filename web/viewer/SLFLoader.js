@@ -99,7 +99,7 @@ export class SLFLoader extends Loader {
 
   fieldLoader() {
     const { worker, wasm, locateFile, maxMemory } = this;
-    return new FieldLoader({ worker, wasm, locateFile, maxMemory });
+    return new FieldLoader({ worker, wasm, locateFile, maxMemory, mayBeCoarser: false });
   }
 
   async fetch(url, onProgress) {

@@ -29,6 +29,9 @@ export function answer(port, create, Frames = null) {
   };
 }
 
+/** A 64th of a surface's points is left: with less there is no picture. */
+const MOST_LEVELS_LESS = 3;
+
 export class DecodeSession {
   /** @param {(wasm?: WebAssembly.Module) => Promise<object>} create  a decoder of slf.js */
   constructor(create) {
@@ -61,10 +64,12 @@ export class DecodeSession {
 
   /**
    * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups, layers: 0 is
-   *   all, and so is more than there are; maxMemory: bytes that a decode may take; tableSize
-   * @returns {{packed?: object, info?: object, end?: number}} without `packed` where a prefix shows nothing yet
+   *   all, and so is more than there are; maxMemory: bytes that a decode may take;
+   *   mayBeCoarser: what takes more is decoded with fewer levels, else refused; tableSize
+   * @returns {{packed?: object, info?: object, end?: number, coarser?: number}} without `packed` where a prefix shows
+   *   nothing yet; coarser: the levels that were decoded, where those that were asked for take too much memory
    */
-  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, tableSize = 65 }) {
+  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, mayBeCoarser = false, tableSize = 65 }) {
     let bytes = this.bytes.subarray(0, this.length);
     const units = walkUnits(prefix ? bytes.subarray(0, prefix) : bytes);
     if (units.foreign || this.length === 0) throw new ViewerError('damaged', 'This is not an .slf file.');
@@ -74,14 +79,14 @@ export class DecodeSession {
     }
     const decoder = await this.loadDecoder();
     const info = (this.info = plainInfo(decoder.info(bytes))),
-      part = partOf(info, { levels, groups, layers });
-    const { memoryBytes } = decoder.preflight(bytes, { ...part, maxMemory: Number.MAX_SAFE_INTEGER });
-    if (memoryBytes > maxMemory)
-      throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(memoryBytes / 2 ** 20)} MiB.`);
+      asked = partOf(info, { levels, groups, layers });
+    const least = mayBeCoarser ? info.levels - MOST_LEVELS_LESS : info.levels;
+    const part = partWithin(maxMemory, asked, least, info.levels, (one) => decoder.preflight(bytes, one).memoryBytes);
     checkColours(info);
     const field = this.run(decoder, bytes, { ...part, maxMemory });
     try {
-      return { packed: packField(field, tableSize, prefix > 0), info, end: bytes.length };
+      const coarser = part === asked ? undefined : part.levels;
+      return { packed: packField(field, tableSize, prefix > 0), info, end: bytes.length, coarser };
     } finally {
       field.release();
     }
@@ -106,6 +111,22 @@ export class DecodeSession {
       throw error;
     }
   }
+}
+
+/**
+ * The part that was asked for, or one with fewer levels, down to `least`, that takes no more memory than there is.
+ * @param {(part: object) => number} bytesOf  what decoding a part takes
+ * @throws {ViewerError} 'too-large'
+ */
+export function partWithin(maxMemory, asked, least, levels, bytesOf) {
+  const takes = (part) => bytesOf({ ...part, maxMemory: Number.MAX_SAFE_INTEGER }),
+    bytes = takes(asked);
+  if (bytes <= maxMemory) return asked;
+  for (let fewer = (asked.levels || levels) - 1; fewer >= Math.max(1, least); --fewer) {
+    const part = { ...asked, levels: fewer };
+    if (takes(part) <= maxMemory) return part;
+  }
+  throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(bytes / 2 ** 20)} MiB.`);
 }
 
 /** What of a file is decoded: more than there is, is all. */

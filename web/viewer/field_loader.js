@@ -19,15 +19,16 @@ const LARGE = 200_000,
 export class FieldLoader {
   /**
    * @param {object} options  worker: () => Worker that runs decode_worker.js, or a promise of one; wasm, locateFile: as
-   *   of SlfDecoder.create(); maxMemory: bytes that a decode may take; stallMs: a server that sends nothing for so long
-   *   is given up
+   *   of SlfDecoder.create(); maxMemory: bytes that a decode may take; mayBeCoarser: what takes more is decoded with fewer
+   *   levels, else refused; stallMs: a server that sends nothing for so long is given up
    */
-  constructor({ worker = null, wasm, locateFile, maxMemory = 2 ** 31, stallMs = 30000 } = {}) {
+  constructor({ worker = null, wasm, locateFile, maxMemory = 2 ** 31, mayBeCoarser = true, stallMs = 30000 } = {}) {
     this.start = worker ?? newWorker;
     this.wasm = wasm;
     this.locateFile = locateFile;
     this.module = null; // a promise of the compiled decoder, for every worker
     this.maxMemory = maxMemory;
+    this.mayBeCoarser = mayBeCoarser;
     this.stallMs = stallMs;
     this.waiting = new Map();
     this.next = 1;
@@ -45,7 +46,7 @@ export class FieldLoader {
   /**
    * Loads and decodes; a load that is going on is given up.
    * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
-   * @param {object} on  progress(received, total or 0), field(packed, info, final); moving(frames): a FrameSource, of a
+   * @param {object} on  progress(received, total or 0), field(packed, info, final, coarser); moving(frames): a FrameSource, of a
    *   light field that moves, which without it is its first frame
    * @param {object} options  levels, groups, layers: as they are at each decode; signal; headers, credentials: of fetch
    * @returns {Promise<{packed, info, bytes, part}>} of the whole file; part: levels, groups, layers that were decoded
@@ -112,7 +113,7 @@ export class FieldLoader {
       part = { levels, groups, layers };
     const result = await this.decode(part);
     if (!current()) throw aborted();
-    on.field?.(result.packed, result.info, true);
+    on.field?.(result.packed, result.info, true, result.coarser);
     return { ...result, bytes: received, part };
   }
 
@@ -139,11 +140,11 @@ export class FieldLoader {
 
   /** Decodes what is loaded once more, with other levels, groups or layers. */
   async decode({ prefix = 0, levels = 0, groups = 0, layers = 0 } = {}) {
-    const { turn } = this;
+    const { turn, maxMemory, mayBeCoarser } = this;
     ++this.busy;
     try {
       await this.wake();
-      return await this.ask({ decode: { prefix, levels, groups, layers, maxMemory: this.maxMemory } });
+      return await this.ask({ decode: { prefix, levels, groups, layers, maxMemory, mayBeCoarser } });
     } finally {
       if (--this.busy === 0 && this.whole && this.worker && !this.stopped && turn === this.turn) this.rest(turn);
     }

@@ -89,7 +89,7 @@ export class Viewer {
     try {
       const on = {
         progress: (received, total) => this.report.arriving(received, total),
-        field: (packed, info, final) => this.show(packed, info, final, begin),
+        field: (packed, info, final, coarser) => this.show(packed, info, final, begin, coarser),
         moving: (frames) => this.playback.open(frames),
       };
       const loading = this.loader.load(source, on, this.options); // sliders may move while the file arrives
@@ -111,9 +111,10 @@ export class Viewer {
     }
   }
 
-  show(packed, info, final, begin) {
+  /** @param coarser  levels that are shown, where memory allows no more */
+  show(packed, info, final, begin, coarser) {
     const first = !this.stage.field || !this.controls.pose;
-    this.facts.info = info;
+    Object.assign(this.facts, { info, coarser });
     this.stage.setField(packed);
     this.report.hideProblem(); // of a decode before
     this.page.frame.classList.remove('empty');
@@ -148,10 +149,10 @@ export class Viewer {
       begin = performance.now();
     this.report.say('Decoding …');
     try {
-      const { packed, info } = await this.loader.decode(this.options);
+      const { packed, info, coarser } = await this.loader.decode(this.options);
       if (this.source !== source) return;
-      if (!this.controls.pose) return this.show(packed, info, true, begin); // all of it was too much
-      this.facts.info = info;
+      if (!this.controls.pose) return this.show(packed, info, true, begin, coarser); // all of it was too much
+      Object.assign(this.facts, { info, coarser });
       this.stage.setField(packed);
       this.report.hideProblem();
       this.page.frame.dataset.state = 'ready';

@@ -56,11 +56,33 @@ test('after a file that failed the page is as it was without one, and embedded i
   await embedded.close();
 });
 
-test('a file that takes too much memory is refused, and can be shown coarser', { skip }, async () => {
+test('a file that takes a little too much memory is shown coarser, and the page says so', { skip }, async () => {
+  const page = await here.opened('src=/files/can.slf&lang=de');
+  await page.evaluate(() => {
+    const { viewer } = window;
+    viewer.loader.maxMemory = viewer.facts.info.decodeBytes - 1;
+    return viewer.open('/files/can.slf', 'again');
+  });
+  assert.equal(await settled(page), 'ready');
+  const { coarser, levels, slider, asked } = await page.evaluate(() => ({
+    coarser: window.viewer.facts.coarser,
+    levels: window.viewer.facts.info.levels,
+    slider: Number(document.querySelector('#levels').value),
+    asked: window.viewer.options.levels,
+  }));
+  assert.ok(coarser >= levels - 3 && coarser < levels, `${coarser} of ${levels}`);
+  assert.equal(slider, coarser);
+  assert.equal(asked, 0);
+  assert.match(await page.textContent('#subtitle'), new RegExp(`Speicher fehlt: ${coarser} von ${levels} Stufen`));
+  assert.deepEqual(page.wrong, []);
+  await page.close();
+});
+
+test('a file that takes far too much memory is refused, and can be shown coarser', { skip }, async () => {
   const page = await here.open('src=/files/can.slf');
   assert.equal(await settled(page), 'ready');
   await page.evaluate(() => {
-    window.viewer.loader.maxMemory = 1 << 20;
+    window.viewer.loader.maxMemory = 1 << 10;
     return window.viewer.open('/files/can.slf', 'again');
   });
   assert.equal(await settled(page), 'failed too-large');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 import { SlfDecoder, SlfError } from '../../slf_node.js';
-import { DecodeSession, plainError } from '../../viewer/decode_session.js';
+import { DecodeSession, partWithin, plainError } from '../../viewer/decode_session.js';
 import { FieldLoader } from '../../viewer/field_loader.js';
 import { caseOf } from './support.js';
 
@@ -111,10 +111,25 @@ test('more levels, groups and layers than a file has are all of them', async () 
 
 test('a part is refused for its own memory, and the refusal says what the file has', async () => {
   const large = caseOf('layers-four').bytes, session = sessionOf(undefined, large);
-  const maxMemory = decoder.info(large).decodeBytes - 1;
-  await assert.rejects(session.decode({ maxMemory }), { kind: 'too-large' });
-  assert.equal(session.info.levels, decoder.info(large).levels);
-  await assert.rejects(session.decode({ groups: 1, maxMemory }), { kind: 'no-view-maps' }); // which comes after
+  const { levels, decodeBytes } = decoder.info(large);
+  const maxMemory = decoder.preflight(large, { levels: Math.max(1, levels - 3) }).memoryBytes - 1;
+  await assert.rejects(session.decode({ maxMemory, mayBeCoarser: true }), { kind: 'too-large' });
+  await assert.rejects(session.decode({ maxMemory: decodeBytes - 1 }), { kind: 'too-large' });
+  assert.equal(session.info.levels, levels);
+  // which comes after:
+  await assert.rejects(session.decode({ groups: 1, maxMemory: decodeBytes - 1 }), { kind: 'no-view-maps' });
+});
+
+test('what takes too much memory is decoded with as many levels as there is memory for', () => {
+  const takes = ({ levels }) => 4 ** levels;
+  const asked = { levels: 6, groups: 2, layers: 0 };
+  const within = (maxMemory, least) => partWithin(maxMemory, asked, least, 7, takes);
+  assert.equal(within(4 ** 6, 4), asked);
+  assert.deepEqual(within(4 ** 6 - 1, 4), { levels: 5, groups: 2, layers: 0 });
+  assert.equal(within(4 ** 4, 4).levels, 4);
+  assert.throws(() => within(4 ** 4 - 1, 4), { kind: 'too-large' });
+  assert.throws(() => within(4 ** 6 - 1, 7), { kind: 'too-large' });
+  assert.throws(() => within(3, -1), { kind: 'too-large' });
 });
 
 test('a decoder that did not arrive is asked for again, and is no fault of the file', async () => {

@@ -111,6 +111,7 @@ export default {
   'Encoder': 'Encoder',
   '{} points': '{} Punkte',
   'coarse, more is arriving': 'grob, mehr kommt noch',
+  'coarser, for want of memory: {} of {} levels': 'gröber, weil Speicher fehlt: {} von {} Stufen',
   'surface light field': 'Oberflächen-Lichtfeld',
   'Surface light field': 'Oberflächen-Lichtfeld',
   'Loading, {} %': 'Wird geladen, {} %',

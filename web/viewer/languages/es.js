@@ -111,6 +111,7 @@ export default {
   'Encoder': 'Codificador',
   '{} points': '{} puntos',
   'coarse, more is arriving': 'aproximado, falta por llegar',
+  'coarser, for want of memory: {} of {} levels': 'con menos detalle por falta de memoria: {} de {} niveles',
   'surface light field': 'campo de luz de superficie',
   'Surface light field': 'Campo de luz de superficie',
   'Loading, {} %': 'Cargando, {} %',

@@ -111,6 +111,7 @@ export default {
   'Encoder': 'Encodeur',
   '{} points': '{} points',
   'coarse, more is arriving': 'grossier, la suite arrive',
+  'coarser, for want of memory: {} of {} levels': 'plus grossier, faute de mémoire : {} niveaux sur {}',
   'surface light field': 'champ de lumière de surface',
   'Surface light field': 'Champ de lumière de surface',
   'Loading, {} %': 'Chargement, {} %',

@@ -111,6 +111,7 @@ export default {
   'Encoder': 'エンコーダ',
   '{} points': '{} 点',
   'coarse, more is arriving': '粗い表示、続きを受信中',
+  'coarser, for want of memory: {} of {} levels': 'メモリ不足のため粗く表示: {} / {} レベル',
   'surface light field': 'サーフェスライトフィールド',
   'Surface light field': 'サーフェスライトフィールド',
   'Loading, {} %': '読み込み中、{} %',

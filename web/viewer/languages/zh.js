@@ -111,6 +111,7 @@ export default {
   'Encoder': '编码器',
   '{} points': '{} 个点',
   'coarse, more is arriving': '较粗,更多内容正在到达',
+  'coarser, for want of memory: {} of {} levels': '内存不足,以较粗精度显示:{} / {} 级',
   'surface light field': '表面光场',
   'Surface light field': '表面光场',
   'Loading, {} %': '正在加载,{} %',
