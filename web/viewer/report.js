@@ -26,9 +26,14 @@ export class Report {
     this.page.at('title').textContent = title;
     if (this.page.whole) document.title = title ? `${title}: ${t('surface light field')}` : t('Surface light field');
     const size = bytes ? sizeText(bytes) : '';
-    this.page.at('subtitle').textContent = [t(`${this.page.grouped(field.points)} points`), frames > 1 && t(`${this.page.grouped(frames)} frames`), size, final ? '' : t('coarse, more is arriving'), coarser && t(`coarser, for want of memory: ${coarser} of ${info.levels} levels`)]
-      .filter(Boolean)
-      .join(' · ');
+    const said = [
+      t(`${this.page.grouped(field.points)} points`),
+      frames > 1 && t(`${this.page.grouped(frames)} frames`),
+      size,
+      !final && t('coarse, more is arriving'),
+      coarser && t(`coarser, for want of memory: ${coarser} of ${info.levels} levels`),
+    ];
+    this.page.at('subtitle').textContent = said.filter(Boolean).join(' · ');
     this.page.slider('levels', 1, info.bits, coarser ?? (this.viewer.options.levels || info.bits));
     this.page.slider('groups', 1, Math.max(1, info.groups), this.viewer.options.groups || info.groups);
     this.page.at('groups-row').hidden = !(info.groups > 1);
