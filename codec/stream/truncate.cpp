@@ -43,6 +43,14 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
   return some;
 }
 
+/// Of an empty frame whose frame unit is missing: there is nothing to leave out, and no end unit to
+/// write behind it (7.13).
+Result<std::vector<std::uint8_t>> copy_of(std::span<const std::uint8_t> stream,
+                                          std::uint64_t max_bytes) {
+  if (max_bytes > 0 && stream.size() > max_bytes) return Error{Errc::kInvalidArgument, "max_bytes"};
+  return std::vector<std::uint8_t>(stream.begin(), stream.end());
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
@@ -51,6 +59,7 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
   const auto& [units, scene] = opened;
   if (units.first(UnitType::kFrame) != nullptr)
     return truncate_frames(stream, 0, SIZE_MAX, options);
+  if (scene.stream.set.is_empty_frame()) return copy_of(stream, options.max_bytes);
   SLF_CHECK(collect_metadata(units));
   SLF_TRY(const Request request, request_of(units, scene, options));
   SLF_CHECK(check_limits(request, options));
