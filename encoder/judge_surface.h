@@ -14,7 +14,7 @@ namespace slf {
 struct DrawnQuality {
   double psnr = 0;  ///< dB, of all pixels
   double ssim = 0;
-  /// Of the object as outlines of the photographs have it, whatever is drawn; 0: they do not tell.
+  /// The object's, as photographs outline it, whatever is drawn; 0: they do not tell.
   double inside_psnr = 0, inside_ssim = 0;
 };
 

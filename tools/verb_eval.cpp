@@ -51,7 +51,7 @@ Outcome report(const EvalOptions& given, const Subject& subject,
   return print(eval_text(input_name(given.input), subject, measured, images));
 }
 
-/// Of a frame without points there is nothing to measure.
+/// A frame without points has nothing to measure.
 Outcome report_empty(const EvalOptions& given, const Subject& subject) {
   if (given.common.json)
     return print(nlohmann::ordered_json{{"points", 0}, {"bytes", subject.bytes}});

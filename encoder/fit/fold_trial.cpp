@@ -84,7 +84,7 @@ class FoldFit {
     }
   }
 
-  /// Of each of the settings tried; see HierarchicalFit::solve_points.
+  /// One for each of the settings tried; see HierarchicalFit::solve_points.
   std::vector<FoldError> errors(std::span<const HierarchySettings> tried) const {
     const std::size_t points = held_out_.first.size() - 1;
     std::vector<double> of_point(points * tried.size(), 0);
