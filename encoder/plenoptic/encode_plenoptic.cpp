@@ -139,10 +139,9 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
 
 /// Bytes of a coefficient of three channels, as floats or as integers.
 constexpr std::uint64_t kCoefficientBytes = 3 * 4;
-/// What is held at once, measured at 0.3 and 4 million points (docs/decisions/042): for a function
-/// and point of view maps, where half as much is held again while transforms are derived, and again
-/// for the slices that two threads have in flight; for a colour and point of planes, which an exact
-/// file holds as bytes too; for a point in any case.
+/// Bytes of each point that an encode holds at its peak, measured at 0.3 and 4 million points
+/// (docs/decisions/042). A function of view maps counts what transforms and two slices in flight
+/// hold of it, a colour of planes the bytes of an exact file. Every point has kHeldByPoint more.
 constexpr std::uint64_t kHeldByFunction = 18, kHeldByColour = 25, kHeldByPoint = 150;
 constexpr std::uint64_t kPointsInFlight = 2 * kDefaultSlicePoints;
 
