@@ -140,8 +140,9 @@ Result<PlenopticEncoded, InputError> encode_planes(const PlenopticCloud& cloud,
 /// Bytes of a coefficient of three channels, as floats or as integers.
 constexpr std::uint64_t kCoefficientBytes = 3 * 4;
 /// Bytes of each point that an encode holds at its peak, measured at 0.3 and 4 million points
-/// (docs/decisions/042). A function of view maps counts what transforms and two slices in flight
-/// hold of it, a colour of planes the bytes of an exact file. Every point has kHeldByPoint more.
+/// (docs/decisions/042). A function of view maps counts what transforms hold of it while they are
+/// derived, a colour of planes the bytes of an exact file. Every point has kHeldByPoint more.
+/// Points of two slices in flight are held twice.
 constexpr std::uint64_t kHeldByFunction = 18, kHeldByColour = 25, kHeldByPoint = 150;
 constexpr std::uint64_t kPointsInFlight = 2 * kDefaultSlicePoints;
 
