@@ -33,7 +33,10 @@ SettingRow number(const char* name, Member member, double low, double high, cons
   using T = std::remove_reference_t<decltype(member(settings))>;
   constexpr auto kind = std::is_floating_point_v<T> ? SettingInfo::kNumber : SettingInfo::kWhole;
   const auto value = [member](const EncoderSettings& s) {
-    return shortest(static_cast<double>(member(s)));
+    if constexpr (std::is_floating_point_v<T>)
+      return shortest(static_cast<double>(member(s)));
+    else
+      return std::to_string(member(s));  // 100000, not 1e+05
   };
   return {{name, kind, low, high, {}, value(settings), help, "", {}},
           [member](EncoderSettings& s, const std::string& text) { member(s) = number_of<T>(text); },

@@ -159,8 +159,13 @@ TEST(SettingTable, EveryPlaceKeepsWhatItsRowReads) {
   for (const SettingRow& row : setting_rows()) {
     if (!row.apply || !row.value || row.info.kind == SettingInfo::kFlag) continue;
     std::vector<std::string> values = row.info.words;
+    const auto written = [&](double number) {  // a whole one has no exponent: 100000
+      return row.info.kind == SettingInfo::kNumber ? shortest(number)
+                                                   : std::to_string(std::int64_t(number));
+    };
     if (row.info.low < row.info.high)
-      values.insert(values.end(), {shortest(row.info.low), shortest(row.info.high)});
+      values.insert(values.end(), {written(row.info.low), written(row.info.high)});
+    if (row.info.low < 1e5 && 1e5 < row.info.high) values.push_back(written(1e5));
     for (const std::string& value : values) {
       if (value == "auto" && row.info.kind == SettingInfo::kWord) continue;
       EncoderSettings settings;
