@@ -24,6 +24,7 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
       return Failure{kInputInvalid,
                      input_name(file) + ": has no points, or none in what was asked for"};
     scene->field_ = std::move(decoded.field);
+    scene->metadata_ = std::move(decoded.metadata);
     scene->background_ = settings.background;
     if (empty) return scene;
     watch.lap();

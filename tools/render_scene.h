@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "slf/gaussian_renderer.h"
@@ -27,6 +28,10 @@ class RenderScene {
   /// As Renderer::orbit(). Without points it looks nowhere.
   Camera orbit(double turn, double elevation_degrees, int width, int height,
                double fov_degrees) const;
+  /// The file's own first view, if it has one.
+  std::optional<Camera> view(int width, int height) const {
+    return named_view(metadata_, field_.header.up, width, height);
+  }
   bool is_empty() const { return !points_ && !splats_; }
   bool partial() const { return field_.partial; }
   /// Seconds before the first picture, without reading and decoding.
@@ -34,6 +39,7 @@ class RenderScene {
 
  private:
   LightField field_;
+  Metadata metadata_;
   GaussianFile file_;
   std::unique_ptr<const ViewMaps> maps_;            // of field_
   std::unique_ptr<const Renderer> points_;          // of maps_; or

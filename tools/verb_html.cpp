@@ -24,6 +24,7 @@ constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
 struct HtmlOptions {
   std::string input, output, title, camera, poster, background;
+  bool own_view = false;  ///< no view was asked for: the file's own, if it has one
   double azimuth = 30, elevation = 20, fov = 30, autorotate = 0, speed = 1;
   bool no_poster = false, no_loop = false, paused = false;
   LimitOptions limits;
@@ -188,6 +189,8 @@ Outcome run_html(const HtmlOptions& given) {
   if (!decoded) return decode_failure(name, decoded.error(), input, options);
   const LightField& field = *decoded;
   SLF_CHECK(require_view_maps(field, given.input));
+  if (given.own_view)
+    camera = named_view(input.info.metadata, field.header.up, kPosterPixels, kPosterPixels);
   Posters poster;
   if (!given.poster.empty()) {
     SLF_TRY(poster.day, given_poster(given.poster));
@@ -231,7 +234,8 @@ void add_html(CLI::App& program, Run& run) {
   auto* camera =
       verb->add_option(
               "--camera", o->camera,
-              "First view: cameras.json:NAME or cameras.json:INDEX; cameras.json alone: its first")
+              "First view: cameras.json:NAME or cameras.json:INDEX; cameras.json alone: its first. "
+              "Default: the file's own view, else one of an orbit")
           ->type_name("FILE[:WHICH]");
   for (auto* option :
        {verb->add_option("--azimuth", o->azimuth, "Of the first view, degrees")
@@ -261,7 +265,12 @@ void add_html(CLI::App& program, Run& run) {
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_html(*o); }; });
+  verb->callback([&run, o, verb] {
+    o->own_view = verb->count("--camera") + verb->count("--azimuth") + verb->count("--elevation") +
+                      verb->count("--fov") ==
+                  0;
+    run = [o] { return run_html(*o); };
+  });
 }
 
 }  // namespace slf::tools

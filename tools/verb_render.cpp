@@ -22,6 +22,7 @@ struct RenderOptions {
   std::string input, output, camera, capture, image, size, background = "128,128,128";
   int orbit = 0;
   double azimuth = 0, elevation = 20, fov = 30, radius = 0;
+  bool own_view = false;  ///< no view was asked for: the file's own, if it has one
   bool sheet = false, pair = false, transparent = false, diffuse_only = false;
   std::optional<Camera> orbit_camera;  ///< of the first frame with points, for all
   PartOptions part;
@@ -52,6 +53,9 @@ Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
   if (!given.size.empty()) parse_size(given.size, width, height);
   const int count = std::max(given.orbit, 1);
   std::vector<View> views;
+  if (given.own_view)
+    if (std::optional<Camera> own = scene.view(width, height))
+      return std::vector<View>{{*std::move(own), numbered(given.output, 0)}};
   for (int i = 0; i < count; ++i) {
     const double turn = given.azimuth / 360 + static_cast<double>(i) / count;
     View view{scene.orbit(turn, given.elevation, width, height, given.fov),
@@ -212,7 +216,7 @@ Outcome run_render(RenderOptions& given) {
 }
 
 void add_view_options(CLI::App& verb, RenderOptions& o) {
-  const char* group = "Views (default: one view of an orbit)";
+  const char* group = "Views (default: the file's own view, else one of an orbit)";
   auto* orbit = verb.add_option("--orbit", o.orbit, "N views on a circle around the cloud")
                     ->check(whole_range(1, 1000));
   auto* camera =
@@ -277,7 +281,10 @@ void add_render(CLI::App& program, Run& run) {
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] {
+  verb->callback([&run, o, verb] {
+    o->own_view = verb->count("--orbit") + verb->count("--azimuth") + verb->count("--elevation") +
+                      verb->count("--fov") ==
+                  0;
     run = [o] {
       return for_each_frame("render", o->output, o->part, [&] { return run_render(*o); });
     };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slf/capture.h"
@@ -25,6 +26,11 @@ struct Rendering {
   std::vector<float>
       depth;  ///< [height][width] along the optical axis, world units; +inf where nothing
 };
+
+/// The view that a file's metadata names (`view`, spec/registry.md): where a person looks first.
+/// Nothing where it names none, or what is no view: seven finite numbers, two places, 1 to 170
+/// degrees.
+std::optional<Camera> named_view(const Metadata& metadata, UpAxis up, int width, int height);
 
 struct SurfelCloud;
 

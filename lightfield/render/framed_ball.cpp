@@ -10,8 +10,9 @@
 namespace slf {
 namespace {
 
-constexpr double kWide = 4;           // of the box of all, over that of most
-constexpr std::size_t kFewest = 100;  // points of which a few can be told
+constexpr double kWide = 4;                  // of the box of all, over that of most
+constexpr double kStray = 0.01, kSky = 0.1;  // shares of points, of splats, that most is without
+constexpr std::size_t kFewest = 100;         // points of which a few can be told
 
 struct Box {
   std::array<double, 3> low{}, high{};
@@ -48,10 +49,10 @@ Box box_of(std::span<const std::array<Number, 3>> positions, double tail) {
 
 /// The box of all points, or where a few are far away about the others, half of these to each side.
 template <class Number>
-Box framed_box(std::span<const std::array<Number, 3>> positions) {
+Box framed_box(std::span<const std::array<Number, 3>> positions, double tail) {
   const Box all = box_of(positions, 0);
   if (positions.size() < kFewest) return all;
-  Box most = box_of(positions, 0.01);
+  Box most = box_of(positions, tail);
   if (!(all.largest_side() > kWide * most.largest_side()) || most.largest_side() == 0) return all;
   for (std::size_t k = 0; k < 3; ++k) {
     const double margin = (most.high[k] - most.low[k]) / 2;
@@ -64,12 +65,14 @@ Box framed_box(std::span<const std::array<Number, 3>> positions) {
   return kept.empty() ? all : box_of(std::span<const std::array<Number, 3>>(kept), 0);
 }
 
+/// @param tail   share of the points at either end of an axis that may lie far away
 /// @param world  coordinates to world units
 template <class Number, class World>
-FramedBall ball_of(std::span<const std::array<Number, 3>> positions, const World& world) {
+FramedBall ball_of(std::span<const std::array<Number, 3>> positions, double tail,
+                   const World& world) {
   FramedBall ball{world(Vec3{0, 0, 0}), 0};
   if (positions.empty()) return ball;
-  const Box box = framed_box(positions);
+  const Box box = framed_box(positions, tail);
   ball.centre = world(Vec3{(box.low[0] + box.high[0]) / 2.0, (box.low[1] + box.high[1]) / 2.0,
                            (box.low[2] + box.high[2]) / 2.0});
   for (const auto& v : positions) {
@@ -85,14 +88,14 @@ FramedBall ball_of(std::span<const std::array<Number, 3>> positions, const World
 }  // namespace
 
 FramedBall framed_ball(const Grid& grid, std::span<const Voxel> positions) {
-  return ball_of(positions, [&](const Vec3& v) {
+  return ball_of(positions, kStray, [&](const Vec3& v) {
     return Vec3{grid.origin[0] + grid.step * v[0], grid.origin[1] + grid.step * v[1],
                 grid.origin[2] + grid.step * v[2]};
   });
 }
 
 FramedBall framed_ball(std::span<const std::array<float, 3>> positions) {
-  return ball_of(positions, [](const Vec3& v) { return v; });
+  return ball_of(positions, kSky, [](const Vec3& v) { return v; });
 }
 
 }  // namespace slf

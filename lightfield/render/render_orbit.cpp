@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras on a circle around the cloud.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +12,8 @@
 
 namespace slf {
 namespace {
+
+constexpr double kMargin = 1.03;  // around what is framed
 
 /// Right-handed world axes with `up` third.
 struct UpFrame {
@@ -40,7 +44,43 @@ Vec3 combine(double a, const Vec3& u, double b, const Vec3& v, double c, const V
           a * u[2] + b * v[2] + c * w[2]};
 }
 
+/// Seven finite numbers with a space between them.
+std::optional<std::array<double, 7>> seven_numbers(const std::string& words) {
+  std::array<double, 7> numbers{};
+  const char *at = words.data(), *end = at + words.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != ' ')) return {};
+    const auto [stopped, error] = std::from_chars(at, end, numbers[i]);
+    if (error != std::errc() || !std::isfinite(numbers[i])) return {};
+    at = stopped;
+  }
+  if (at != end) return {};
+  return numbers;
+}
+
 }  // namespace
+
+std::optional<Camera> named_view(const Metadata& metadata, UpAxis up, int width, int height) {
+  const auto named = std::find_if(metadata.begin(), metadata.end(),
+                                  [](const auto& pair) { return pair.first == "view"; });
+  if (named == metadata.end()) return {};
+  const auto numbers = seven_numbers(named->second);
+  if (!numbers || (*numbers)[6] < 1 || (*numbers)[6] > 170) return {};
+  const Vec3 eye{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  const Vec3 target{(*numbers)[3], (*numbers)[4], (*numbers)[5]};
+  const Vec3 back = combine(1, eye, -1, target, 0, eye);
+  const double distance = std::sqrt(dot(back, back));
+  if (!(distance > 0) || !std::isfinite(distance)) return {};
+  const UpFrame frame = up_frame(up);
+  const double turn = std::atan2(dot(back, frame.second), dot(back, frame.first));
+  const double elevation = std::asin(std::clamp(dot(back, frame.up) / distance, -1.0, 1.0));
+  const double radius = distance * std::sin((*numbers)[6] * std::numbers::pi / 360) / kMargin;
+  Camera camera = orbit_camera({target, radius}, up,
+                               {turn / (2 * std::numbers::pi), elevation * 180 / std::numbers::pi,
+                                width, height, (*numbers)[6]});
+  camera.name = "view";
+  return camera;
+}
 
 Camera orbit_camera(const FramedBall& ball, UpAxis up, const OrbitView& view) {
   const UpFrame frame = up_frame(up);
@@ -54,7 +94,7 @@ Camera orbit_camera(const FramedBall& ball, UpAxis up, const OrbitView& view) {
   const Vec3 down = combine(se * ca, frame.first, se * sa, frame.second, -ce, frame.up);
   const Vec3 forward = combine(-ce * ca, frame.first, -ce * sa, frame.second, -se, frame.up);
 
-  const double distance = 1.03 * ball.radius / std::sin(half_fov);
+  const double distance = kMargin * ball.radius / std::sin(half_fov);
   Camera camera;
   camera.name = "orbit";
   camera.width = view.width;

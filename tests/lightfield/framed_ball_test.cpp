@@ -42,5 +42,15 @@ TEST(FramedBall, KeepsAPartThatIsNotFew) {
   EXPECT_GT(framed_ball(kGrid, voxels).radius, 2000);
 }
 
+TEST(FramedBall, OfSplatsATenthMayBeSky) {
+  std::vector<std::array<float, 3>> splats;
+  for (const Voxel& v : cube(10)) splats.push_back({float(v[0]), float(v[1]), float(v[2])});
+  const double object = framed_ball(splats).radius;
+  for (int i = 0; i < 100; ++i) splats.push_back({60000, 600.0f * float(i), 0});
+  EXPECT_EQ(framed_ball(splats).radius, object);
+  for (int i = 0; i < 400; ++i) splats.push_back({60000, 600.0f * float(i), 0});
+  EXPECT_GT(framed_ball(splats).radius, 10 * object) << "a third is no sky";
+}
+
 }  // namespace
 }  // namespace slf::framed_ball_test

@@ -92,6 +92,8 @@ export function buffersOf(packed) {
 const farthestOf = ([low, high]) => Math.hypot(...low.map((v, k) => Math.max(-v, high[k])));
 
 const WIDE = 4, // of the box of all points, over that of most
+  STRAY = 0.01, // share of points that may lie far away at either end of an axis,
+  SKY = 0.1, // of splats
   FEWEST = 100; // points of which a few can be told
 
 /** Without a share of the points at either end of each axis; of many points a sample tells. */
@@ -116,10 +118,10 @@ function boxOf(positions, tail) {
 }
 
 /** The box of all points; where a few are far away, of those near the others. As slf render has it. */
-function framedBox(positions) {
+function framedBox(positions, tail) {
   const all = boxOf(positions, 0);
   if (positions.length < 3 * FEWEST) return all;
-  const most = boxOf(positions, 0.01);
+  const most = boxOf(positions, tail);
   if (!(all.side > WIDE * most.side) || most.side === 0) return all;
   const margin = most.low.map((v, k) => (most.high[k] - v) / 2),
     kept = [];
@@ -141,9 +143,9 @@ function wholeGrid(grid) {
  * The middle of the box that views frame, the farthest of its points from there (`radius`) and of all points
  * (`reach`); voxels.
  */
-export function boundingBall({ positions, grid }) {
+export function boundingBall({ positions, grid, hasSplats }) {
   if (!positions.length) return wholeGrid(grid);
-  const { low, high } = framedBox(positions),
+  const { low, high } = framedBox(positions, hasSplats ? SKY : STRAY),
     centre = low.map((v, k) => (v + high[k]) / 2);
   let square = 0,
     farthest = 0;

@@ -58,6 +58,23 @@ export function fittingPose(field, { azimuth = 0, elevation = 20, fov = 30 } = {
   return { target: [...field.centre], distance: radius / Math.sin((fov * Math.PI) / 360), azimuth, elevation, fov };
 }
 
+/** The pose of a file's own view (`view` of its metadata, spec/registry.md): eye, target, degrees. Null: it has none. */
+export function namedPose(field, metadata) {
+  const numbers = Object.hasOwn(metadata ?? {}, 'view') ? metadata.view.split(' ').map((word) => (word === '' ? NaN : Number(word))) : [];
+  const [eye, target, fov] = [numbers.slice(0, 3), numbers.slice(3, 6), numbers[6]],
+    back = add(eye, target, -1),
+    distance = Math.sqrt(dot(back, back));
+  if (numbers.length !== 7 || !numbers.every(Number.isFinite) || !(distance > 0 && distance < Infinity) || fov < 1 || fov > 170) return null;
+  const [first, second, third] = upAxes(field.up);
+  return {
+    target,
+    distance,
+    azimuth: (Math.atan2(dot(back, second), dot(back, first)) * 180) / Math.PI,
+    elevation: (Math.asin(Math.max(-1, Math.min(1, dot(back, third) / distance))) * 180) / Math.PI,
+    fov,
+  };
+}
+
 /** Rows right, down, forward of a pose. Down is the elevation's derivative: defined at the poles too. */
 export function axesOf(pose, up) {
   const [first, second, third] = upAxes(up),

@@ -11,7 +11,7 @@ import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './opt
 import { Report } from './report.js';
 import { Rooms } from './rooms.js';
 import { Stage } from './stage.js';
-import { fittingPose, poseOfCamera } from './view.js';
+import { fittingPose, namedPose, poseOfCamera } from './view.js';
 import { Wiring } from './wiring.js';
 
 export class Viewer {
@@ -168,6 +168,8 @@ export class Viewer {
   startPose() {
     const { azimuth, elevation, fov, zoom, target, view } = this.options;
     if (view) return poseOfCamera({ ...view, rotation: view.rotation }, this.stage.field);
+    const own = azimuth === null && elevation === null && !target ? namedPose(this.stage.field, this.facts.info?.metadata) : null;
+    if (own) return { ...own, distance: own.distance / zoom };
     const pose = fittingPose(this.stage.field, { azimuth: azimuth ?? 30, elevation: elevation ?? 20, fov });
     return { ...pose, distance: pose.distance / zoom, target: target ?? pose.target };
   }
