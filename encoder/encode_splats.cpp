@@ -10,6 +10,7 @@
 #include "encoder/encode_to_target.h"
 #include "encoder/gaussian_coding.h"
 #include "encoder/judge_surface.h"
+#include "encoder/middle_view.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/trial_file.h"
 #include "slf/encode_gaussians.h"
@@ -23,8 +24,7 @@ constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIteration
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
 constexpr double kSplatGain = 3.5;
 constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than splats may take
-constexpr std::size_t kFewestSplats = 500;  // that a target in bytes leaves
-constexpr double kSplatBytes = 13;          // at Q 7, of a die, a vase and the dino: 12 to 15
+constexpr double kSplatBytes = 13;     // at Q 7, of a die, a vase and the dino: 12 to 15
 
 TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations,
                                   TrainingCache& cache) {
@@ -36,6 +36,9 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   training.seconds = settings.surface_seconds;
   training.photograph_bytes = double(settings.surface_memory) * (1 << 20);
   training.is_volume = start == StartId::kVolume;
+  if (settings.target_bytes > 0)
+    training.surfels =
+        std::max(std::size_t(double(settings.target_bytes) / kSplatBytes), kFewestSplats);
   training.cache = &cache;
   return training;
 }
@@ -68,7 +71,7 @@ Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
 bool may_be_splats(const EncoderSettings& settings) {
   const EncoderSettings plain;
   return settings.surface == Surface::kAuto && settings.preset == plain.preset &&
-         settings.q == kAutomaticQ && !has_target(settings) && settings.grid_bits == 0 &&
+         settings.q == kAutomaticQ && !(settings.target_psnr > 0) && settings.grid_bits == 0 &&
          settings.voxel_size == 0 && settings.coefficients == plain.coefficients &&
          settings.geometry == plain.geometry && settings.transform == plain.transform &&
          settings.normal_bits == 0 && settings.quality_loss == plain.quality_loss;
@@ -102,10 +105,7 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
-  if (settings.target_bytes > 0)
-    training.most_splats =
-        std::max(std::size_t(double(settings.target_bytes) / kSplatBytes), kFewestSplats);
+  const TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
   SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, training, progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
@@ -113,6 +113,7 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   EncoderSettings coding = settings;
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
+  if (!cache.outlined) coding.metadata.emplace_back("view", middle_view(capture, cameras, cache));
   if (progress) progress("code", 0);
   coding.target_bytes = 0;
   coding.target_psnr = 0;

@@ -8,12 +8,29 @@
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/fit_capture.h"
+#include "encoder/rate_control.h"
 #include "slf/decoder.h"
 
 namespace slf {
 namespace {
 
 constexpr double kDoubling = 0.5;  // dB that twice the bytes have to gain: docs/decisions/035
+constexpr double kTrialTolerance = 0.03;  // of a target in bytes
+
+/// With the step, or with one whose bytes are the target's, as nearly as a trial has to know.
+Result<std::vector<std::uint8_t>, InputError> coded(const LightField& field,
+                                                    EncoderSettings settings) {
+  if (settings.target_bytes == 0) return pack(field, coding_parameters(field, settings));
+  std::vector<std::uint8_t> stream;
+  const auto log_bytes = [&](double q) -> Result<double, InputError> {
+    settings.q = q;
+    SLF_TRY(stream, pack(field, coding_parameters(field, settings)));
+    return std::log(stream.size());
+  };
+  const double target = std::log(settings.target_bytes);
+  SLF_CHECK(find_step(kPlainQ, {target - kTrialTolerance, target + kTrialTolerance}, log_bytes));
+  return stream;
+}
 
 /// Of PSNR and of SSIM in decibels.
 double mean_look(double psnr, double ssim) {
@@ -58,7 +75,7 @@ Result<TrialFile, InputError> try_surface(const Capture& capture, std::span<cons
   trial.q = std::max(step.q / 2, kPlainQ);
   fit.held_out.reset();
   const LightField field = quantise_grid(cloud, std::move(fit), capture.origin, capture.up, trial);
-  SLF_TRY(const auto stream, pack(field, coding_parameters(field, trial)));
+  SLF_TRY(const auto stream, coded(field, trial));
   DecodeOptions options;
   options.threads = trial.threads;
   options.limits = DecodeLimits::none();

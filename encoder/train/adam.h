@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "encoder/train/far_surfels.h"
 #include "encoder/train/trained_surfel.h"
 
 namespace slf {
@@ -18,7 +19,8 @@ struct AdamState {
 
 /// One step down the gradients, which may have any scale.
 /// @param rates  of each value: about how far a step goes
-void adam_step(const std::vector<TrainedSurfel>& gradients, const TrainedSurfel& rates, int threads,
-               AdamState& state, TrainedSurfels& surfels);
+/// @param space  positions far away go by larger steps: by as many pixels
+void adam_step(const std::vector<TrainedSurfel>& gradients, const TrainedSurfel& rates,
+               const ViewedSpace& space, int threads, AdamState& state, TrainedSurfels& surfels);
 
 }  // namespace slf

@@ -72,7 +72,8 @@ void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state
   std::size_t count = std::min(room, std::size_t(settings.share * double(surfels.size())));
   std::vector<std::uint32_t> order;
   for (std::size_t i = 0; i < surfels.size(); ++i)
-    if (use.pull[i] > 0 && std::max(surfels[i].radius(0), surfels[i].radius(1)) > settings.smallest)
+    if (use.pull[i] > 0 && std::max(surfels[i].radius(0), surfels[i].radius(1)) >
+                               settings.smallest * settings.space.pixels_at(surfels[i].position()))
       order.push_back(std::uint32_t(i));
   count = std::min(count, order.size());
   const auto end = order.begin() + std::ptrdiff_t(count);

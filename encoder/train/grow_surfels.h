@@ -7,6 +7,7 @@
 
 #include "encoder/train/adam.h"
 #include "encoder/train/draw_surfels.h"
+#include "encoder/train/far_surfels.h"
 
 namespace slf {
 
@@ -23,7 +24,8 @@ struct GrowSettings {
   std::size_t most = 0;  ///< surfels
   double share = 0.1;    ///< of the surfels: at most so many are added
   float least_opacity = 0.02f;
-  float smallest = 0;     ///< world radius: no smaller ones split
+  float smallest = 0;  ///< world radius: no smaller ones split; far away larger
+  ViewedSpace space = {};  ///< where a pixel is larger
   bool all_seen = false;  ///< every photograph was drawn since: what was not drawn goes
 };
 

@@ -16,8 +16,8 @@ namespace {
 constexpr double kSurfelPixels = 8;     // side of a square of the surface that has one
 constexpr double kCellsOfSquare = 1.5;  // that a slanted square of a cell's side touches
 constexpr std::size_t kLeastSurfels = 8000, kMostSurfels = 60'000;
-constexpr float kReach = 2.2f;  // spacings: radius, of which a disc shows a third or so
-constexpr float kWidest = 40;   // pixels
+constexpr float kDiscReach = 2.2f;  // spacings: radius, of which a disc shows a third or so
+constexpr float kWidest = 40;       // pixels
 constexpr double kFiner = 0.7;
 
 /// Means of points that fall into one cell of a grid.
@@ -116,7 +116,7 @@ TrainedSurfels start_surfels(const SurfacePoints& points, double spacing,
   parallel_ranges(some.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const float apart = distance_around(nearest, some.positions[p], some.size());
-      const float radius = std::clamp(kReach * apart, pixel, kWidest * pixel);
+      const float radius = std::clamp(kDiscReach * apart, pixel, kWidest * pixel);
       surfels[p] = flat_surfel(some.positions[p], some.normals[p], radius, opacity);
       const Float3 colour = seen_colour(some.positions[p], some.normals[p], views);
       for (std::size_t c = 0; c < 3; ++c)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/train/far_surfels.h"
 #include "encoder/train/outlines.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_surfels.h"
@@ -18,13 +19,23 @@ constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are 
 constexpr float kFaint = 0.1f;        // while splats grow: docs/decisions/045
 constexpr double kCoarseShare = 0.3;  // of the iterations: of the dino 20 % less time, no dB less
 constexpr std::size_t kJudgedPerRange = 64;
+// Photographed pixels that a splat needs: with fewer it learns their noise. docs/decisions/048
+constexpr double kPixelsOfSplat = 100;
+constexpr std::size_t kFarShare = 6;  // at first one in so many may be for what is far away
+
+/// Pixels that show the object, or all where nothing tells it from its background.
+double pixels_shown(const std::vector<Outline>& outlines, std::span<const TrainingView> views) {
+  double pixels = 0;
+  for (const Outline& outline : outlines)
+    pixels += double(std::count(outline.object.begin(), outline.object.end(), 1));
+  if (outlines.empty())
+    for (const TrainingView& view : views) pixels += double(view.picture.pixels());
+  return pixels;
+}
 
 }  // namespace
 
-Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
-                                     int threads, TrainedSurfels& surfels) {
-  SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, threads));
-  if (!are_outlined(outlines.size(), cameras.size())) return Done{};
+void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels) {
   std::vector<std::uint8_t> inside(surfels.size());
   parallel_ranges(
       surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
@@ -39,7 +50,6 @@ Result<Done, InputError> keep_object(const Capture& capture, std::span<const int
   for (std::size_t i = 0; i < surfels.size(); ++i)
     if (inside[i]) kept.push_back(surfels[i]);
   surfels = std::move(kept);
-  return Done{};
 }
 
 Gaussians gaussians_of(const TrainedSurfels& surfels) {
@@ -75,11 +85,24 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   training.squared = kSquared;
   if (!settings.is_volume) training.least_opacity = kFaint;  // there all begin as faint
   training.coarse = kCoarseShare;
-  if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
-  if (settings.most_splats > 0) training.surfels = std::min(training.surfels, settings.most_splats);
+  SLF_TRY(std::vector<Outline> outlines, outlines_of(capture, cameras, settings.threads));
+  const bool outlined = are_outlined(outlines.size(), cameras.size());
+  if (!outlined) outlines.clear();
+  if (settings.cache != nullptr) settings.cache->outlined = outlined;
+  if (settings.surfels == 0)
+    training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
+  else
+    training.surfels = std::min(
+        training.surfels,
+        std::max(std::size_t(pixels_shown(outlines, start.views) / kPixelsOfSplat), kFewestSplats));
   TrainedSurfels surfels = first_surfels(start, settings);
+  if (!outlined) {
+    const TrainedSurfels far =
+        far_surfels(start.views, surfels, training.surfels / kFarShare, settings.threads);
+    surfels.insert(surfels.end(), far.begin(), far.end());
+  }
   SLF_CHECK(train_surfels(start.views, training, surfels));
-  SLF_CHECK(keep_object(capture, cameras, settings.threads, surfels));
+  if (outlined) keep_object(outlines, settings.threads, surfels);
   Gaussians out = gaussians_of(surfels);
   out.up = capture.up;
   return out;

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "encoder/train/outlines.h"
 #include "encoder/train/train_geometry.h"
 #include "encoder/train/trained_surfel.h"
 #include "slf/gaussians.h"
 
 namespace slf {
+
+inline constexpr std::size_t kFewestSplats = 500;  ///< that any limit leaves
 
 /// Surfels that are drawn as Gaussians while they are trained, flat ones as splats: drawn by
 /// GaussianRenderer they are what photographs were compared with. Nothing pulls them to a surface,
@@ -23,9 +27,7 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
 
 /// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
-/// @errors those of load_image
-Result<Done, InputError> keep_object(const Capture& capture, std::span<const int> cameras,
-                                     int threads, TrainedSurfels& surfels);
+void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels);
 
 /// Surfels that were trained as Gaussians.
 Gaussians gaussians_of(const TrainedSurfels& surfels);

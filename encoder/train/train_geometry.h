@@ -16,13 +16,12 @@
 namespace slf {
 
 struct TrainGeometrySettings {
-  int grid_bits = 0;            ///< of the grid that follows; 0: as fine as photographs resolve
-  double voxel_size = 0;        ///< > 0: in place of grid_bits
-  int iterations = 3000;        ///< of training, one photograph each
-  bool is_volume = false;       ///< the points are anywhere: all of them are let be seen at first
-  std::size_t surfels = 0;      ///< most; 0: as the photographs resolve
-  std::size_t most_splats = 0;  ///< > 0: of train_gaussians, however many photographs resolve
-  double seconds = 0;           ///< > 0: of training, about; results then depend on the machine
+  int grid_bits = 0;        ///< of the grid that follows; 0: as fine as photographs resolve
+  double voxel_size = 0;    ///< > 0: in place of grid_bits
+  int iterations = 3000;    ///< of training, one photograph each
+  bool is_volume = false;   ///< the points are anywhere: all of them are let be seen at first
+  std::size_t surfels = 0;  ///< most; 0: as the photographs resolve
+  double seconds = 0;       ///< > 0: of training, about; results then depend on the machine
   double photograph_bytes = double(1 << 30);  ///< most, as floats: they are halved to fit
   std::filesystem::path work = {};            ///< TrainSettings
   bool resume = false;

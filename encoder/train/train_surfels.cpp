@@ -156,6 +156,7 @@ class Training {
         surfels_(surfels),
         coarser_(pyramid(views, settings.levels, settings.threads)),
         pixel_(training_pixel(views)),
+        space_(viewed_space(views)),
         order_(views.size()),
         iteration_(int(settings.from * settings.iterations)) {
     adam_.resize(surfels.size());
@@ -193,8 +194,8 @@ class Training {
                          settings_.threads);
     pull(done);
     use_.add(tiles, projected_.sums);
-    adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), settings_.threads,
-              adam_, surfels_);
+    adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), space_,
+              settings_.threads, adam_, surfels_);
     ++drawn_views_;
     if (done >= kGrowFirst && done < kGrowLast && iteration_ % kGrowEvery == kGrowEvery - 1) grow();
     ++iteration_;
@@ -218,6 +219,7 @@ class Training {
     GrowSettings grow;
     grow.most = settings_.surfels;
     grow.smallest = float(kSmallest * pixel_);
+    grow.space = space_;
     grow.least_opacity = settings_.least_opacity;
     grow.all_seen = drawn_views_ >= views_.size();
     grow_surfels(grow, use_, adam_, surfels_);
@@ -229,6 +231,7 @@ class Training {
   TrainedSurfels& surfels_;
   std::vector<std::vector<TrainingView>> coarser_;
   double pixel_;
+  ViewedSpace space_;
   AdamState adam_;
   SurfelUse use_;
   std::vector<TrainedSurfel> gradients_;

@@ -25,7 +25,7 @@ struct TrainSettings {
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
   float least_opacity = 0.02f;  ///< fainter ones make room for others while surfels grow
-  double seconds = 0;       ///< > 0: the schedule is passed through in so long, if not sooner
+  double seconds = 0;           ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
   /// Where the training leaves what it would need to go on; empty: nowhere. Not with `seconds`.
   std::filesystem::path work = {};

@@ -17,11 +17,12 @@ struct ViewSetting {
   float depth = 1;  ///< TrainingCamera::depth
 };
 
-/// For trainings of one capture, one after the other. It fills as they run and changes nothing but
-/// their time.
+/// For trainings of one capture, one after the other. It fills as they run and changes nothing of
+/// them but their time.
 struct TrainingCache {
   std::vector<Float3> normals;                    ///< [points] where the capture has none
   std::vector<std::optional<ViewSetting>> views;  ///< [cameras]
+  bool outlined = true;  ///< of splats: photographs tell one object from its background
 };
 
 }  // namespace slf
