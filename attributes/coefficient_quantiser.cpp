@@ -89,8 +89,10 @@ class LevelQuantiser {
     std::size_t nodes;  // that branch, to twice as many
     std::size_t run;    // nodes that follow one another
   };
-  /// A predicted frame has twice as many modes, and is to take no more time.
-  Tries tries() const { return input_.reference != nullptr ? Tries{2048, 256} : Tries{8192, 1024}; }
+  /// A predicted frame has twice as many modes, and is to take no more time. View maps lose by it.
+  Tries tries() const {
+    return input_.reference != nullptr && planes_ == 3 ? Tries{2048, 256} : Tries{8192, 1024};
+  }
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
     return quantised * static_cast<std::int32_t>(input_.steps[plane]);
