@@ -84,8 +84,15 @@ class LevelQuantiser {
 
  private:
   static constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for before they are needed
-  static constexpr std::size_t kTried = 8192;     // nodes that branch, to twice as many
-  static constexpr std::size_t kTriedRun = 1024;
+  /// Nodes on which modes are tried.
+  struct Tries {
+    std::size_t nodes;  // that branch, to twice as many
+    std::size_t run;    // nodes that follow one another
+  };
+  /// A predicted frame has twice as many modes, and is to take no more time. View maps lose by it.
+  Tries tries() const {
+    return input_.reference != nullptr && planes_ == 3 ? Tries{2048, 256} : Tries{8192, 1024};
+  }
 
   std::int32_t dequantised(std::size_t plane, std::int32_t quantised) const {
     return quantised * static_cast<std::int32_t>(input_.steps[plane]);
@@ -146,12 +153,12 @@ class LevelQuantiser {
   }
 
   /// Are modes tried on this node of the level? On all, or on runs of them some way apart.
-  bool is_tried(std::size_t n) const { return n / kTriedRun % apart_ == 0; }
+  bool is_tried(std::size_t n) const { return n / tries().run % apart_ == 0; }
 
   std::vector<std::size_t> nodes_to_try() {
     std::size_t branching = 0;
     for (std::size_t n = 0; n < level_->nodes.size(); ++n) branching += level_->branches(n);
-    apart_ = std::max(branching / kTried, std::size_t{1});
+    apart_ = std::max(branching / tries().nodes, std::size_t{1});
     std::vector<std::size_t> nodes;
     for (std::size_t n = 0; n < level_->nodes.size(); ++n)
       if (is_tried(n)) nodes.push_back(n);

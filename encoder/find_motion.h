@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "geometry/motion.h"
 
@@ -17,13 +16,13 @@ struct FramePoints {
   std::span<const std::array<float, 3>> colours;
 };
 
-/// Where the points of `now` were in `before`: an affine motion, then with a lattice added, then
-/// with one of half the distance. Coarse to fine, the nearest in place and colour. Displacements of
-/// up to an eighth of the grid are found. None where a frame has no points.
-/// The same for any thread count. O(points), 125 cells around each of 20,000 of them.
-std::vector<Motion> find_motions(const FramePoints& now, const FramePoints& before, int bits);
-
-/// One of these, or none: what foretells places and colours best. Informative.
-Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits);
+/// Where the points of `now` were in `before`: an affine motion, one with a lattice added, one with
+/// a lattice of half the distance, or none: what foretells places and colours best. Displacements
+/// of up to an eighth of the grid are found.
+/// @param previous  the motion of the frame before, from where things may go on as they did. Where
+///                  it foretells nothing the search begins with none, coarse to fine.
+/// The same for any thread count. O(points), and some 25 cells around each of 10,000 of them.
+Motion choose_motion(const FramePoints& now, const FramePoints& before, int bits,
+                     const Motion& previous);
 
 }  // namespace slf

@@ -51,7 +51,7 @@ FrameColours colours_of(const LightField& field, int threads) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < field.num_points(); ++i)
     order.emplace_back(morton(field.positions[i]), i);
-  std::sort(order.begin(), order.end());
+  if (!std::is_sorted(order.begin(), order.end())) std::sort(order.begin(), order.end());
   FrameColours colours;
   for (const auto& [code, i] : order) {
     colours.codes.push_back(code);
@@ -82,6 +82,7 @@ struct FrameEncoder::Impl {
   bool outgrown = false;  // a frame was more than the level promised: its group promises nothing
   FrameChain chain;
   FrameColours before;  // as decoded
+  Motion motion;        // of the frame before
 
   Result<Done, InputError> check(const LightField& field, double at) const {
     if (parameters.quality_layers > 1 || !parameters.group_layers.empty())
@@ -144,11 +145,12 @@ struct FrameEncoder::Impl {
     if (!frame.predicted()) {
       group.features = features_of(field);
       group.level = outgrown ? 0 : level_of_group(field);
-      frame.motion = {};
+      frame.motion = motion = {};
       return pack_frame(field, parameters, &frame, &group);
     }
     const FrameColours now = colours_of(field, parameters.threads);
-    frame.motion = choose_motion(now.points(), before.points(), field.header.grid.bits);
+    frame.motion = choose_motion(now.points(), before.points(), field.header.grid.bits, motion);
+    motion = frame.motion;
     return pack_predicted(field, parameters, group, chain.state(), frame);
   }
 };

@@ -18,11 +18,12 @@ using Place = Eigen::Vector3d;
 /// A frame with fewer, larger cells.
 struct CoarseFrame {
   std::vector<std::uint64_t> codes;
-  std::vector<Place> centres;  // in voxels
-  std::vector<Place> colours;
+  std::vector<Place> centres;      // in voxels
+  std::vector<double> brightness;  // grey levels
+  std::vector<double> points;      // in each cell
 };
-/// dropped: levels of the grid.
-CoarseFrame coarsen(const FramePoints& points, int dropped);
+/// A frame and its `levels` coarser ones, the frame first. O(points)
+std::vector<CoarseFrame> coarser_frames(const FramePoints& points, int levels);
 
 /// What one place asks of its displacement d: (weight d - wanted) is to be small.
 struct Match {
@@ -33,10 +34,13 @@ struct Match {
 
 class MatchedFrame {
  public:
+  static constexpr std::uint32_t kNone = ReferenceLevel::kNone;
+
   MatchedFrame(const MatchedFrame&) = delete;
   MatchedFrame& operator=(const MatchedFrame&) = delete;
-  MatchedFrame(const FramePoints& points, int dropped)
-      : frame_(coarsen(points, dropped)),
+  /// frame: kept by reference. dropped: levels of the grid that it lacks
+  MatchedFrame(const CoarseFrame& frame, int dropped)
+      : frame_(frame),
         index_(frame_.codes),
         walk_(index_),
         side_(std::ldexp(1.0, dropped)),
@@ -44,7 +48,8 @@ class MatchedFrame {
         surface_(frame_.codes.size()) {}
 
   double side() const { return side_; }
-  Match match(const Place& place, const Place& colour, const Place& guess);
+  /// last: the cell that the place was matched with before, or kNone; has the one of now after
+  Match match(const Place& place, double brightness, const Place& guess, std::uint32_t& last);
 
  private:
   struct Surface {
@@ -52,14 +57,13 @@ class MatchedFrame {
     Place gradient = Place::Zero();  ///< of the brightness, grey levels a voxel, along the surface
   };
   const Surface& surface(std::uint32_t at);
-  /// Cells within so many of a place, no farther than the root of `square` from it, as far as
-  /// their sides tell: step(cell).
+  Voxel cell_of(const Place& at) const;
+  /// Occupied cells of a box: step(place among the codes).
   template <class Step>
-  void for_cells(const Place& at, int reach, double square, const Step& step);
-  std::uint32_t nearest(const Place& at);
-  static double brightness(const Place& colour) { return colour.sum() / 3; }
+  void for_cells(const Voxel& low, const Voxel& high, const Step& step);
+  std::uint32_t nearest(const Place& at, std::uint32_t last);
 
-  CoarseFrame frame_;
+  const CoarseFrame& frame_;
   ReferenceLevel index_;
   ReferenceWalk walk_;
   double side_;

@@ -6,10 +6,11 @@
 namespace slf {
 namespace {
 
-/// How stiff the lattice is: a difference of neighbours costs as much as two points that miss by
+/// How stiff the lattice is: a difference of neighbours costs as much as 1.5 points that miss by
 /// it.
-constexpr double kStiffness = 0.2;
-constexpr int kSolverRounds = 60;
+constexpr double kStiffness = 0.15;
+constexpr int kSolverRounds = 20;  // fits follow one another, and each goes on from the last
+constexpr double kSolved = 1e-5;   // squared residual, of that at the start
 
 }  // namespace
 
@@ -28,14 +29,38 @@ void MotionModel::begin_lattice(const CoarseFrame& points, int log2) {
                   Place::Zero());
 }
 
-void MotionModel::refine_lattice(const CoarseFrame& points) {
-  const MotionModel wide = *this;
-  begin_lattice(points, log2_ - 1);
+void MotionModel::sample_lattice(const MotionModel& other, const CoarseFrame& points, int log2) {
+  begin_lattice(points, log2);
   std::size_t k = 0;
   for (int z = 0; z < size_[2]; ++z)
     for (int y = 0; y < size_[1]; ++y)
       for (int x = 0; x < size_[0]; ++x, ++k)
-        lattice_[k] = wide.added(side_ * Place(first_[0] + x, first_[1] + y, first_[2] + z));
+        lattice_[k] = other.added(side_ * Place(first_[0] + x, first_[1] + y, first_[2] + z));
+}
+
+void MotionModel::refine_lattice(const CoarseFrame& points) {
+  const MotionModel wide = *this;
+  sample_lattice(wide, points, log2_ - 1);
+}
+
+void MotionModel::start_from(const Motion& motion, const CoarseFrame& points) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      matrix_(static_cast<int>(i), static_cast<int>(j)) =
+          std::ldexp(motion.matrix[i][j], -Motion::kMatrixBits);
+    shift_[static_cast<int>(i)] = motion.shift[i] / 16.0;
+  }
+  if (motion.lattice_log2 == 0) return;
+  MotionModel given = *this;
+  given.log2_ = motion.lattice_log2;
+  given.side_ = std::ldexp(1.0, motion.lattice_log2);
+  for (std::size_t i = 0; i < 3; ++i) {
+    given.first_[i] = motion.lattice_first[i];
+    given.size_[i] = motion.lattice_size[i];
+  }
+  for (const Displacement& d : motion.lattice)
+    given.lattice_.emplace_back(d[0] / 16.0, d[1] / 16.0, d[2] / 16.0);
+  sample_lattice(given, points, motion.lattice_log2);
 }
 
 void MotionModel::fit_affine(const std::vector<Match>& matches) {
@@ -47,12 +72,13 @@ void MotionModel::fit_affine(const std::vector<Match>& matches) {
     at << m.place - centre_, 1;
     for (int a = 0; a < 4; ++a) {
       right.segment<3>(3 * a) += at[a] * m.wanted;
-      for (int b = 0; b < 4; ++b) normal.block<3, 3>(3 * a, 3 * b) += at[a] * at[b] * m.weight;
+      for (int b = 0; b <= a; ++b) normal.block<3, 3>(3 * a, 3 * b) += at[a] * at[b] * m.weight;
     }
     scale += m.weight.trace() * at.head<3>().squaredNorm();
     total += m.weight.trace();
   }
   if (!(total > 0)) return;
+  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();  // weights are symmetric
   for (int k = 0; k < 12; ++k) {  // what nothing tells of stays as it is
     const double stay = 1e-6 * (k < 9 ? scale : total) + 1e-9;
     normal(k, k) += stay;
@@ -64,7 +90,10 @@ void MotionModel::fit_affine(const std::vector<Match>& matches) {
 }
 
 std::vector<MotionModel::CellSums> MotionModel::sum_cells(const std::vector<Match>& matches) const {
+  constexpr int kPairs = 36;                      // of the eight points
+  using Sums = Eigen::Matrix<double, kPairs, 6>;  // [pair][of a symmetric matrix]
   std::vector<CellSums> cells;
+  std::vector<Sums> sums;
   std::vector<std::size_t> cell_at(lattice_.size(), ~std::size_t{0});  // by its first point
   for (const Match& m : matches) {
     const Corners corners = corners_of(m.place);
@@ -72,19 +101,29 @@ std::vector<MotionModel::CellSums> MotionModel::sum_cells(const std::vector<Matc
     if (at >= cells.size()) {
       at = cells.size();
       cells.push_back({corners.point, Eigen::Matrix<double, 24, 24>::Zero()});
+      sums.emplace_back(Sums::Zero());
     }
-    for (int a = 0; a < 8; ++a)
-      for (int b = 0; b <= a; ++b)
-        cells[at].normal.block<3, 3>(3 * a, 3 * b) += corners.weight[static_cast<std::size_t>(a)] *
-                                                      corners.weight[static_cast<std::size_t>(b)] *
-                                                      m.weight;
+    Eigen::Matrix<double, kPairs, 1> both;
+    for (std::size_t a = 0, pair = 0; a < 8; ++a)
+      for (std::size_t b = 0; b <= a; ++b, ++pair)
+        both[static_cast<int>(pair)] = corners.weight[a] * corners.weight[b];
+    for (int i = 0, entry = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j, ++entry) sums[at].col(entry) += m.weight(i, j) * both;
   }
-  for (CellSums& cell : cells)  // weights are symmetric
-    cell.normal.triangularView<Eigen::StrictlyUpper>() = cell.normal.transpose();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (int a = 0, pair = 0; a < 8; ++a)
+      for (int b = 0; b <= a; ++b, ++pair)
+        for (int i = 0, entry = 0; i < 3; ++i)
+          for (int j = 0; j <= i; ++j, ++entry) {
+            const double sum = sums[c](pair, entry);
+            cells[c].normal(3 * a + i, 3 * b + j) = cells[c].normal(3 * a + j, 3 * b + i) = sum;
+            cells[c].normal(3 * b + i, 3 * a + j) = cells[c].normal(3 * b + j, 3 * a + i) = sum;
+          }
   return cells;
 }
 
-void MotionModel::fit_lattice(const std::vector<Match>& matches) {
+void MotionModel::fit_lattice(const std::vector<Match>& matches, double stiffness) {
+  stiffness_ = kStiffness * stiffness;
   using Field = std::vector<Place>;
   const std::vector<CellSums> cells = sum_cells(matches);
   const auto apply = [&](const Field& x) {
@@ -115,7 +154,7 @@ void MotionModel::fit_lattice(const std::vector<Match>& matches) {
   Field way = rest;
   const double first = dot(rest, rest);
   double size = first;
-  for (int round = 0; round < kSolverRounds && size > 1e-8 * first; ++round) {
+  for (int round = 0; round < kSolverRounds && size > kSolved * first; ++round) {
     const Field there = apply(way);
     const double by = size / dot(way, there);
     for (std::size_t k = 0; k < rest.size(); ++k) {
@@ -153,11 +192,11 @@ void MotionModel::add_stiffness(const std::vector<Place>& x, std::vector<Place>&
   const std::array<int, 3> stride = {1, size_[0], size_[0] * size_[1]};
   for (int k = 0; k < static_cast<int>(x.size()); ++k) {
     const auto here = static_cast<std::size_t>(k);
-    y[here] += 1e-2 * kStiffness * x[here];
+    y[here] += 1e-2 * stiffness_ * x[here];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (k / stride[axis] % size_[axis] + 1 >= size_[axis]) continue;
       const auto other = static_cast<std::size_t>(k + stride[axis]);
-      const Place pull = kStiffness * (x[here] - x[other]);
+      const Place pull = stiffness_ * (x[here] - x[other]);
       y[here] += pull;
       y[other] -= pull;
     }

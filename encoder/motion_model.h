@@ -27,7 +27,9 @@ class MotionModel {
   }
   int lattice_log2() const { return log2_; }
 
-  /// A lattice over all places of `points`.
+  /// What a decoder makes of a motion, on places of `points`.
+  void start_from(const Motion& motion, const CoarseFrame& points);
+  /// A lattice over all places of `points`, which adds nothing.
   void begin_lattice(const CoarseFrame& points, int log2);
   /// One of half the distance in its place, which is the same motion.
   void refine_lattice(const CoarseFrame& points);
@@ -71,11 +73,14 @@ class MotionModel {
   void fit_affine(const std::vector<Match>& matches);
 
   /// The same of the lattice, beside the affine part: conjugate gradients.
-  void fit_lattice(const std::vector<Match>& matches);
+  /// stiffness: of the lattice, 0 .. 1
+  void fit_lattice(const std::vector<Match>& matches, double stiffness);
 
   Motion rounded() const;
 
  private:
+  /// A lattice over all places of `points`, which adds what that of `other` does.
+  void sample_lattice(const MotionModel& other, const CoarseFrame& points, int log2);
   /// What the matches in a cell of the lattice ask of its eight points together.
   struct CellSums {
     std::array<std::size_t, 8> point;
@@ -88,7 +93,7 @@ class MotionModel {
   Place centre_, shift_ = Place::Zero();
   Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
   int log2_ = 0;
-  double side_ = 0;
+  double side_ = 0, stiffness_ = 0;
   std::array<int, 3> first_{}, size_{};
   std::vector<Place> lattice_;
 };

@@ -47,6 +47,16 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
   return Done{};
 }
 
+double pictures_a_second(const PartOptions& part, std::size_t count) {
+  constexpr double kRate = 30;
+  if (!part.source || !part.source->decoder || count < 2) return kRate;
+  const std::vector<FrameInfo>& frames = part.source->decoder->frames();
+  const auto last = static_cast<std::size_t>(part.frame);
+  if (count > last + 1) return kRate;
+  const double seconds = frames[last].time - frames[last + 1 - count].time;
+  return seconds > 0 ? static_cast<double>(count - 1) / seconds : kRate;
+}
+
 nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
   auto list = nlohmann::ordered_json::array();
   for (const FrameInfo& f : frames)

@@ -30,6 +30,10 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
 Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
                        const std::function<Outcome()>& run);
 
+/// How fast the last `count` frames are to be shown that a verb has run for, by their times; 30
+/// where these do not tell.
+double pictures_a_second(const PartOptions& part, std::size_t count);
+
 /// The frames of a light field that moves. What else `slf info` tells is about the first.
 nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames);
 std::string frames_text(const std::vector<FrameInfo>& frames);

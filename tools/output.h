@@ -33,6 +33,7 @@ Outcome make_directory(const std::string& directory);
 Outcome save(const std::string& file, const void* data, std::size_t size);
 Outcome save(const std::string& file, std::span<const std::span<const std::byte>> pieces);
 Outcome save(const std::string& file, const std::string& text);
+inline constexpr int kJpegQuality = 95;  ///< as libjpeg has it
 /// PNG; JPEG where the name says so.
 Outcome save(const std::string& file, const Image& image);
 Outcome save(const std::string& file, const PointCloud& cloud);

@@ -68,4 +68,20 @@ Camera RenderScene::orbit(double turn, double elevation_degrees, int width, int 
   return nowhere;
 }
 
+Image transparent(const Rendering& rendering) {
+  Image out = rendering.image;
+  out.channels = 4;
+  out.data.clear();
+  for (std::size_t i = 0; i < rendering.coverage.size(); ++i) {
+    const unsigned alpha = rendering.coverage[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const unsigned value = rendering.image.data[3 * i + c];
+      out.data.push_back(static_cast<std::uint8_t>(
+          alpha == 0 ? 0 : std::min(255u, (value * 255 + alpha / 2) / alpha)));
+    }
+    out.data.push_back(static_cast<std::uint8_t>(alpha));
+  }
+  return out;
+}
+
 }  // namespace slf::tools

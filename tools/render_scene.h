@@ -48,4 +48,7 @@ class RenderScene {
   double prepare_ = 0;
 };
 
+/// Colours freed of the black that the renderer composed them with, and coverage as alpha.
+Image transparent(const Rendering& rendering);
+
 }  // namespace slf::tools

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tools/camera_file.h"
+#include "tools/film.h"
 #include "tools/frame_source.h"
 #include "tools/mosaic.h"
 #include "tools/options.h"
@@ -25,6 +26,7 @@ struct RenderOptions {
   bool own_view = false;  ///< no view was asked for: the file's own, if it has one
   bool sheet = false, pair = false, transparent = false, diffuse_only = false;
   std::optional<Camera> orbit_camera;  ///< of the first frame with points, for all
+  std::optional<Film> film;            ///< in place of a picture a file
   PartOptions part;
   LimitOptions limits;
   CommonOptions common;
@@ -73,23 +75,6 @@ View camera_view(const RenderOptions& given, Camera camera) {
           given.pair ? given.output : numbered(given.output, 0)};
 }
 
-/// Colours freed of the black that the renderer composed them with, and coverage as alpha.
-Image transparent(const Rendering& rendering) {
-  Image out = rendering.image;
-  out.channels = 4;
-  out.data.clear();
-  for (std::size_t i = 0; i < rendering.coverage.size(); ++i) {
-    const unsigned alpha = rendering.coverage[i];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const unsigned value = rendering.image.data[3 * i + c];
-      out.data.push_back(static_cast<std::uint8_t>(
-          alpha == 0 ? 0 : std::min(255u, (value * 255 + alpha / 2) / alpha)));
-    }
-    out.data.push_back(static_cast<std::uint8_t>(alpha));
-  }
-  return out;
-}
-
 RenderSettings settings_of(const RenderOptions& given) {
   RenderSettings settings;
   parse_background(given.background, settings.background);
@@ -116,9 +101,10 @@ Outcome check_options(const RenderOptions& given) {
     return Failure{kUsage, "render: --sheet is not transparent"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "render: --json and --output - both want standard output"};
-  if (given.transparent && small_extension(given.output).starts_with(".jp"))
+  if (given.transparent && (given.film || small_extension(given.output).starts_with(".jp")))
     return Failure{kUsage, "render: --transparent needs PNG: JPEG has no alpha"};
-  constexpr std::array kFormats = {".png", ".jpg", ".jpeg"};
+  constexpr std::array kFormats = {".png", ".jpg", ".jpeg", ".avi"};
+  if (given.film) return check_output(given.output);
   if (given.sheet || given.pair) return check_output(given.output, "render", kFormats);
   const std::string first = numbered(given.output, 0);
   if (given.orbit > 1 && first == given.output)
@@ -176,6 +162,10 @@ Result<Image, Failure> photograph(const RenderOptions& given, const Capture& cap
   return opaque(image, background);
 }
 
+Outcome keep(RenderOptions& given, const std::string& file, const Image& image) {
+  return given.film ? given.film->add(image) : save(file, image);
+}
+
 Outcome run_render(RenderOptions& given) {
   SLF_CHECK(check_options(given));
   Capture capture;
@@ -204,15 +194,29 @@ Outcome run_render(RenderOptions& given) {
   Rendered rendered = render_views(given, *scene, views);
   if (given.pair) {
     SLF_TRY(const Image left, photograph(given, capture, photo, views[0]));
-    SLF_CHECK(save(given.output, mosaic({left, rendered.images[0]}, 2, settings.background)));
+    SLF_CHECK(
+        keep(given, given.output, mosaic({left, rendered.images[0]}, 2, settings.background)));
   } else if (given.sheet) {
     const int columns = sheet_columns(static_cast<int>(views.size()));
-    SLF_CHECK(save(given.output, mosaic(rendered.images, columns, settings.background)));
+    SLF_CHECK(keep(given, given.output, mosaic(rendered.images, columns, settings.background)));
   } else {
     for (std::size_t i = 0; i < views.size(); ++i)
-      SLF_CHECK(save(views[i].file, rendered.images[i]));
+      SLF_CHECK(keep(given, views[i].file, rendered.images[i]));
   }
   return report(given, views, rendered, scene->prepare(), scene->partial());
+}
+
+/// All pictures of the verb as one file, which is written when the last is done.
+Outcome run_film(RenderOptions& given) {
+  if (!given.part.frames.empty() && given.orbit > 1 && !given.sheet)
+    return Failure{kUsage,
+                   "render: a film of --frames shows one view: --orbit needs --sheet there"};
+  given.film.emplace();
+  std::string number = "%d";  // of a frame: no file has it
+  SLF_CHECK(for_each_frame("render", number, given.part, [&] { return run_render(given); }));
+  const double rate = pictures_a_second(given.part, given.film->size());
+  const std::vector<std::uint8_t> bytes = given.film->avi(rate);
+  return save(given.output, bytes.data(), bytes.size());
 }
 
 void add_view_options(CLI::App& verb, RenderOptions& o) {
@@ -260,7 +264,7 @@ void add_render(CLI::App& program, Run& run) {
   verb->add_option(
           "-o,--output", o->output,
           "PNG; - is standard output. A directory, or %d or %03d in the name, has the number of "
-          "the view")
+          "the view. x.avi: all views or frames as a film, Motion JPEG")
       ->required()
       ->type_name("FILE");
   add_view_options(*verb, *o);
@@ -286,6 +290,7 @@ void add_render(CLI::App& program, Run& run) {
                       verb->count("--fov") ==
                   0;
     run = [o] {
+      if (Film::is_named(o->output)) return run_film(*o);
       return for_each_frame("render", o->output, o->part, [&] { return run_render(*o); });
     };
   });

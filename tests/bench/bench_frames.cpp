@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a moving cloud, each predicted and each by itself: bench_frames STEP DIR [DIR ...].
 // A DIR is what `slf synth rot1 --frames N -o DIR` makes: integers on a grid of 8 bits and a
-// colour. STEP: grey levels of brightness, twice that of the other channels. Bytes by kind, PSNR
-// of brightness, milliseconds of decoding, over all frames but the first.
+// colour. STEP: grey levels of brightness, twice that of the other channels. Bytes by kind, PSNR of
+// brightness, milliseconds of a processor for encoding and decoding, over all frames but the first.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <optional>
 
-#include "base/stopwatch.h"
 #include "bitstream/units.h"
 #include "geometry/morton.h"
 #include "slf/capture.h"
@@ -70,10 +70,24 @@ double squared_error(const LightField& given, const LightField& decoded) {
   return sum / static_cast<double>(order.size());
 }
 
-struct Sums {
-  double frames = 0, bytes = 0, geometry = 0, values = 0, error = 0, seconds = 0;
+/// Processor time of a call.
+struct Seconds {
+  double seconds = 0;
 
-  void add(std::span<const std::uint8_t> stream) {
+  template <class Work>
+  auto of(const Work& work) {
+    const std::clock_t start = std::clock();
+    auto result = work();
+    seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return result;
+  }
+};
+
+struct Sums {
+  double frames = 0, bytes = 0, geometry = 0, values = 0, error = 0, encoding = 0, decoding = 0;
+
+  void add(std::span<const std::uint8_t> stream, const Seconds& time) {
+    encoding += time.seconds;
     bytes += static_cast<double>(stream.size());
     std::size_t at = stream[0] == kSignature[0] ? kSignature.size() : 0;
     while (at < stream.size()) {
@@ -83,10 +97,15 @@ struct Sums {
       at += static_cast<std::size_t>(unit.bytes);
     }
   }
+  void add_decoded(const LightField& given, const LightField& decoded, const Seconds& time) {
+    error += squared_error(given, decoded);
+    decoding += time.seconds;
+    frames += 1;
+  }
   void print(const char* what) const {
-    std::printf("  %-10s %9.0f %9.0f %9.0f %8.2f %8.1f\n", what, bytes / frames, geometry / frames,
-                values / frames, 10 * std::log10(255 * 255 / (error / frames)),
-                1e3 * seconds / frames);
+    std::printf("  %-10s %9.0f %9.0f %9.0f %8.2f %8.1f %8.1f\n", what, bytes / frames,
+                geometry / frames, values / frames, 10 * std::log10(255 * 255 / (error / frames)),
+                1e3 * encoding / frames, 1e3 * decoding / frames);
   }
 };
 
@@ -97,7 +116,7 @@ void measure(const char* directory, std::uint32_t step) {
   parameters.threads = kThreads;
   parameters.step = {{step, 2 * step, 2 * step}};
   const FrameInputs inputs = value_of(list_frames(std::filesystem::path(directory)));
-  FrameEncoder encoder(parameters, static_cast<int>(inputs.frames.size()));
+  FrameEncoder encoder(parameters, static_cast<int>(inputs.frames.size())), alone(parameters, 1);
   std::vector<std::uint8_t> stream;
   std::vector<LightField> fields;
   Sums intra, predicted;
@@ -105,26 +124,25 @@ void measure(const char* directory, std::uint32_t step) {
   options.threads = kThreads;
   for (std::size_t f = 0; f < inputs.frames.size(); ++f) {
     fields.push_back(field_of(inputs.frames[f]));
-    const auto frame = value_of(encoder.add(fields.back(), static_cast<double>(f)));
+    const LightField& field = fields.back();
+    Seconds of_frame, of_alone;
+    const auto frame =
+        of_frame.of([&] { return value_of(encoder.add(field, static_cast<double>(f))); });
+    of_alone.of([&] { return value_of(alone.add(field, static_cast<double>(f))); });
     stream.insert(stream.end(), frame.begin(), frame.end());
     if (f == 0) continue;
-    predicted.add(frame);
-    const auto alone = value_of(pack(fields.back(), parameters));
-    intra.add(alone);
-    Stopwatch watch;
-    const LightField decoded = value_of(decode(alone, options));
-    intra.seconds += watch.lap();
-    intra.error += squared_error(fields.back(), decoded);
-    intra.frames += 1;
+    predicted.add(frame, of_frame);
+    const auto packed = value_of(pack(field, parameters));
+    intra.add(packed, of_alone);
+    Seconds of_decoding;
+    intra.add_decoded(field, of_decoding.of([&] { return value_of(decode(packed, options)); }),
+                      of_decoding);
   }
   FrameDecoder decoder = value_of(FrameDecoder::open(stream, options));
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    Stopwatch watch;
-    const LightField decoded = value_of(decoder.decode(f));
-    if (f == 0) continue;
-    predicted.seconds += watch.lap();
-    predicted.error += squared_error(fields[f], decoded);
-    predicted.frames += 1;
+    Seconds of_decoding;
+    const LightField decoded = of_decoding.of([&] { return value_of(decoder.decode(f)); });
+    if (f > 0) predicted.add_decoded(fields[f], decoded, of_decoding);
   }
   std::printf("%s, %zu frames\n", directory, fields.size());
   intra.print("by itself");
@@ -142,6 +160,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const auto step = static_cast<std::uint32_t>(std::max(std::atoi(argv[1]), 1)) << kShift;
-  std::printf("  %-10s %9s %9s %9s %8s %8s\n", "", "bytes", "geometry", "values", "dB", "ms");
+  std::printf("  %-10s %9s %9s %9s %8s %8s %8s\n", "", "bytes", "geometry", "values", "dB",
+              "enc ms", "dec ms");
   for (int i = 2; i < argc; ++i) measure(argv[i], step);
 }

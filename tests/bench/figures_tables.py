@@ -168,8 +168,8 @@ def moving(place):
         words = line.split()
         if line and not line[0].isspace() and 'frames' in line:
             name, by_kind = pathlib.Path(line.split(',')[0]).name, {}
-        elif len(words) >= 6 and name:
-            by_kind[' '.join(words[:-5])] = words[-5:]
+        elif len(words) >= 7 and name:
+            by_kind[' '.join(words[:-6])] = words[-6:]
         elif len(words) == 3 and all(word.endswith('%') for word in words):
             own, predicted = by_kind['by itself'], by_kind['predicted']
             changes = [word.replace('%', ' %').replace('-', '−') for word in words]
