@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDoubling = 0.5;  // dB that twice the bytes have to gain: docs/decisions/035
 
-/// Of PSNR and of SSIM in decibels.
+/// Mean of PSNR and of SSIM in decibels.
 double mean_look(double psnr, double ssim) {
   return (psnr - 10 * std::log10(std::max(1 - ssim, 1e-6))) / 2;
 }

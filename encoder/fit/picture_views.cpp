@@ -25,7 +25,7 @@ constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, direct
 constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
 constexpr double kSeen = 0.5;  // share of the points that a camera sees, at most
 
-/// Of the rectangle about a part of a scene in its picture.
+/// Pixels of the rectangle about a part of a scene in its picture.
 double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
   constexpr std::size_t kEvery = 16;
   double left = camera.width, right = 0, top = camera.height, bottom = 0;

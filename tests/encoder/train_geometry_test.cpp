@@ -58,7 +58,7 @@ class TrainGeometryTest : public testing::Test {
     }
     return apart;
   }
-  /// Of points that are no farther from the true surface than so many point spacings.
+  /// Share of points that are no farther from the true surface than so many point spacings.
   static double share_within(double most, const PointCloud& cloud) {
     const auto apart = distances(cloud);
     return double(std::count_if(apart.begin(), apart.end(), [=](double x) { return x < most; })) /
