@@ -85,6 +85,10 @@ class Given {
   const GivenSettings& given_;
 };
 
+InputError wrong_setting(const std::string& name, const std::string& what) {
+  return invalid_argument(std::string("--").append(name).append(" ").append(what));
+}
+
 Outcome check_given(const GivenSettings& all, const SettingTable& table) {
   const Given given(all);
   for (const auto& pair : all) {
@@ -92,13 +96,12 @@ Outcome check_given(const GivenSettings& all, const SettingTable& table) {
     const auto row = std::find_if(table.begin(), table.end(), [&](const SettingRow& r) {
       return r.option && r.info.name == name;
     });
-    if (row == table.end())
-      return invalid_argument("--" + name + " is not a setting of the encoder");
-    if (given.find(name) != &value) return invalid_argument("--" + name + " is given twice");
+    if (row == table.end()) return wrong_setting(name, "is not a setting of the encoder");
+    if (given.find(name) != &value) return wrong_setting(name, "is given twice");
     if (const std::string what = wrong_value(row->info, value); !what.empty())
-      return invalid_argument("--" + name + " " + what);
+      return wrong_setting(name, what);
     for (const std::string& excluded : row->info.excludes)
-      if (given.has(excluded)) return invalid_argument("--" + name + " excludes --" + excluded);
+      if (given.has(excluded)) return wrong_setting(name, "excludes --" + excluded);
   }
   return Done{};
 }

@@ -65,8 +65,9 @@ Result<std::vector<bool>, InputError> hidden_pixels(const SplatWeights& splatted
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (splatted.coverage[i] < kCovered) continue;
     const std::size_t width = static_cast<std::size_t>(camera.width);
+    const std::size_t row = i / width;
     const std::array<double, 2> at = {static_cast<double>(i % width) + 0.5,
-                                      static_cast<double>(i / width) + 0.5};
+                                      static_cast<double>(row) + 0.5};
     hidden[i] = depth.hides(at, double{splatted.depth[i]}, kSlanted);
   }
   return hidden;
