@@ -12,11 +12,18 @@ rooms=$(IFS='|'; echo "$*")
 units() {
   /usr/bin/python3 - "$build" "$@" <<'EOF'
 import json, pathlib, re, sys
-build, rooms = pathlib.Path(sys.argv[1]), sys.argv[2:]
-for file in sorted({entry['file'] for entry in json.loads((build / 'compile_commands.json').read_text())}):
+build, rooms = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]
+files = sorted({entry['file'] for entry in json.loads((build / 'compile_commands.json').read_text())})
+# A target of fuzz programs compiles alone what a unity has, too: once is enough.
+seen = {name for file in files if file.endswith('.cxx') for name in re.findall(r'#include "([^"]*)"', pathlib.Path(file).read_text())}
+for file in files:
+    if file in seen:
+        continue
     unity = re.search(r'/unity_([^/]*)_\d+_cxx\.cxx$', file)
-    room = unity[1] if unity else pathlib.Path(file).relative_to(pathlib.Path.cwd()).parent.as_posix().replace('/', '_')
-    if file.endswith(('.cpp', '.cxx')) and (not rooms or any(f'{room}_'.startswith(f'{r}_') for r in rooms)):
+    path = pathlib.Path(file)  # those of tests: build/tests/CMakeFiles/THEME_tests.dir/Unity/unity_0_cxx.cxx
+    inside = path.relative_to(build if path.is_relative_to(build) else pathlib.Path.cwd())
+    room = unity[1] if unity else inside.parent.as_posix().replace('/', '_')
+    if file.endswith(('.cpp', '.cxx')) and (not rooms or any(f'{room}_'.startswith(r.replace('/', '_') + '_') for r in rooms)):
         print(file)
 EOF
 }

@@ -17,7 +17,7 @@ class CodeWeights {
   /// 2^24. Kept by reference.
   explicit CodeWeights(std::span<const std::uint32_t> before) : before_(before) {}
 
-  /// Of codes begin .. end - 1 together.
+  /// Weight of codes begin .. end - 1 together.
   std::uint32_t of(std::size_t begin, std::size_t end) const {
     return before_.empty() ? static_cast<std::uint32_t>(end - begin)
                            : before_[end] - before_[begin];

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/raht_tree.h"
 #include "attributes/rate_model.h"
 #include "attributes/slice_cells.h"

@@ -30,7 +30,7 @@ class CoefficientSignModel {
   template <class Coder>
   bool code(Coder& coder, const SignEvidence& e, bool negative) {
     const std::uint32_t c = e.channel;
-    // Of an earlier channel and channel c: are the signs alike?
+    // Are the signs of an earlier channel and of channel c alike?
     const auto product = [c](const std::int16_t* values, std::uint32_t earlier) {
       return sign(values[earlier] * values[c] * (earlier < c));
     };

@@ -100,7 +100,7 @@ inline std::int32_t differ(FourValues a, FourValues b) {
 
 #endif
 
-/// Of values 0 .. lanes - 1, four together where that is of use; body(place).
+/// Calls body(place) for values 0 .. lanes - 1, four together where a register holds them.
 template <class Body>
 SLF_IN_LINE void for_values(std::size_t lanes, const Body& body) {
   std::size_t j = 0;

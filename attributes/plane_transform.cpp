@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kPointGrain = 1024;
 
-/// Of what no 32 bits hold; no encoder makes it.
+/// The nearest that 32 bits hold; no encoder makes one that they do not.
 std::int32_t clamped(std::int64_t value) {
   constexpr std::int64_t kMost = 0x7FFFFFFF;
   return static_cast<std::int32_t>(std::clamp(value, -kMost, kMost));

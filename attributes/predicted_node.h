@@ -13,7 +13,7 @@
 
 namespace slf {
 
-/// Of one node after the other, of the same planes.
+/// Predictions of one node after the other, of the same planes.
 class PredictedNode {
  public:
   /// modes: of the planes.

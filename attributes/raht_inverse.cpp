@@ -74,15 +74,15 @@ inline bool any_nonzero(const std::int32_t* values, std::size_t lanes) {
 }
 
 /// Planes begin .. end - 1 of everything.
-struct Range {
+struct Planes {
   Lanes values;
   const std::int32_t* step;
   const std::int32_t* most;
   std::size_t lanes;
   std::span<const std::uint8_t> nonzero;  // [rows] 0: the row's difference is zero; empty: unknown
 
-  Range(std::span<std::int32_t> all, const Steps& steps, std::size_t begin, std::size_t end,
-        std::span<const std::uint8_t> nonzero_rows)
+  Planes(std::span<std::int32_t> all, const Steps& steps, std::size_t begin, std::size_t end,
+         std::span<const std::uint8_t> nonzero_rows)
       : values{all.data() + begin, steps.step.size()},
         step(steps.step.data() + begin),
         most(steps.most.data() + begin),
@@ -92,7 +92,7 @@ struct Range {
   bool is_zero(std::uint32_t row) const { return !nonzero.empty() && nonzero[row] == 0; }
 };
 
-inline std::int32_t inverse_block(const Merge& m, bool zero, const Range& range, std::size_t j,
+inline std::int32_t inverse_block(const Merge& m, bool zero, const Planes& range, std::size_t j,
                                   std::size_t lanes) {
   std::int32_t* low = range.values.row(m.left) + j;
   std::int32_t* high = range.values.row(m.right) + j;
@@ -103,7 +103,7 @@ inline std::int32_t inverse_block(const Merge& m, bool zero, const Range& range,
 }
 
 SLF_MULTIVERSION_LANES
-std::int32_t inverse_lanes(std::span<const Merge> merges, const Range& range, std::size_t first,
+std::int32_t inverse_lanes(std::span<const Merge> merges, const Planes& range, std::size_t first,
                            std::size_t lanes) {
   std::int32_t bad = 0;
   for (const Merge& m : merges) {
@@ -117,7 +117,7 @@ std::int32_t inverse_lanes(std::span<const Merge> merges, const Range& range, st
 }
 
 /// Row 0 holds the mean of all, which no merge dequantises.
-std::int32_t dequantise_mean(const Range& range) {
+std::int32_t dequantise_mean(const Planes& range) {
   std::int32_t bad = 0;
   for (std::size_t j = 0; j < range.lanes; ++j) {
     std::int32_t& value = range.values.first[j];
@@ -136,7 +136,7 @@ struct Run {
 
 /// Spec 8.7.6: a node, its own merges.
 std::int32_t inverse_node(const TransformLevel& level, std::size_t n, std::span<const Merge> own,
-                          const Run& run, const Range& range, Lanes means, ConstLanes reference) {
+                          const Run& run, const Planes& range, Lanes means, ConstLanes reference) {
   if (run.mode == 0) return inverse_lanes(own, range, run.begin, run.end - run.begin);
   std::int32_t bad = 0;
   NodePrediction plan;
@@ -157,7 +157,7 @@ constexpr std::size_t kMergesAhead = 8;  // whose rows are asked for: a node or 
 
 /// Spec 8.7.6. merges: of the level. Node by node, not run by run: a level does not fit the cache.
 std::int32_t inverse_level(const TransformLevel& level, std::span<const Merge> merges,
-                           std::span<const Run> runs, const Range& range, Lanes means,
+                           std::span<const Run> runs, const Planes& range, Lanes means,
                            ConstLanes reference) {
   if (runs.size() == 1 && runs[0].mode == 0) return inverse_lanes(merges, range, 0, range.lanes);
   std::int32_t bad = 0;
@@ -233,7 +233,7 @@ Result<Done> raht_inverse(const RahtTree& tree, std::span<const std::uint32_t> s
   used = std::min(used, steps.size());
   const auto merges = merges_below(tree, cells);
   const bool good = over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
-    const Range range(values, table, begin, end, nonzero);
+    const Planes range(values, table, begin, end, nonzero);
     const std::int32_t bad = cells == 0 ? dequantise_mean(range) : 0;
     return bad | inverse_lanes(merges, range, 0, range.lanes);
   });
@@ -250,7 +250,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
                                     LevelMeans* kept) {
   const Steps table(steps);
   used = std::min(used, steps.size());
-  bool good = cells > 0 || dequantise_mean(Range(values, table, 0, used, nonzero)) == 0;
+  bool good = cells > 0 || dequantise_mean(Planes(values, table, 0, used, nonzero)) == 0;
   if (reference != nullptr) {
     levels.predict_from(*reference);
     predict_root(reference->means[0], levels.points(), values.first(used));
@@ -278,7 +278,7 @@ Result<Done> raht_inverse_predicted(const RahtTree& tree, TransformLevels& level
     }
     good &= over_planes(used, threads, [&](std::size_t begin, std::size_t end) {
       const std::int32_t bad = inverse_level(
-          level, merges, clip(runs, begin, end), Range(values, table, begin, end, nonzero),
+          level, merges, clip(runs, begin, end), Planes(values, table, begin, end, nonzero),
           {means ? means.get() + std::min(begin, width) : nullptr, width},
           there == nullptr ? ConstLanes{nullptr, 0} : ConstLanes{there + begin, steps.size()});
       if (kept != nullptr)

@@ -66,7 +66,7 @@ class RateModel {
   AdaptiveCost& value(std::size_t plane, std::int32_t parent) {
     return value_[plane * 3 + size_of(parent)];
   }
-  /// Of a magnitude above 0, with its sign.
+  /// Cost of a magnitude above 0, with its sign.
   std::uint32_t magnitude_cost(std::uint32_t magnitude, std::int32_t parent) const {
     const auto& more = more_[size_of(parent)];
     std::uint32_t cost = 256;

@@ -23,7 +23,7 @@ struct ReferenceStates {
   using Magnitude = ContextShape<13, 3, 12, 3, 16>;  // its own; as above; channel; unary code
   /// What their weights begin with, of 8192: a fourth of 8500, as that of one of four contexts.
   static constexpr std::int16_t kFirstWeight = 2125;
-  /// Of memory.
+  /// Bytes of memory.
   static constexpr std::size_t kBytes = sizeof(ContextBit) * (Node::kCount + Magnitude::kCount);
 
   std::vector<ContextBit> node = std::vector<ContextBit>(Node::kCount),

@@ -85,7 +85,7 @@ class VectorCoefficients {
   static constexpr std::size_t kRowsAhead = 8;  // asked for before they are needed
   static constexpr std::int32_t kLargest = KeptVectors::kLargest;
 
-  /// Of the values of a vector so far.
+  /// What the values of a vector so far add up to.
   struct Progress {
     std::uint32_t sum = 0;       // of magnitudes
     std::uint64_t activity = 0;  // of their planes

@@ -7,7 +7,7 @@
 
 namespace slf {
 
-/// Of a weight w, 1 to 2^24 - 1.
+/// Roots of a weight w, 1 to 2^24 - 1.
 struct WeightRoots {
   std::int32_t reciprocal_q30;  ///< 1 / sqrt(w)
   std::int32_t root_q19;        ///< sqrt(w)

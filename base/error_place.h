@@ -8,7 +8,7 @@
 
 namespace slf {
 
-/// Of bytes that begin at bit `begin` of the caller's: counted from the caller's first bit.
+/// An error of bytes that begin at bit `begin`: its place counted from the caller's first bit.
 template <class T>
 Result<T> counted_from(std::uint64_t begin, Result<T> result) {
   if (result) return result;

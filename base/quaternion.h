@@ -20,7 +20,7 @@ Matrix3x3 rotation_of(const std::array<Real, 4>& q) {
            {scale * (x * z - w * y), scale * (y * z + w * x), 1 - scale * (x * x + y * y)}}};
 }
 
-/// Of length 1, w >= 0: by the largest of its four elements, so that no digits are lost.
+/// A turn as w, x, y, z of length 1, w >= 0: by the largest of them, so that no digits are lost.
 inline std::array<double, 4> quaternion_of(const Matrix3x3& m) {
   const std::array<double, 4> square{1 + m[0][0] + m[1][1] + m[2][2],  // 4 times those of w .. z
                                      1 + m[0][0] - m[1][1] - m[2][2],

@@ -67,7 +67,7 @@ class BitReader {
 
   void skip_all() { pos_ = bits(); }
 
-  /// Of what begins at bit `begin`, or at the next one to read.
+  /// Fails at the bit where `begin` says, or at the next one to read.
   std::uint64_t fail(Errc code, const char* element, std::uint64_t begin) {
     if (!failed_) error_ = {code, element, begin};
     failed_ = true;

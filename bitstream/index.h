@@ -33,7 +33,7 @@ struct Index {
 /// @param log  receives every element, where given
 Result<Index> parse_index(std::span<const std::uint8_t> payload, const SequenceParameterSet& set,
                           SyntaxLog* log = nullptr);
-/// Of a unit of the stream, which its errors name.
+/// Reads an index from a unit of the stream, which its errors name.
 Result<Index> read_index(const Unit& unit, const SequenceParameterSet& set);
 /// The payload. @errors kInvalidArgument: an element that a reader would refuse
 Result<std::vector<std::uint8_t>, InputError> write_index(const Index& index,

@@ -85,10 +85,10 @@ constexpr bool has_values(UnitType type) {
   return type == UnitType::kCoefficients || type == UnitType::kRefinement;
 }
 
-/// Of the columns of a group, coded: 2^20 entries of less than 8 bytes each.
+/// Memory for the columns of a group, coded: 2^20 entries of less than 8 bytes each.
 inline constexpr std::int64_t kMaxMatrixBytes = 1 << 23;
 
-/// Of a group: the first and its refinements.
+/// Layers of a group: the first and its refinements.
 inline constexpr std::uint32_t kMostLayers = 4;
 
 /// What ids are called in the units.

@@ -90,7 +90,7 @@ struct ParseSyntax {
     value = static_cast<T>(in.ok() ? read : range.min);
     note(entry);
   }
-  /// Of the element that was read last; what is asked of another one shows where reading stands.
+  /// Begin of the element that was read last; for another one, where reading stands.
   std::uint64_t begin_of(std::string_view element) const {
     return element == last_ ? last_begin_ : in.bit_position();
   }

@@ -40,7 +40,7 @@ inline constexpr unsigned kSkipBit = 64, kPrivateBit = 128, kExperimentBit = 32;
 
 /// What the payload of an application's unit begins with. registry.md
 using ApplicationId = std::array<std::uint8_t, 4>;
-/// Of applications of this project: a unit that whoever does not know it skips.
+/// The type for applications of this project: a unit that whoever does not know it skips.
 inline constexpr auto kApplicationUnit = static_cast<UnitType>(kPrivateBit | kSkipBit);
 
 /// Is the unit, if it is of a type that 7.1 does not name, one that may be skipped?
@@ -89,9 +89,9 @@ std::uint64_t listed_units(const Unit& unit);
 /// @errors kTruncated: the stream ends before it or within it; those of split_units
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset);
 
-/// Of a unit as a whole: of its first byte.
+/// An error of a unit as a whole: at its first byte.
 Error of_unit(UnitType type, std::uint64_t offset, Errc code, const char* element);
-/// Of an element of the sequence unit, which is the first of a stream, found wrong later.
+/// An error of an element of the sequence unit, the first of a stream, that is found later.
 Error of_sequence(Errc code, const char* element);
 
 /// The error of whoever read a unit's payload and knew nothing else of the stream, as one of the
@@ -115,7 +115,7 @@ std::span<const std::uint8_t> application_payload(const Unit& unit);
 std::vector<std::uint8_t> with_identifier(const ApplicationId& id,
                                           std::span<const std::uint8_t> payload);
 
-/// Of an entry of the index: its type, and the length of the shortest unit, 6, as ue(v).
+/// Bits of an entry of the index: its type, and the length of the shortest unit, 6, as ue(v).
 inline constexpr std::uint64_t kLeastIndexEntryBits = 8 + 5;
 
 /// Appends one unit. version_minor: of a sequence unit

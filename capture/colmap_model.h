@@ -20,7 +20,7 @@ struct ColmapModelKind {
   std::size_t num_params;
 };
 
-/// Of COLMAP's number for it. @param label  for messages
+/// A camera model by COLMAP's number for it. @param label  for messages
 /// @errors kInvalidInput: unknown, or known (then named) but not supported
 Result<ColmapModelKind, InputError> colmap_model_kind(std::int64_t id, const std::string& label);
 Result<ColmapModelKind, InputError> colmap_model_kind(const std::string& name,

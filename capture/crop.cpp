@@ -13,7 +13,7 @@
 namespace slf {
 namespace {
 
-/// Of positions from `origin`: whether they are in a box of the world.
+/// Tells whether positions from `origin` are in a box of the world.
 class Inside {
  public:
   Inside(const Vec3& origin, const WorldBox& box) {

@@ -19,12 +19,12 @@ namespace {
 // (0.71) is within reach and that a rim is not carried on much beyond its last point.
 constexpr double kReach = 0.57, kSupport = 0.9, kGap = 0.8, kOffCentre = 0.48, kOffPlane = 0.15;
 
-// Of a point's twelve neighbours: thickness over width, and the ninth decile of spacings over the
-// median. A sphere of 100 points has 0.15, a cloud in a volume 0.6.
+// Flatness of a point's twelve neighbours: thickness over width; evenness: the ninth decile of
+// spacings over the median. A sphere of 100 points has 0.15, a cloud in a volume 0.6.
 constexpr double kFlat = 0.2, kEven = 2;
 constexpr std::size_t kSamples = 1000, kNear = 13;
 
-/// Of these points about their mean.
+/// Thickness of these points about their mean.
 double thickness_over_width(const PointCloud& cloud, std::span<const std::uint32_t> of) {
   Eigen::Matrix<double, 3, Eigen::Dynamic> at(3, static_cast<Eigen::Index>(of.size()));
   for (std::size_t i = 0; i < of.size(); ++i)

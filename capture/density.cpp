@@ -29,8 +29,8 @@ constexpr double kFacing = 0.5;  // least cosine: a slanted view resolves one di
 // How much finer than the cloud a grid may be, over the distance of the fourth neighbour: half a
 // spacing puts points nearer to the surface and merges none, and costs positions alone.
 constexpr double kVoxelPerSpacing = 0.46;
-// Of the voxel that photographs ask for: points nearer to each other are merged, others are kept,
-// each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
+// Share of the voxel that photographs ask for: points nearer to each other are merged, others are
+// kept, each where it is. (can, 256 x 256, Q = 48: 37,810 B 28.33 dB kept, 42,022 B 27.94 merged.)
 constexpr double kDense = 0.8;
 // The fourth neighbours of a cloud of voxels are no farther, in voxels.
 constexpr double kSparsestVoxels = 8;

@@ -21,7 +21,7 @@ struct FramePattern {
   std::optional<std::uint32_t> number_of(std::string_view name) const;
 };
 
-/// Of "frame_%04d.ply": one of %d, %4d and %04d; nothing where there is none, or anything else
+/// Reads "frame_%04d.ply": one of %d, %4d and %04d; nothing where there is none, or anything else
 /// with a percent sign.
 std::optional<FramePattern> parse_pattern(std::string_view name);
 /// The pattern that a name is of, by the digits that its stem ends in: "loot_vox10_1000.ply" is of

@@ -6,8 +6,8 @@
 
 namespace slf {
 
-/// Of half the size, rounded up, log2 times: means of four pixels, at the border of those that
-/// there are; the least of their alphas.
+/// An image of half the size, rounded up, log2 times: means of four pixels, at the border of those
+/// that there are; the least of their alphas.
 Image reduced(Image image, int log2);
 
 /// The same of a mask: the least of all channels.

@@ -81,7 +81,7 @@ class MetashapeReader {
     return values;
   }
 
-  /// Of a calibration: what is not there is 0.
+  /// A number of a calibration: what is not there is 0.
   Result<double, InputError> term(const XmlElement& calibration, const char* name) const {
     const XmlElement* found = calibration.child(name);
     if (found == nullptr) return 0.0;

@@ -34,7 +34,7 @@ Result<std::array<std::array<double, Columns>, Rows>, InputError> json_matrix(
   return values;
 }
 
-/// Of an image: a whole number, 1 .. 65535. Some writers have 800.0.
+/// A side of an image: a whole number, 1 .. 65535. Some writers have 800.0.
 inline Result<int, InputError> json_size(const JsonView& json) {
   SLF_TRY(const double value, json.number());
   if (!(value >= 1 && value <= 65535) || value != std::floor(value))

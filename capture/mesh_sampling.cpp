@@ -27,22 +27,22 @@ Corners on_grid(Corners corners, const Grid& grid) {
   return corners;
 }
 
-struct Range {
+struct WholeNumbers {
   double first, last;  // whole numbers, kInclusive beyond the ends
   double count() const { return std::max(last - first + 1, 0.0); }
 };
 
-Range whole_numbers_in(double low, double high) {
+WholeNumbers whole_numbers_in(double low, double high) {
   return {std::ceil(low - kInclusive), std::floor(high + kInclusive)};
 }
 
-Range rows_of(const Corners& c, std::size_t up) {
+WholeNumbers rows_of(const Corners& c, std::size_t up) {
   return whole_numbers_in(std::min({c[0][up], c[1][up], c[2][up]}),
                           std::max({c[0][up], c[1][up], c[2][up]}));
 }
 
 /// Where the line at height v meets a triangle's projection; empty if it does not.
-Range columns_of(const Corners& c, std::size_t across, std::size_t up, double v) {
+WholeNumbers columns_of(const Corners& c, std::size_t across, std::size_t up, double v) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto add = [&](double u) {
     low = std::min(low, u);
@@ -117,7 +117,7 @@ class Sampler {
 
   /// Lines through the window, and one voxel around it: whether a voxel is free depends on all that
   /// lies in it, and floats may move a point over its border.
-  Range clipped(Range range, std::size_t axis) const {
+  WholeNumbers clipped(WholeNumbers range, std::size_t axis) const {
     if (window_ == nullptr) return range;
     return {std::max(range.first, double(window_->low[axis]) - 1),
             std::min(range.last, double(window_->high[axis]) + 1)};
@@ -141,9 +141,9 @@ class Sampler {
   void add_crossings(std::size_t f, const Corners& c, const Vec3& normal, std::size_t axis,
                      bool if_free) {
     const std::size_t across = (axis + 1) % 3, up = (axis + 2) % 3;
-    const Range rows = clipped(rows_of(c, up), up);
+    const WholeNumbers rows = clipped(rows_of(c, up), up);
     for (double v = rows.first; v <= rows.last; ++v) {
-      const Range columns = clipped(columns_of(c, across, up, v), across);
+      const WholeNumbers columns = clipped(columns_of(c, across, up, v), across);
       for (double u = columns.first; u <= columns.last; ++u) {
         const auto weights = weights_at(c, across, up, u, v);
         if (!weights) continue;

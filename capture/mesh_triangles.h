@@ -27,7 +27,7 @@ inline std::optional<Vec3> normal_of(const Corners& c) {
 
 Corners corners_of(const Mesh& mesh, std::size_t triangle);
 
-/// Of the vertices that triangles have; of all where there are no triangles.
+/// Box of the vertices that triangles have; of all where there are no triangles.
 Box bounding_box(const Mesh& mesh);
 
 /// Area of the triangles' projections along the axes they look along: over the square of a step,

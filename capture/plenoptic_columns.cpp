@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/input_error.h"
 #include "capture/ply_columns.h"
 #include "slf/plenoptic.h"
 
@@ -12,8 +13,6 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kMostNames = 200;  // characters of names that are left out
-
-InputError refused_columns(std::string cause) { return {Errc::kInvalidInput, std::move(cause)}; }
 
 bool is_alpha(const std::string& name) {
   return name == "alpha" || name == "a" || name == "opacity" || name == "Alpha";
@@ -85,7 +84,7 @@ Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex)
                        cloud.type[kPlyColour + 2] == PlyType::kUint8;
   if (splats || !positions || bytes.size() < (columns.own_colour ? 3u : 6u)) return columns;
   if (bytes.size() % 3 != 0)
-    return refused_columns(
+    return invalid_input(
         std::to_string(bytes.size()) + " further properties of 8 bits (" +
         vertex.properties[bytes.front()].name + " ... " + vertex.properties[bytes.back()].name +
         ") are no whole triples: a view has three of them, one after the other (--as colour takes "
@@ -94,13 +93,13 @@ Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex)
   for (const PlyProperty& property : vertex.properties)  // names become metadata, which are UTF-8
     if (std::any_of(property.name.begin(), property.name.end(),
                     [](char c) { return c <= ' ' || c > '~'; }))
-      return refused_columns("a property's name has characters beyond ASCII: rename it");
+      return invalid_input("a property's name has characters beyond ASCII: rename it");
   if (columns.views > kMostViews)
-    return refused_columns(std::to_string(columns.views) + " views, of which " +
-                           std::to_string(kMostViews) + " are the most");
+    return invalid_input(std::to_string(columns.views) + " views, of which " +
+                         std::to_string(kMostViews) + " are the most");
   for (std::size_t view = 0; view < columns.views; ++view)
     if (!is_one_view(vertex, &bytes[3 * view]))
-      return refused_columns(
+      return invalid_input(
           "view " + std::to_string(view) + " would be " + vertex.properties[bytes[3 * view]].name +
           ", " + vertex.properties[bytes[3 * view + 1]].name + ", " +
           vertex.properties[bytes[3 * view + 2]].name + ": a colour is missing or out of order");

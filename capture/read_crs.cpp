@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytesOfCrs = std::uint64_t{1} << 16;
 
-/// Of what a text may be about, in both versions.
+/// Words for all that a text may be about, in both versions.
 constexpr std::array<std::string_view, 18> kKeywords{
     "GEOGCS",  "PROJCS",   "GEOCCS",      "COMPD_CS",     "VERT_CS",     "LOCAL_CS",
     "GEODCRS", "GEOGCRS",  "PROJCRS",     "GEODETICCRS",  "VERTCRS",     "GEOGRAPHICCRS",

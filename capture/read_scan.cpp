@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kMostSummary = 1 << 24;
 
-/// Of a scan, by `pdal info`.
+/// What `pdal info` says of a scan.
 struct Summary {
   std::vector<std::string> dimensions;
   std::string crs;
@@ -126,7 +126,7 @@ Result<Mesh, InputError> read_points(const std::filesystem::path& file, const Su
   return points;
 }
 
-/// Of colours of 16 bits, nearly black ones are those of a scanner that wrote 8.
+/// Do colours of 16 bits come from a scanner that wrote 8? Then all are nearly black.
 bool has_eight_bits(const PointCloud& cloud) {
   const auto& colours = cloud.colours;
   return !colours.empty() && std::all_of(colours.begin(), colours.end(), [](const auto& colour) {

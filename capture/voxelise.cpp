@@ -89,7 +89,7 @@ Vec3 mean_over(const std::vector<std::array<T, 3>>& values, const std::vector<Ce
   return sum;
 }
 
-/// Of unit length; of two sides of a sheet in one voxel the first point's.
+/// The mean at unit length; where two sides of a sheet share a voxel, the first point's.
 std::array<float, 3> mean_normal(const std::vector<std::array<float, 3>>& normals,
                                  const std::vector<Cell>& cells, std::size_t begin,
                                  std::size_t end) {

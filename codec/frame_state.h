@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/reference_means.h"
 #include "geometry/occupancy_states.h"
 #include "geometry/reference_cells.h"

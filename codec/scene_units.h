@@ -39,7 +39,7 @@ struct SceneUnits {
 /// second one follows; those of parse_sequence_parameter_set.
 Result<SequenceParameterSet> find_sequence(const Units& units);
 
-/// Of the one metadata unit; empty where there is none.
+/// Reads the one metadata unit; empty where there is none.
 /// @errors kOutOfRange: a second one; those of parse_metadata.
 Result<Metadata> collect_metadata(const Units& units);
 

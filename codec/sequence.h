@@ -2,7 +2,7 @@
 // Between the coded sequence parameters and the header people see. Spec 7.2.
 #pragma once
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "bitstream/parameter_sets.h"
 #include "slf/types.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/plane_transform.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/reference_coefficients.h"
 #include "bitstream/slice_headers.h"
 #include "codec/frame_state.h"

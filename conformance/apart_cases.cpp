@@ -93,7 +93,7 @@ void add_prefixes(std::vector<Case>& cases) {
   }
 }
 
-/// Of every slice a digest of what is given out, means of the base and all.
+/// Makes a digest of what each slice gives out, means of the base and all.
 void digest_sums(std::vector<EditableUnit>& units, const LightField& sums,
                  const SliceTable& table) {
   std::size_t begin = 0, slice = 0;

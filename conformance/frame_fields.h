@@ -15,7 +15,7 @@ namespace slf::conformance {
 
 inline constexpr int kFrameBits = 5;
 
-/// Of some points in the middle, moved; colours go with them.
+/// A field of some points in the middle, moved; colours go with them.
 LightField frame_field(const std::function<Voxel(const Voxel&)>& to, int functions = 2);
 LightField still(int functions = 2);
 

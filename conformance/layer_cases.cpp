@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/unchecked_headers.h"
 #include "conformance/cases.h"
@@ -78,7 +78,7 @@ Bytes layered_stream() {
   return *pack(field(sphere(4), 4, 4), parameters);
 }
 
-/// Of group 0 of that stream: the mean of all, and nothing else.
+/// Codeword of group 0 of that stream: the mean of all, and nothing else.
 Bytes codeword_of(std::int32_t mean) {
   std::vector<std::uint64_t> codes;
   for (const Voxel& v : sphere(4)) codes.push_back(morton(v));

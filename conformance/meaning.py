@@ -53,7 +53,7 @@ def colours(sequence, header, data):
 
 
 def meaning(folder):
-    """Of one stream; None of Draco's, which the text decoder does not read."""
+    """What one stream means; None for Draco, which the text decoder does not read."""
     data = (folder / "stream.slf").read_bytes()
     try:
         sequence = decoder.Sequence(decoder.read_units(data)[0][1])

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/input_error.h"
 #include "encoder/component_planes.h"
 #include "geometry/morton.h"
 #include "lightfield/symmetric3.h"
@@ -19,14 +20,12 @@ namespace {
 constexpr std::size_t kSplatGrain = 1024;
 constexpr int kMostBits = 21;
 
-InputError bad(const char* what) { return {Errc::kInvalidInput, what}; }
-
 /// The smallest grid of at least this step that holds the positions.
 Result<Grid, InputError> grid_around(const Gaussians& splats, double step) {
   const auto [low, high] = bounds_of(splats);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
-  if (!std::isfinite(extent)) return bad("splats: their extent is not finite");
+  if (!std::isfinite(extent)) return invalid_input("splats: their extent is not finite");
   Grid grid{low, std::max(step, extent / ((1 << kMostBits) - 1)), 1};
   if (!(grid.step > 0)) grid.step = 1;
   while ((1 << grid.bits) - 1 < std::lround(extent / grid.step)) ++grid.bits;
@@ -115,7 +114,7 @@ std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
 }
 
 Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads) {
-  if (splats.size() == 0) return bad("splats: there are none");
+  if (splats.size() == 0) return invalid_input("splats: there are none");
   SLF_TRY(const Grid grid, grid_around(splats, step));
   LightField field;
   field.header = header_of(splats, grid);

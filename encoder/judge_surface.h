@@ -18,8 +18,8 @@ struct DrawnQuality {
   double inside_psnr = 0, inside_ssim = 0;
 };
 
-/// Of the held-out cameras' pictures, drawn from view maps of low degree that are fitted to the
-/// others.
+/// Quality of the held-out cameras' pictures, drawn from view maps of low degree that are fitted to
+/// the others.
 /// @errors those of observe, fit_view_maps and load_image
 Result<DrawnQuality, InputError> quick_quality(const Capture& capture, std::span<const int> fitted,
                                                std::span<const int> held_out,
@@ -31,8 +31,8 @@ Result<DrawnQuality, InputError> surface_quality(const Capture& capture,
                                                  std::span<const int> cameras,
                                                  const LightField& field, int threads);
 
-/// Of photographs of a capture against what `draw` draws of their cameras (in the capture's own
-/// coordinates) over black.
+/// Quality of what `draw` draws over black for cameras of a capture (in its own coordinates),
+/// against their photographs.
 /// @param draw  called by several threads
 /// @errors those of load_image
 Result<DrawnQuality, InputError> pictures_quality(

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "encoder/fit_setting_rows.h"
+#include "encoder/rate_control.h"
 #include "encoder/setting_row_kinds.h"
 
 namespace slf {
@@ -87,7 +88,7 @@ void add_geometry(SettingTable& rows) {
 void add_coding(SettingTable& rows) {
   add(rows, SettingPart::kCoding, "Coding", nullptr,
       {number_or(
-           "auto", kAutomaticQ, "quality", SLF_AT(q), 0.05, 4096,
+           "auto", kAutomaticQ, "quality", SLF_AT(q), kLeastQ, kMostQ,
            "Quantiser step Q in grey levels: smaller is better and larger; auto: the largest "
            "that costs held-out input images --quality-loss at most, 16 where that is smaller, "
            "there are none, nothing is fitted to pictures, or preset paper is given"),

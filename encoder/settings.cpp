@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/input_error.h"
 #include "base/shortest.h"
 #include "encoder/fit_setting_rows.h"
 #include "encoder/setting_row_kinds.h"
@@ -16,8 +17,6 @@ namespace slf {
 namespace {
 
 using Outcome = Result<Done, InputError>;
-
-InputError wrong(const std::string& what) { return {Errc::kInvalidArgument, what}; }
 
 /// All of the text as one number.
 template <class T>
@@ -86,6 +85,10 @@ class Given {
   const GivenSettings& given_;
 };
 
+InputError wrong_setting(const std::string& name, const std::string& what) {
+  return invalid_argument(std::string("--").append(name).append(" ").append(what));
+}
+
 Outcome check_given(const GivenSettings& all, const SettingTable& table) {
   const Given given(all);
   for (const auto& pair : all) {
@@ -93,19 +96,20 @@ Outcome check_given(const GivenSettings& all, const SettingTable& table) {
     const auto row = std::find_if(table.begin(), table.end(), [&](const SettingRow& r) {
       return r.option && r.info.name == name;
     });
-    if (row == table.end()) return wrong("--" + name + " is not a setting of the encoder");
-    if (given.find(name) != &value) return wrong("--" + name + " is given twice");
+    if (row == table.end()) return wrong_setting(name, "is not a setting of the encoder");
+    if (given.find(name) != &value) return wrong_setting(name, "is given twice");
     if (const std::string what = wrong_value(row->info, value); !what.empty())
-      return wrong("--" + name + " " + what);
+      return wrong_setting(name, what);
     for (const std::string& excluded : row->info.excludes)
-      if (given.has(excluded)) return wrong("--" + name + " excludes --" + excluded);
+      if (given.has(excluded)) return wrong_setting(name, "excludes --" + excluded);
   }
   return Done{};
 }
 
 /// A value that only another fit or search has.
 Outcome refuse(const Given& given, const char* name, const char* value, const char* of) {
-  if (given.is(name, value)) return wrong(std::string("--") + name + " " + value + " is for " + of);
+  if (given.is(name, value))
+    return invalid_argument(std::string("--") + name + " " + value + " is for " + of);
   return Done{};
 }
 
@@ -124,7 +128,7 @@ Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
   }
   for (const SettingRow& row : table)
     if (row.scope != nullptr && given.has(row.info.name) && !row.scope->holds(settings))
-      return wrong("--" + row.info.name + " is for " + row.scope->name);
+      return invalid_argument("--" + row.info.name + " is for " + row.scope->name);
   return Done{};
 }
 
@@ -188,7 +192,7 @@ Outcome choose_scales(const Given& given, Basis& basis) {
   if (given.has("functions")) {
     const auto n = static_cast<unsigned>(given.whole("functions", 1));
     if (!std::has_single_bit(n))
-      return wrong("--functions " + std::to_string(n) + " is not a power of two");
+      return invalid_argument("--functions " + std::to_string(n) + " is not a power of two");
     const int scales = std::countr_zero(n);
     basis.scales_gamma = scales / 2;
     basis.scales_theta = scales - basis.scales_gamma;
@@ -244,7 +248,7 @@ Result<EncoderSettings, InputError> settings_from(const GivenSettings& all,
   const Given given(all);
   const Preset preset = given.is("preset", "paper") ? Preset::kPaper : Preset::kDefault;
   if (given.has("effort") && preset == Preset::kPaper)
-    return wrong("--effort is for --preset default");
+    return invalid_argument("--effort is for --preset default");
   EncoderSettings settings = settings_of(preset, given.whole("effort", kDefaultEffort));
   choose_fit(given, settings, table);
   choose_pictures(given, settings.fit.pictures);

@@ -19,7 +19,7 @@ constexpr float kLeast = 1;      // grey level: less is no change, without any n
 constexpr float kMostNoise = 8;  // standard deviation: more is no noise
 // Standard errors of a mean of noise that are no change: 1 pixel of 16,000 by chance.
 constexpr float kErrors = 4;
-// Of normal noise: mean magnitude and its deviation, standard deviation of a median magnitude.
+// For normal noise: mean magnitude and its deviation, standard deviation of a median magnitude.
 constexpr float kMeanMagnitude = 0.798f, kOfMagnitude = 0.603f, kOfMedian = 1.4826f;
 
 /// A plane of values, and means over windows of it, which are smaller at the border.

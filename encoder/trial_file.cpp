@@ -32,7 +32,7 @@ Result<std::vector<std::uint8_t>, InputError> coded(const LightField& field,
   return stream;
 }
 
-/// Of PSNR and of SSIM in decibels.
+/// Mean of PSNR and of SSIM in decibels.
 double mean_look(double psnr, double ssim) {
   return (psnr - 10 * std::log10(std::max(1 - ssim, 1e-6))) / 2;
 }

@@ -33,7 +33,7 @@ class AdaptiveBit {
   }
 
  private:
-  /// round(65536 / (n + 1.5)). Spec table 8-1.
+  /// round(65536 / (n + 1.5)). Spec 8.3.2.
   SLF_TABLE_MEMBER std::array<std::uint32_t, 1024> kReciprocal = [] {
     SLF_TABLE_BEGINS;
     std::array<std::uint32_t, 1024> table{};

@@ -14,7 +14,7 @@ namespace slf {
 /// Logistic values are ln(p / (1 - p)) in 1/256, within -2815 .. 2815.
 inline constexpr int kLogisticLimit = 2815;
 
-/// round(65536 / (1 + exp(-i / 4))). Spec table 8-2.
+/// round(65536 / (1 + exp(-i / 4))). Spec table A-1.
 inline constexpr std::array<int, 45> kSquashQuarters = {
     32768, 36843, 40793, 44511, 47911, 50941, 53581, 55834, 57724, 59287, 60565, 61598,
     62428, 63090, 63615, 64030, 64357, 64614, 64816, 64974, 65097, 65194, 65269, 65328,
@@ -22,7 +22,7 @@ inline constexpr std::array<int, 45> kSquashQuarters = {
     65528, 65530, 65531, 65532, 65533, 65534, 65534, 65535, 65535};
 
 /// Probability of 65536 of a logistic value, by value + kLogisticLimit: linear between the entries
-/// of table 8-2.
+/// of table A-1.
 SLF_TABLE std::array<std::uint16_t, 2 * kLogisticLimit + 1> kSquash = [] {
   SLF_TABLE_BEGINS;
   std::array<std::uint16_t, 2 * kLogisticLimit + 1> table{};

@@ -89,7 +89,7 @@ class MixedBit {
   }
 
  private:
-  // Of 8192, shared between the models; found on synthetic scenes (docs/decisions/010).
+  // In 1/8192, shared between the models; found on synthetic scenes (docs/decisions/010).
   static constexpr int kFirstWeights = 8500;
 
   /// Where each model's contexts begin.

@@ -85,7 +85,7 @@ struct OccupancyStates {
       sizeof(ContextBit) * (ReferenceFaces::kCount + ReferenceSiblings::kCount +
                             (std::size_t{1} << kMostHashedBits)) +
       sizeof(EightLanes) * (2 * (kPredictedRows - kRows) + ByReference::kCount);
-  /// Of what states for so many points hold.
+  /// Bytes that states for so many points hold.
   static constexpr std::size_t bytes(std::uint64_t points) {
     return sizeof(ContextBit) * (Corner::kCount + Slabs::kCount + 2 * Places::kCount +
                                  (std::size_t{kHashed} << hashed_bits_of(points))) +

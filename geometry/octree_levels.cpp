@@ -62,8 +62,8 @@ std::uint32_t directions_of(Window cells) {
                                     (planes >> 14 & 0x7FC0000u));
 }
 
-/// Of the children of node n, or of those of them with more than one row. around: of the first of
-/// them.
+/// Adds neighbours to the children of node n, or to those of them with more than one row.
+/// around: that of the first of them.
 void add_neighbours(const OctreeLevel& parents, std::size_t n, const std::uint32_t* rows,
                     OctreeLevel::Around* around, std::vector<std::uint32_t>& neighbours) {
   const ChildWindow window = window_of(parents, n);

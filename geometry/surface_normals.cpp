@@ -75,7 +75,7 @@ std::array<std::int64_t, 3> plane_normal(const Moments& sum) {
   return adjugate[best];
 }
 
-/// Of length 2^17, but for rounding.
+/// The direction at length 2^17, but for rounding.
 UnitVector unit_of(const std::array<std::int64_t, 3>& n) {
   constexpr int kBits = 30;  // of the largest component before it is divided
   const auto magnitude = [](std::int64_t x) { return static_cast<std::uint64_t>(x < 0 ? -x : x); };

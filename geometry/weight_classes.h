@@ -31,7 +31,7 @@ class WeightClassModel {
   /// cells: with neighbours; kept by reference.
   explicit WeightClassModel(const OctreeLevel& cells);
 
-  /// Of the next cell. The encoder passes the class, the decoder 0; both get it back: 0 ..
+  /// Codes the class of the next cell. The encoder passes it, the decoder 0; both get it back: 0 ..
   /// kMostWeightClass.
   template <class Coder>
   SLF_OWN_CALL std::uint8_t code(Coder& coder, std::uint8_t value) {
@@ -42,7 +42,7 @@ class WeightClassModel {
     return k;
   }
 
-  /// Of the cells so far.
+  /// Classes of the cells so far.
   const std::vector<std::uint8_t>& classes() const { return classes_; }
 
  private:
@@ -51,8 +51,8 @@ class WeightClassModel {
   using Faces = ContextShape<1u << 6, kMostWeightClass>;
   using Family = ContextShape<1u << 8, kMostWeightClass>;
 
-  /// Of the decision whether the next cell's class is more than 0; those of more than k are k
-  /// behind.
+  /// Contexts of the decision whether the next cell's class is more than 0; those of more than k
+  /// are k behind.
   std::array<std::uint32_t, 3> next_contexts();
 
   const OctreeLevel* cells_;

@@ -21,15 +21,4 @@ std::vector<std::array<float, 3>> mirror_normals(Directions directions,
   return normals;
 }
 
-void set_gamma_range(Observations& observations) {
-  if (observations.direction.empty()) return;
-  float low = 1, high = -1;
-  for (const auto& direction : observations.direction) {
-    low = std::min(low, direction[1]);
-    high = std::max(high, direction[1]);
-  }
-  observations.gamma_min = static_cast<double>(low);
-  observations.gamma_max = static_cast<double>(high);
-}
-
 }  // namespace slf

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "slf/fit.h"
 #include "slf/types.h"
 #include "slf/view_map.h"
 
@@ -43,12 +42,5 @@ inline std::array<float, 2> to_local(std::span<const std::array<float, 3>> norma
   if (normals.empty()) return world;
   return direction_of(mirrored(normals[point], vector_of(world)));
 }
-
-/// gamma_min and gamma_max of the directions that are there.
-void set_gamma_range(Observations& observations);
-
-/// The observations with their directions mirrored at these normals, gamma range too.
-Observations in_local(Observations observations, std::span<const std::array<float, 3>> normals,
-                      int threads);
 
 }  // namespace slf

@@ -14,11 +14,11 @@ FunctionWeights::FunctionWeights(const LightField& field, int threads)
       components_(needs_view_planes(field.header)
                       ? std::span<const std::int32_t>(planes_)
                       : std::span<const std::int32_t>(field.components)),
-      dequantiser_(header_, false),
+      colours_(header_, false),
       table_(header_, threads) {}
 
 void FunctionWeights::weights(std::size_t p, float* rgb) const {
-  dequantiser_.apply(components_.data() + p * 3 * size(), rgb);
+  colours_.apply(components_.data() + p * 3 * size(), rgb);
 }
 
 void FunctionWeights::functions(const Vec3& direction, float* row) const {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "lightfield/dequantiser.h"
+#include "lightfield/component_colours.h"
 #include "lightfield/function_table.h"
 #include "slf/types.h"
 
@@ -36,7 +36,7 @@ class FunctionWeights {
   LightFieldHeader header_;           // without joint transforms
   std::vector<std::int32_t> planes_;  // given planes of a joint transform, or none
   std::span<const std::int32_t> components_;
-  Dequantiser dequantiser_;
+  ComponentColours colours_;
   FunctionTable table_;
 };
 

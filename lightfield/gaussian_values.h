@@ -44,7 +44,7 @@ struct SplatShapes {
   std::vector<float> opacities;                   ///< 0 .. 1
 };
 
-/// Of a light field for which has_gaussians() holds. O(P K). The same for any thread count.
+/// Shapes of a light field for which has_gaussians() holds. O(P K). The same for any thread count.
 SplatShapes splat_shapes(const LightField& field, int threads);
 
 }  // namespace slf

@@ -29,7 +29,7 @@ class Harmonics {
   template <class Real>
   void evaluate(const std::array<double, 3>& direction, Real* row) const;
 
-  /// Of kLanes directions at once, in float: exact to 1e-4.
+  /// Values of kLanes directions at once, in float: exact to 1e-4.
   /// @param directions  [3] unit length
   /// @param rows  [size()] receives the values
   void evaluate(const std::array<std::array<float, kLanes>, 3>& directions,
@@ -47,7 +47,7 @@ class Harmonics {
   void evaluate(std::span<const std::array<double, 3>> directions, float* rows) const;
 
  private:
-  /// Of function (l, m), m >= 0: from the Legendre functions of l and l - 1 to that of l + 1.
+  /// The step of function (l, m), m >= 0: from the Legendre functions of l and l - 1 to l + 1.
   struct Step {
     double norm;  // of (l, m) and (l, -m), sign included
     double from_this, from_before;

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "lightfield/dequantiser.h"
+#include "lightfield/component_colours.h"
 #include "lightfield/directions.h"
 #include "lightfield/function_table.h"
 #include "lightfield/harmonics.h"
@@ -35,6 +35,16 @@ std::array<float, 3> clamp_to_display(std::array<float, 3> rgb) {
 
 }  // namespace
 
+Result<ViewMaps, InputError> ViewMaps::of(const LightField& light_field, int threads) {
+  const LightFieldHeader& header = light_field.header;
+  if (!header.has_basis || header.num_view_functions() != header.basis.num_functions())
+    return InputError{Errc::kInvalidArgument, "view maps: the light field has no basis"};
+  const std::size_t planes = 3 * static_cast<std::size_t>(header.num_components());
+  if (light_field.components.size() != light_field.num_points() * planes)
+    return InputError{Errc::kInvalidArgument, "view maps: components are not those of the points"};
+  return ViewMaps(light_field, threads);
+}
+
 ViewMaps::ViewMaps(const LightField& light_field, int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
@@ -58,14 +68,14 @@ ViewMaps::ViewMaps(const LightField& light_field, int threads)
     table_ = std::make_shared<const FunctionTable>(header_, threads);
   }
   const NodeMap<float> map(spline ? header_.basis : Basis{BasisId::kBspline, 2, 0, 0});
-  const Dequantiser dequantiser(header_, table_ == nullptr);
+  const ComponentColours colours(header_, table_ == nullptr);
   assert(components.size() == num_points() * 3 * coded);
   nodes_.resize(num_points() * 3 * width_);
   parallel_ranges(num_points(), kMapsPerRange, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> rgb(3 * coded), coefficients(3 * width_), scratch(3 * width_);
     for (std::size_t p = begin; p < end; ++p) {
       float* nodes = nodes_.data() + p * 3 * width_;
-      dequantiser.apply(components.data() + p * 3 * coded, rgb.data());
+      colours.apply(components.data() + p * 3 * coded, rgb.data());
       if (spline) {
         for (std::size_t r = 0; r < coded; ++r)
           std::copy_n(&rgb[3 * r], 3,

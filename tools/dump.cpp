@@ -14,16 +14,15 @@
 #include "tools/npy.h"
 #include "tools/output.h"
 #include "tools/output_directory.h"
+#include "tools/synth/shading.h"
 #include "tools/text.h"
 
 namespace slf::tools {
 namespace {
 
-/// IEC 61966-2-1, on 0 .. 255: what a PLY viewer expects.
+/// On 0 .. 255: what a PLY viewer expects.
 float display_of(float linear) {
-  const double l = linear / 255.0;
-  return static_cast<float>(255 *
-                            (l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055));
+  return static_cast<float>(255 * synth::srgb_from_linear(linear / 255.0));
 }
 
 void add_colours(const LightField& field, int threads, PointCloud& cloud) {
@@ -67,7 +66,7 @@ constexpr std::size_t kMostMatrices = 16;
 
 std::string matrix_name(std::size_t i) { return "matrix" + std::to_string(i) + ".npy"; }
 
-/// Of all files, the one that says that the others are whole last.
+/// Names of all files, the one that says that the others are whole last.
 std::vector<std::string> dump_names() {
   std::vector<std::string> names = {"positions.npy", "components.npy", "planes.npy",
                                     "octahedral.npy"};

@@ -13,10 +13,10 @@ enum ExitCode : int {
   kInputUnreadable = 3,  ///< an input file is missing or cannot be read
   kInputInvalid = 4,     ///< an input was read and cannot be used; damaged streams too
   kLimitExceeded = 5,    ///< larger than the limits, or than the memory
-  kUnsupported = 6,      ///< newer format version, unknown profile, component left out of the build
-  kWriteFailed = 7,      ///< an output could not be written; what was there before is untouched
-  kQualityFailed = 8,    ///< eval: below the asked quality
-  kCancelled = 130,      ///< SIGINT
+  kUnsupported = 6,    ///< another format version, unknown profile, component left out of the build
+  kWriteFailed = 7,    ///< an output could not be written; what was there before is untouched
+  kQualityFailed = 8,  ///< eval: below the asked quality
+  kCancelled = 130,    ///< SIGINT
 };
 
 inline constexpr const char* kExitCodeHelp =

@@ -21,7 +21,7 @@ constexpr std::size_t kMostName = 4096;
 char temporary_file[kMostName], temporary_directory[kMostName];
 volatile std::sig_atomic_t has_temporary = 0;
 
-/// Of calls that a signal handler may make.
+/// Makes only calls that a signal handler may make.
 [[noreturn]] void leave() {
   if (has_temporary != 0) {
     ::unlink(temporary_file);

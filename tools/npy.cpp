@@ -87,6 +87,7 @@ Result<std::vector<std::int32_t>, InputError> converted(const NpyArray& array) {
     T element;
     std::memcpy(&element, from, sizeof element);
     from += sizeof element;
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): an int8 keeps its sign.
     value = static_cast<std::int32_t>(element);
     if (static_cast<T>(value) != element || (value < 0) != (element < T{0}))
       return invalid("a value does not fit 32 bits");

@@ -4,20 +4,17 @@
 #include <charconv>
 #include <string_view>
 
+#include "tools/text.h"
+
 namespace slf::tools {
 namespace {
-
-std::string shown(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
-}
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 }  // namespace
 
 CLI::Validator range(double low, double high) {
-  const std::string between = shown(low) + " to " + shown(high);
+  const std::string between = shortest(low) + " to " + shortest(high);
   return CLI::Validator(
       [=](std::string& given) {
         double value = 0;

@@ -32,7 +32,7 @@ void add_work(CLI::App& verb, SceneOptions& options);
 /// Those of encode: also --plan, --part, --resume, --dry-run.
 void add_scene(CLI::App& verb, SceneOptions& options);
 
-/// Of --part; the only part where there is none.
+/// The part that --part names; the only part where there is none.
 /// @errors kUsage
 Result<ScenePart, Failure> part_of(const std::string& text);
 

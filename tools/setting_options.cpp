@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/setting_options.h"
 
-#include <charconv>
 #include <map>
+
+#include "tools/text.h"
 
 namespace slf::tools {
 namespace {
@@ -10,8 +11,7 @@ namespace {
 std::string shown(const SettingInfo& setting, double number) {
   if (setting.kind != SettingInfo::kNumber)
     return std::to_string(static_cast<std::int64_t>(number));
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+  return shortest(number);
 }
 
 }  // namespace

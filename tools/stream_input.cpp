@@ -143,7 +143,7 @@ Failure decode_failure(const std::string& file, const Error& error, const Stream
     return cost && error.code == Errc::kLimitExceeded && std::strcmp(error.element, limit) == 0;
   };
   const std::string name = input_name(file) + ": ";
-  // Of the whole file headers were read: what is cut off is cut off by --max-bytes.
+  // The headers of the whole file were read: what is cut off is cut off by --max-bytes.
   const bool too_few = options.max_bytes > 0 && !cost && error.code == Errc::kTruncated;
   if (too_few || std::strcmp(error.element, "max_bytes") == 0)
     return {kUsage, name + "--max-bytes " + std::to_string(options.max_bytes) +

@@ -60,7 +60,7 @@ struct DecodedFile {
   Metadata metadata = {};
   std::vector<std::uint8_t> stream = {};  ///< of a plenoptic cloud that was read whole
 };
-/// Of a part of a regular file no more is read than it needs (tools/part_input.h).
+/// Decodes a file. A part of a regular file reads no more of it than it needs (tools/part_input.h).
 Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOptions& part,
                                          const LimitOptions& given, const CommonOptions& common);
 

@@ -35,7 +35,7 @@ def has_failed(test):
 
 
 def skipped_in(test, output):
-    """Of a test: reasons of what was skipped. One reason that stands for all of it, or those of parts of it."""
+    """Reasons of what a test skipped. One reason that stands for all of it, or those of parts of it."""
     if test.get("status") == "disabled":
         return ["disabled"]
     if test.get("status") == "run":

@@ -18,6 +18,9 @@ namespace slf::tools {
 /// 1234567 -> "1,234,567".
 std::string grouped(std::uint64_t number);
 
+/// As short as it reads back the same, in any locale: 0.1, 1e-09.
+std::string shortest(double number);
+
 /// "27.12 dB", in seven places before the unit; "- dB" where there was nothing to compare.
 std::string psnr_text(double psnr);
 

@@ -160,7 +160,7 @@ Result<Done> check_sps(Bytes unit, const HevcFormat& expected, HevcReferences& r
     sequence.address_bits = static_cast<int>(std::bit_width(count - 1));
     read_reference_sets(in, sequence);
   }
-  // Of the NAL unit as a whole: bytes left out of it would have to be counted.
+  // The place is the NAL unit as a whole: bytes left out of it would have to be counted.
   if (!in.ok()) return Error{in.error().code, in.error().element};
   references.take_sequence(id, std::move(sequence));
   return Done{};

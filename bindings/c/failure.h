@@ -12,7 +12,7 @@ namespace slf::capi {
 
 /// Fills `to`, where it is given, as far as its size goes. @return the code
 slf_code fail(slf_error* to, const Error& error);
-/// Of the call itself, not of the stream.
+/// A failure of the call itself, not of the stream.
 slf_code fail(slf_error* to, slf_code code, const char* argument);
 inline slf_code invalid(slf_error* to, const char* argument) {
   return fail(to, SLF_INVALID_ARGUMENT, argument);

@@ -21,7 +21,7 @@ const FunctionWeights& weights_of(const slf_field& field) {
   return field.weights.get([&] { return FunctionWeights(field.field, field.threads); });
 }
 
-/// Of unit length; (1, 0, 0) for what has none.
+/// The direction at unit length; (1, 0, 0) for what has none.
 Vec3 unit(const float* v) {
   const Vec3 d{double{v[0]}, double{v[1]}, double{v[2]}};
   const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
@@ -66,7 +66,7 @@ slf_code check(const slf_field* field, const void* from, const void* to, std::ui
   return SLF_OK;
 }
 
-/// Of any length but 0. [count][3]
+/// Are all directions of a length that is not 0? [count][3]
 bool are_directions(const float* directions, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i, directions += 3) {
     const float length = std::hypot(directions[0], directions[1], directions[2]);

@@ -195,7 +195,7 @@ Result<Done> ArrivingFrames::add_rest() {
       std::move(none));
 }
 
-/// Of a place that is known already: the same as before, with its bytes.
+/// Adds a frame whose place is known already: the same as before, with its bytes.
 Result<Done> ArrivingFrames::add(const FrameInfo& info, ArrivedFrame frame) {
   at_ += frame.bytes.size();
   needed_ = 0;

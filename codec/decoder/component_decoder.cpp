@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "attributes/coefficient_decoder.h"
 #include "attributes/level_prediction.h"
 #include "attributes/quantiser.h"
 #include "attributes/raht_inverse.h"

@@ -68,12 +68,12 @@ class Model {
   }
 
  private:
-  /// Of units and slices, however little is in them.
+  /// Bytes of units and slices, however little is in them.
   Bytes lists() const {
     return Bytes::both(static_cast<double>(kMemoryOfUnit * (shape_.units + shape_.slices.size())));
   }
 
-  /// Of a row, while its components are decoded.
+  /// Bytes of a row, while its components are decoded.
   Bytes values() const {
     if (planes_ == 0) return {};
     if (shape_.texture) return texture();
@@ -84,7 +84,7 @@ class Model {
     return row;
   }
 
-  /// Of a row, for the vectors coded around it.
+  /// Bytes of a row, for the vectors coded around it.
   Bytes contexts() const {
     if (planes_ == 0 || !shape_.vector) return {};
     return Bytes::both(kNeighbours + kOfGroup * layers() * static_cast<double>(shape_.groups)) +

@@ -17,11 +17,11 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/raht_tree.h"
 #include "attributes/slice_cells.h"
 #include "codec/decoder/request.h"
-#include "codec/slice_lead.h"
+#include "codec/states_of_slice0.h"
 #include "geometry/occupancy_states.h"
 
 namespace slf {
@@ -85,7 +85,7 @@ struct SceneState {
       : base(std::move(of_base)), lead(stream.slots(Owner::kSlice).size()) {}
 
   BaseState base;
-  SliceLead lead;
+  StatesOfSlice0 lead;
 };
 
 /// A slice of a decode: what its steps read.

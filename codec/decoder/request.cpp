@@ -105,7 +105,7 @@ Result<Request> request_of(const Units& units, const SceneUnits& scene,
   request.whole = !request.missing && request.all_groups;
   if (options.progress)
     request.watch =
-        std::make_shared<DecodeWatch>(options.progress, bytes_wanted(scene, request, false));
+        std::make_shared<DecodeProgress>(options.progress, bytes_wanted(scene, request, false));
   return request;
 }
 

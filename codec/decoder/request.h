@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/plane_transform.h"
 #include "bitstream/index.h"
-#include "codec/decoder/decode_watch.h"
+#include "codec/decoder/decode_progress.h"
 #include "codec/frame_state.h"
 #include "codec/scene_units.h"
 #include "slf/decoder.h"
@@ -37,10 +37,10 @@ struct Request : GroupRequest {
   std::uint64_t most_values = ~std::uint64_t{0};  ///< of components that are given out
   bool whole = true;     ///< no levels, groups or layers are left out: digests are checked
   bool missing = false;  ///< some are that would be part of what was asked for
-  std::optional<VoxelBox> region = {};           ///< of the whole grid
-  const FrameReference* reference = nullptr;     ///< of a frame that is predicted
-  FrameState* kept = nullptr;                    ///< receives what the next may be predicted from
-  std::shared_ptr<DecodeWatch> watch = nullptr;  ///< where the caller wants to know
+  std::optional<VoxelBox> region = {};        ///< of the whole grid
+  const FrameReference* reference = nullptr;  ///< of a frame that is predicted
+  FrameState* kept = nullptr;                 ///< receives what the next may be predicted from
+  std::shared_ptr<DecodeProgress> watch = nullptr;  ///< where the caller wants to know
 
   /// What was asked for is in the base alone: no unit of a slice is opened.
   bool base_alone() const { return levels <= stream.base_levels(); }

@@ -241,7 +241,7 @@ Result<Done> check_digest(const SliceToDecode& slice, const SliceOutput& output)
   return Done{};
 }
 
-/// Of slices apart: what the base has of every cell to what stands in it. Spec 8.8.3.
+/// Slices apart: adds what the base has of every cell to what stands in it. Spec 8.8.3.
 void add_means(const SliceToDecode& slice, const SliceOutput& output) {
   const BaseState& base = slice.scene.base;
   if (!slice.stream().apart() || output.components.empty()) return;

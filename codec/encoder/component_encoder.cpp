@@ -8,7 +8,7 @@
 namespace slf {
 namespace {
 
-/// Of every group as many bits less as layers follow. Spec 8.7.7.
+/// Values of every group with as many bits less as layers follow. Spec 8.7.7.
 std::vector<std::int32_t> without_bits(const SliceCoding& coding, std::uint32_t layer,
                                        std::span<const std::int32_t> values) {
   std::vector<std::int32_t> divisor(coding.planes(), 1);

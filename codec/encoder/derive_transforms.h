@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "attributes/forward_transform.h"
 #include "codec/encoder/scene_layout.h"
 #include "slf/encoder.h"

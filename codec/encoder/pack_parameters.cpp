@@ -5,13 +5,12 @@
 #include <set>
 #include <string>
 
+#include "base/input_error.h"
 #include "bitstream/metadata.h"
 #include "codec/sequence.h"
 
 namespace slf {
 namespace {
-
-InputError invalid(const char* what) { return {Errc::kInvalidArgument, what}; }
 
 bool valid_metadata(const Metadata& metadata) {
   std::size_t bytes = 0;
@@ -29,24 +28,27 @@ Result<Done, InputError> check_shapes(const LightField& field, const CodingParam
   const std::size_t points = field.num_points(),
                     functions = static_cast<std::size_t>(h.num_functions);
   if (!h.attributes.empty() && !h.has_basis)
-    return invalid("attributes: of planes without a basis");
+    return invalid_argument("attributes: of planes without a basis");
   if (!h.coded.empty() || !h.transforms.empty())
-    return invalid("components: of coded functions; given_planes() makes those of all");
+    return invalid_argument("components: of coded functions; given_planes() makes those of all");
   if (field.components.size() != points * functions * 3)
-    return invalid("components: not [points][functions][3]");
-  if (!h.shift.empty() && h.shift.size() != functions) return invalid("shift: one per function");
+    return invalid_argument("components: not [points][functions][3]");
+  if (!h.shift.empty() && h.shift.size() != functions)
+    return invalid_argument("shift: one per function");
   if (field.normals.bits > 0 && field.normals.octahedral.size() != points)
-    return invalid("normals: one per point");
-  if (!p.step.empty() && p.step.size() != functions) return invalid("steps: three per function");
-  if (!p.group.empty() && p.group.size() != functions) return invalid("groups: one per function");
+    return invalid_argument("normals: one per point");
+  if (!p.step.empty() && p.step.size() != functions)
+    return invalid_argument("steps: three per function");
+  if (!p.group.empty() && p.group.size() != functions)
+    return invalid_argument("groups: one per function");
   if (!p.group.empty() && p.group[0] != 0 && h.attributes.empty())
-    return invalid("groups: function 0 is in group 0");
+    return invalid_argument("groups: function 0 is in group 0");
   const std::set<int> groups(p.group.begin(), p.group.end());
   const auto last = static_cast<int>(groups.size()) - 1;
   if (!groups.empty() && (*groups.begin() != 0 || *groups.rbegin() != last))
-    return invalid("groups: one is empty");
+    return invalid_argument("groups: one is empty");
   if (!p.group_layers.empty() && p.group_layers.size() != std::max<std::size_t>(groups.size(), 1))
-    return invalid("quality layers: one number per group");
+    return invalid_argument("quality layers: one number per group");
   return Done{};
 }
 
@@ -55,10 +57,10 @@ Result<Done, InputError> check_points(const LightField& field) {
   const int bits = field.header.grid.bits, normal_bits = field.normals.bits;
   for (const Voxel& v : field.positions)
     for (const std::int32_t c : v)
-      if (c < 0 || c >> bits != 0) return invalid("positions: one lies outside the grid");
+      if (c < 0 || c >> bits != 0) return invalid_argument("positions: one lies outside the grid");
   for (const auto& n : field.normals.octahedral)
     if (normal_bits > 0 && (n[0] | n[1]) >> normal_bits != 0)
-      return invalid("normals: more bits than stated");
+      return invalid_argument("normals: more bits than stated");
   return Done{};
 }
 
@@ -71,28 +73,30 @@ int most_layers(const CodingParameters& p) {
 /// What no element of the sequence tells.
 Result<Done, InputError> check_parameters(const LightField& field, const CodingParameters& p) {
   const LightFieldHeader& h = field.header;
-  if (!(h.metres_per_unit >= 0)) return invalid("metres per unit: 0 where not known");
+  if (!(h.metres_per_unit >= 0)) return invalid_argument("metres per unit: 0 where not known");
   for (const auto* ends : {&p.geometry_level_ends, &p.coefficient_level_ends})
     if (!ends->empty() && ends->back() != h.grid.bits)
-      return invalid("level ends: ascending, the last the grid's bits");
+      return invalid_argument("level ends: ascending, the last the grid's bits");
   if (p.coefficients == CoefficientCoder::kTexture) {
     const int bits = p.texture.bits;
-    if (bits != 8 && bits != 10 && bits != 12) return invalid("texture bits: 8, 10 or 12");
-    if (p.texture.qp < 0 || p.texture.qp > 51) return invalid("texture qp: 0 to 51");
-    if (p.transform != TransformMode::kNone) return invalid("transform: a texture has none");
+    if (bits != 8 && bits != 10 && bits != 12) return invalid_argument("texture bits: 8, 10 or 12");
+    if (p.texture.qp < 0 || p.texture.qp > 51) return invalid_argument("texture qp: 0 to 51");
+    if (p.transform != TransformMode::kNone)
+      return invalid_argument("transform: a texture has none");
   }
-  if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid("rdo: 0 to 1");
+  if (!(p.rdo >= 0 && p.rdo <= 1)) return invalid_argument("rdo: 0 to 1");
   int least = p.quality_layers;
   for (const int layers : p.group_layers) least = std::min(least, layers);
-  if (least < 1) return invalid("quality layers: 1 to 4");
+  if (least < 1) return invalid_argument("quality layers: 1 to 4");
   if (most_layers(p) > 1 && p.coefficients != CoefficientCoder::kVector)
-    return invalid("quality layers: of the vector coder alone");
+    return invalid_argument("quality layers: of the vector coder alone");
   if (!valid_metadata(p.metadata))
-    return invalid("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
+    return invalid_argument("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
   static_assert(kMostSlicePoints == kMaxSlicePoints);
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)
-    return invalid("points per slice: 1 to 2^22");
-  if (p.base_levels < kAutomaticBase) return invalid("base levels: 0 to the grid's bits - 1");
+    return invalid_argument("points per slice: 1 to 2^22");
+  if (p.base_levels < kAutomaticBase)
+    return invalid_argument("base levels: 0 to the grid's bits - 1");
   return Done{};
 }
 
@@ -147,7 +151,7 @@ void set_base(const SceneLayout& layout, SequenceParameterSet& set) {
 
 Result<SequenceParameterSet, InputError> sequence_of(const LightField& field,
                                                      const CodingParameters& p) {
-  if (field.num_points() == 0) return invalid("positions: there are none");
+  if (field.num_points() == 0) return invalid_argument("positions: there are none");
   return sequence_of_frame(field, p);
 }
 

@@ -2,7 +2,7 @@
 // Checked parameters of the coder, as the sequence unit has them. Spec 7.2.
 #pragma once
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/encoder/scene_layout.h"
 #include "slf/encoder.h"

@@ -22,7 +22,7 @@ class SceneEncoder {
         units_(layout_of(coding.set)),
         lead_(slots_of(units_, Owner::kSlice).size()),
         coded_(slices.size()) {
-    SliceLead* lead = layout.table.shared() ? &lead_ : nullptr;
+    StatesOfSlice0* lead = layout.table.shared() ? &lead_ : nullptr;
     for (std::size_t s = 0; s < slices.size(); ++s)
       slices_.push_back({coding, layout, slots_of(units_, Owner::kSlice), s, slices[s], lead});
   }
@@ -73,7 +73,7 @@ class SceneEncoder {
   const SceneLayout& layout_;
   int threads_;
   UnitLayout units_;
-  SliceLead lead_;
+  StatesOfSlice0 lead_;
   std::vector<SliceToEncode> slices_;
   std::vector<CodedUnits> coded_;  // [slices]
 };

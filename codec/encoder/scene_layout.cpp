@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/input_error.h"
 #include "geometry/weight_classes.h"
 
 namespace slf {
@@ -13,8 +14,6 @@ constexpr std::size_t kPointsOfCell = 24;  // at least, by choice: docs/decision
 constexpr std::size_t kCellsOfSlice = 2;   // at least, where there are several slices
 /// At least, of slices apart: enough to cut slices alike, and few, since no cell knows of another.
 constexpr std::size_t kCellsOfSliceApart = 4;
-
-InputError refused(const char* what) { return {Errc::kInvalidArgument, what}; }
 
 /// [levels + 1] nodes at each level.
 std::vector<std::size_t> count_nodes(std::span<const std::uint64_t> morton, int bits) {
@@ -93,7 +92,8 @@ Result<Done, InputError> describe_slices(SceneLayout& layout) {
     const std::size_t end =
         s + 1 < layout.cuts.size() ? layout.cuts[s + 1].first_cell : layout.cells.size();
     if (cut.end - cut.begin > kMaxSlicePoints)
-      return refused("points per slice: more than 2^22 in one slice; a base of more levels may do");
+      return invalid_argument(
+          "points per slice: more than 2^22 in one slice; a base of more levels may do");
     layout.table.slices.push_back({static_cast<std::uint32_t>(end - cut.first_cell - 1),
                                    static_cast<std::uint32_t>(cut.end - cut.begin - 1)});
   }
@@ -120,11 +120,11 @@ Result<int, InputError> levels_of_base(const std::vector<std::size_t>& nodes, st
                                        const CodingParameters& p) {
   if (p.base_levels < 0) return choose_base_levels(nodes, slices, p);
   if (p.base_levels > 0 && one_unit_for_all(p))
-    return refused("base levels: 0 for Draco and for textures");
+    return invalid_argument("base levels: 0 for Draco and for textures");
   if (p.base_levels > static_cast<int>(nodes.size()) - 2)
-    return refused("base levels: fewer than the grid's bits");
+    return invalid_argument("base levels: fewer than the grid's bits");
   if (nodes[static_cast<std::size_t>(p.base_levels)] > kMaxCells)
-    return refused("base levels: more than 2^22 cells");
+    return invalid_argument("base levels: more than 2^22 cells");
   return p.base_levels;
 }
 

@@ -10,7 +10,7 @@
 #include "codec/encoder/base_encoder.h"
 #include "codec/encoder/coded_unit.h"
 #include "codec/encoder/scene_layout.h"
-#include "codec/slice_lead.h"
+#include "codec/states_of_slice0.h"
 
 namespace slf {
 
@@ -29,7 +29,7 @@ struct SliceToEncode {
   std::span<const UnitSlot> slots;  ///< of a slice
   std::size_t slice;  ///< its slice_id; layout.first_slice is the first of those laid out
   SliceInput input;
-  SliceLead* lead;  ///< of slices that share states, else nullptr
+  StatesOfSlice0* lead;  ///< of slices that share states, else nullptr
 
   std::uint32_t slice_id() const { return static_cast<std::uint32_t>(slice); }
   bool leads() const { return lead != nullptr && slice == 0; }

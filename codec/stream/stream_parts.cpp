@@ -45,7 +45,7 @@ Result<Unit> take_unit(const ReadPlan::Wanted& wanted, std::span<const StreamPar
   return unit;
 }
 
-/// Of the units behind the head those that are wanted. A stream may have been cut between two.
+/// Chooses, among the units behind the head, those wanted. A stream may have been cut between two.
 /// @param begin  of the first unit of the index
 Result<Done> choose_units(const Index& index, std::uint64_t begin, const ByteRange& behind,
                           const Request& request, const std::vector<std::uint8_t>& chosen,

@@ -43,8 +43,8 @@ Result<std::vector<std::uint8_t>> assemble_within(const SequenceParameterSet& se
   return some;
 }
 
-/// Of an empty frame whose frame unit is missing: there is nothing to leave out, and no end unit to
-/// write behind it (7.13).
+/// Copies an empty frame whose frame unit is missing: there is nothing to leave out, and no end
+/// unit to write behind it (7.13).
 Result<std::vector<std::uint8_t>> copy_of(std::span<const std::uint8_t> stream,
                                           std::uint64_t max_bytes) {
   if (max_bytes > 0 && stream.size() > max_bytes) return Error{Errc::kInvalidArgument, "max_bytes"};

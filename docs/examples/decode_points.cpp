@@ -32,14 +32,14 @@ int main(int argc, char** argv) {
     return 0;
   }
   const auto point = static_cast<std::size_t>(std::strtoull(argv[2], nullptr, 10));
-  if (!field->header.has_basis || point >= field->num_points()) {
+  const auto maps = slf::ViewMaps::of(*field);  // once; then every radiance costs a few fetches
+  if (!maps || point >= field->num_points()) {
     std::fprintf(stderr, "%s: no such point, or no colours\n", argv[1]);
     return 4;
   }
-  const slf::ViewMaps maps(*field);  // once; then every radiance costs a few fetches
   const auto [theta, gamma] =
       slf::direction_of({std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5])});
-  const auto rgb = maps.radiance(point, theta, gamma);
+  const auto rgb = maps->radiance(point, theta, gamma);
   const slf::Vec3 at = field->header.grid.world(field->positions[point]);
   std::printf("%.10g %.10g %.10g  %.3f %.3f %.3f\n", at[0], at[1], at[2],
               static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),

@@ -37,7 +37,7 @@ along = directions[::15, ::20].reshape(-1, 3)
 
 
 def psnr(encoded):
-    """Of colours of the same voxels, against the finest."""
+    """PSNR of colours of the same voxels, against the finest."""
     other = slf.read(encoded.data)
     mine = {tuple(v): p for p, v in enumerate(field.positions)}
     pairs = [(mine[tuple(v)], p) for p, v in enumerate(other.positions) if tuple(v) in mine][::7]

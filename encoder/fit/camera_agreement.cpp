@@ -59,7 +59,7 @@ class PointViews {
   std::size_t camera(std::size_t i) const { return camera_[i]; }
   const Vec3& colour(std::size_t i) const { return colour_[i]; }
   double weight(std::size_t i, std::size_t j) const { return weight_[i * size() + j]; }
-  /// Of j among all that predict i.
+  /// Share of j among all that predict i.
   double share(std::size_t i, std::size_t j) const { return weight(i, j) / sum_[i]; }
 
   Vec3 predicted(std::size_t i) const { return scaled(weighted_[i], 1 / sum_[i]); }

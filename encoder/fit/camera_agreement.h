@@ -17,13 +17,13 @@ struct CameraState {
   std::array<float, 3> gain{1, 1, 1};
 };
 
-/// Of one camera. Quantiles are 0 of no samples.
+/// What one camera and its peers agree on. Quantiles are 0 of no samples.
 struct CameraAgreement {
   std::size_t patches = 0;                   ///< that have a pattern
   double agreement = 0, peer_agreement = 0;  ///< upper quartiles of correlations over patches
   double colour_ratio = 0;  ///< squared colour differences over those of its neighbours, trimmed
-  /// Of log(prediction / own) over what neither clips nor is dark: the median of each channel, and
-  /// the distance of the quartiles of the channels' mean.
+  /// Median of log(prediction / own) in each channel over what neither clips nor is dark, and the
+  /// distance of the quartiles of the channels' mean.
   std::array<double, 3> log_gain{};
   double log_gain_spread = 0;
   std::size_t gain_samples = 0;

@@ -10,7 +10,7 @@
 
 #include "capture/quantile.h"
 #include "encoder/fit/camera_agreement.h"
-#include "lightfield/directions.h"
+#include "encoder/fit/local_observations.h"
 
 namespace slf {
 namespace {

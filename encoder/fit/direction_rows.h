@@ -25,11 +25,11 @@ class DirectionRows {
   /// @param row  receives size() values b_k / ||b_k||; element 0 is 1
   void evaluate(const std::array<float, 2>& direction, float* row) const;
 
-  /// Of many local unit vectors, faster where there are eight.
+  /// Rows of many local unit vectors, faster where there are eight.
   /// @param rows  receives [directions][size()]
   void evaluate(std::span<const Vec3> directions, float* rows) const;
 
-  /// Of (theta, gamma), local, at least one, side by side.
+  /// Columns of (theta, gamma), local, at least one, side by side.
   /// @param columns  receives [size()][stride]; stride: a multiple of Harmonics::kLanes, at least
   ///                 the number of directions. What is behind it repeats the last.
   void evaluate_columns(std::span<const std::array<float, 2>> directions, float* columns,

@@ -8,7 +8,6 @@
 #include "encoder/fit/fit_settings.h"
 #include "encoder/fit/fit_step.h"
 #include "encoder/fit/fit_unobserved.h"
-#include "lightfield/directions.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 
@@ -28,25 +27,6 @@ void for_points(std::size_t points, int step, int steps, const FitSettings& sett
 }
 
 }  // namespace
-
-Observations in_local(Observations observations, std::span<const std::array<float, 3>> normals,
-                      int threads) {
-  if (normals.empty()) return observations;
-  parallel_ranges(normals.size(), kPointsPerRange, threads,
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t p = begin; p < end; ++p)
-                      for (auto i = observations.first[p]; i < observations.first[p + 1]; ++i)
-                        observations.direction[i] = to_local(normals, p, observations.direction[i]);
-                  });
-  set_gamma_range(observations);
-  return observations;
-}
-
-Observations in_local(Observations observations, Directions directions,
-                      std::span<const Voxel> positions, int cell_log2, int threads) {
-  return in_local(std::move(observations),
-                  mirror_normals(directions, positions, cell_log2, threads), threads);
-}
 
 // Paper, Algorithm 1.
 Result<std::vector<float>, InputError> fit_view_maps(const Observations& observations,

@@ -24,8 +24,8 @@ struct PictureFitInput {
   Transfer transfer = Transfer::kDisplay;  ///< of the coefficients
   std::array<float, 2> gamma_range{-1, 1};
   DepthOfCamera hidden_by = {};  ///< of points that are not among these; or empty
-  /// Of local directions, of the points held_out_points() alone: given, pictures are held out from
-  /// another fit
+  /// Observations along local directions, at the points held_out_points() alone. Where they are
+  /// given, pictures are held out from another fit
   const Observations* seen = nullptr;
 };
 

@@ -25,7 +25,7 @@ constexpr std::array kStrengths = {0.1, 0.3, 1.0};  // 3 looks better than it is
 constexpr std::array kGrowths = {1.15, 1.3, 1.5};
 constexpr double kPenaltyRaise = 5;
 
-/// Of the harmonics' order of magnitude.
+/// A basis of the harmonics' order of magnitude.
 Basis comparable_bspline(const Basis& harmonics) {
   const int scales = static_cast<int>(std::lround(std::log2(harmonics.num_functions())));
   return {BasisId::kBspline, harmonics.order, scales - scales / 2, scales / 2};

@@ -7,8 +7,8 @@
 
 #include "encoder/fit/fit_cholesky.h"
 #include "encoder/fit/lane_products.h"
+#include "encoder/fit/local_observations.h"
 #include "geometry/morton.h"
-#include "lightfield/directions.h"
 
 namespace slf {
 namespace {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "base/stopwatch.h"
+#include "encoder/fit/local_observations.h"
 #include "geometry/morton.h"
-#include "lightfield/directions.h"
 
 namespace slf {
 namespace {

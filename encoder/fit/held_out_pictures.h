@@ -39,7 +39,7 @@ class HeldOutPictures {
   const std::vector<float>& coefficients() const { return coefficients_; }  ///< [points][K][3]
   double seconds() const { return seconds_; }                               ///< that the fit took
 
-  /// Of the held-out pictures, over pixels and channels, colours clamped to 0 .. 255.
+  /// The error over pixels and channels of the held-out pictures, colours clamped to 0 .. 255.
   double mean_squared_error(std::span<const float> coefficients) const;
 
   HeldOutPictures(const HeldOutPictures&) = delete;

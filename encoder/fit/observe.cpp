@@ -8,37 +8,34 @@
 #include <string>
 #include <utility>
 
+#include "base/input_error.h"
 #include "base/release.h"
+#include "encoder/fit/local_observations.h"
 #include "encoder/fit/observe_camera.h"
 #include "encoder/fit/observe_points.h"
-#include "lightfield/directions.h"
 #include "slf/fit.h"
 #include "slf/parallel.h"
 
 namespace slf {
 namespace {
 
-Result<Done, InputError> invalid(const std::string& message) {
-  return InputError{Errc::kInvalidArgument, message};
-}
-
 Result<Done, InputError> check(const Capture& capture, std::span<const int> cameras,
                                const ObservedPoints& points, const ObserveSettings& settings) {
   if (!(settings.delta_degrees >= 0 && settings.delta_degrees <= 90))
-    return invalid("delta must be 0 .. 90 degrees");
+    return invalid_argument("delta must be 0 .. 90 degrees");
   if (!(settings.occlusion_resolution >= 0.05 && settings.occlusion_resolution <= 8))
-    return invalid("occlusion resolution must be 0.05 .. 8");
+    return invalid_argument("occlusion resolution must be 0.05 .. 8");
   if (!(settings.depth_tolerance >= 0 && std::isfinite(settings.depth_tolerance)))
-    return invalid("depth tolerance must be 0 or more");
+    return invalid_argument("depth tolerance must be 0 or more");
   if (points.positions.size() != points.normals.size())
-    return invalid("as many normals as points are needed");
+    return invalid_argument("as many normals as points are needed");
   if (points.positions.size() > std::numeric_limits<std::uint32_t>::max())
-    return invalid("more than 2^32 - 1 points");
+    return invalid_argument("more than 2^32 - 1 points");
   for (const int camera : cameras)
     if (camera < 0 || static_cast<std::size_t>(camera) >= capture.cameras.size() ||
         camera > std::numeric_limits<std::uint16_t>::max())
-      return invalid("camera " + std::to_string(camera) + " is not one of the capture's " +
-                     std::to_string(capture.cameras.size()) + " (65536 at most)");
+      return invalid_argument("camera " + std::to_string(camera) + " is not one of the capture's " +
+                              std::to_string(capture.cameras.size()) + " (65536 at most)");
   return Done{};
 }
 

@@ -26,7 +26,7 @@ class DepthBuffer {
   DepthBuffer(const Camera& camera, const DepthSettings& settings);
   DepthBuffer(const Camera& camera, std::span<const std::array<float, 3>> occluders,
               const DepthSettings& settings);
-  /// Of exact triangles, both sides of which hide: nothing is wider than it is.
+  /// The depth of exact triangles, both sides of which hide: nothing is wider than it is.
   DepthBuffer(const Camera& camera, const Mesh& mesh, const DepthSettings& settings);
 
   /// Splats more occluders: the order does not matter.

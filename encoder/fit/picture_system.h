@@ -16,7 +16,7 @@
 
 namespace slf {
 
-/// Of a set of pixels.
+/// The error over a set of pixels.
 struct PictureError {
   double squares = 0;  ///< trusted squared errors of all channels
   double trust = 0;    ///< of pixels

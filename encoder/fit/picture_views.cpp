@@ -25,7 +25,7 @@ constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, direct
 constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
 constexpr double kSeen = 0.5;  // share of the points that a camera sees, at most
 
-/// Of the rectangle about a part of a scene in its picture.
+/// Pixels of the rectangle about a part of a scene in its picture.
 double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
   constexpr std::size_t kEvery = 16;
   double left = camera.width, right = 0, top = camera.height, bottom = 0;
@@ -65,8 +65,9 @@ Result<std::vector<bool>, InputError> hidden_pixels(const SplatWeights& splatted
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (splatted.coverage[i] < kCovered) continue;
     const std::size_t width = static_cast<std::size_t>(camera.width);
+    const std::size_t row = i / width;
     const std::array<double, 2> at = {static_cast<double>(i % width) + 0.5,
-                                      static_cast<double>(i / width) + 0.5};
+                                      static_cast<double>(row) + 0.5};
     hidden[i] = depth.hides(at, double{splatted.depth[i]}, kSlanted);
   }
   return hidden;

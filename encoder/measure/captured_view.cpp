@@ -122,7 +122,8 @@ CapturedView captured_view(const Capture& capture, const CapturedSurface& surfac
   for (std::size_t i = 0; i < pixels; ++i) {
     view.object[i] = photograph.channels == 4 ? shows_object(photograph.data[4 * i + 3])
                                               : seen.coverage[i] >= 0.5f;
-    cosine[i] = ray_cosine(camera, double(i % columns), double(i / columns), seen.colour[i]);
+    const std::size_t row = i / columns;
+    cosine[i] = ray_cosine(camera, double(i % columns), double(row), seen.colour[i]);
     if (cosine[i] < least_cosine(kGrazingDegrees)) view.region[i] = PictureRegionId::kGrazing;
   }
   const auto near_edge =

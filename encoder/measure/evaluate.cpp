@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error_sum.h"
+#include "base/input_error.h"
 #include "capture/nearest.h"
 #include "encoder/fit/observe_camera.h"
 #include "encoder/measure/captured_view.h"
@@ -79,15 +80,14 @@ std::vector<ErrorSum> point_errors(const ViewMaps& maps, const Capture& capture,
   return sums;
 }
 
-InputError invalid(const char* why) { return {Errc::kInvalidArgument, why}; }
-
 /// Cameras of the capture, and points that say where its surface is.
 Result<Done, InputError> check_cameras(const Capture& capture, std::span<const int> cameras) {
-  if (cameras.empty()) return invalid("evaluation needs at least one camera");
-  if (capture.cloud.positions.empty()) return invalid("evaluation needs the capture's points");
+  if (cameras.empty()) return invalid_argument("evaluation needs at least one camera");
+  if (capture.cloud.positions.empty())
+    return invalid_argument("evaluation needs the capture's points");
   for (const int camera : cameras)
     if (camera < 0 || std::size_t(camera) >= capture.cameras.size())
-      return invalid("camera index beyond the capture's cameras");
+      return invalid_argument("camera index beyond the capture's cameras");
   return Done{};
 }
 
@@ -97,10 +97,11 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
                                      std::span<const int> cameras, const EvaluateSettings& settings,
                                      const Progress& progress) {
   SLF_CHECK(check_cameras(capture, cameras));
-  if (maps.num_points() == 0) return invalid("the light field has no points");
-  if (settings.deltas_degrees.empty()) return invalid("evaluation needs at least one delta");
+  if (maps.num_points() == 0) return invalid_argument("the light field has no points");
+  if (settings.deltas_degrees.empty())
+    return invalid_argument("evaluation needs at least one delta");
   for (const double delta : settings.deltas_degrees)
-    if (!(delta >= 0 && delta <= 90)) return invalid("delta must be 0 .. 90 degrees");
+    if (!(delta >= 0 && delta <= 90)) return invalid_argument("delta must be 0 .. 90 degrees");
   const NearestPoints tree(capture.cloud.positions);
   CapturedSurface surface = captured_surface(capture, settings.threads);
   if (!(surface.spacing > 0)) surface.spacing = maps.header().grid.step;  // a single point

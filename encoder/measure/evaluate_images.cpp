@@ -2,13 +2,13 @@
 #include "encoder/measure/evaluate_images.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
 #include "base/error_sum.h"
+#include "base/stopwatch.h"
 #include "capture/quantile.h"
 #include "encoder/measure/picture_background.h"
 #include "encoder/measure/ssim.h"
@@ -143,9 +143,9 @@ Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const 
   SLF_TRY(const Image loaded, load_image(capture, camera_index));
   const auto index = static_cast<std::size_t>(camera_index);
   const Camera& camera = capture.cameras[index];
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   Rendering over_black = draw(moved(camera, capture.origin));
-  const auto end = std::chrono::steady_clock::now();
+  const double seconds = watch.lap();
   const CapturedView view =
       captured_view(capture, surface, camera, loaded, settings.depth_tolerance);
   const bool has_mask = index < capture.mask_files.size() && !capture.mask_files[index].empty();
@@ -155,7 +155,7 @@ Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const 
     over_black = with_exposure_of(photograph, std::move(over_black), view.object);
   const Image rendering = over_background(over_black, background);
   PictureErrors errors = compare(photograph, rendering, over_black.coverage, view);
-  errors.seconds = std::chrono::duration<double>(end - start).count();
+  errors.seconds = seconds;
   if (settings.error_map)
     SLF_CHECK(settings.error_map(camera_index, error_map(photograph, rendering)));
   return errors;

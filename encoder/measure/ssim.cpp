@@ -13,7 +13,7 @@ namespace {
 constexpr int kRadius = 5;
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
-/// Of the five scales, finest first. Wang et al. 2003, section 3.2.
+/// Powers of the five scales, finest first. Wang et al. 2003, section 3.2.
 constexpr std::array<double, 5> kPowers = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
 
 /// Weighted sums over a window, each an image: of 1, a, b, a^2, b^2, a b.

@@ -10,7 +10,7 @@
 #include "codec/decoder/decode_cost.h"
 #include "codec/encoder/assemble.h"
 #include "codec/encoder/base_encoder.h"
-#include "codec/encoder/scene_frame.h"
+#include "codec/encoder/index_boxes.h"
 #include "encoder/parts/part_sums.h"
 #include "encoder/parts/scene_parts.h"
 #include "geometry/weight_classes.h"

@@ -14,7 +14,7 @@ constexpr std::uint64_t kMostPlanBytes = std::uint64_t{64} << 20;
 
 using Numbers = Result<std::vector<double>, InputError>;
 
-/// Of a list, each within a range.
+/// The numbers of a list, each within a range.
 Numbers numbers(const JsonView& json, const char* name, double low, double high) {
   SLF_TRY(const JsonView list, json.at(name));
   SLF_TRY(const auto items, list.items());

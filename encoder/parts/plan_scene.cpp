@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the slices of a scene must agree on, chosen once.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
+#include "base/shortest.h"
 #include "base/stopwatch.h"
 #include "capture/density.h"
 #include "capture/spacing.h"
@@ -206,9 +205,7 @@ class Planner {
     std::erase_if(plan_.settings, [](const auto& given) {
       return given.first == "quality" || given.first == "quality-loss";
     });
-    char number[32];
-    plan_.settings.emplace_back(
-        "quality", std::string(number, std::to_chars(number, std::end(number), step.q).ptr));
+    plan_.settings.emplace_back("quality", shortest(step.q));
     return Done{};
   }
 

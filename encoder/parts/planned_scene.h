@@ -30,7 +30,7 @@ struct PlannedScene {
   std::vector<std::size_t> cells_of(std::size_t slice) const;
 };
 
-/// Of the JSON.
+/// Version of the JSON.
 inline constexpr int kPlanVersion = 3;
 
 /// Points of the sample that a plan is made on, about, with what is around them.

@@ -29,7 +29,7 @@ struct SceneCells {
   int cell_bits() const { return grid.bits - layout.base_levels; }
   /// The middle of a cell's cube, from Capture::origin.
   Vec3 middle(std::size_t cell) const;
-  /// Of the sphere about it.
+  /// Radius of the sphere about it.
   double radius() const;
 };
 

@@ -11,12 +11,12 @@
 namespace slf {
 namespace {
 
-/// Of what distortion may add to a field of view, in tangents.
+/// The most that distortion may add to a field of view, in tangents.
 constexpr double kDistorted = 1.3;
 constexpr int kMostReduction = 6;
 constexpr int kLeastSide = 64;  // pixels of a reduced photograph
-/// Of a reduced photograph, on what is nearest. A terrace of 1 million points, pictures held out:
-/// -0.04 dB at -3 % bytes; of one pixel -0.4 dB at -11 %.
+/// Pixels of a reduced photograph to a spacing, where it is nearest. A terrace of 1 million points,
+/// pictures held out: -0.04 dB at -3 % bytes; with one pixel -0.4 dB at -11 %.
 constexpr double kPixelsOfSpacing = 2;
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace slf {
 /// Whether something within the sphere may be in the image. Never wrongly false.
 bool may_see(const Camera& camera, const Vec3& middle, double radius);
 
-/// Of `cameras`, those that may see one of the cells.
+/// The cameras among `cameras` that may see one of the cells.
 std::vector<int> cameras_of(const Capture& capture, std::span<const int> cameras,
                             const SceneCells& scene, std::span<const std::size_t> cells);
 

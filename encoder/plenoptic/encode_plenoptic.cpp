@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error_words.h"
+#include "base/input_error.h"
 #include "base/release.h"
 #include "base/stopwatch.h"
 #include "codec/encoder/pack_frame.h"
@@ -22,27 +23,25 @@ namespace {
 constexpr std::uint32_t kExactStep = 8;
 constexpr int kPlaneShift = 3;  // of planes with a step: eighths of a grey level
 
-InputError refused_setting(const char* message) { return {Errc::kInvalidArgument, message}; }
-
 Result<Done, InputError> check_plenoptic(const PlenopticCloud& cloud,
                                          const PlenopticSettings& settings, PlenopticCoding as) {
   const EncoderSettings& s = settings.encoder;
   if (cloud.num_points() == 0) return InputError{Errc::kInvalidInput, "no points"};
   if (s.coefficients == CoefficientCoder::kTexture)
-    return refused_setting("--coefficients texture: plenoptic clouds have vector or independent");
+    return invalid_argument("--coefficients texture: plenoptic clouds have vector or independent");
   if (s.target_bytes > 0 || s.target_psnr > 0 || s.target_bitrate > 0)
-    return refused_setting(
+    return invalid_argument(
         "--target-bytes, --target-bitrate, --target-psnr: plenoptic clouds have -q");
-  if (s.normal_bits > 0) return refused_setting("--normals: plenoptic clouds keep no normals");
+  if (s.normal_bits > 0) return invalid_argument("--normals: plenoptic clouds keep no normals");
   std::vector<int> sorted = settings.hold_out;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    return refused_setting("--hold-out: a view twice");
+    return invalid_argument("--hold-out: a view twice");
   if (!sorted.empty() && (sorted.front() < 0 || sorted.back() >= static_cast<int>(cloud.views)))
     return InputError{Errc::kInvalidArgument,
                       "--hold-out: views are 0 to " + std::to_string(cloud.views - 1)};
   if (as == PlenopticCoding::kPlanes && !sorted.empty())
-    return refused_setting(
+    return invalid_argument(
         "--hold-out: planes predict no view that they do not have (--as viewmaps)");
   if (as == PlenopticCoding::kViewMaps && cloud.view_positions.empty())
     return InputError{

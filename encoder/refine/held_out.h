@@ -23,7 +23,7 @@ struct HeldOutErrors {
   double squares_sum() const;
 };
 
-/// Of both together.
+/// The errors of both together.
 double mean_of(const HeldOutErrors& a, const HeldOutErrors& b);
 
 /// The cameras that mending does not see: every fourth.

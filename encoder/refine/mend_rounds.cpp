@@ -27,7 +27,7 @@ void smooth(SurfacePoints& surface, double spacing, int threads) {
   move_along_normals(surface, distance_to_neighbours(surface, near, threads));
 }
 
-/// Of a round's photographs, world units at the object.
+/// Width of a pixel of a round's photographs, world units at the object.
 double pixel_of(const MendingJob& job, std::size_t round) {
   return job.pixel * std::pow(2.0, kMendingLevels[round]);
 }

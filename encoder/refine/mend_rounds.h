@@ -9,7 +9,7 @@
 
 namespace slf {
 
-/// Of the photographs, a round each (docs/decisions/019).
+/// Levels of the photographs, a round each (docs/decisions/019).
 inline constexpr std::array<int, 4> kMendingLevels{2, 2, 1, 1};
 
 /// All rounds; with fewer points than kLeastMendedPoints it was nothing like a surface.

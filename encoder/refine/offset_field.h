@@ -9,7 +9,7 @@
 
 namespace slf {
 
-/// Of one point, world units; least <= most.
+/// Limits of one point's offset, world units; least <= most.
 struct OffsetLimits {
   float least = std::numeric_limits<float>::lowest();
   float most = std::numeric_limits<float>::max();

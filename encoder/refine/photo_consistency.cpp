@@ -19,7 +19,7 @@ struct Facing {
   float cosine;
 };
 
-/// Of every so many-th point, views ascending.
+/// The views that every so many-th point faces, ascending.
 struct FacingViews {
   std::vector<std::uint64_t> first;  ///< [chosen + 1]
   std::vector<Facing> facing;

@@ -77,7 +77,8 @@ double typical_miss(const MendingJob& job) {
   std::vector<double> misses;
   for (auto row = costs.begin(); row != costs.end(); row += std::ptrdiff_t(range.count)) {
     const auto [least, most] = std::minmax_element(row, row + std::ptrdiff_t(range.count));
-    if (*least<kAgree&& * most - *least> kTells)
+    const bool agrees = *least<kAgree, tells = *most - *least> kTells;
+    if (agrees && tells)
       misses.push_back(std::abs(double(range.at(std::size_t(least - row)))) / pixel);
   }
   if (misses.size() < kLeastMendedPoints / 10) return 0;  // nothing to go by

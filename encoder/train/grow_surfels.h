@@ -21,12 +21,12 @@ struct SurfelUse {
 };
 
 struct GrowSettings {
-  std::size_t most = 0;  ///< surfels
-  double share = 0.1;    ///< of the surfels: at most so many are added
-  float least_opacity = 0.02f;
-  float smallest = 0;  ///< world radius: no smaller ones split; far away larger
-  ViewedSpace space = {};  ///< where a pixel is larger
-  bool all_seen = false;  ///< every photograph was drawn since: what was not drawn goes
+  std::size_t most = 0;     ///< surfels
+  double share = 0.1;       ///< of the surfels: at most so many are added
+  float least_opacity = 0;  ///< fainter ones go
+  float smallest = 0;       ///< world radius: no smaller ones split; far away larger
+  ViewedSpace space = {};   ///< where a pixel is larger
+  bool all_seen = false;    ///< every photograph was drawn since: what was not drawn goes
 };
 
 /// Splits across the longer axis those with the greatest pull, so that the two draw about what the

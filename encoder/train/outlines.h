@@ -17,7 +17,7 @@ struct Outline {
   std::vector<std::uint8_t> object;  ///< [height][width] 1: the object
 };
 
-/// Of the photographs that tell (object_outline); cameras are the capture's own.
+/// Outlines in the photographs that tell (object_outline); cameras are the capture's own.
 /// @errors those of load_image
 Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
                                                      std::span<const int> cameras, int threads);

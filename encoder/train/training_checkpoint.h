@@ -24,7 +24,7 @@ struct TrainingState {
   SurfelUse use;
 };
 
-/// Of settings, photographs and first surfels: another training is never gone on with.
+/// A digest of settings, photographs and first surfels: another training is never gone on with.
 using TrainingDigest = std::array<std::uint8_t, 32>;
 
 /// One file of one training.

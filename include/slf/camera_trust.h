@@ -18,8 +18,8 @@ enum class CameraVerdict : std::uint8_t {
   kDropped,  ///< another object, a wrong pose, or all overexposed: its observations do not count
 };
 
-/// Of one input camera. Patterns, not colours, tell whether a photograph belongs to its place:
-/// highlights move with the camera and change colours, but a picture of something else, or one
+/// What tells whether one input camera's photograph belongs to its place: patterns, not colours.
+/// Highlights move with the camera and change colours, but a picture of something else, or one
 /// projected from a wrong pose, agrees nowhere.
 struct CameraTrust {
   int camera = 0;  ///< index into the capture's cameras

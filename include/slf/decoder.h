@@ -31,8 +31,8 @@ struct DecodeOptions {
   int levels = 0;  ///< octree levels to keep, 1 .. grid bits; 0: all. Fewer give a coarser grid,
                    ///< each node with the mean of its points
   int groups = 0;  ///< plane groups to decode, 1 .. number of groups; 0: all. Others count as zero
-  bool means_only = false;  ///< no group beyond those that mean_colours() needs, which then is all
-                            ///< that the components are good for. Not what `partial` is about
+  bool means_only = false;  ///< only the groups that mean_colours() needs: the result is good for
+                            ///< mean colours alone. It does not set `partial`
   int layers = 0;  ///< quality layers to decode, 1 .. those of the group that has most; 0: all.
                    ///< Values that are not refined to the end stand for what they may be
   std::uint64_t max_bytes = 0;       ///< use only units that end within the first max_bytes; 0: all
@@ -126,9 +126,9 @@ struct DecodeCost {
   std::uint64_t work = 0;         ///< steps as DecodeLimits::max_work counts them, at most
 };
 
-/// Of what is asked for: levels, groups, layers, max_bytes; on so many threads, which have more
-/// slices in flight, unless limits.max_memory has no room for as many. A region counts as the
-/// whole: what it meets is known when the base is decoded. Thread-safe. O(units).
+/// Cost of decoding the requested levels, groups, layers and bytes with options.threads threads;
+/// fewer are used if limits.max_memory has no room for their slices. A region counts as the whole:
+/// what it meets is known when the base is decoded. Thread-safe. O(units).
 /// @errors as decode; of the limits those of the stream's own length and of planes alone
 Result<DecodeCost> decode_cost(std::span<const std::uint8_t> stream,
                                const DecodeOptions& options = {});

@@ -70,7 +70,7 @@ struct CodingParameters {
                                ///< the last is the grid's bits. Empty: one unit per group
   std::vector<int> geometry_level_ends;  ///< the same for geometry units
   bool predict = true;  ///< coarser levels predict finer ones where that pays. Spec 8.7.6
-  /// Of frames: contexts by the frame before. Spec 8.12.6: such a stream is of version 1.1
+  /// Frames have contexts by the frame before. Spec 8.12.6: such a stream is of version 1.1
   bool reference_contexts = true;
   double rdo = 0;  ///< 0 .. 1: quantise by distortion and rate; 0: to the nearest
   /// 1 .. 4, of the vector coder alone where above 1: values come bit by bit, each layer at half of

@@ -30,7 +30,7 @@ struct EvaluateSettings {
   std::function<Result<Done, InputError>(int camera, const Image& map)> error_map;
 };
 
-/// Of the views within one δ′. dB; infinite where nothing differs.
+/// Quality over the views within one δ′. dB; infinite where nothing differs.
 struct PointQuality {
   double delta_degrees = 10;
   double psnr = 0;       ///< pooled over points, cameras and channels

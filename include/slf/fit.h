@@ -104,7 +104,7 @@ struct PictureFitSettings {
 struct PictureFit {
   double psnr_before = 0, psnr_after = 0;
   double pull = 0;  ///< on the penalties; 0: no picture fit, or held-out cameras did not gain by it
-  /// Of cameras held out from this fit, where its pull was searched: without and with it.
+  /// Errors at cameras held out from this fit, where its pull was searched: without and with it.
   double held_out_before = 0, held_out_after = 0;
 };
 

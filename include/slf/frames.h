@@ -27,7 +27,7 @@ struct FrameInfo {
   bool predicted = false;    ///< from the frame before it
   std::uint64_t offset = 0;  ///< of its first byte in the stream
   std::uint64_t bytes = 0;
-  /// Of FrameReader: no frame could be read here. It stands for one or several; its number is that
+  /// FrameReader could read no frame here. The entry stands for one or several; its number is that
   /// of the last of them, its time lies between its neighbours'.
   bool lost = false;
 };

@@ -5,7 +5,7 @@
 
 namespace slf {
 
-/// What a decoder refuses (kLimitExceeded) is refused by its headers, before anything that large is
+/// A stream beyond these limits is refused (kLimitExceeded) by its headers, before memory for it is
 /// allocated. The defaults fit a laptop. Spec 9.
 struct DecodeLimits {
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};

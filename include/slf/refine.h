@@ -34,7 +34,7 @@ struct RefineReport {
   double held_out_before = 0, held_out_after = 0;  ///< dB
   /// Photographs disagree about points that are nearer to one another than they tell apart. Such a
   /// cloud is thinned first on an automatic grid alone: on a given one it is hardly ever mended.
-  /// Of kAuto.
+  /// kAuto alone sets it.
   bool too_dense_for_grid = false;
   bool exact = false;  ///< photographs agree at the points already: nothing was tried. Of kAuto
   double seconds = 0;

@@ -56,7 +56,7 @@ struct ScenePlan {
   std::vector<int> shift;  ///< [K]
   std::vector<PlannedTransform> transforms;
 
-  /// Of coding all slices in one process, about, as the sample took here; 0: nobody measured it.
+  /// Seconds of coding all slices in one process, about, as the sample took here; 0: not measured.
   /// Not written.
   double seconds = 0;
   ChosenStep step;  ///< where the step came from. Not written

@@ -72,7 +72,7 @@ enum {
   SLF_CHECKSUM = 3,         /* a CRC-32 or a digest does not match */
   SLF_OUT_OF_RANGE = 4,     /* a syntax element is outside the range of its clause */
   SLF_RESERVED = 5,         /* a reserved bit or value is in use */
-  SLF_UNSUPPORTED = 6,      /* newer version, unknown profile, or left out of this build */
+  SLF_UNSUPPORTED = 6,      /* another version, unknown profile, or left out of this build */
   SLF_LIMIT_EXCEEDED = 7,   /* sound, but larger than the limits */
   SLF_INVALID_ARGUMENT = 8, /* of the caller */
   SLF_OUT_OF_MEMORY = 9,

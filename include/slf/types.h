@@ -119,8 +119,8 @@ struct LightFieldHeader {
   std::vector<Attribute> attributes;  ///< of the last functions, in their order
   bool has_basis = true;   ///< false: integer planes without a meaning (slf pack); K may be 0
   std::vector<int> shift;  ///< [K] plane = round(coefficient * 2^shift), 0 .. 15
-  /// [R] the function in whose place component r stands, ascending; empty: all K, r = k. Without a
-  /// transform over it, it is that function.
+  /// [R] index of the function whose place component r takes, ascending; empty: all K, r = k.
+  /// Unless a transform covers it, component r is the weight of that function.
   std::vector<std::uint16_t> coded;
   std::vector<PlaneTransform> transforms;  ///< what the other components are; spec 8.7.5
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "slf/error.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -38,8 +39,11 @@ class Harmonics;
 /// o * o fetches whatever K. Never changed once made: any number of threads may look up.
 class ViewMaps {
  public:
-  /// Converts once; O(P R), with a joint transform O(P K R). The light field must have a basis
-  /// (header.has_basis).
+  /// Converts once; O(P R), with a joint transform O(P K R).
+  /// @errors kInvalidArgument: the light field has no basis, another number of functions than its
+  ///         basis, or another number of components than its points take
+  static Result<ViewMaps, InputError> of(const LightField& light_field, int threads = 0);
+  /// The same for a light field of which all this is known; others give colours without a meaning.
   explicit ViewMaps(const LightField& light_field, int threads = 0);
 
   /// R, G, B of point p, 0 .. num_points() - 1, seen along (θ, γ) (from the point to the eye), of
@@ -53,7 +57,7 @@ class ViewMaps {
                  std::span<std::array<float, 3>> colours) const;
   /// The same without any clamp.
   std::array<float, 3> radiance_unclamped(std::size_t p, float theta, float gamma) const;
-  /// Of mean_colours().
+  /// The colour of point p as mean_colours() has it.
   std::array<float, 3> mean(std::size_t p) const;
 
   const LightFieldHeader& header() const { return header_; }

@@ -8,7 +8,7 @@ namespace slf {
 /// Discs of points, their weights in a pixel, and how much of a pixel they cover. What a change of
 /// each costs in pictures: docs/decisions/018.
 struct ReferenceKernel {
-  int version = 2;  ///< 1: that of slf 0.1 with format 0.3
+  int version = 2;  ///< 1: that of drafts before format 0.4
 
   // Weights (E.3).
   double filter_pixels = 1.0;  ///< radius added, in squares, to every ellipse; with exponent 4 as

@@ -45,7 +45,7 @@ class CellTree {
   std::uint32_t point(std::size_t i) const { return order_[i]; }
   double cell_size(std::size_t i) const { return std::ldexp(1.0, cell_log2_[i]); }
 
-  /// Of the cloud as a whole.
+  /// Cell size of the cloud as a whole.
   double common_cell_size() const { return std::ldexp(1.0, common_log2_); }
 
   /// visit(offset, squared distance, how many points it stands for) for the other points within

@@ -10,7 +10,7 @@ namespace {
 
 Vec3 negated(const Vec3& v) { return {-v[0], -v[1], -v[2]}; }
 
-/// Of a right-handed world; an unknown axis counts as +y, so that nothing is turned.
+/// Where up is in a right-handed world; an unknown axis counts as +y, so that nothing is turned.
 Vec3 up_vector(UpAxis up) {
   if (up == UpAxis::kUnknown) return {0, 1, 0};
   const auto code = static_cast<std::size_t>(up);

@@ -17,7 +17,7 @@ constexpr std::size_t kProbes = 233;  // another number and turn than the fit's:
 constexpr double kTurn = 1;
 constexpr std::size_t kSplatsPerRange = 256;
 
-/// Of a run of points, weighted.
+/// Sums over a run of points, weighted.
 struct Sums {
   std::array<double, 3> squares{}, one_colour{};
   double weight = 0;

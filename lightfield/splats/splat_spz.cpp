@@ -18,8 +18,8 @@ constexpr int kMostFractionBits = 24;
 constexpr float kLargestCoordinate = 8388607;         // of 24 bits with sign
 constexpr float kScaleOffset = 10, kScaleSteps = 16;  // byte = (log + 10) * 16
 constexpr float kColourScale = 0.15f;                 // byte = 255 * (0.5 + 0.15 dc)
-/// Of 8 for a harmonic, so that gzip has something. The format's own writer keeps 5, and 4 beyond
-/// degree 1, which shows: docs/decisions/027.
+/// Bits, of 8, for a harmonic, so that gzip has something. The format's own writer keeps 5, and 4
+/// beyond degree 1, which shows: docs/decisions/027.
 constexpr int kHarmonicBits = 6;
 
 std::uint8_t byte_of(float value) {

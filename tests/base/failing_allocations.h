@@ -8,7 +8,7 @@ namespace slf::test {
 
 /// Allocations that succeed from now on; then all fail. Below 0: as many as one likes.
 extern std::atomic<long> allocations_left;
-/// Of what is allocated and not freed.
+/// Bytes that are allocated and not freed.
 extern std::atomic<long> live_bytes;
 /// The most that it has been since this was set.
 extern std::atomic<long> most_live_bytes;

@@ -35,7 +35,7 @@ def run(words):
     return out, time.monotonic() - begin, after.ru_utime - before.ru_utime, int(peak) / 1024
 
 
-# Of its own process: ru_maxrss of children is that of the largest there ever was.
+# Runs in a process of its own: ru_maxrss of children is that of the largest there ever was.
 CHILD = """
 import resource, subprocess, sys
 code = subprocess.run(sys.argv[1:], stdin=subprocess.DEVNULL).returncode

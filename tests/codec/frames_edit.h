@@ -16,7 +16,7 @@ struct OwnedUnit {
   UnitType type;
   Bytes payload;
 };
-/// Of an intra frame, which has a signature, the first is its sequence.
+/// Units of a frame. An intra frame has a signature, and its first is the sequence.
 using Frame = std::vector<OwnedUnit>;
 
 inline std::vector<LightField> small_fields(int frames) {

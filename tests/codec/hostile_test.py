@@ -110,7 +110,7 @@ class Judge:
 
 
 def floats_are_finite(ply):
-    """Of every property that is a float, in a binary PLY of one element."""
+    """Is every property that is a float finite, in a binary PLY of one element?"""
     head, body = ply.read_bytes().split(b"end_header\n", 1)
     kinds = re.findall(rb"property (\w+) ", head)
     row = struct.Struct("<" + "".join({b"float": "f", b"double": "d", b"uchar": "B"}[kind] for kind in kinds))

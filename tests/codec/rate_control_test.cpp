@@ -55,10 +55,15 @@ TEST(FindStep, AJumpOverTheGoalGivesTheNearerSide) {
 }
 
 TEST(FindStep, AnErrorEndsTheSearch) {
-  const auto found = find_step(16, {1, 2}, [](double) -> Measured {
+  int measured = 0;
+  const auto found = find_step(16, {1, 2}, [&](double) -> Measured {
+    if (++measured < 3) return 100.0;
     return InputError{Errc::kInvalidInput, "no"};
   });
   ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, Errc::kInvalidInput);
+  EXPECT_EQ(found.error().message, "no");
+  EXPECT_EQ(measured, 3);
 }
 
 /// 30 dB that rise by 0.5 up to a step of 40 and fall by 2 for each doubling beyond.

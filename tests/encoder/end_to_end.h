@@ -45,7 +45,7 @@ class EndToEnd : public testing::Test {
     return made[preset] = *std::move(result);
   }
 
-  /// Of pictures.
+  /// PSNR of pictures.
   static double psnr(const Encoded& e, const char* split, const DecodeOptions& options = {}) {
     const auto field = decode(e.stream, options);
     EXPECT_TRUE(field);

@@ -56,7 +56,7 @@ struct Scene {
     }
   }
 
-  /// Of far cameras: all points see one along the same direction. Of reflected directions.
+  /// Far cameras: all points see one along the same direction. Directions are reflected.
   Observations observe(const std::vector<Vec3>& from) const {
     const ObjectBox box(positions);
     Observations seen;

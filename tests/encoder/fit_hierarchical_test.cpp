@@ -59,7 +59,7 @@ Matrix colours(const Observations& seen, std::size_t p) {
   return c;
 }
 
-/// Of a block of side 2, level by level: all points, then those of the block.
+/// Solves a block of side 2, level by level: all points, then those of the block.
 Matrix dense_block(const std::vector<Voxel>& positions, const Observations& seen,
                    const FitSettings& s, const std::vector<int>& fineness, const Voxel& block) {
   const Eigen::Index unknowns = s.basis.num_functions() - 1;

@@ -57,7 +57,7 @@ float mirror(const Vec3&, const Vec3& reflected) {
   return static_cast<float>(60 + 120 * std::exp(4 * (0.6 * reflected[0] + 0.8 * reflected[2] - 1)));
 }
 
-/// Of the view alone, as if each camera had its exposure: the normal does not matter.
+/// Colour by the view alone, as if each camera had its exposure: the normal does not matter.
 float of_view(const Vec3& view, const Vec3&) {
   return static_cast<float>(100 + 60 * view[0] * view[1] + 40 * view[2]);
 }

@@ -9,6 +9,7 @@
 #include "encoder/component_planes.h"
 #include "encoder/fit/fit_hierarchical.h"
 #include "encoder/fit/fit_search.h"
+#include "encoder/fit/local_observations.h"
 #include "lightfield/directions.h"
 #include "tests/codec/field_support.h"
 

@@ -58,7 +58,7 @@ class TrainGeometryTest : public testing::Test {
     }
     return apart;
   }
-  /// Of points that are no farther from the true surface than so many point spacings.
+  /// Share of points that are no farther from the true surface than so many point spacings.
   static double share_within(double most, const PointCloud& cloud) {
     const auto apart = distances(cloud);
     return double(std::count_if(apart.begin(), apart.end(), [=](double x) { return x < most; })) /
@@ -250,7 +250,7 @@ TEST(GrowSurfels, ASurfelThatIsPulledBecomesTwoAndOneThatShowsNothingGoes) {
   use.resize(3);
   use.drawn = {1, 1, 1};
   use.pull = {1, 5, 2};
-  grow_surfels({.most = 3, .share = 1}, use, state, surfels);
+  grow_surfels({.most = 3, .share = 1, .least_opacity = 0.02f}, use, state, surfels);
   ASSERT_EQ(surfels.size(), 3u);
   EXPECT_EQ(surfels[0].position(), (Float3{0, 0, 0}));
   EXPECT_LT(surfels[1].radius(0) * surfels[1].radius(1), 1);

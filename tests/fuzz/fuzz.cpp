@@ -15,7 +15,7 @@ namespace slf::fuzz {
 
 namespace {
 
-/// Of units from `at` on, up to bytes that are none.
+/// Mends the checksums of units from `at` on, up to bytes that are none.
 /// @param signatures  some units stand behind another signature
 void mend_crcs(std::vector<std::uint8_t>& stream, std::size_t at, bool signatures) {
   while (at + 6 <= stream.size()) {

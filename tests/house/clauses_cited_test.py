@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Clauses of the specification that comments, tests and texts cite are there.
+"""Clauses and tables of the specification that comments, tests and texts cite are there.
 
     clauses_cited_test.py ROOT
 """
@@ -19,12 +19,16 @@ CITED = re.compile(rf'(?<!H\.265 )(?<!AV1 specification )\b(?:[Ss]pec|[Cc]lauses
 COMMENT = re.compile(rf'//+ ((?=[678]\.){LIST})(?=[:.,;]|$)')  # "// 8.4: one unit"
 SUITE = re.compile(r'\bSpec_(\d+(?:_\d+)*)(?=\W|_[A-Z])')
 DOCSTRING = re.compile(rf'^ *"""({NUMBER}(?:(?:, | - ){NUMBER})*)[:,] ')  # of spec/decoder.py
+# "table 8-3", but not those of H.265.
+TABLE = re.compile(r'(?<!H\.265 )\b[Tt]ables? ([789A-G]-\d+)\b')
+HEADED = re.compile(r'^Table (\d+-\d+), |^([A-G]-\d+): ', re.M)  # numbers of an annex stand as "A-1: 32768 ..."
 ANNEX = re.compile(r'\b(?:[Ss]pec |of )annex ([A-Z])\b')
 
 
 def clauses(text):
-    """Numbers of clauses and letters of annexes that are there."""
+    """Numbers of clauses and tables, and letters of annexes, that are there."""
     numbers = set(re.findall(rf'^(?:#+ |\*\*)({NUMBER})[ *.]', text, re.M))
+    numbers |= {table or annex for table, annex in HEADED.findall(text)}
     return numbers | set(re.findall(r'^## Annex ([A-Z]) ', text, re.M))
 
 
@@ -33,6 +37,7 @@ def cited(line, decoder):
     for numbers in CITED.findall(line) + COMMENT.findall(line) + (DOCSTRING.findall(line) if decoder else []):
         yield from re.findall(NUMBER, numbers)
     yield from (number.replace('_', '.') for number in SUITE.findall(line))
+    yield from TABLE.findall(line)
     yield from ANNEX.findall(line)
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """No file above 300 lines, no function above 60: long ones hold more than one thing. Every file names its licence.
+No comment begins with "Of": it says first what it is about.
 
     house_limits_test.py ROOT
 
@@ -16,6 +17,8 @@ NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made'}
 CPP, PYTHON = {'.cpp', '.h', '.c'}, {'.py'}
 OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css'}  # lines of files alone
 LICENCE = re.compile(r'\A(?:#![^\n]*\n)?(?://|#|/\*) SPDX-License-Identifier: Apache-2\.0\b')
+
+OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
 
 # Why a file may be longer.
 FILES = {
@@ -90,7 +93,7 @@ def python_functions(text):
 
 
 def files(root):
-    """Of the tree, without what is built or fetched in it."""
+    """Files of the tree, without what is built or fetched in it."""
     for path in sorted(root.iterdir()):
         if path.name in NOT_OURS or (path / 'CMakeCache.txt').exists() or path.name.startswith('build'):
             continue
@@ -114,6 +117,9 @@ def findings(root, counts):
             yield name, {}, f'{name}: does not begin with its licence, as others do (SPDX-License-Identifier)'
         if text.count('\n') - 1 > FILE_LINES:
             yield name, FILES, f'{name}: {text.count(chr(10)) - 1} lines'
+        for comment in OF.finditer(text):
+            line = text.count('\n', 0, comment.start()) + 1
+            yield name, {}, f'{name}:{line}: a comment begins with "Of": {comment[0].strip()[:60]}'
         functions = functions_of(file, text)
         counts[file.suffix] = counts.get(file.suffix, 0) + len(functions)
         for function, lines in functions:

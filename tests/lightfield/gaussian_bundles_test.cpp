@@ -60,7 +60,7 @@ void expect_two_splats(const GaussianFile& file) {
   EXPECT_THAT(g.positions[1], ElementsAre(static_cast<float>(-std::expm1(1.0)),
                                           static_cast<float>(std::expm1(2.0)), 0));
   EXPECT_THAT(g.log_deviations[0], ElementsAre(-7, -6, -5));
-  // Of w, x, y, z the second is left out: 1/sqrt(2), and -1/sqrt(2) twice is more than is left.
+  // The second of w, x, y, z is left out: 1/sqrt(2), and -1/sqrt(2) twice is more than is left.
   EXPECT_EQ(file.mended, 1u);  // the other's turn is of no kind
   EXPECT_THAT(g.rotations[1], ElementsAre(1, 0, 0, 0));
   EXPECT_NEAR(1 / (1 + std::exp(-g.logits[0])), 0.2, 1e-6);

@@ -49,5 +49,19 @@ TEST(Radiance, IsClampedToDisplayRangeAndTheMeanIsTheDc) {
   EXPECT_EQ(maps.mean(0), (std::array<float, 3>{250, 50, 0}));
 }
 
+TEST(ViewMaps, OfAFieldWithoutABasisOrWithOtherComponentsAreRefused) {
+  const LightField sound = triangle_in_gamma();
+  ASSERT_TRUE(ViewMaps::of(sound, 1));
+  LightField without = sound, other_basis = sound, cut = sound;
+  without.header.has_basis = false;
+  other_basis.header.basis.scales_gamma = 2;
+  cut.components.pop_back();
+  for (const LightField* field : {&without, &other_basis, &cut}) {
+    const auto maps = ViewMaps::of(*field, 1);
+    ASSERT_FALSE(maps);
+    EXPECT_EQ(maps.error().code, Errc::kInvalidArgument);
+  }
+}
+
 }  // namespace
 }  // namespace slf::radiance_test

@@ -13,7 +13,7 @@
 namespace slf {
 namespace {
 
-/// Of some points: where they are, and colours along directions from which they are seen.
+/// What some points have: where they are, and colours along directions from which they are seen.
 nlohmann::json expected(const ViewMaps& maps, const SplatCloud& splats) {
   auto points = nlohmann::json::array();
   for (std::size_t p = 0; p < splats.size(); p += 29) {

@@ -48,7 +48,7 @@ class Georeference : public CliTest {
     return parsed(ran.out);
   }
 
-  /// Of near.slf and far.slf: the same voxels and components, on grids that are kFar apart.
+  /// Compares near.slf and far.slf: the same voxels and components, on grids that are kFar apart.
   /// @param others  share of components that may be others
   void expect_same_fields(double others) {
     for (const std::string name : {"near", "far"})

@@ -24,7 +24,7 @@ def morton(positions):
 
 
 def merges(codes):
-    """Of sorted distinct codes: steps from the leaves to the root, each (rows of left nodes, rows of right ones, c, s), where a
+    """Steps of sorted distinct codes from the leaves to the root, each (rows of left nodes, rows of right ones, c, s), where a
     node's values stand in its first row."""
     rows, weights, codes = np.arange(len(codes)), np.ones(len(codes)), codes.copy()
     steps = []

@@ -154,7 +154,7 @@ def normals_at(cloud, world):
 
 
 def mean_square_error(field, positions, error, centres, normals=None):
-    """Of colours along directions to cameras up to 80 degrees from the normal, grey levels squared; sampled."""
+    """Error of colours along directions to cameras up to 80 degrees from the normal, grey levels squared; sampled."""
     pick = np.random.default_rng(1)
     rows = pick.permutation(len(positions))[:SAMPLED_POINTS]
     centres = centres[pick.permutation(len(centres))[:SAMPLED_CAMERAS]]

@@ -16,7 +16,7 @@ struct MovingSettings {
   int threads = 0;    ///< 0: all cores. The result does not depend on it
   bool force = false;
   int bits = 0;  ///< of the grid of clouds, 5 .. 12; 0: 8. Captures have none
-  // Of captures:
+  // Captures alone:
   int width = 256, height = 256;  ///< 8 .. 4096 pixels
   int points = 0;                 ///< about so many, 100 .. 10,000,000; 0: 40,000
   int circles = 0;                ///< cameras: 1 .. 99; 0: 3

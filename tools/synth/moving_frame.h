@@ -17,7 +17,7 @@ struct MaterialSample {
   Colour albedo;
 };
 
-/// Of all parts, about one in a square of `spacing`.
+/// Samples of all parts, about one in a square of `spacing`.
 std::vector<MaterialSample> material_samples(const MovingScene& scene, double spacing);
 /// The spacing that gives about so many.
 double spacing_of(const MovingScene& scene, double points);

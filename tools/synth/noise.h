@@ -24,7 +24,7 @@ inline std::uint32_t mixed(std::uint32_t seed, std::uint32_t a) {
 inline double unit(std::uint32_t bits) { return static_cast<double>(bits) * 0x1p-32; }
 inline double unit(std::uint32_t seed, std::uint32_t a) { return unit(mixed(seed, a)); }
 
-/// Of a cell of the plane; any integers.
+/// Bits of a cell of the plane; any integers.
 inline std::uint32_t cell_bits(double column, double row, std::uint32_t seed) {
   const auto word = [](double x) {
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(x) & 0xffffffff);

@@ -16,7 +16,7 @@ class Subject {
  public:
   virtual ~Subject() = default;
 
-  /// Of a sphere around the origin that holds all that is seen; infinite: of every ray.
+  /// Radius of a sphere around the origin that holds all that is seen; infinite: of every ray.
   virtual double radius() const = 0;
 
   /// Light that arrives along -ray.direction, and in `transmittance` the share of the background

@@ -161,7 +161,7 @@ void pieces(const Sampler& sampler, std::size_t solids, Visit&& visit) {
     if (lines < kPieceLines && i + 1 < solids) continue;
     constexpr std::size_t kMostTiles = 2 * kPieceLines / kTileLines;
     for (std::size_t t = 0; t < tiles.size();) {
-      // Of small solids there are more in a piece, and fewer lines in a tile.
+      // There are more small solids in a piece, and fewer lines in a tile.
       const std::size_t some =
           lines < 2 * kPieceLines ? tiles.size() : std::min(tiles.size() - t, kMostTiles);
       visit(std::span<const Tile>(tiles).subspan(t, some), double(i + 1) / double(solids));

@@ -48,7 +48,7 @@ def colour(value: Any, name: str) -> Tuple[int, int, int]:
 
 
 def whole_array(values: npt.ArrayLike, name: str, kind: Type[_Whole]) -> npt.NDArray[_Whole]:
-    """Of another type only where that has no fractions and none of its values is lost."""
+    """Values as an array of a kind; of another type only where that has no fractions and no value is lost."""
     array = np.asarray(values)
     limits = np.iinfo(kind)
     if array.dtype.kind not in 'iu' or (array.dtype != kind and array.size and not (

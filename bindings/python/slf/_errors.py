@@ -23,7 +23,7 @@ class DamagedError(Error):
 
 
 class UnsupportedError(Error):
-    """A newer format, an unknown profile, or a part that was left out of this build."""
+    """Another format version, an unknown profile, or a part that was left out of this build."""
 
 
 class LimitError(Error):

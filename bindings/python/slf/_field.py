@@ -79,7 +79,7 @@ class LightField:
 
     @functools.cached_property
     def header(self) -> Info:
-        """Of the whole stream; bits, step and origin are those of its own grid."""
+        """The grid of the whole stream; bits, step and origin are those of its own grid."""
         return _info(self._field.info())
 
     @property

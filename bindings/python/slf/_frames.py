@@ -31,7 +31,7 @@ class Frames(Sequence[LightField]):
 
     @functools.cached_property
     def list(self) -> Tuple[Frame, ...]:
-        """Of every frame its number, time and place in the stream; nothing is decoded."""
+        """Number, time and place in the stream of every frame; nothing is decoded."""
         return tuple(Frame(**self._frames.info(place)) for place in range(len(self)))
 
     @overload

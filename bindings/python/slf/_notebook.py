@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 
 def png(picture: npt.NDArray[np.uint8]) -> bytes:
-    """Of uint8 [height, width, 3]."""
+    """A PNG file of uint8 [height, width, 3]."""
     height, width, _ = picture.shape
     rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each begins with its filter: none
     rows[:, 1:] = picture.reshape(height, 3 * width)

@@ -122,7 +122,7 @@ class Capture:
 
     @property
     def up_index(self) -> int:
-        """Of slf::UpAxis."""
+        """The number that slf::UpAxis has for it."""
         return ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'].index(self.up)
 
 

@@ -16,7 +16,7 @@ from test_slf import disc
 
 
 def pixels(png):
-    """Of an 8-bit RGB PNG without filters."""
+    """The picture of an 8-bit RGB PNG without filters."""
     at, data, shape = 8, b'', None
     while at < len(png):
         length, kind = struct.unpack('>I4s', png[at:at + 8])

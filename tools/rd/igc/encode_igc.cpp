@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "attributes/video/hevc_encoder.h"
+#include "base/input_error.h"
 #include "base/stopwatch.h"
-#include "encoder/choose_surface.h"
 #include "encoder/check_settings.h"
+#include "encoder/choose_surface.h"
 #include "encoder/encode_metadata.h"
 #include "encoder/fit_capture.h"
 #include "tools/rd/igc/av1_codec.h"
@@ -23,18 +24,16 @@ namespace {
 using Video = Result<std::vector<std::uint8_t>, InputError>;
 using Source = std::function<Picture(std::size_t)>;
 
-InputError invalid(std::string what) { return {Errc::kInvalidArgument, std::move(what)}; }
-
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
 Result<Done, InputError> check_cameras(const Capture& capture, std::span<const int> cameras) {
-  if (cameras.empty()) return invalid("image-plus-geometry coding needs cameras");
+  if (cameras.empty()) return invalid_argument("image-plus-geometry coding needs cameras");
   for (const int i : cameras)
     if (i < 0 || static_cast<std::size_t>(i) >= capture.cameras.size())
-      return invalid("camera " + std::to_string(i) + " is not one of the capture's " +
-                     std::to_string(capture.cameras.size()));
+      return invalid_argument("camera " + std::to_string(i) + " is not one of the capture's " +
+                              std::to_string(capture.cameras.size()));
   const Camera& first = capture.cameras[static_cast<std::size_t>(cameras[0])];
   for (const int i : cameras) {
     const Camera& camera = capture.cameras[static_cast<std::size_t>(i)];
@@ -78,7 +77,7 @@ Video encode_video(std::size_t pictures, const Source& source, const IgcSettings
   if (!settings.speed.empty()) {
     const auto [stop, error] = std::from_chars(settings.speed.data(), end, av1.cpu_used);
     if (error != std::errc() || stop != end)
-      return invalid("speed " + settings.speed + ": 0 to 8 for AV1");
+      return invalid_argument("speed " + settings.speed + ": 0 to 8 for AV1");
   }
   return encode_av1(pictures, source, av1);
 }

@@ -120,7 +120,7 @@ class Lumisphere:
         return np.stack(numbers, 1), shares / np.maximum(shares.sum(1, keepdims=True), 1e-6)
 
     def neighbour_mean(self, values):
-        """Of values [V, ...]."""
+        """Means over neighbours of values [V, ...]."""
         out = np.zeros_like(values)
         np.add.at(out, self.edges[:, 0], values[self.edges[:, 1]])
         return out / self.degree.reshape(-1, *[1] * (values.ndim - 1))

@@ -30,7 +30,7 @@ def medians(points, seen):
 
 
 class Lumispheres:
-    """Of residuals: weights [P, V] and sums [P, V * 3], and how to look a lumisphere up."""
+    """Weights [P, V] and sums [P, V * 3] of residuals, and how to look a lumisphere up."""
 
     def __init__(self, scene):
         self.scene, self.sphere, self.points = scene, Lumisphere(), len(scene.positions)
@@ -63,7 +63,7 @@ class Lumispheres:
         return out
 
     def smoothed(self, function, total):
-        """Of sums [V, 3] and weights [V]: the least squares that lean on their neighbours."""
+        """The least squares of sums [V, 3] and weights [V] that lean on their neighbours."""
         pull = SMOOTH * max(float(total.mean()), 1e-6)
         value = function / np.maximum(total, 1e-6)[:, None] * (total > 0)[:, None]
         for _ in range(20):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/encoder/scene_frame.h"
+#include "codec/encoder/index_boxes.h"
 
 #include "geometry/cell_box.h"
 

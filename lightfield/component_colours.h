@@ -13,10 +13,10 @@
 namespace slf {
 
 /// Components to R, G, B: one 3 x 3 matrix each, with the channels of a transform folded in.
-class Dequantiser {
+class ComponentColours {
  public:
   /// @param shifted  2^-shift too, of the function that a component stands for
-  Dequantiser(const LightFieldHeader& header, bool shifted) {
+  ComponentColours(const LightFieldHeader& header, bool shifted) {
     const auto matrix = colour_matrix(header.colour);
     const auto count = static_cast<std::size_t>(header.num_components());
     std::vector<std::array<std::array<double, 3>, 3>> mixed(count, matrix);

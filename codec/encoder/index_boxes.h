@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the parts of a scene in a stream: boxes for the index.
+// Boxes of slices, for the index. Spec 7.7.
 #pragma once
 
 #include <vector>

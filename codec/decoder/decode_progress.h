@@ -11,10 +11,10 @@
 namespace slf {
 
 /// Told of units by the threads that decode them; tells the caller, one thread at a time.
-class DecodeWatch {
+class DecodeProgress {
  public:
   /// @param bytes  of all units that will be decoded
-  DecodeWatch(std::function<bool(double)> progress, std::uint64_t bytes)
+  DecodeProgress(std::function<bool(double)> progress, std::uint64_t bytes)
       : progress_(std::move(progress)), all_(bytes) {}
 
   /// A unit of so many bytes is about to be decoded.

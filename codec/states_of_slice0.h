@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "attributes/coefficient_decoder.h"
+#include "attributes/coefficient_models.h"
 #include "base/monitor.h"
 #include "geometry/occupancy_states.h"
 
@@ -53,8 +53,8 @@ struct CloseAtEnd {
 };
 
 /// By place in the list of slice 0's units.
-struct SliceLead {
-  explicit SliceLead(std::size_t units) : geometry(units), coefficients(units) {}
+struct StatesOfSlice0 {
+  explicit StatesOfSlice0(std::size_t units) : geometry(units), coefficients(units) {}
 
   SharedStates<OccupancyStates> geometry;
   SharedStates<CoefficientStates> coefficients;
