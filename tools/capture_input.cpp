@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "tools/spooled_input.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -56,6 +57,8 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   SLF_TRY(input.capture, from(given.capture, load_capture(given.capture, options)));
   if (given.up_given) input.capture.up = given.up;
   line.clear();
+  for (std::string& warning : input.capture.warnings)
+    warning = SpooledInput::named(std::move(warning));
   warn(input.capture.warnings, given.common.quiet);
   SLF_TRY(input.cameras, input_cameras(input.capture, given));
   input.metadata.emplace_back("source", last_name(given.capture));

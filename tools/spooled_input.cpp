@@ -85,6 +85,8 @@ Outcome copy_standard(int to, std::vector<std::uint8_t> block, const fs::path& f
   return Done{};
 }
 
+std::string living;  // path of the one that there is
+
 }  // namespace
 
 Result<SpooledInput, Failure> SpooledInput::read() {
@@ -110,13 +112,14 @@ Result<SpooledInput, Failure> SpooledInput::read() {
   Outcome copied = copy_standard(to, std::move(head), spooled.file_);
   if (::close(to) != 0 && copied) copied = no_room(spooled.file_);
   if (!copied) return copied.error();
+  living = spooled.path();
   return spooled;
 }
 
-Failure SpooledInput::named(Failure failure) const {
-  if (const auto at = failure.message.find(path()); at != std::string::npos)
-    failure.message.replace(at, path().size(), "standard input");
-  return failure;
+std::string SpooledInput::named(std::string sentence) {
+  if (const auto at = sentence.find(living); !living.empty() && at != std::string::npos)
+    sentence.replace(at, living.size(), "standard input");
+  return sentence;
 }
 
 SpooledInput::SpooledInput(SpooledInput&& other) noexcept
@@ -125,6 +128,7 @@ SpooledInput::SpooledInput(SpooledInput&& other) noexcept
 SpooledInput::~SpooledInput() {
   if (directory_.empty()) return;
   remove_at_interrupt("", "");
+  living.clear();
   ::unlink(file_.c_str());
   ::rmdir(directory_.c_str());
 }

@@ -24,8 +24,8 @@ class SpooledInput {
   ~SpooledInput();
 
   std::string path() const { return file_.string(); }
-  /// The failure with "standard input" in the path's place.
-  Failure named(Failure failure) const;
+  /// A sentence with "standard input" in the place of the path of the one that lives.
+  static std::string named(std::string sentence);
 
  private:
   explicit SpooledInput(std::filesystem::path directory) : directory_(std::move(directory)) {}

@@ -215,7 +215,7 @@ void add_encode(CLI::App& program, Run& run) {
       SLF_TRY(const SpooledInput input, SpooledInput::read());
       o->encode.capture = input.path();
       Outcome done = encode_any(*o);
-      if (!done) return input.named(done.error());
+      if (!done) return Failure{done.error().code, SpooledInput::named(done.error().message)};
       return done;
     };
   });

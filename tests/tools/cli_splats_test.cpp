@@ -109,6 +109,13 @@ TEST_F(SplatFileTest, CloudsComeFromStandardInputAndNothingElseDoes) {
   ASSERT_EQ(slf("encode - -o c.slf --quiet <c.ply && '" SLF_PROGRAM "' decode c.slf -o b.ply").code,
             0);
   EXPECT_EQ(read("b.ply"), read("a.ply"));
+  std::string with_nan = read("c.ply");
+  with_nan.replace(with_nan.find("5 5 5"), 5, "5 nan 5");
+  write("nan.ply", with_nan);
+  const Ran warned = slf("encode - -o c.slf <nan.ply");
+  EXPECT_EQ(warned.code, 0);
+  EXPECT_NE(warned.err.find("warning: standard input: "), std::string::npos) << warned.err;
+  EXPECT_EQ(warned.err.find("slf-"), std::string::npos) << warned.err;
   expect_failure(slf("encode - -o n.slf"), 4, "standard input", "is empty");
   write("t.json", "{\"frames\": []}");
   expect_failure(slf("encode - -o n.slf <t.json"), 4, "standard input", "not a PLY");
