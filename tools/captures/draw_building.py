@@ -82,20 +82,27 @@ def draw_all(given, rows):
         bpy.ops.render.render(write_still=True)
 
 
-def is_in_picture(row, point):
-    x, y, z = np.array(row["R"]) @ point + np.array(row["t"])
+def are_in_picture(row, points):
+    x, y, z = np.array(row["R"]) @ points.T + np.array(row["t"])[:, None]
     focal = row["K"][0][0]
-    return z > 0.1 and abs(focal * x / z) < row["width"] / 2 and abs(focal * y / z) < row["height"] / 2
+    return (z > 0.1) & (abs(focal * x) < z * row["width"] / 2) & (abs(focal * y) < z * row["height"] / 2)
+
+
+def are_seen_by_two(shapes, points, normals, inputs):
+    count = np.zeros(len(points), int)
+    for row in inputs:
+        eye = centre_of(row)
+        for i in np.flatnonzero((count < 2) & are_in_picture(row, points)):
+            count[i] += shapes.sees(points[i], normals[i], eye)
+    return count == 2
 
 
 def write_points(given, inputs):
     shapes, random_ = surface.Surface(), np.random.default_rng(1)
     points, normals = shapes.sample(given.points, random_)
-    eyes = [centre_of(row) for row in inputs]
-    seen = np.array([sum(is_in_picture(row, point) and shapes.sees(point, normal, eye) for row, eye in zip(inputs, eyes)) >= 2
-                     for point, normal in zip(points, normals)])
+    seen = are_seen_by_two(shapes, points, normals, inputs)
     points, normals = points[seen], normals[seen]
-    views = points - np.mean(eyes, axis=0)
+    views = points - np.mean([centre_of(row) for row in inputs], axis=0)
     pixels = np.linalg.norm(views, axis=1, keepdims=True) / given.width  # world size of one, about
     views /= np.linalg.norm(views, axis=1, keepdims=True)
     points = points + NOISE * pixels * random_.normal(size=points.shape) + DEPTH_NOISE * pixels * views * random_.normal(size=(len(points), 1))
