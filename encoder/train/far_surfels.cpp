@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -64,6 +65,7 @@ void add_open_squares(const TrainingView& view, const DrawnSurfels& drawn, const
         direction = along(direction, in_camera[r], camera.rotation[r]);
       square.position =
           on_sphere(camera.centre, unit_of(direction), space.centre, kFarRadii * space.radius);
+      if (!std::isfinite(dot(square.position, square.position))) continue;
       const Float3 away = minus(square.position, camera.centre);
       square.side = std::sqrt(dot(away, away) / dot(in_camera, in_camera)) * float(side) /
                     std::max(camera.fx, camera.fy);

@@ -58,6 +58,14 @@ TEST(FarSurfels, StandWherePhotographsShowSomethingBehindAllPoints) {
   EXPECT_TRUE(far_surfels(views, wall, 0, 1).empty());
 }
 
+TEST(FarSurfels, AreFiniteOrNoneWhereCamerasAreTooFarAway) {
+  for (const float x : {1e12f, 1e20f, 1e38f}) {
+    const std::vector<TrainingView> views = {view_from(-x), view_from(x)};
+    for (const TrainedSurfel& surfel : far_surfels(views, {}, 1000, 1))
+      for (const float value : surfel.value) EXPECT_TRUE(std::isfinite(value)) << x;
+  }
+}
+
 /// Stripes by direction, as of a sky.
 void paint_sky(Capture& capture) {
   for (std::size_t c = 0; c < capture.images.size(); ++c) {
