@@ -25,7 +25,7 @@ class VectorExpectation {
   std::uint32_t parents(std::size_t j) const { return parents_[j]; }  ///< by what is above the row
   std::uint32_t beside(std::size_t j) const { return beside_[j]; }
   std::uint32_t both(std::size_t j) const { return (parents_[j] + beside_[j]) / 2; }
-  /// What is expected of the functions of a run and of those behind it.
+  /// The expectation for the functions of a run and those behind it.
   std::uint32_t rest(std::size_t run) const { return rest_[run]; }
 
   /// All planes at once: most vectors around are zero. activity: [width] as VectorStates has it

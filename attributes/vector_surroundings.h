@@ -54,7 +54,7 @@ inline void set_weights(const NeighbourRows& rows, const KeptVectors& kept, std:
   }
 }
 
-/// What is around place i in the coding order.
+/// The neighbours of place i in the coding order.
 inline Around around_of(const NeighbourRows& rows, const KeptVectors& kept, std::size_t i) {
   const CoefficientNeighbours::Row& row = rows[i];
   Around around;

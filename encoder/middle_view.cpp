@@ -9,16 +9,6 @@
 #include "base/vec3.h"
 
 namespace slf {
-namespace {
-
-double square_distance(const Vec3& a, const Vec3& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return sum;
-}
-
-}  // namespace
-
 std::string middle_view(const Capture& capture, std::span<const int> cameras,
                         const TrainingCache& cache) {
   const auto camera_of = [&](int index) -> const Camera& {
@@ -28,9 +18,12 @@ std::string middle_view(const Capture& capture, std::span<const int> cameras,
   for (const int c : cameras)
     for (std::size_t k = 0; k < 3; ++k)
       middle[k] += camera_of(c).centre()[k] / double(cameras.size());
+  const auto from_middle = [&](int index) {
+    const Vec3 to = minus(camera_of(index).centre(), middle);
+    return dot(to, to);
+  };
   const int nearest = *std::min_element(cameras.begin(), cameras.end(), [&](int a, int b) {
-    return square_distance(camera_of(a).centre(), middle) <
-           square_distance(camera_of(b).centre(), middle);
+    return from_middle(a) < from_middle(b);
   });
   const Camera& camera = camera_of(nearest);
   const auto index = std::size_t(nearest);

@@ -33,10 +33,11 @@ void adam_step(const std::vector<TrainedSurfel>& gradients, const TrainedSurfel&
   const auto mean_scale = float(1 / (1 - std::pow(double(kMeanDecay), state.steps)));
   const auto square_scale = float(1 / (1 - std::pow(double(kSquareDecay), state.steps)));
   parallel_ranges(surfels.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
+    TrainedSurfel there = rates;
     for (std::size_t i = begin; i < end; ++i) {
-      TrainedSurfel there = rates;
       const float larger = space.pixels_at(surfels[i].position());
-      for (std::size_t a = 0; a < 3; ++a) there.value[TrainedSurfel::kPosition + a] *= larger;
+      for (std::size_t k = TrainedSurfel::kPosition; k < TrainedSurfel::kTurn; ++k)
+        there.value[k] = larger * rates.value[k];
       step_values(gradients[i].value.data(), there.value.data(), mean_scale, square_scale,
                   state.mean[i].value.data(), state.square[i].value.data(),
                   surfels[i].value.data());

@@ -109,6 +109,17 @@ inline std::vector<LightField> fields_of(Moves how, int frames, int functions = 
   return fields;
 }
 
+/// The same with harmonics of degree 0: they can be drawn.
+inline std::vector<LightField> drawn_fields_of(Moves how, int frames) {
+  std::vector<LightField> fields = fields_of(how, frames, 1);
+  for (LightField& field : fields) {
+    field.header.has_basis = true;
+    field.header.basis.id = BasisId::kHarmonics;
+    field.header.basis.degree = 0;
+  }
+  return fields;
+}
+
 inline FrameDecoder opened(const Bytes& stream, const DecodeOptions& options = {}) {
   auto decoder = FrameDecoder::open(stream, options);
   EXPECT_TRUE(decoder) << (decoder ? "" : to_string(decoder.error()));

@@ -13,12 +13,7 @@ class CliFilmTest : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
-    std::vector<LightField> fields = test::fields_of(test::Moves::kAppears, 3, 1);
-    for (LightField& field : fields) {
-      field.header.has_basis = true;
-      field.header.basis.id = BasisId::kHarmonics;
-      field.header.basis.degree = 0;
-    }
+    const std::vector<LightField> fields = test::drawn_fields_of(test::Moves::kAppears, 3);
     const test::Bytes bytes =
         test::joined(test::coded_frames(fields, test::frame_parameters(8, 1)));
     write("x.slf", {bytes.begin(), bytes.end()});

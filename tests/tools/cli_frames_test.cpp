@@ -10,12 +10,7 @@ class CliFramesTest : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
-    fields_ = test::fields_of(test::Moves::kAppears, 3, 1);
-    for (LightField& field : fields_) {
-      field.header.has_basis = true;
-      field.header.basis.id = BasisId::kHarmonics;
-      field.header.basis.degree = 0;
-    }
+    fields_ = test::drawn_fields_of(test::Moves::kAppears, 3);
     const test::Bytes bytes =
         test::joined(test::coded_frames(fields_, test::frame_parameters(8, 1)));
     write("x.slf", {bytes.begin(), bytes.end()});

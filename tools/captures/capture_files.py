@@ -2,11 +2,24 @@
 """Files of a capture, and what its cameras mean; without Blender."""
 import os
 import struct
+import sys
+import traceback
 import zlib
 
 import numpy as np
 
 RADIUS = 5.0  # of the sphere that cameras stand on; the scene lies within 1 of the origin
+
+
+def run(main):
+    """Blender alone would go on after an error, and exit with 0."""
+    try:
+        main()
+    except SystemExit:
+        raise
+    except BaseException:
+        traceback.print_exc()
+        sys.exit(1)
 
 
 def centre_of(row):

@@ -12,7 +12,6 @@ import json
 import math
 import pathlib
 import sys
-import traceback
 
 import bpy
 import numpy as np
@@ -21,7 +20,7 @@ from mathutils import Matrix
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # Blender does not
 import buildings  # noqa: E402
 import surface  # noqa: E402
-from capture_files import centre_of, write_ply, write_whole  # noqa: E402
+from capture_files import centre_of, run, write_ply, write_whole  # noqa: E402
 
 # The scene; its cameras: how many, degrees from .. to about the building, metres from it, lowest and highest, which are held out.
 SCENES = {
@@ -135,10 +134,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except SystemExit:
-        raise
-    except BaseException:
-        traceback.print_exc()
-        sys.exit(1)  # Blender alone would go on and exit with 0
+    run(main)

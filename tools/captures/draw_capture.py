@@ -14,7 +14,6 @@ import math
 import pathlib
 import sys
 import time
-import traceback
 
 import bpy
 import numpy as np
@@ -23,7 +22,7 @@ from mathutils import Matrix
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # Blender does not
 import bowl_and_wheel  # noqa: E402
 import surface  # noqa: E402
-from capture_files import RADIUS, centre_of, png, write_whole  # noqa: E402
+from capture_files import RADIUS, centre_of, png, run, write_whole  # noqa: E402
 
 FOCAL_WIDTHS = 2.375    # focal length over the width of a picture
 ELEVATIONS = (-25, -8, 8, 24, 40, 56, 72)  # degrees, one ring of cameras each
@@ -160,10 +159,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except SystemExit:
-        raise
-    except BaseException:
-        traceback.print_exc()
-        sys.exit(1)  # Blender alone would go on and exit with 0
+    run(main)

@@ -1,30 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """tools/captures/draw_building.py, where Blender is: small captures whose points lie before their cameras, under a sky."""
 import json
-import shutil
-import subprocess
 import unittest
 
 import numpy as np
 from PIL import Image
 
-from tests.scratch import RD, Scratch
+from tests import blender
+from tests.scratch import Scratch
 from tmc3 import read_ply
 
-SCRIPT = RD.parent / "captures" / "draw_building.py"
 
-
-def draw(out, *words):
-    return subprocess.run(["blender", "-b", "--factory-startup", "-P", str(SCRIPT), "--", str(out), *map(str, words)],
-                          capture_output=True, text=True, stdin=subprocess.DEVNULL)
-
-
-@unittest.skipUnless(shutil.which("blender"), "blender is not there")
+@blender.needed
 class DrawnBuilding(Scratch):
     def test_cameras_see_the_building_below_and_the_sky_above(self):
         for scene, held_out in (("castle", 3), ("temple", 5)):
             out = self.folder / scene
-            done = draw(out, scene, "--width", 48, "--samples", 1, "--points", 4000)
+            done = blender.run("draw_building.py", out, scene, "--width", 48, "--samples", 1, "--points", 4000)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             capture = json.loads((out / "cameras.json").read_text())
             self.assertEqual(len(capture["splits"]["evaluation"]), held_out)
@@ -41,7 +33,7 @@ class DrawnBuilding(Scratch):
             self.assertEqual(len(read_ply(out / "sparse_points.ply")["x"]), min(3500, len(places)))
 
     def test_a_scene_that_is_none_is_refused(self):
-        done = draw(self.folder / "none", "hut")
+        done = blender.run("draw_building.py", self.folder / "none", "hut")
         self.assertEqual(done.returncode, 2)
         self.assertIn("hut", done.stderr)
         self.assertFalse((self.folder / "none").exists())

@@ -1,27 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """tools/captures/draw_capture.py, where Blender is: a small capture whose cameras, pictures and points agree."""
-import shutil
-import subprocess
 import unittest
 
 import numpy as np
 
 import judge
-from tests.scratch import RD, Scratch
+from tests import blender
+from tests.scratch import Scratch
 from tmc3 import read_ply
 
-SCRIPT = RD.parent / "captures" / "draw_capture.py"
 
-
-def draw(out, *words):
-    return subprocess.run(["blender", "-b", "--factory-startup", "-P", str(SCRIPT), "--", str(out), *map(str, words)],
-                          capture_output=True, text=True, stdin=subprocess.DEVNULL)
-
-
-@unittest.skipUnless(shutil.which("blender"), "blender is not there")
+@blender.needed
 class DrawnCapture(Scratch):
     def test_points_lie_where_pictures_show_the_object_to_less_than_a_pixel(self):
-        done = draw(self.folder, "--size", 64, "--cameras", 9, "--samples", 2, "--points", 8000, "--threads", 1)
+        done = blender.run("draw_capture.py", self.folder, "--size", 64, "--cameras", 9, "--samples", 2, "--points", 8000, "--threads", 1)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         capture = judge.Capture(self.folder)
         self.assertEqual(capture.held_out, ["images/0004.png", "images/0008.png"])
@@ -39,7 +31,7 @@ class DrawnCapture(Scratch):
         self.assertNotIn("nx", sparse)
 
     def test_an_option_out_of_range_is_refused(self):
-        done = draw(self.folder / "none", "--size", 3)
+        done = blender.run("draw_capture.py", self.folder / "none", "--size", 3)
         self.assertEqual(done.returncode, 2)
         self.assertIn("--size: a number 16 to 4096 is expected", done.stderr)
         self.assertFalse((self.folder / "none").exists())
