@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "encoder/encode_splats.h"
+#include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
 #include "encoder/refine/held_out.h"
@@ -150,6 +151,11 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
     job.report.untrained = cloud.error().message;
     return before;
   }
+  SLF_TRY(job.cache.foreign,
+          job.settings.check_cameras
+              ? foreign_photographs(job.capture, trained.cloud, job.cameras, job.settings.threads)
+              : std::vector<CameraTrust>{});
+  if (!job.cache.foreign.empty()) return before;
   SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
   SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
   job.report.before_psnr = before_quality.psnr;
@@ -244,15 +250,7 @@ const char* word_of(Surface surface) {
 }
 
 const char* word_of(StartId start) {
-  switch (start) {
-    case StartId::kPoints:
-      return "points";
-    case StartId::kHull:
-      return "hull";
-    case StartId::kVolume:
-      return "volume";
-  }
-  return "";
+  return start == StartId::kPoints ? "points" : start == StartId::kHull ? "hull" : "volume";
 }
 
 Result<std::optional<StartingPoints>, InputError> other_start(const Capture& capture,
@@ -274,8 +272,9 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
       is_dense(choose_density(capture, cameras)))
     return Start{};
   auto points = starting_points(capture, cameras, settings.threads);
-  const bool taken =
-      points && points->start == StartId::kHull && lies_on(points->cloud, capture.cloud);
+  const bool taken = points && points->start == StartId::kHull &&
+                     points->cloud.positions.size() > capture.cloud.positions.size() &&
+                     lies_on(points->cloud, capture.cloud);
   return taken ? Start{*std::move(points)} : Start{};
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The encoder's main path: photographs and points to bytes. The last step is
 // codec/encoder/pack.cpp.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "base/release.h"
 #include "base/stopwatch.h"
 #include "capture/density.h"
+#include "capture/photograph_size.h"
 #include "codec/encoder/pack_frame.h"
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
@@ -16,6 +18,7 @@
 #include "encoder/encode_splats.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/fit/match_exposure.h"
+#include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
 #include "slf/encoder.h"
 
@@ -88,14 +91,45 @@ void warn_of_points(Job& job) {
         "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
 }
 
+void warn_of_cameras(std::span<const CameraTrust> cameras, const Capture& capture,
+                     std::vector<std::string>& warnings) {
+  for (const CameraTrust& trust : cameras)
+    if (trust.verdict != CameraVerdict::kKept)
+      warnings.push_back(capture.cameras[std::size_t(trust.camera)].name + ": " + reason_of(trust));
+}
+
+/// Photographs that a training must not take in. What is not trained finds them in its fit.
+Result<std::vector<CameraTrust>, InputError> foreign_to(const Capture& capture, StartId start,
+                                                        std::span<const int> cameras,
+                                                        const EncoderSettings& settings) {
+  if (!settings.check_cameras || settings.surface == Surface::kGiven || start != StartId::kPoints)
+    return std::vector<CameraTrust>{};
+  return foreign_photographs(capture, capture.cloud, cameras, settings.threads);
+}
+
+std::vector<int> without(std::span<const int> cameras, const std::vector<CameraTrust>& foreign) {
+  std::vector<int> left;
+  for (const int camera : cameras)
+    if (std::none_of(foreign.begin(), foreign.end(),
+                     [&](const CameraTrust& t) { return t.camera == camera; }))
+      left.push_back(camera);
+  return left;
+}
+
+/// What a file of splats says of photographs that were left out.
+EncoderSettings with_dropped(EncoderSettings settings, const std::vector<CameraTrust>& foreign) {
+  if (!foreign.empty())
+    settings.metadata.emplace_back("cameras_dropped",
+                                   cameras_with(CameraVerdict::kDropped, foreign));
+  return settings;
+}
+
 void report_fit(Job& job) {
   Encoded& encoded = job.encoded;
   encoded.fit = job.fit.chosen;
-  encoded.cameras = job.fit.cameras;
-  for (const CameraTrust& trust : encoded.cameras)
-    if (trust.verdict != CameraVerdict::kKept)
-      encoded.warnings.push_back(job.capture.cameras[std::size_t(trust.camera)].name + ": " +
-                                 reason_of(trust));
+  encoded.cameras.insert(encoded.cameras.end(), job.fit.cameras.begin(), job.fit.cameras.end());
+  std::sort(encoded.cameras.begin(), encoded.cameras.end(),
+            [](const CameraTrust& a, const CameraTrust& b) { return a.camera < b.camera; });
   encoded.observations = job.fit.observations;
   encoded.unobserved_points = job.fit.unobserved_points;
   encoded.seconds_observe = job.fit.seconds_observe;
@@ -119,8 +153,9 @@ Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
 }
 
 Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
-                                        std::span<const int> cameras, const EncoderSettings& given,
-                                        const Progress& progress) {
+                                        std::span<const int> cameras,
+                                        const std::vector<CameraTrust>& foreign,
+                                        const EncoderSettings& given, const Progress& progress) {
   Job job{capture, cameras, given, {}, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
@@ -128,12 +163,18 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
     return InputError{Errc::kInvalidArgument, "none of the capture's cameras is to be used"};
   if (cameras.empty()) fit_colours_alone(settings);
   settings.observe.threads = settings.fit.threads = settings.threads;
+  encoded.cameras = foreign;
   SLF_CHECK(check_settings(settings));
   SLF_CHECK(check_target(settings, cameras.size()));
   Stopwatch watch;
   TrainingCache cache;
   SLF_TRY(job.cloud, choose_surface(capture, cameras, settings, start, encoded.surface, progress,
                                     may_be_splats(given), &cache));
+  if (!cache.foreign.empty()) {  // begin again without them
+    std::vector<CameraTrust> all = foreign;
+    all.insert(all.end(), cache.foreign.begin(), cache.foreign.end());
+    return encode_from(capture, start, without(cameras, cache.foreign), all, given, progress);
+  }
   std::optional<Capture> of_points;  // a mesh that other points took the place of hides nothing
   if (encoded.surface.kept != Surface::kGiven && !capture.mesh.triangles.empty()) {
     of_points = capture;
@@ -141,7 +182,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   }
   const Capture& seen = of_points ? *of_points : capture;
   if (encoded.surface.kept == Surface::kSplats) {
-    SLF_TRY(Encoded splats, encode_splats(seen, start, cameras, given, progress, cache));
+    SLF_TRY(Encoded splats,
+            encode_splats(seen, start, cameras, with_dropped(given, foreign), progress, cache));
+    splats.cameras = foreign;
     return with_choice(std::move(splats), encoded.surface);
   }
   encoded.points = job.cloud.positions.size();
@@ -170,8 +213,10 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
 
 }  // namespace
 
-Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
+Result<Encoded, InputError> encode(const Capture& given, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress) {
+  const std::optional<Capture> within = photographs_within(given, settings.photograph_pixels);
+  const Capture& capture = within ? *within : given;
   SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));
   const bool splats = settings.surface == Surface::kSplats && !cameras.empty();
   const StartId start = points ? points->start : StartId::kPoints;
@@ -192,9 +237,14 @@ Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> 
     recorded.metadata.emplace_back("exposure", "matched");
   }
   const Capture& seen = changed ? *changed : capture;
+  SLF_TRY(const std::vector<CameraTrust> foreign, foreign_to(seen, start, cameras, settings));
+  const std::vector<int> own = without(cameras, foreign);
   TrainingCache cache;
-  SLF_TRY(Encoded encoded, splats ? encode_splats(seen, start, cameras, recorded, progress, cache)
-                                  : encode_from(seen, start, cameras, recorded, progress));
+  SLF_TRY(Encoded encoded,
+          splats ? encode_splats(seen, start, own, with_dropped(recorded, foreign), progress, cache)
+                 : encode_from(seen, start, own, foreign, recorded, progress));
+  if (splats) encoded.cameras = foreign;
+  warn_of_cameras(encoded.cameras, capture, encoded.warnings);
   if (settings.match_exposure == MatchExposure::kOn && exposure.gains.empty() && !cameras.empty())
     encoded.warnings.push_back(
         "exposure is not matched: photographs have no points in common to compare");

@@ -15,6 +15,7 @@
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "encoder/frames_to_bitrate.h"
+#include "capture/photograph_size.h"
 #include "encoder/still_points.h"
 #include "slf/frames.h"
 
@@ -210,10 +211,16 @@ FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings) {
   return {begin(part), begin(part + 1) - begin(part)};
 }
 
-Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load,
+Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load_whole,
                                                 const EncoderSettings& given,
                                                 const FrameSettings& frame_settings,
                                                 const TakeFrame& take, const Progress& progress) {
+  const LoadFrame load = [&](std::size_t f) -> Result<LoadedFrame, InputError> {
+    SLF_TRY(LoadedFrame frame, load_whole(f));
+    if (auto within = photographs_within(frame.capture, given.photograph_pixels))
+      frame.capture = *std::move(within);
+    return frame;
+  };
   SLF_CHECK(check_settings(given));
   SLF_CHECK(check_frames(frames, given, frame_settings));
   Sequence sequence{frames, load, given, frame_settings, {}, false, 0, progress};

@@ -15,15 +15,6 @@ std::string text(double value) { return shortest(value); }  // in any locale
 
 std::string hundredths(double value) { return text(std::round(value * 100) / 100); }
 
-/// Indices of the cameras with a verdict, in the order of the capture: "3 17".
-std::string cameras_with(CameraVerdict verdict, const std::vector<CameraTrust>& cameras) {
-  std::string indices;
-  for (const CameraTrust& trust : cameras)
-    if (trust.verdict == verdict) indices += std::to_string(trust.camera) + " ";
-  if (!indices.empty()) indices.pop_back();
-  return indices;
-}
-
 std::string cross_validation(const ChosenFit& chosen) {
   switch (chosen.outcome) {
     case ChosenFit::kNothingToSearch:
@@ -84,6 +75,14 @@ Metadata camera_metadata(const Encoded& encoded) {
 }
 
 }  // namespace
+
+std::string cameras_with(CameraVerdict verdict, const std::vector<CameraTrust>& cameras) {
+  std::string indices;
+  for (const CameraTrust& trust : cameras)
+    if (trust.verdict == verdict) indices += std::to_string(trust.camera) + " ";
+  if (!indices.empty()) indices.pop_back();
+  return indices;
+}
 
 Metadata fit_metadata(const ChosenFit& chosen) {
   EncoderSettings used;

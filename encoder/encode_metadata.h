@@ -10,6 +10,9 @@ namespace slf {
 Metadata encoder_metadata(const EncoderSettings& settings, const Encoded& encoded,
                           std::size_t cameras);
 
+/// Indices of the cameras with a verdict, in their order: "3 17".
+std::string cameras_with(CameraVerdict verdict, const std::vector<CameraTrust>& cameras);
+
 /// What of it is of the fit.
 Metadata fit_metadata(const ChosenFit& chosen);
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/release.h"
 #include "base/stopwatch.h"
 #include "bitstream/parameter_sets.h"
+#include "capture/photograph_size.h"
 #include "capture/spacing.h"
 #include "encoder/component_planes.h"
 #include "encoder/fit/fit_pictures.h"
@@ -145,13 +147,16 @@ Result<Done, InputError> fit_chosen(const FittedCloud& of, Observations world,
   return Done{};
 }
 
-Result<CaptureFit, InputError> fit_capture(const Capture& capture, std::span<const int> cameras,
+Result<CaptureFit, InputError> fit_capture(const Capture& given, std::span<const int> cameras,
                                            const VoxelCloud& cloud, const EncoderSettings& settings,
                                            const Progress& progress, bool hold_out) {
   Stopwatch watch;
   CaptureFit fit;
   const ObservedPoints points = world_points(cloud);
   const double spacing = std::max(typical_spacing(points.positions), cloud.grid.step);
+  const std::optional<Capture> smaller =
+      photographs_for_points(given, cameras, points.positions, spacing);
+  const Capture& capture = smaller ? *smaller : given;
   SLF_TRY(Observations world,
           observe(capture, cameras, points, points.positions, spacing, settings.observe, progress));
   if (settings.check_cameras) {

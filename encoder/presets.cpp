@@ -61,6 +61,7 @@ EncoderSettings settings_of(Preset preset, int effort) {
     settings.densify.mode = Densify::kOff;
     settings.match_exposure = MatchExposure::kOff;
     settings.check_cameras = false;
+    settings.photograph_pixels = 0;
     settings.grid_bits = 9;
     settings.fit = {};
     settings.search = FitSearch::none();

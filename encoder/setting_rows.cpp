@@ -79,6 +79,9 @@ void add_geometry(SettingTable& rows) {
        in(kTrainedSurface,
           number("surface-memory", SLF_AT(surface_memory), 16, 1 << 20,
                  "MiB that photographs of a training take at most: they are halved to fit")),
+       number("photograph-pixels", SLF_AT(photograph_pixels), 0, 1e6,
+              "Most pixels of a photograph, millions: a larger one is halved as it is read; 0: as "
+              "they are"),
        choice("geometry", SLF_AT(geometry),
               Words<GeometryCoder>{{"octree", GeometryCoder::kOctree},
                                    {"draco", GeometryCoder::kDraco}},

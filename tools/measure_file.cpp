@@ -30,6 +30,14 @@ Capture with_points_of(const LightField& field, Capture capture, int threads) {
   return capture;
 }
 
+bool is_dropped(const CameraTrust& camera) { return camera.verdict == CameraVerdict::kDropped; }
+
+std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras) {
+  for (const CameraTrust& trust : encoded.cameras)
+    if (is_dropped(trust)) std::erase(cameras, trust.camera);
+  return cameras;
+}
+
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
                                            std::span<const int> cameras, int threads) {
   Stopwatch watch;

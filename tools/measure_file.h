@@ -19,6 +19,11 @@ struct FilePictures {
   double seconds = 0;
 };
 
+bool is_dropped(const CameraTrust& camera);
+
+/// Those of the input that were not dropped.
+std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras);
+
 /// Decodes the file and draws what the input cameras saw, 32 of them at most.
 /// @param capture  what was encoded
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,

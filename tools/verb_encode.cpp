@@ -112,11 +112,15 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load,
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
-    out += text("cameras       %zu\n", cameras);
-    out += text("observations  %s (%.1f per point; %.1f %% of points unseen)\n",
-                grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
-                percent(e.unobserved_points, e.points));
-    out += pictures_text(pictures, e, cameras);
+    const std::size_t dropped =
+        static_cast<std::size_t>(std::count_if(e.cameras.begin(), e.cameras.end(), is_dropped));
+    out += text("cameras       %zu", cameras - dropped);
+    out += dropped > 0 ? text(", %zu dropped\n", dropped) : "\n";
+    if (e.observations > 0)
+      out += text("observations  %s (%.1f per point; %.1f %% of points unseen)\n",
+                  grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
+                  percent(e.unobserved_points, e.points));
+    out += pictures_text(pictures, e, cameras - dropped);
   }
   if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
     out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
@@ -166,7 +170,8 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   if (!input.cameras.empty() && (given.common.json || !given.common.quiet)) {
     Capture matched = input.capture;
     matched.gains = encoded.exposure.gains;
-    SLF_TRY(pictures, measure_file(encoded, matched, input.cameras, given.common.threads));
+    SLF_TRY(pictures, measure_file(encoded, matched, used_cameras(encoded, input.cameras),
+                                   given.common.threads));
   }
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "slf/evaluate.h"
@@ -108,12 +109,24 @@ Judge judge_of(const ViewMaps& maps, const Capture& capture) {
   };
 }
 
-/// @param split        input images
+/// The images that a file was made from: of its split, or the one that is asked for, without those
+/// that the encoder dropped as of something else.
+Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Capture& capture,
+                                           const Metadata& metadata) {
+  const std::string split = given.split_given ? given.split : metadata_value(metadata, "split");
+  SLF_TRY(std::vector<int> input, from(given.capture, split_cameras(capture, split)));
+  if (given.split_given) return input;
+  std::istringstream dropped(metadata_value(metadata, "cameras_dropped"));
+  for (int camera = 0; dropped >> camera;) std::erase(input, camera);
+  return input;
+}
+
+/// @param metadata     of the file
 /// @param unquantised  or none
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
-                                               const std::string& split, const Judge& judge,
+                                               const Metadata& metadata, const Judge& judge,
                                                const Judge& unquantised) {
-  SLF_TRY(const std::vector<int> input, from(given.capture, split_cameras(capture, split)));
+  SLF_TRY(const std::vector<int> input, input_of(given, capture, metadata));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
   const std::size_t all = held_out.size();
   std::erase_if(held_out,
@@ -156,9 +169,7 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture, const Spla
     return evaluate_pictures(splats.draw, capture, cameras, settings, progress);
   };
   Stopwatch watch;
-  const std::string split =
-      given.split_given ? given.split : metadata_value(splats.subject.metadata, "split");
-  SLF_TRY(const auto measured, measure(given, capture, split, judge, {}));
+  SLF_TRY(const auto measured, measure(given, capture, splats.subject.metadata, judge, {}));
   SLF_CHECK(report(given, splats.subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
@@ -192,10 +203,8 @@ Outcome run_eval(const EvalOptions& given) {
     unquantised_maps.emplace(unquantised->field, given.common.threads);
   }
   Stopwatch watch;
-  const std::string split =
-      given.split_given ? given.split : metadata_value(subject.metadata, "split");
   SLF_TRY(const auto measured,
-          measure(given, capture, split, judge_of(maps, capture),
+          measure(given, capture, subject.metadata, judge_of(maps, capture),
                   unquantised_maps ? judge_of(*unquantised_maps, capture) : Judge{}));
   SLF_CHECK(report(given, subject, measured, watch.lap()));
   return check_floors(given, measured);

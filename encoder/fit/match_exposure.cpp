@@ -8,8 +8,7 @@
 
 #include "base/stopwatch.h"
 #include "capture/quantile.h"
-#include "capture/spacing.h"
-#include "encoder/fit/observe_points.h"
+#include "encoder/fit/sampled_sight.h"
 
 namespace slf {
 namespace {
@@ -19,11 +18,9 @@ constexpr double kLeastDifference = 0.04;  // of most pairs, log
 constexpr double kMostLeft = 0.5;          // of it, with gains
 constexpr std::size_t kLeastPairs = 3;     // for each photograph: of fewer, gains explain anything
 
-constexpr std::size_t kComparedPoints = 30'000;  // points that are looked at
-constexpr double kMostCompared = 600'000;        // of them, about: bounds time and memory
-constexpr double kMostPhotographPixels = 1 << 20;
-constexpr double kPullToOne = 0.003;   // to gain 1, of the weight of a camera's pairs
-constexpr double kDisagreeing = 0.03;  // log: residual that halves a pair's weight
+constexpr double kMostCompared = 600'000;  // observations, about: bounds time and memory
+constexpr double kPullToOne = 0.003;       // to gain 1, of the weight of a camera's pairs
+constexpr double kDisagreeing = 0.03;      // log: residual that halves a pair's weight
 constexpr int kRoundsOfWeights = 6, kSolverSteps = 400;
 constexpr double kMostLog = 1.4;  // gains stay within a factor of 4
 
@@ -130,47 +127,6 @@ Logs solved(const std::vector<ExposurePair>& pairs, std::size_t cameras) {
   return logs;
 }
 
-/// Every so many-th point, with normals of the capture or estimated from the sample.
-/// @param count  points
-ObservedPoints sampled_points(const Capture& capture, std::size_t count, int threads) {
-  const PointCloud& cloud = capture.cloud;
-  const std::size_t all = cloud.positions.size(), taken = std::min(count, all);
-  PointCloud sample;
-  for (std::size_t i = 0; i < taken; ++i) {
-    const std::size_t p = i * all / taken;
-    const auto& at = cloud.positions[p];
-    if (!std::isfinite(at[0] + at[1] + at[2])) continue;
-    sample.positions.push_back(cloud.positions[p]);
-    if (!cloud.normals.empty()) sample.normals.push_back(cloud.normals[p]);
-  }
-  std::vector<Vec3> viewpoints;
-  for (const Camera& camera : capture.cameras) viewpoints.push_back(camera.centre());
-  if (sample.normals.empty()) sample.normals = estimate_normals(sample, viewpoints, 16, threads);
-  return {std::move(sample.positions), std::move(sample.normals)};
-}
-
-/// Photographs of a megapixel at most, without points: gains need no more, and JPEG is decoded to
-/// that size.
-Capture small_photographs(const Capture& capture, std::span<const int> cameras) {
-  Capture small;
-  small.cameras = capture.cameras;
-  small.image_files = capture.image_files;
-  small.orientation = capture.orientation;
-  small.mask_files = capture.mask_files;
-  small.reduction = capture.reduction;
-  small.reduction.resize(capture.cameras.size());
-  for (const int index : cameras) {
-    const auto c = std::size_t(index);
-    if (index < 0 || c >= capture.cameras.size()) continue;  // observe_points names it
-    const double pixels = double(capture.cameras[c].width) * double(capture.cameras[c].height);
-    int log2 = 0;
-    while (pixels > std::ldexp(kMostPhotographPixels, 2 * log2)) ++log2;
-    small.cameras[c] = reduced(capture.cameras[c], log2);
-    small.reduction[c] += log2;
-  }
-  return small;
-}
-
 /// Some of the points of observations, so that there are kMostCompared at most.
 Observations thinned(Observations seen) {
   const auto every = std::size_t(std::ceil(double(seen.camera.size()) / kMostCompared));
@@ -219,19 +175,9 @@ Result<ExposureReport, InputError> match_exposure(const Capture& capture,
   if (mode == MatchExposure::kOff || cameras.size() < 2 || capture.cloud.positions.empty())
     return report;
   Stopwatch watch;
-  const ObservedPoints points = sampled_points(capture, kComparedPoints, threads);
-  const double spacing = typical_spacing(points.positions);
-  if (!(spacing > 0)) return report;
-  ObserveSettings observing;
-  observing.threads = threads;
-  const Capture small = capture.images.empty() ? small_photographs(capture, cameras) : Capture{};
-  const Capture& looked_at = capture.images.empty() ? small : capture;
-  const auto depth_of = [&](int camera) -> Result<DepthBuffer, InputError> {
-    return DepthBuffer(looked_at.cameras[std::size_t(camera)], points.positions,
-                       {observing.occlusion_resolution, spacing, observing.depth_tolerance});
-  };
-  SLF_TRY(SeenPoints seen, observe_points(looked_at, cameras, points, depth_of, observing));
-  const auto pairs = exposure_pairs(thinned(std::move(seen.observations)));
+  SLF_TRY(Observations seen, sampled_sight(capture, capture.cloud, cameras, threads));
+  if (seen.first.size() < 2) return report;
+  const auto pairs = exposure_pairs(thinned(std::move(seen)));
   report = exposure_gains(pairs, capture.cameras.size());
   if (mode == MatchExposure::kAuto && !gains_pay(report)) report.gains.clear();
   report.seconds = watch.lap();

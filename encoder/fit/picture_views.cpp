@@ -8,6 +8,7 @@
 
 #include "base/release.h"
 #include "capture/object_mask.h"
+#include "capture/photograph_size.h"
 #include "encoder/fit/observe_camera.h"
 #include "lightfield/render/splat_weights.h"
 #include "slf/parallel.h"
@@ -21,12 +22,13 @@ constexpr std::uint8_t kClipped = 250;  // such a sample may have been any brigh
 constexpr std::array<float, 3> kNoGain{1, 1, 1};
 constexpr double kMemory = 3.0 * (1u << 30), kMemoryOfPart = 0.75 * (1u << 30);
 constexpr double kBytesPerPixel = 20 + 8 * 10;  // some ten discs a pixel
-constexpr double kBytesPerRay = 6 * 16 + 24;    // vectors of the solver, directions
+constexpr int kMostHalved = 2;
+constexpr double kBytesPerRay = 6 * 16 + 24;  // vectors of the solver, directions
 constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
 constexpr double kSeen = 0.5;  // share of the points that a camera sees, at most
 
-/// Pixels of the rectangle about a part of a scene in its picture.
-double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
+/// Pixels of the rectangle about all points in a picture.
+double pixels_about(const Camera& camera, const SurfelCloud& cloud) {
   constexpr std::size_t kEvery = 16;
   double left = camera.width, right = 0, top = camera.height, bottom = 0;
   for (std::size_t p = 0; p < cloud.size(); p += kEvery) {
@@ -40,19 +42,30 @@ double pixels_of_part(const Camera& camera, const SurfelCloud& cloud) {
   return std::max(right - left, 0.0) * std::max(bottom - top, 0.0);
 }
 
-/// Every so many-th camera fits into memory.
-std::size_t stride_of(const Capture& capture, std::span<const int> cameras,
-                      const SurfelCloud& cloud, bool part) {
-  double bytes = 0;
+/// What fits into memory.
+struct Held {
+  int halved = 0;          ///< how often photographs are
+  std::size_t stride = 1;  ///< every so many-th camera is there
+};
+
+/// Photographs are halved before cameras are left out: views of all sides tell more of a point than
+/// its finest detail. Those of a part of a scene are as small as points need already.
+Held held_in_memory(const Capture& capture, std::span<const int> cameras, const SurfelCloud& cloud,
+                    bool part) {
+  double of_pixels = 0, of_rays = 0;
   for (const int c : cameras) {
     const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
     const double all = double{1} * camera.width * camera.height;
-    const double pixels = part ? pixels_of_part(camera, cloud) : all;
-    bytes += kBytesPerPixel * pixels +
-             kBytesPerRay * kSeen * (part ? pixels / all : 1) * static_cast<double>(cloud.size());
+    const double pixels = pixels_about(camera, cloud);
+    of_pixels += kBytesPerPixel * pixels;
+    of_rays += kBytesPerRay * kSeen * (part ? pixels / all : 1) * static_cast<double>(cloud.size());
   }
-  return static_cast<std::size_t>(
-      std::max(1.0, std::ceil(bytes / (part ? kMemoryOfPart : kMemory))));
+  const double memory = part ? kMemoryOfPart : kMemory;
+  Held held;
+  for (; !part && held.halved < kMostHalved && of_pixels + of_rays > memory; ++held.halved)
+    of_pixels /= 4;
+  held.stride = static_cast<std::size_t>(std::max(1.0, std::ceil((of_pixels + of_rays) / memory)));
+  return held;
 }
 
 /// [pixels] is what a picture shows there hidden by something that is not in it?
@@ -179,7 +192,7 @@ void PictureView::set_local(std::span<const std::uint32_t> local) {
   for (const std::uint32_t l : local) local_high.push_back(static_cast<std::uint16_t>(l >> 16));
 }
 
-Result<PictureViews, InputError> picture_views(const Capture& capture, std::span<const int> cameras,
+Result<PictureViews, InputError> picture_views(const Capture& whole, std::span<const int> cameras,
                                                std::span<const std::array<float, 3>> gains,
                                                const SurfelCloud& cloud, Transfer transfer,
                                                const DepthOfCamera& hidden_by, int threads,
@@ -188,12 +201,17 @@ Result<PictureViews, InputError> picture_views(const Capture& capture, std::span
   pictures.views.resize(cameras.size());
   std::vector<std::optional<InputError>> failures(cameras.size());
   const auto table = transfer_table(transfer);
-  const std::size_t stride = stride_of(capture, cameras, cloud, hidden_by != nullptr);
+  const Held held = held_in_memory(whole, cameras, cloud, hidden_by != nullptr);
+  std::optional<Capture> smaller;
+  if (held.halved > 0)
+    smaller = smaller_photographs(photographs_alone(whole),
+                                  std::vector<int>(whole.cameras.size(), held.halved));
+  const Capture& capture = smaller ? *smaller : whole;
   parallel_ranges(
       cameras.size(), 1, threads,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-          if (v % stride != 0) continue;
+          if (v % held.stride != 0) continue;
           auto view = picture_view(capture, cameras[v], gains.empty() ? kNoGain : gains[v], cloud,
                                    table, hidden_by);
           if (view) {

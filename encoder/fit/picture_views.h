@@ -60,7 +60,8 @@ struct PictureViews {
 /// Or
 ///               empty: 1. A pixel counts if discs cover it and its alpha shows the object. Where
 /// pixels or rays are too many for the memory of a fit (3 GiB; of a part of a scene, with
-/// hidden_by, 0.75 GiB), every n-th camera shows something, the others nothing.
+/// hidden_by, 0.75 GiB), photographs are halved, twice at most and not of a part; and if that does
+/// not do, every n-th camera shows something, the others nothing.
 /// @param hidden_by  of what is not in the cloud: a pixel where it is in front does not count; may
 ///                   be empty
 /// @errors those of load_image and of hidden_by

@@ -136,6 +136,8 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   };
   if (is_given("slice-start") && settings.slice_start != SliceStart::kApart)
     return refused("a --slice-start but apart");
+  if (is_given("photograph-pixels")) return refused("--photograph-pixels");  // a spacing decides
+  settings.photograph_pixels = 0;
   if (!is_given("slice-points")) settings.max_slice_points = kScenePoints;
   settings.surface = Surface::kGiven;
   settings.densify.mode = Densify::kOff;

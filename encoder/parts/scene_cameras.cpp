@@ -7,17 +7,13 @@
 
 #include "base/vec3.h"
 #include "capture/image_cache.h"
+#include "capture/photograph_size.h"
 
 namespace slf {
 namespace {
 
 /// The most that distortion may add to a field of view, in tangents.
 constexpr double kDistorted = 1.3;
-constexpr int kMostReduction = 6;
-constexpr int kLeastSide = 64;  // pixels of a reduced photograph
-/// Pixels of a reduced photograph to a spacing, where it is nearest. A terrace of 1 million points,
-/// pictures held out: -0.04 dB at -3 % bytes; with one pixel -0.4 dB at -11 %.
-constexpr double kPixelsOfSpacing = 2;
 
 }  // namespace
 
@@ -62,12 +58,7 @@ std::vector<int> choose_reduction(const Capture& capture, std::span<const int> c
       if (may_see(camera, middle, radius))
         nearest = std::min(nearest, camera.in_camera(middle)[2] - radius);
     }
-    const double pixels = spacing * std::max(camera.fx, camera.fy) / nearest;  // of a spacing
-    int& log2 = reduction[static_cast<std::size_t>(c)];
-    while (log2 < kMostReduction && nearest > 0 &&
-           std::ldexp(kPixelsOfSpacing, log2 + 1) <= pixels &&
-           std::min(camera.width, camera.height) >> (log2 + 1) >= kLeastSide)
-      ++log2;
+    reduction[static_cast<std::size_t>(c)] = least_photograph(camera, nearest, spacing);
   }
   return reduction;
 }

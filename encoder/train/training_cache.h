@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/surface_points.h"
+#include "slf/camera_trust.h"
 
 namespace slf {
 
@@ -23,6 +24,8 @@ struct TrainingCache {
   std::vector<Float3> normals;                    ///< [points] where the capture has none
   std::vector<std::optional<ViewSetting>> views;  ///< [cameras]
   bool outlined = true;  ///< of splats: photographs tell one object from its background
+  /// Photographs that agree nowhere with what was trained: it is to be trained without them.
+  std::vector<CameraTrust> foreign;
 };
 
 }  // namespace slf

@@ -132,6 +132,9 @@ struct EncoderSettings {
   std::filesystem::path work;
   bool resume = false;        ///< trainings go on from what is in `work`; else it is made anew
   int surface_memory = 1024;  ///< 16 or more, MiB: photographs of a training are halved to fit
+  /// Photographs of more millions of pixels are halved as they are read, as often as it takes; 0:
+  /// none is.
+  double photograph_pixels = 2.5;
   ObserveSettings observe;
   /// Photographs are given one exposure and white balance before anything else; not without
   /// points, nor in parts or frames.

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
 #include "lightfield/colour.h"
 #include "slf/decoder.h"
@@ -50,7 +51,7 @@ class CameraTrustTest : public testing::Test {
   static void TearDownTestSuite() { std::filesystem::remove_all(root_); }
 
   static EncoderSettings settings() {
-    EncoderSettings s = settings_of(Preset::kDefault, 5);
+    EncoderSettings s = settings_of(Preset::kDefault, 4);
     s.surface = Surface::kGiven;
     s.grid_bits = kBits;
     s.q = 4;
@@ -132,6 +133,7 @@ TEST_F(CameraTrustTest, EveryCameraOfAGoodCaptureIsKeptAndTheFileIsTheSame) {
     EXPECT_EQ(reason_of(t), "");
   }
   EXPECT_EQ(trusted_cameras(*trust), input_);
+  EXPECT_TRUE(foreign_photographs(capture_, capture_.cloud, input_, 0)->empty());
   EncoderSettings off = settings();
   off.check_cameras = false;
   const auto checked = encode(capture_, input_, settings()),
@@ -165,6 +167,11 @@ TEST_P(DisturbedCapture, IsFoundAndTheFitIsNoWorseThanWithoutIt) {
         << t.camera << ": " << reason_of(t);
     EXPECT_EQ(reason_of(t).empty(), !is_bad);
   }
+  const auto foreign = foreign_photographs(capture, capture.cloud, input_, 0);
+  ASSERT_TRUE(foreign) << foreign.error().message;
+  std::vector<int> left_out;
+  for (const CameraTrust& t : *foreign) left_out.push_back(t.camera);
+  EXPECT_EQ(left_out, GetParam().verdict == CameraVerdict::kDropped ? bad : std::vector<int>{});
   EncoderSettings off = settings();
   off.check_cameras = false;
   const Quality with = held_out_psnr(capture, input_, settings());

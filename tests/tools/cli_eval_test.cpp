@@ -37,6 +37,22 @@ TEST_F(TinyCaptureTest, EvalTellsApartWhatPicturesLose) {
   expect_failure(slf("eval a.slf tiny --unquantised nowhere.slf"), 3, "nowhere.slf", "");
 }
 
+TEST_F(TinyCaptureTest, PhotographsThatWereDroppedAreNotMeasured) {
+  ASSERT_EQ(slf("synth can -o cans --size 96x96 --circles 5 --per-circle 10 --points 8000").code,
+            0);
+  std::filesystem::copy_file(path("cans/images/0030.png"), path("cans/images/0008.png"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const Ran ran = slf("encode cans --split all --surface given --effort 1 -q 8 -o cans.slf");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("0008.png: dropped"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("cameras       49, 1 dropped"), std::string::npos) << ran.err;
+  const auto of_file = parsed(slf("eval cans.slf cans --json").out)["input"],
+             of_all = parsed(slf("eval cans.slf cans --split all --json").out)["input"];
+  EXPECT_EQ(of_file["cameras"], 49);
+  EXPECT_EQ(of_all["cameras"], 50);
+  EXPECT_NE(of_file["image"]["psnr"], of_all["image"]["psnr"]);
+}
+
 TEST_F(TinyCaptureTest, EvalMeasuresAFrameByItsOwnBytes) {
   std::filesystem::create_directory(path("moves"));
   for (const char* frame : {"moves/frame_0001", "moves/frame_0002"})
