@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # clang-tidy with the checks of .clang-tidy; a finding is an error. It reads the files of a unity build by the dozen.
 #
-#   .ci/tidy.sh BUILD ROOM...    BUILD: a tree of clang with -DCMAKE_UNITY_BUILD=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+#   .ci/tidy.sh BUILD ROOM...    BUILD: a tree of clang with -DCMAKE_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+#                                -DCMAKE_EXPORT_COMPILE_COMMANDS=ON, as .ci/nightly configures it; nothing has to be built
 #                                ROOM: a folder of the tree; none: all of them
 set -euo pipefail
 cd "$(dirname "$0")/.."

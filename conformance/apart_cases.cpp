@@ -84,7 +84,7 @@ void add_cuts_apart(std::vector<Case>& cases) {
 
 /// Units: sequence, slices, 2 of the base's geometry and 3 of its coefficients, then of three
 /// slices 2 of geometry each and 6 of coefficients.
-void add_prefixes(std::vector<Case>& cases) {
+void add_apart_prefixes(std::vector<Case>& cases) {
   for (const std::size_t units : {6u, 9u, 12u, 15u, 20u}) {
     Case c = apart("apart-prefix-" + std::to_string(units), "slices apart, cut short");
     c.keep_units = units;
@@ -94,8 +94,7 @@ void add_prefixes(std::vector<Case>& cases) {
 }
 
 /// Makes a digest of what each slice gives out, means of the base and all.
-void digest_sums(std::vector<EditableUnit>& units, const LightField& sums,
-                 const SliceTable& table) {
+void digest_sums(UnitList& units, const LightField& sums, const SliceTable& table) {
   std::size_t begin = 0, slice = 0;
   const auto planes = static_cast<std::size_t>(sums.num_planes());
   for (EditableUnit& unit : units) {
@@ -115,7 +114,7 @@ std::vector<Case> apart_cases() {
   std::vector<Case> cases;
   add_whole(cases);
   add_cuts_apart(cases);
-  add_prefixes(cases);
+  add_apart_prefixes(cases);
   return cases;
 }
 

@@ -93,9 +93,9 @@ Bytes of_version(Bytes stream, int major, int minor) {
   return stream;
 }
 
-Bytes edited_frame(const Bytes& frame, const std::function<void(std::vector<EditableUnit>&)>& edit,
+Bytes edited_frame(const Bytes& frame, const UnitEdit& edit,
                    const std::function<void(FrameHeader&)>& header) {
-  std::vector<EditableUnit> units;
+  UnitList units;
   for (std::size_t at = is_intra(frame) ? kSignature.size() : 0; at < frame.size();) {
     const Unit unit = *read_unit(frame, at);
     units.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}});

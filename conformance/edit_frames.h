@@ -43,7 +43,7 @@ Bytes of_version(Bytes stream, int major, int minor);
 
 /// A frame, its units changed; counts and frame_bytes are then sound.
 /// header: changes the frame unit after that
-Bytes edited_frame(const Bytes& frame, const std::function<void(std::vector<EditableUnit>&)>& edit,
+Bytes edited_frame(const Bytes& frame, const UnitEdit& edit,
                    const std::function<void(FrameHeader&)>& header = {});
 
 }  // namespace slf::conformance

@@ -27,9 +27,9 @@ Bytes base_stream(bool index) {
   return *pack(f, parameters);
 }
 
-Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUnit>&)>& edit) {
+Bytes edited(const Bytes& base, const UnitEdit& edit) {
   if (base.empty()) return base;
-  std::vector<EditableUnit> units;
+  UnitList units;
   const Units split = *split_units(base);
   for (const Unit& unit : split.units)
     units.push_back({unit.type, Bytes(unit.payload.begin(), unit.payload.end())});
@@ -49,9 +49,7 @@ Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUni
   return stream;
 }
 
-Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit) {
-  return edited(base_stream(false), edit);
-}
+Bytes edited(const UnitEdit& edit) { return edited(base_stream(false), edit); }
 
 void set_matrix(EditableUnit& unit, const SequenceParameterSet& before,
                 const SequenceParameterSet& after, const Bytes& matrix,
@@ -82,18 +80,17 @@ Bytes packed_bare(const LightField& field, CodingParameters parameters) {
   return *std::move(stream);
 }
 
-Bytes stream_of(const std::vector<EditableUnit>& units) {
-  return edited(base_stream(false), [&](std::vector<EditableUnit>& all) { all = units; });
+Bytes stream_of(const UnitList& units) {
+  return edited(base_stream(false), [&](UnitList& all) { all = units; });
 }
 
-void edit_sequence(std::vector<EditableUnit>& units,
-                   const std::function<void(SequenceParameterSet&)>& edit) {
+void edit_sequence(UnitList& units, const std::function<void(SequenceParameterSet&)>& edit) {
   SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
   edit(set);
   units[0].payload = sequence_as_is(set);
 }
 
-EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type) {
+EditableUnit& first_of(UnitList& units, UnitType type) {
   return *std::find_if(units.begin(), units.end(),
                        [type](const EditableUnit& u) { return u.type == type; });
 }

@@ -19,13 +19,15 @@ struct EditableUnit {
   UnitType type;
   Bytes payload;
 };
+using UnitList = std::vector<EditableUnit>;
+using UnitEdit = std::function<void(UnitList&)>;
 
 /// A base and several slices, four functions in two groups.
 Bytes base_stream(bool index);
 
 /// A stream without an index, its units changed.
-Bytes edited(const Bytes& base, const std::function<void(std::vector<EditableUnit>&)>& edit);
-Bytes edited(const std::function<void(std::vector<EditableUnit>&)>& edit);
+Bytes edited(const Bytes& base, const UnitEdit& edit);
+Bytes edited(const UnitEdit& edit);
 
 /// A coefficient unit with the columns of its group, coded, in place of those it had.
 /// before: the sequence it was written for; after: the one it is to be of
@@ -41,11 +43,10 @@ void set_modes(EditableUnit& unit, const SequenceParameterSet& set,
 Bytes packed_bare(const LightField& field, CodingParameters parameters);
 
 /// A stream of these units.
-Bytes stream_of(const std::vector<EditableUnit>& units);
+Bytes stream_of(const UnitList& units);
 
-void edit_sequence(std::vector<EditableUnit>& units,
-                   const std::function<void(SequenceParameterSet&)>& edit);
+void edit_sequence(UnitList& units, const std::function<void(SequenceParameterSet&)>& edit);
 
-EditableUnit& first_of(std::vector<EditableUnit>& units, UnitType type);
+EditableUnit& first_of(UnitList& units, UnitType type);
 
 }  // namespace slf::conformance

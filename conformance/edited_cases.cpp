@@ -11,13 +11,11 @@
 namespace slf::conformance {
 namespace {
 
-using Units = std::vector<EditableUnit>;
-
 /// Values beyond those that an encoder may give: steps are greater than the ones they were coded
 /// with.
 Bytes with_greater_steps(const LightField& field, const CodingParameters& parameters,
                          std::uint32_t factor) {
-  return edited(packed_bare(field, parameters), [&](Units& units) {
+  return edited(packed_bare(field, parameters), [&](UnitList& units) {
     edit_sequence(units, [&](SequenceParameterSet& set) {
       for (PlaneRun& run : set.runs)
         for (std::uint32_t& step : run.sps_plane_step) step *= factor;
@@ -53,7 +51,7 @@ Bytes with_lone_children() {
   p.base_levels = 1;
   p.base_weight = 1;
   p.predict = true;
-  return edited(Bytes(with_greater_steps(f, p, 8)), [](Units& units) {
+  return edited(Bytes(with_greater_steps(f, p, 8)), [](UnitList& units) {
     const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
     for (EditableUnit& unit : units)
       if (unit.type == UnitType::kCoefficients) set_modes(unit, set, {0, 1, 0, 0});
@@ -105,7 +103,7 @@ CodingParameters scene_parameters() {
 }
 
 /// An index of the units behind `place`, put there.
-void insert_index(Units& units, std::size_t place) {
+void insert_index(UnitList& units, std::size_t place) {
   const SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
   Index index;
   for (std::size_t i = place; i < units.size(); ++i) {
@@ -129,7 +127,7 @@ void insert_index(Units& units, std::size_t place) {
 void add_units(std::vector<Case>& cases) {
   cases.push_back(case_of_stream(
       "empty-codewords", "units with rows, whose coefficients are all zero", {"7.1", "8.7.1"},
-      edited(packed_bare(scene(), with_steps(2, 1)), [](Units& units) {
+      edited(packed_bare(scene(), with_steps(2, 1)), [](UnitList& units) {
         for (EditableUnit& unit : units)
           if (unit.type == UnitType::kCoefficients)
             unit.payload.resize(2);  // ue 0, ue 0, ue 0, u(2) x 3, alignment
@@ -138,30 +136,30 @@ void add_units(std::vector<Case>& cases) {
   const Bytes whole = *pack(scene(), scene_parameters());
   cases.push_back(case_of_stream("units-of-other-types",
                                  "types to skip that the table does not name, everywhere",
-                                 {"7.1", "7.1.1"}, edited(whole, [](Units& units) {
+                                 {"7.1", "7.1.1"}, edited(whole, [](UnitList& units) {
                                    for (std::size_t i = 1, k = 0; i < units.size(); i += 4, ++k)
                                      units.insert(units.begin() + static_cast<std::ptrdiff_t>(i),
                                                   {kUnknown[k % 5], Bytes(k * 3, 0xA5)});
                                  })));
   cases.push_back(case_of_stream("unit-of-16384-bytes", "a length of three bytes", {"7.1"},
-                                 edited(whole, [](Units& units) {
+                                 edited(whole, [](UnitList& units) {
                                    units.insert(units.end() - 1, {kUnknown[3], Bytes(16384, 0)});
                                  })));
   CodingParameters indexed = scene_parameters();
   indexed.index = true;
-  cases.push_back(case_of_stream("index-twice",
-                                 "an index again between slices; one of a unit of another type",
-                                 {"7.1", "7.7"}, edited(*pack(scene(), indexed), [](Units& units) {
-                                   units.insert(units.end() - 3, {kUnknown[1], Bytes(200, 1)});
-                                   insert_index(units, 9);
-                                   EditableUnit& first = first_of(units, UnitType::kIndex);
-                                   units.erase(units.begin() + (&first - units.data()));
-                                   insert_index(units, 1);
-                                 })));
+  cases.push_back(
+      case_of_stream("index-twice", "an index again between slices; one of a unit of another type",
+                     {"7.1", "7.7"}, edited(*pack(scene(), indexed), [](UnitList& units) {
+                       units.insert(units.end() - 3, {kUnknown[1], Bytes(200, 1)});
+                       insert_index(units, 9);
+                       EditableUnit& first = first_of(units, UnitType::kIndex);
+                       units.erase(units.begin() + (&first - units.data()));
+                       insert_index(units, 1);
+                     })));
   CodingParameters bare = scene_parameters();
   bare.metadata.clear();
   Case none = case_of_stream("no-slices", "a cut that left the sequence alone", {"7.1", "8.9.2"},
-                             edited(*pack(scene(), bare), [](Units& units) {
+                             edited(*pack(scene(), bare), [](UnitList& units) {
                                edit_sequence(units, [](SequenceParameterSet& set) {
                                  set.sps_cut_flag = set.sps_cut_levels = 1;
                                });
@@ -173,14 +171,14 @@ void add_units(std::vector<Case>& cases) {
 
 /// Beginnings of a scene, with normals: what is there, in levels and groups at once.
 void add_beginnings(std::vector<Case>& cases) {
-  Units all;
-  edited(*pack(scene(), scene_parameters()), [&](Units& units) { all = units; });
+  UnitList all;
+  edited(*pack(scene(), scene_parameters()), [&](UnitList& units) { all = units; });
   for (const std::size_t count : {4u, 6u, 8u, 10u, 12u, 14u, 16u, 18u, 20u}) {
     Case c = case_of_stream(
         "beginning-" + std::to_string(count),
         "the first " + std::to_string(count) + " units of a scene with normals",
         {"7.1", "8.9.1", "8.9.2", "8.9.3"},
-        stream_of(Units(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count))));
+        stream_of(UnitList(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count))));
     c.levels = {1, 2};
     c.groups = {1};
     for (int levels = 1; levels <= 2; ++levels) {
@@ -200,10 +198,10 @@ void add_unpredicted(std::vector<Case>& cases) {
   cases.push_back(case_of_stream(
       "beginning-unpredicted", "a beginning of a scene without prediction",
       {"7.1", "8.7.6", "8.9.1"},
-      edited(*pack(scene(), p), [](Units& units) { units.resize(units.size() - 6); })));
+      edited(*pack(scene(), p), [](UnitList& units) { units.resize(units.size() - 6); })));
 }
 
-void add_geometry(std::vector<Case>& cases) {
+void add_edited_geometry(std::vector<Case>& cases) {
   LightField f = scene();
   f.header.num_functions = 0;
   f.components.clear();
@@ -224,7 +222,7 @@ std::vector<Case> edited_cases() {
   add_units(cases);
   add_beginnings(cases);
   add_unpredicted(cases);
-  add_geometry(cases);
+  add_edited_geometry(cases);
   return cases;
 }
 

@@ -10,10 +10,8 @@
 namespace slf::conformance {
 namespace {
 
-using UnitList = std::vector<EditableUnit>;
-
 /// An intra frame whose units are changed, the version as its features need it.
-Bytes edited_intra(const Bytes& frame, const std::function<void(UnitList&)>& edit) {
+Bytes edited_intra(const Bytes& frame, const UnitEdit& edit) {
   return of_version(edited_frame(frame, edit), kVersionMajor, 2);
 }
 
@@ -31,7 +29,7 @@ std::vector<Bytes> leaves_and_comes_back() {
 }
 
 /// A stream of one frame, which is empty.
-Bytes one_empty(const std::function<void(UnitList&)>& edit = [](UnitList&) {}) {
+Bytes one_empty(const UnitEdit& edit = [](UnitList&) {}) {
   FrameWriter writer(frame_parameters(2));
   writer.add_empty(still());
   return edited_intra(writer.frames()[0], edit);

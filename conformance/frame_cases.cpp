@@ -116,7 +116,7 @@ void add_modes(std::vector<Case>& cases) {
   FrameWriter writer(p);
   writer.add(still());
   writer.add(frame_field(turned), turn());
-  const Bytes second = edited_frame(writer.frames()[1], [&](std::vector<EditableUnit>& units) {
+  const Bytes second = edited_frame(writer.frames()[1], [&](UnitList& units) {
     const Unit sequence = *read_unit(writer.frames()[0], kSignature.size());
     SequenceParameterSet set = *parse_sequence_parameter_set(sequence.payload);
     set.predicted = true;
@@ -176,7 +176,7 @@ void add_transform(std::vector<Case>& cases) {
   FrameWriter writer(p);
   writer.add(still(3));
   writer.add(frame_field(turned, 3), turn());
-  const Bytes first = edited_frame(writer.frames()[0], [](std::vector<EditableUnit>& units) {
+  const Bytes first = edited_frame(writer.frames()[0], [](UnitList& units) {
     const SequenceParameterSet before = *parse_sequence_parameter_set(units[0].payload);
     edit_sequence(units, [](SequenceParameterSet& set) {
       set.sps_num_functions = 5;

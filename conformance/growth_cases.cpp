@@ -8,8 +8,6 @@
 namespace slf::conformance {
 namespace {
 
-using UnitList = std::vector<EditableUnit>;
-
 constexpr auto type_of_number(int number) { return static_cast<UnitType>(number); }
 
 /// An identifier that the registry keeps for examples, and some bytes.

@@ -9,8 +9,6 @@
 namespace slf::conformance {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 /// H.265 7.3.1.1: 00 00 03 stands for 00 00.
 Bytes without_prevention(const Bytes& unit) {
   Bytes raw;

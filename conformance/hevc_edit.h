@@ -9,11 +9,13 @@
 
 namespace slf::conformance {
 
-/// NAL units of an Annex B byte stream, with their headers, without start codes.
-std::vector<std::vector<std::uint8_t>> nal_units(const std::vector<std::uint8_t>& stream);
-std::vector<std::uint8_t> byte_stream(const std::vector<std::vector<std::uint8_t>>& units);
+using Bytes = std::vector<std::uint8_t>;
 
-constexpr int nal_type(const std::vector<std::uint8_t>& unit) { return unit[0] >> 1; }
+/// NAL units of an Annex B byte stream, with their headers, without start codes.
+std::vector<Bytes> nal_units(const Bytes& stream);
+Bytes byte_stream(const std::vector<Bytes>& units);
+
+constexpr int nal_type(const Bytes& unit) { return unit[0] >> 1; }
 inline constexpr int kSequenceParameterSet = 33, kPictureParameterSet = 34;
 
 /// What an element is to be. A tool that is switched on gets the least that has to follow it.
@@ -22,6 +24,6 @@ using SpsEdit = std::function<std::uint32_t(std::string_view name, std::uint32_t
 
 /// A sequence parameter set changed.
 /// @pre one sub-layer, monochrome, no window, as x265 writes it for a texture
-std::vector<std::uint8_t> with_sps(const std::vector<std::uint8_t>& unit, const SpsEdit& edit);
+Bytes with_sps(const Bytes& unit, const SpsEdit& edit);
 
 }  // namespace slf::conformance

@@ -93,8 +93,7 @@ Bytes codeword_of(std::int32_t mean) {
   return encoder.finish();
 }
 
-void edit_set(std::vector<EditableUnit>& units,
-              const std::function<void(SequenceParameterSet&)>& edit) {
+void edit_set(UnitList& units, const std::function<void(SequenceParameterSet&)>& edit) {
   auto set = *parse_sequence_parameter_set(units[0].payload);
   edit(set);
   units[0].payload = sequence_as_is(set);
@@ -158,7 +157,7 @@ std::vector<RefusedCase> refused_layers() {
   std::vector<RefusedCase> cases;
   const Bytes stream = layered_stream();
   const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(stream, edit)});
   };
   add("layers-out-of-order", "the second refinement before the first", "7.1", [](auto& units) {

@@ -15,17 +15,16 @@ Bytes head(std::uint32_t level, int functions, const std::vector<std::uint32_t>&
   CodingParameters p;
   if (functions > 0) p = with_steps(functions, 8);
   p.base_levels = points.size() > 1 ? 2 : 0;
-  return edited(packed_bare(field(lattice(2, 3, 2), 10, functions), p),
-                [&](std::vector<EditableUnit>& units) {
-                  SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
-                  set.sps_level = level;
-                  SliceTable table;
-                  table.slices_num_minus1 = static_cast<std::uint32_t>(points.size()) - 1;
-                  for (const std::uint32_t count : points) table.slices.push_back({0, count - 1});
-                  units.resize(2);
-                  units[0].payload = sequence_as_is(set);
-                  units[1] = {UnitType::kSlices, slice_table_as_is(table, set)};
-                });
+  return edited(packed_bare(field(lattice(2, 3, 2), 10, functions), p), [&](UnitList& units) {
+    SequenceParameterSet set = *parse_sequence_parameter_set(units[0].payload);
+    set.sps_level = level;
+    SliceTable table;
+    table.slices_num_minus1 = static_cast<std::uint32_t>(points.size()) - 1;
+    for (const std::uint32_t count : points) table.slices.push_back({0, count - 1});
+    units.resize(2);
+    units[0].payload = sequence_as_is(set);
+    units[1] = {UnitType::kSlices, slice_table_as_is(table, set)};
+  });
 }
 
 /// Two frames of 60 points.

@@ -26,7 +26,7 @@ void add_counts(std::vector<Case>& cases) {
 }
 
 /// Three groups, normals, a base of two levels and slices behind it.
-Case scene(const char* id, const char* purpose, std::vector<std::string> clauses) {
+Case ordinary_scene(const char* id, const char* purpose, std::vector<std::string> clauses) {
   Case c = case_of(id, purpose, std::move(clauses), field(small_sphere(), 5, 4), with_steps(4, 30));
   c.parameters.group = {0, 1, 1, 2};
   c.parameters.geometry_level_ends = {1, 2, 4, 5};
@@ -43,13 +43,14 @@ Case scene(const char* id, const char* purpose, std::vector<std::string> clauses
 
 /// Boxes whose corners no cube of a coarser level has.
 void add_corners(std::vector<Case>& cases) {
-  Case odd =
-      scene("regions-odd-corners", "boxes with odd corners, of all levels and of fewer", {"8.9.4"});
+  Case odd = ordinary_scene("regions-odd-corners",
+                            "boxes with odd corners, of all levels and of fewer", {"8.9.4"});
   odd.levels = {1, 2, 3, 4};
   odd.regions = {{{5, 3, 7}, {21, 13, 25}}, {{9, 11, 1}, {9, 29, 30}}};
   cases.push_back(odd);
-  Case cut = scene("regions-of-a-prefix", "the same of a stream that ends in its second slice",
-                   {"8.9.2", "8.9.4"});
+  Case cut =
+      ordinary_scene("regions-of-a-prefix", "the same of a stream that ends in its second slice",
+                     {"8.9.2", "8.9.4"});
   cut.keep_units = 13;
   cut.levels = {1, 3};
   cut.groups = {1};
@@ -59,15 +60,15 @@ void add_corners(std::vector<Case>& cases) {
 
 /// Units: sequence, slices, 2 of the base's geometry and 3 of its coefficients; of a slice 2 of
 /// geometry, normals, 6 of coefficients.
-void add_prefixes(std::vector<Case>& cases) {
+void add_ordinary_prefixes(std::vector<Case>& cases) {
   for (const std::size_t units : {3u, 9u, 10u}) {
-    Case c = scene(units == 3   ? "prefix-of-the-base-and-levels"
-                   : units == 9 ? "prefix-of-normals-none"
-                                : "prefix-of-normals-one",
-                   units == 3   ? "a part of the base's geometry, of which nodes coincide"
-                   : units == 9 ? "geometry of slices without their normals"
-                                : "normals of the first slice, none of the others",
-                   {"8.9.2", "8.10"});
+    Case c = ordinary_scene(units == 3   ? "prefix-of-the-base-and-levels"
+                            : units == 9 ? "prefix-of-normals-none"
+                                         : "prefix-of-normals-one",
+                            units == 3   ? "a part of the base's geometry, of which nodes coincide"
+                            : units == 9 ? "geometry of slices without their normals"
+                                         : "normals of the first slice, none of the others",
+                            {"8.9.2", "8.10"});
     if (units == 3) {  // levels 0 and 1 are known
       c.parameters.base_levels = 3;
       c.parameters.geometry_level_ends = {2, 3, 4, 5};
@@ -110,7 +111,7 @@ std::vector<Case> ordinary_cases() {
   std::vector<Case> cases;
   add_counts(cases);
   add_corners(cases);
-  add_prefixes(cases);
+  add_ordinary_prefixes(cases);
   add_gains(cases);
   return cases;
 }

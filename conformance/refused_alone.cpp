@@ -13,8 +13,6 @@
 namespace slf::conformance {
 namespace {
 
-using UnitList = std::vector<EditableUnit>;
-
 /// A filler unit without payload, whose length takes a byte more than it needs.
 Bytes with_longer_length() {
   Bytes stream = edited([](UnitList& units) {

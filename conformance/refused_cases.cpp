@@ -15,14 +15,14 @@ namespace {
 
 /// The sequence header changed.
 Bytes with_sequence(const std::function<void(SequenceParameterSet&)>& edit) {
-  return edited([&](std::vector<EditableUnit>& units) {
+  return edited([&](UnitList& units) {
     auto set = *parse_sequence_parameter_set(units[0].payload);
     edit(set);
     units[0].payload = sequence_as_is(set);
   });
 }
 
-void add_framing(std::vector<RefusedCase>& cases) {
+void add_signature_and_framing(std::vector<RefusedCase>& cases) {
   Bytes stream = base_stream(true);
   stream[0] = 0x89;
   cases.push_back({"signature", "another first byte", {"7.1"}, stream});
@@ -60,7 +60,7 @@ void add_framing(std::vector<RefusedCase>& cases) {
        }()});
 }
 
-void add_headers(std::vector<RefusedCase>& cases) {
+void add_sequence_headers(std::vector<RefusedCase>& cases) {
   const auto add = [&](const char* id, const char* purpose,
                        const std::function<void(SequenceParameterSet&)>& edit) {
     cases.push_back({id, purpose, {"7.2"}, with_sequence(edit)});
@@ -139,8 +139,8 @@ void add_attributes(std::vector<RefusedCase>& cases) {
 
 std::vector<RefusedCase> refused_cases() {
   std::vector<RefusedCase> cases;
-  add_framing(cases);
-  add_headers(cases);
+  add_signature_and_framing(cases);
+  add_sequence_headers(cases);
   add_attributes(cases);
   for (RefusedCase& scene : refused_scenes()) cases.push_back(std::move(scene));
   for (RefusedCase& unit : refused_units()) cases.push_back(std::move(unit));

@@ -8,9 +8,7 @@
 namespace slf::conformance {
 namespace {
 
-using FrameUnitsEdit = std::function<void(std::vector<EditableUnit>&)>;
-
-void nothing(std::vector<EditableUnit>&) {}
+void nothing(UnitList&) {}
 
 /// Three frames of one group, of few points.
 std::vector<Bytes> three_frames() {
@@ -111,8 +109,8 @@ class Refused {
   }
 
   /// Units changed, counts and lengths left as they were.
-  static Bytes unit_edited(const Bytes& frame, const FrameUnitsEdit& edit) {
-    std::vector<EditableUnit> units;
+  static Bytes unit_edited(const Bytes& frame, const UnitEdit& edit) {
+    UnitList units;
     for (std::size_t at = 0; at < frame.size();) {
       const Unit unit = *read_unit(frame, at);
       units.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}});
@@ -124,13 +122,13 @@ class Refused {
     return made;
   }
 
-  Bytes with_frame(const FrameUnitsEdit& edit, const std::function<void(FrameHeader&)>& header) {
+  Bytes with_frame(const UnitEdit& edit, const std::function<void(FrameHeader&)>& header) {
     return edited_frame(f_[1], edit, header);
   }
-  Bytes with(const FrameUnitsEdit& edit, const std::function<void(FrameHeader&)>& header = {}) {
+  Bytes with(const UnitEdit& edit, const std::function<void(FrameHeader&)>& header = {}) {
     return joined({f_[0], with_frame(edit, header)});
   }
-  Bytes raw(const FrameUnitsEdit& edit) { return joined({f_[0], unit_edited(f_[1], edit)}); }
+  Bytes raw(const UnitEdit& edit) { return joined({f_[0], unit_edited(f_[1], edit)}); }
 
   void add(const std::string& id, const char* purpose, Bytes stream) {
     cases_.push_back({id, purpose, {"7.13", "8.12.5"}, std::move(stream), 1});
@@ -145,7 +143,7 @@ class Refused {
 std::vector<RefusedCase> refused_first_frames() {
   std::vector<RefusedCase> cases;
   const Bytes first = three_frames()[0];
-  const auto add = [&](const char* id, const char* purpose, const FrameUnitsEdit& edit,
+  const auto add = [&](const char* id, const char* purpose, const UnitEdit& edit,
                        const std::function<void(FrameHeader&)>& header = {}) {
     cases.push_back({id, purpose, {"7.1", "7.13"}, edited_frame(first, edit, header)});
   };

@@ -19,7 +19,7 @@ namespace slf::conformance {
 namespace {
 
 /// The unit with other ids, nth of its type.
-void edit_ids(std::vector<EditableUnit>& units, UnitType type, std::size_t nth,
+void edit_ids(UnitList& units, UnitType type, std::size_t nth,
               const std::function<void(SliceUnitHeader&)>& edit) {
   const auto set = *parse_sequence_parameter_set(units[0].payload);
   for (EditableUnit& unit : units) {
@@ -34,7 +34,7 @@ void edit_ids(std::vector<EditableUnit>& units, UnitType type, std::size_t nth,
 }
 
 /// The first unit of a type that belongs to a slice.
-EditableUnit& unit_of_slice(std::vector<EditableUnit>& units, UnitType type, std::uint32_t slice) {
+EditableUnit& unit_of_slice(UnitList& units, UnitType type, std::uint32_t slice) {
   const auto set = *parse_sequence_parameter_set(units[0].payload);
   return *std::find_if(units.begin(), units.end(), [&](const EditableUnit& u) {
     return u.type == type && read_ids({type, u.payload, 0, 0}, set)->slice_id == slice;
@@ -43,11 +43,9 @@ EditableUnit& unit_of_slice(std::vector<EditableUnit>& units, UnitType type, std
 
 bool is_digest(const EditableUnit& unit) { return unit.type == UnitType::kDigest; }
 
-using Edit = std::function<void(std::vector<EditableUnit>&)>;
-
 /// What breaks one clause in the stream of edit_units.h.
 void add(std::vector<RefusedCase>& cases, const char* id, const char* purpose, const char* clause,
-         const Edit& edit) {
+         const UnitEdit& edit) {
   cases.push_back({id, purpose, {clause}, edited(edit)});
 }
 
@@ -153,7 +151,7 @@ void add_payloads(std::vector<RefusedCase>& cases) {
 
 /// The unit with the weight classes of base_stream, its cells and two levels coded with others;
 /// none: occupancies alone.
-void recode_classes(std::vector<EditableUnit>& units, std::optional<std::uint8_t> k) {
+void recode_classes(UnitList& units, std::optional<std::uint8_t> k) {
   const auto set = *parse_sequence_parameter_set(units[0].payload);
   DecodeOptions options;
   options.levels = static_cast<int>(set.sps_base_levels);
@@ -173,8 +171,7 @@ void recode_classes(std::vector<EditableUnit>& units, std::optional<std::uint8_t
 }
 
 void add_weight_classes(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+  const auto add = [&](const char* id, const char* purpose, const UnitEdit& edit) {
     cases.push_back({id, purpose, {"8.4.5"}, edited(edit)});
   };
   add("weight-of-all", "cells that together weigh more than 2^24",

@@ -15,8 +15,6 @@
 namespace slf::conformance {
 namespace {
 
-using Units = std::vector<EditableUnit>;
-
 /// A texture of two groups; empty where this build has no x265.
 Bytes texture_stream(int bits) {
   CodingParameters parameters;
@@ -32,7 +30,7 @@ Bytes texture_stream(int bits) {
 
 /// The first unit with pictures: other flags and offsets, and bytes behind them.
 /// pictures: empty: those that are there
-void edit_textures(Units& units,
+void edit_textures(UnitList& units,
                    const std::function<void(std::vector<TexturePlane>&, Bytes&)>& edit) {
   const auto set = *parse_sequence_parameter_set(units[0].payload);
   EditableUnit& unit = first_of(units, UnitType::kCoefficients);
@@ -55,7 +53,7 @@ void edit_textures(Units& units,
 
 void add_headers(std::vector<RefusedCase>& cases, const Bytes& base) {
   const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(Units&)>& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});
   };
   add("texture-damaged", "a byte of a picture changed", "7.9", [](auto& units) {
@@ -114,7 +112,7 @@ void add_hevc(std::vector<RefusedCase>& cases, const Bytes& base) {
   using Nals = std::vector<Bytes>;
   const auto add = [&](const char* id, const char* purpose,
                        const std::function<void(Nals&)>& edit) {
-    cases.push_back({id, purpose, {"7.6"}, edited(base, [&](Units& units) {
+    cases.push_back({id, purpose, {"7.6"}, edited(base, [&](UnitList& units) {
                        edit_textures(units, [&](auto&, Bytes& pictures) {
                          Nals nals = nal_units(pictures);
                          edit(nals);

@@ -16,8 +16,6 @@
 namespace slf::conformance {
 namespace {
 
-using Units = std::vector<EditableUnit>;
-
 constexpr std::uint32_t kFunctions = 8;
 
 /// A transform each of two groups of four functions.
@@ -32,7 +30,7 @@ Bytes transformed() {
 void add_transforms(std::vector<RefusedCase>& cases) {
   const Bytes base = transformed();
   const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(std::vector<EditableUnit>&)>& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});
   };
   add("transform-missing", "fewer transform units than stated", "7.11",
@@ -94,7 +92,7 @@ Bytes matrix_of(std::uint8_t fractional_bits, std::int32_t entry) {
 void add_matrices(std::vector<RefusedCase>& cases) {
   const Bytes base = transformed();
   const auto add = [&](const char* id, const char* purpose, const char* clause,
-                       const std::function<void(Units&)>& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});
   };
   const auto with_matrix = [&](const char* id, const char* purpose, const char* clause,

@@ -17,9 +17,6 @@
 namespace slf::conformance {
 namespace {
 
-using Units = std::vector<EditableUnit>;
-using Edit = std::function<void(Units&)>;
-
 /// A few points whose coefficients are all zero: of empty codewords, which fit any number of
 /// functions and steps.
 Bytes plain_stream(int functions, int normal_bits = 0) {
@@ -28,18 +25,18 @@ Bytes plain_stream(int functions, int normal_bits = 0) {
   if (normal_bits > 0) f.normals.octahedral.assign(3, {0, 0});
   CodingParameters p = with_steps(functions, 1);
   p.index = p.digest = p.predict = false;
-  return edited(*pack(f, p), [](Units& units) {
+  return edited(*pack(f, p), [](UnitList& units) {
     for (EditableUnit& unit : units)
       if (unit.type == UnitType::kCoefficients) unit.payload.resize(1);  // ue 0, ue 0, ue 0
   });
 }
 
-void add_headers(std::vector<RefusedCase>& cases) {
+void add_refused_headers(std::vector<RefusedCase>& cases) {
   const auto add = [&](const char* id, const char* purpose,
                        const std::function<void(SequenceParameterSet&)>& edit, int functions = 2,
                        int normal_bits = 0) {
     cases.push_back(
-        {id, purpose, {"7.2"}, edited(plain_stream(functions, normal_bits), [&](Units& units) {
+        {id, purpose, {"7.2"}, edited(plain_stream(functions, normal_bits), [&](UnitList& units) {
            edit_sequence(units, edit);
          })});
   };
@@ -82,7 +79,7 @@ void add_headers(std::vector<RefusedCase>& cases) {
   cases.push_back({"transforms-too-many",
                    "more transforms than groups",
                    {"7.2"},
-                   edited(plain_stream(2), [](Units& units) {
+                   edited(plain_stream(2), [](UnitList& units) {
                      edit_sequence(units, [](SequenceParameterSet& s) {
                        s.sps_transform_flag = 1, s.sps_num_transforms_minus1 = 1;
                      });
@@ -117,15 +114,16 @@ void add_framing(std::vector<RefusedCase>& cases) {
                    Bytes(seven.begin(), seven.begin() + 13)});
   Bytes zeros = bits(std::string(33, '0'));
   zeros.resize(20);
-  cases.push_back(
-      {"ue-of-32-zeros",
-       "a number that begins with 32 zeros",
-       {"3.3"},
-       edited(sound, [&](Units& units) { first_of(units, UnitType::kSlices).payload = zeros; })});
+  cases.push_back({"ue-of-32-zeros",
+                   "a number that begins with 32 zeros",
+                   {"3.3"},
+                   edited(sound, [&](UnitList& units) {
+                     first_of(units, UnitType::kSlices).payload = zeros;
+                   })});
 }
 
 /// One point, whose row 0 is the only one, and a codeword for a range without rows.
-void add_range_without_rows(Units& units) {
+void add_range_without_rows(UnitList& units) {
   edit_sequence(units, [](SequenceParameterSet& set) {
     set.sps_num_coefficient_ranges_minus1 = 1, set.sps_coefficient_range_end = {2};
   });
@@ -154,7 +152,7 @@ const char* clause_of(UnitType type) {
 
 void add_parts(std::vector<RefusedCase>& cases) {
   const auto add = [&](const char* id, const char* purpose, const char* clause, const Bytes& stream,
-                       const Edit& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(stream, edit)});
   };
   const Bytes plain = plain_stream(1, 4);
@@ -162,25 +160,25 @@ void add_parts(std::vector<RefusedCase>& cases) {
                                  std::pair{"normals-alignment", UnitType::kNormals},
                                  std::pair{"coefficients-alignment", UnitType::kCoefficients}})
     add(id, "a bit before the codeword that is not 0", clause_of(type), plain,
-        [part = type](Units& units) { first_of(units, part).payload[0] |= 1; });
+        [part = type](UnitList& units) { first_of(units, part).payload[0] |= 1; });
   add("slices-longer", "a byte after the slices", "3.3", plain,
-      [](Units& units) { first_of(units, UnitType::kSlices).payload.push_back(0); });
+      [](UnitList& units) { first_of(units, UnitType::kSlices).payload.push_back(0); });
   add("sequence-bits", "a bit after the header that is not 0", "3.3", plain,
-      [](Units& units) { units[0].payload.back() |= 1; });
-  add("normals-missing", "no normals where there should be", "7.1", plain, [](Units& units) {
+      [](UnitList& units) { units[0].payload.back() |= 1; });
+  add("normals-missing", "no normals where there should be", "7.1", plain, [](UnitList& units) {
     units.erase(units.begin() + (&first_of(units, UnitType::kNormals) - units.data()));
   });
   add("normals-shorter", "normals without their bytes", "8.10", plain_stream(1, 4),
-      [](Units& units) { first_of(units, UnitType::kNormals).payload = {0x80}; });
-  add("normals-longer", "bytes after the normals", "8.3.1", plain, [](Units& units) {
+      [](UnitList& units) { first_of(units, UnitType::kNormals).payload = {0x80}; });
+  add("normals-longer", "bytes after the normals", "8.3.1", plain, [](UnitList& units) {
     auto& payload = first_of(units, UnitType::kNormals).payload;
     payload.resize(payload.size() + 8);
   });
-  add("normals-escape", "a residual of 28 ones", "8.3.4", plain, [](Units& units) {
+  add("normals-escape", "a residual of 28 ones", "8.3.4", plain, [](UnitList& units) {
     first_of(units, UnitType::kNormals).payload = Bytes(40, 0);
     first_of(units, UnitType::kNormals).payload[0] = 0x80;
   });
-  add("coefficients-escape", "a magnitude of 28 ones", "8.3.4", plain, [](Units& units) {
+  add("coefficients-escape", "a magnitude of 28 ones", "8.3.4", plain, [](UnitList& units) {
     first_of(units, UnitType::kCoefficients).payload = Bytes(80, 0);
     first_of(units, UnitType::kCoefficients).payload[0] = 0xE0;
   });
@@ -190,45 +188,45 @@ void add_parts(std::vector<RefusedCase>& cases) {
 
 void add_limits(std::vector<RefusedCase>& cases) {
   const auto add = [&](const char* id, const char* purpose, const char* clause, const Bytes& stream,
-                       const Edit& edit) {
+                       const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(stream, edit)});
   };
   LightField f = field({{0, 1, 2}, {3, 3, 3}}, 3, 0);
   f.normals = {5, {{8, 0}, {0, 0}}};
   CodingParameters p;
   p.index = p.digest = false;
-  add("normals-residual", "a residual of 2^(bits - 1)", "8.10", *pack(f, p), [](Units& units) {
+  add("normals-residual", "a residual of 2^(bits - 1)", "8.10", *pack(f, p), [](UnitList& units) {
     edit_sequence(units, [](SequenceParameterSet& set) { set.sps_normal_bits = 4; });
   });
   p.step = {{1, 1, 1}};
   f = field(scattered(40, 3, 12), 3, 1);
   std::fill(f.components.begin(), f.components.end(), 15000000);
-  add("coefficient-limit", "a coefficient above 2^27", "8.7.4", *pack(f, p), [](Units& units) {
+  add("coefficient-limit", "a coefficient above 2^27", "8.7.4", *pack(f, p), [](UnitList& units) {
     edit_sequence(units, [](SequenceParameterSet& set) { set.runs[0].sps_plane_step[0] = 2; });
   });
 }
 
 void add_digests(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose, const Edit& edit) {
+  const auto add = [&](const char* id, const char* purpose, const UnitEdit& edit) {
     cases.push_back({id, purpose, {"7.1", "7.9"}, edited(edit)});
   };
-  const auto digest = [](Units& units) {
+  const auto digest = [](UnitList& units) {
     return units.begin() + (&first_of(units, UnitType::kDigest) - units.data());
   };
-  add("digest-twice", "a second digest of a slice", [&](Units& units) {
+  add("digest-twice", "a second digest of a slice", [&](UnitList& units) {
     const EditableUnit again = *digest(units);
     units.insert(digest(units), again);
   });
-  add("digest-early", "a digest before the last unit of its slice", [&](Units& units) {
+  add("digest-early", "a digest before the last unit of its slice", [&](UnitList& units) {
     std::iter_swap(digest(units), digest(units) - static_cast<std::ptrdiff_t>(1));
     const EditableUnit moved = *digest(units);
     units.erase(digest(units));
     units.insert(units.begin() + (&first_of(units, UnitType::kGeometry) - units.data()) + 4, moved);
   });
   add("digest-shorter", "a digest of 31 bytes",
-      [&](Units& units) { digest(units)->payload.pop_back(); });
+      [&](UnitList& units) { digest(units)->payload.pop_back(); });
   add("digest-longer", "a digest of 33 bytes",
-      [&](Units& units) { digest(units)->payload.push_back(0); });
+      [&](UnitList& units) { digest(units)->payload.push_back(0); });
 }
 
 Bytes metadata_unit(const std::string& text, std::uint64_t stated) {
@@ -239,12 +237,12 @@ Bytes metadata_unit(const std::string& text, std::uint64_t stated) {
 }
 
 void add_metadata(std::vector<RefusedCase>& cases) {
-  const auto add = [&](const char* id, const char* purpose, const Edit& edit) {
+  const auto add = [&](const char* id, const char* purpose, const UnitEdit& edit) {
     cases.push_back({id, purpose, {"7.8"}, edited(edit)});
   };
   const auto add_text = [&](const char* id, const char* purpose, const std::string& text,
                             std::uint64_t more = 0) {
-    add(id, purpose, [&](Units& units) {
+    add(id, purpose, [&](UnitList& units) {
       first_of(units, UnitType::kMetadata).payload = metadata_unit(text, text.size() + more);
     });
   };
@@ -256,19 +254,19 @@ void add_metadata(std::vector<RefusedCase>& cases) {
   add_text("metadata-length", "a byte more stated than there is", "key\0value\0"s, 1);
   add_text("metadata-too-long", "more than 2^20 bytes",
            "key\0"s + std::string((1u << 20) - 4, 'v') + "\0"s);
-  add("metadata-twice", "a second metadata unit", [](Units& units) {
+  add("metadata-twice", "a second metadata unit", [](UnitList& units) {
     const EditableUnit again = first_of(units, UnitType::kMetadata);
     units.insert(units.end() - 1, again);
   });
   add("metadata-longer", "a byte after the zlib stream",
-      [](Units& units) { first_of(units, UnitType::kMetadata).payload.push_back(0); });
+      [](UnitList& units) { first_of(units, UnitType::kMetadata).payload.push_back(0); });
 }
 
 }  // namespace
 
 std::vector<RefusedCase> refused_units() {
   std::vector<RefusedCase> cases;
-  add_headers(cases);
+  add_refused_headers(cases);
   add_framing(cases);
   add_parts(cases);
   add_limits(cases);

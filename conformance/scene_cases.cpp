@@ -101,7 +101,7 @@ void add_cuts(std::vector<Case>& cases) {
   add("cut-bytes", "units left out from the end", 0, 0, {}, 1500);
 }
 
-void add_prefixes(std::vector<Case>& cases) {
+void add_scene_prefixes(std::vector<Case>& cases) {
   for (const std::size_t units : {3u, 5u, 6u, 9u, 11u, 14u, 17u, 22u, 30u}) {
     Case c = scene(("scene-prefix-" + std::to_string(units)).c_str(), "a scene cut short", 3, 280);
     c.parameters.index = true;
@@ -121,7 +121,7 @@ std::vector<Case> scene_cases() {
   std::vector<Case> cases;
   add_scenes(cases);
   add_cuts(cases);
-  add_prefixes(cases);
+  add_scene_prefixes(cases);
   return cases;
 }
 

@@ -41,7 +41,7 @@ void add_normals(LightField& field, int bits, std::uint32_t widest) {
   }
 }
 
-void add_geometry(std::vector<Case>& cases) {
+void add_small_geometry(std::vector<Case>& cases) {
   CodingParameters ranges;
   ranges.base_levels = 0;
   ranges.geometry_level_ends = {1, 3, 4, 5};
@@ -92,7 +92,7 @@ void add_deep(std::vector<Case>& cases) {
   cases.push_back(scene);
 }
 
-Case scene(const char* id, const char* purpose, Strings clauses) {
+Case small_scene(const char* id, const char* purpose, Strings clauses) {
   CodingParameters p = in_groups(7, 3, 30, 2);
   p.coefficient_level_ends = {1, 2, 3, 4};
   p.geometry_level_ends = {2, 3, 4};
@@ -100,31 +100,31 @@ Case scene(const char* id, const char* purpose, Strings clauses) {
   return small(id, purpose, std::move(clauses), field(sphere(4, 3), 4, 7), p);
 }
 
-void add_scenes(std::vector<Case>& cases) {
-  Case shared = scene("small-scene", "a base, slices that share states, three groups",
-                      {"7.3", "8.1", "8.2", "8.7.2"});
+void add_small_scenes(std::vector<Case>& cases) {
+  Case shared = small_scene("small-scene", "a base, slices that share states, three groups",
+                            {"7.3", "8.1", "8.2", "8.7.2"});
   shared.levels = {1, 3};
   shared.groups = {2};
   shared.parameters.index = true;
   cases.push_back(shared);
-  Case alone = scene("small-alone", "slices without shared states, normals of 12 bits",
-                     {"8.1", "8.9", "8.10"});
+  Case alone = small_scene("small-alone", "slices without shared states, normals of 12 bits",
+                           {"8.1", "8.9", "8.10"});
   alone.parameters.slice_start = SliceStart::kBase;
   alone.levels = {3};
   add_normals(alone.field, 12, 4096);
   cases.push_back(alone);
   for (const bool vector : {true, false}) {
-    Case plain =
-        scene(vector ? "small-unpredicted" : "small-independent",
-              vector ? "no prediction, several slices" : "the independent coder, several slices",
-              {"7.6", vector ? "8.7.2" : "8.7.3"});
+    Case plain = small_scene(
+        vector ? "small-unpredicted" : "small-independent",
+        vector ? "no prediction, several slices" : "the independent coder, several slices",
+        {"7.6", vector ? "8.7.2" : "8.7.3"});
     plain.parameters.predict = !vector;
     plain.parameters.coefficients =
         vector ? CoefficientCoder::kVector : CoefficientCoder::kIndependent;
     cases.push_back(plain);
   }
   Case order =
-      scene("small-slice-by-slice", "slices one after the other, without digests", {"7.1"});
+      small_scene("small-slice-by-slice", "slices one after the other, without digests", {"7.1"});
   order.slice_by_slice = true;
   order.parameters.digest = false;
   cases.push_back(order);
@@ -248,9 +248,9 @@ void add_headers(std::vector<Case>& cases) {
 
 std::vector<Case> small_cases() {
   std::vector<Case> cases;
-  add_geometry(cases);
+  add_small_geometry(cases);
   add_deep(cases);
-  add_scenes(cases);
+  add_small_scenes(cases);
   add_coefficients(cases);
   add_values(cases);
   add_headers(cases);

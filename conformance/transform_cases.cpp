@@ -17,8 +17,6 @@
 namespace slf::conformance {
 namespace {
 
-using Units = std::vector<EditableUnit>;
-
 /// A transform with the given entries, columns of as many fractional bits as `precision` says.
 ForwardTransform random_transform(const PlaneGroups& all, std::size_t first, std::size_t groups,
                                   std::size_t rank, std::size_t lanes, Random& random) {
@@ -46,8 +44,8 @@ ForwardTransform random_transform(const PlaneGroups& all, std::size_t first, std
 
 /// Gives the coefficient units of groups, the first of each, the columns of these.
 /// before: of the units as they are; set: with transforms
-void add_columns(Units& units, const SequenceParameterSet& before, const SequenceParameterSet& set,
-                 const std::vector<ForwardTransform>& transforms) {
+void add_columns(UnitList& units, const SequenceParameterSet& before,
+                 const SequenceParameterSet& set, const std::vector<ForwardTransform>& transforms) {
   for (EditableUnit& unit : units) {
     if (unit.type != UnitType::kCoefficients) continue;
     const auto header = read_part_unit({unit.type, unit.payload, 0, 0}, before)->header;
@@ -68,7 +66,7 @@ struct Group {
 
 /// Groups of which only some functions are coded, as if by transforms, which still have to be
 /// added. The stream has units of no codeword for groups without a coded function.
-Units groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32_t step) {
+UnitList groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32_t step) {
   CodingParameters p;
   p.base_levels = 0;
   p.index = p.digest = false;
@@ -79,9 +77,9 @@ Units groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32
       p.group.push_back(static_cast<int>(packed_groups)), p.step.push_back({step, step, step});
     packed_groups += g.coded > 0;
   }
-  Units units;
+  UnitList units;
   edited(*pack(field(scattered(30, 3, 19), 3, functions, size), p),
-         [&](Units& all) { units = all; });
+         [&](UnitList& all) { units = all; });
   const SequenceParameterSet before = *parse_sequence_parameter_set(units[0].payload);
   edit_sequence(units, [&](SequenceParameterSet& set) {
     set.sps_num_groups_minus1 = static_cast<std::uint32_t>(groups.size() - 1);
@@ -95,7 +93,7 @@ Units groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32
   const auto coefficients = std::find_if(units.begin(), units.end(), [](const EditableUnit& u) {
     return u.type == UnitType::kCoefficients;
   });
-  Units made(units.begin(), coefficients);
+  UnitList made(units.begin(), coefficients);
   auto next = coefficients;
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
     BitWriter header;
@@ -119,7 +117,7 @@ Units groups_of(const std::vector<Group>& groups, std::int32_t size, std::uint32
 /// The stream of units that were coded without transforms.
 /// make: the transforms, by what the sequence then is
 Bytes with_transforms(
-    Units units, std::size_t count,
+    UnitList units, std::size_t count,
     const std::function<std::vector<ForwardTransform>(const SequenceParameterSet&)>& make) {
   const SequenceParameterSet before = *parse_sequence_parameter_set(units[0].payload);
   edit_sequence(units, [&](SequenceParameterSet& set) {
@@ -175,8 +173,8 @@ Case colours_clamped() {
     const double value = i < kChain ? cells[0] + within[at] : cells[at];
     f.components.insert(f.components.end(), 3, static_cast<std::int32_t>(std::lround(value)));
   }
-  Units units;
-  edited(packed_bare(f, p), [&](Units& all) { units = all; });
+  UnitList units;
+  edited(packed_bare(f, p), [&](UnitList& all) { units = all; });
   edit_sequence(units, [&](auto& set) { set.runs[0].sps_plane_step.fill(kStep); });
   return case_of_stream("transform-of-greatest", "colours beyond 32 bits before the matrix",
                         {"8.7.5", "8.8.3"},

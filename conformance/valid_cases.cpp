@@ -21,7 +21,7 @@ std::vector<Voxel> one_in_most_blocks() {
   return voxels;
 }
 
-void add_geometry(std::vector<Case>& cases) {
+void add_octrees(std::vector<Case>& cases) {
   const auto add = [&](std::string id, std::string purpose, std::vector<Voxel> voxels, int bits) {
     cases.push_back(case_of(std::move(id), std::move(purpose), {"7.3", "8.4"},
                             field(std::move(voxels), bits, 0)));
@@ -39,7 +39,7 @@ void add_geometry(std::vector<Case>& cases) {
   add("sphere-thinned", "surface with holes", sphere(7, 3), 7);
 }
 
-void add_prefixes(std::vector<Case>& cases) {
+void add_cut_streams(std::vector<Case>& cases) {
   for (const std::size_t units : {2u, 4u, 5u, 7u, 8u}) {
     Case c = case_of("prefix-" + std::to_string(units),
                      "a stream cut after " + std::to_string(units) + " units", {"7.1", "8.9"},
@@ -59,13 +59,13 @@ std::vector<Case> valid_cases() {
   const auto append = [&](const std::vector<Case>& more) {
     cases.insert(cases.end(), more.begin(), more.end());
   };
-  add_geometry(cases);
+  add_octrees(cases);
   for (const auto& make :
        {component_cases, header_cases, scene_cases, apart_cases, layer_cases, small_cases,
         edited_cases, transform_cases, attribute_cases, frame_cases, frame_context_cases,
         empty_frame_cases, growth_cases, level_cases, ordinary_cases, limit_cases})
     append(make());
-  add_prefixes(cases);
+  add_cut_streams(cases);
   append(texture_cases());
   return cases;
 }

@@ -139,7 +139,8 @@ class MotionSearch {
     const CoarseFrame& now = here(level);
     MatchedFrame& before = there(level);
     const std::size_t apart = std::max<std::size_t>(1, now.codes.size() / effort.places);
-    const double stiffness = static_cast<double>(now.codes.size() / apart) /
+    const std::size_t num_places = now.codes.size() / apart;
+    const double stiffness = static_cast<double>(num_places) /
                              static_cast<double>(std::min(now.codes.size(), kStiffPlaces));
     std::vector<std::uint32_t> last;
     std::vector<Place> guesses;

@@ -45,7 +45,8 @@ double expected_bytes(const Sequence& sequence, const Run& sample) {
   }
   const double predicted = sample.bytes - intra,
                num_predicted = static_cast<double>(sample.frames.size()) - num_intra;
-  const auto groups = static_cast<double>((sequence.length + group - 1) / group);
+  const std::size_t num_groups = (sequence.length + group - 1) / group;
+  const auto groups = static_cast<double>(num_groups);
   return groups * intra / num_intra +
          (static_cast<double>(sequence.length) - groups) * predicted / std::max(num_predicted, 1.0);
 }

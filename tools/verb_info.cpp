@@ -80,7 +80,7 @@ Result<DecodeCost, Failure> cost_of(const StreamFile& file, const InfoOptions& g
   // More units than the limits of a decode have room for: what that takes is told all the same.
   if (!cost && cost.error().code == Errc::kLimitExceeded)
     cost = decode_cost(file.bytes, decode_options(file.info, {}, {given.asked}, given.common));
-  return from(input_name(given.input), std::move(cost));
+  return from(input_name(given.input), cost);
 }
 
 /// What decoding takes is told of any file; limits that were given are held against it.

@@ -36,8 +36,9 @@ std::vector<float> nearest_around(const std::vector<float>& depth, const Trainin
 Float3 ShownSurface::point(std::size_t pixel) const {
   const TrainingCamera& c = *camera;
   const float z = depths.depth[pixel];
-  const float x = (float(pixel % std::size_t(c.width)) + 0.5f - c.cx) / c.fx * z;
-  const float y = (float(pixel / std::size_t(c.width)) + 0.5f - c.cy) / c.fy * z;
+  const std::size_t column = pixel % std::size_t(c.width), row = pixel / std::size_t(c.width);
+  const float x = (float(column) + 0.5f - c.cx) / c.fx * z;
+  const float y = (float(row) + 0.5f - c.cy) / c.fy * z;
   return along(along(along(c.centre, x, c.rotation[0]), y, c.rotation[1]), z, c.rotation[2]);
 }
 

@@ -27,12 +27,12 @@ inline Picture test_picture(const VideoFormat& format, std::size_t index) {
   const double half = (1 << format.bits) / 2.0;
   std::uint32_t noise = static_cast<std::uint32_t>(index) * 977u + 1u;
   for (int plane = 0; plane < num_planes(format.chroma); ++plane) {
-    const int width = plane_size(format.width, format.chroma, plane);
+    const auto width = static_cast<std::size_t>(plane_size(format.width, format.chroma, plane));
     auto& samples = picture.planes[static_cast<std::size_t>(plane)];
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const double x = static_cast<double>(i % static_cast<std::size_t>(width)) +
-                       2.0 * static_cast<double>(index);
-      const double y = static_cast<double>(i / static_cast<std::size_t>(width));
+      const std::size_t column = i % width, row = i / width;
+      const double x = static_cast<double>(column) + 2.0 * static_cast<double>(index);
+      const auto y = static_cast<double>(row);
       noise = noise * 1664525u + 1013904223u;
       const double value = half + 0.6 * half * std::sin(0.11 * x + plane) * std::cos(0.07 * y) +
                            half / 64 * (noise >> 24) / 256;

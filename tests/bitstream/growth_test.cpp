@@ -20,19 +20,19 @@ namespace {
 
 using conformance::base_stream;
 using conformance::Bytes;
-using conformance::EditableUnit;
 using conformance::edited;
+using conformance::UnitList;
 
 const Bytes kPayload = {'E', 'X', 'A', 'M', 9, 9};
 
 Bytes with_unit(int type) {
-  return edited([&](std::vector<EditableUnit>& units) {
+  return edited([&](UnitList& units) {
     units.insert(units.end() - 2, {static_cast<UnitType>(type), kPayload});
   });
 }
 
 Bytes with_later_elements(const Bytes& elements) {
-  return edited([&](std::vector<EditableUnit>& units) {
+  return edited([&](UnitList& units) {
     units[0].payload.insert(units[0].payload.end(), elements.begin(), elements.end());
   });
 }

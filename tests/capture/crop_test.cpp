@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 PointCloud cube() {
   PointCloud cloud;
   for (int i = 0; i < 1000; ++i) {
-    cloud.positions.push_back({float(i % 10) / 9, float(i / 10 % 10) / 9, float(i / 100) / 9});
+    const int x = i % 10, y = i / 10 % 10, z = i / 100;
+    cloud.positions.push_back({float(x) / 9, float(y) / 9, float(z) / 9});
     cloud.colours.push_back({std::uint8_t(i % 250), 0, 0});
   }
   return cloud;

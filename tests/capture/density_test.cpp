@@ -86,9 +86,11 @@ TEST(Density, ADenseCloudBecomesALayerOneVoxelThickWithoutHoles) {
 TEST(Density, ACloudOfVoxelsStaysWhatItIs) {
   Capture capture;
   for (int j = 0; j < 40; ++j)
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < 40; ++i) {
+      const int k = (i + j) / 2;
       capture.cloud.positions.push_back(
-          {static_cast<float>(i), static_cast<float>(j), static_cast<float>((i + j) / 2)});
+          {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)});
+    }
   const auto voxels = voxelise_geometry(capture, capture.cloud, {}, 0, 0);
   ASSERT_TRUE(voxels) << voxels.error().message;
   EXPECT_EQ(voxels->grid.step, 1);

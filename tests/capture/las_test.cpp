@@ -81,10 +81,11 @@ std::string refusal(std::string bytes, std::size_t at, const std::string& with) 
 
 TEST(Las, EveryPointFormatGivesTheSamePoints) {
   for (const std::uint8_t minor : {std::uint8_t{2}, std::uint8_t{4}})
-    for (std::uint8_t format = 0; format < kRecords.size(); ++format)
+    for (std::size_t format = 0; format < kRecords.size(); ++format)
       for (const std::uint16_t extra : {std::uint16_t{0}, std::uint16_t{5}}) {
         std::vector<std::string> warnings;
-        const auto scan = read(Las{minor, format, extra}.bytes(), &warnings);
+        const auto scan =
+            read(Las{minor, static_cast<std::uint8_t>(format), extra}.bytes(), &warnings);
         ASSERT_TRUE(scan) << scan.error().message;
         EXPECT_THAT(warnings, IsEmpty());
         EXPECT_EQ(scan->crs, kWkt);

@@ -28,20 +28,23 @@ TEST(PlyReader, ReadsFilesOfManyBlocks) {
   binary.text("element vertex " + count + "\n" + properties + "end_header\n");
   for (int i = 0; i < 300000; ++i) binary.put(std::int32_t{i}, false);
   for (int i = 0; i < kPoints; ++i) {
-    ascii += std::to_string(i) + " 2 " + std::to_string(i % 256) + " 7\n-" + std::to_string(i / 2) +
+    const int half = i / 2;
+    ascii += std::to_string(i) + " 2 " + std::to_string(i % 256) + " 7\n-" + std::to_string(half) +
              ".5 1e2" + std::string(static_cast<std::size_t>(i % 7), ' ') + "\n";
     binary.put(static_cast<float>(i), false).put(std::uint8_t{1}).put(std::uint8_t{9});
-    binary.put(-0.5f - static_cast<float>(i / 2), false).put(100.0f, false);
+    binary.put(-0.5f - static_cast<float>(half), false).put(100.0f, false);
   }
   ascii += "5\n";
   for (const std::string& text : {ascii, binary.bytes}) {
     const auto cloud = read(text);
     ASSERT_TRUE(cloud) << cloud.error().message;
     ASSERT_EQ(cloud->positions.size(), std::size_t{kPoints});
-    for (int i = 0; i < kPoints; ++i)
+    for (int i = 0; i < kPoints; ++i) {
+      const int half = i / 2;
       ASSERT_EQ(cloud->positions[static_cast<std::size_t>(i)],
-                (Position{static_cast<float>(i), -0.5f - static_cast<float>(i / 2), 100}))
+                (Position{static_cast<float>(i), -0.5f - static_cast<float>(half), 100}))
           << i;
+    }
     EXPECT_FALSE(read(text.substr(0, text.size() - 12)));
   }
   EXPECT_FALSE(read("ply\ncomment " + std::string(2 << 20, 'c') + ascii.substr(4)));

@@ -138,7 +138,10 @@ TEST(Voxelise, TheCanHasAsManyVoxelsAsAnotherProgramCounts) {
 // Against a plain sort by (distance, index), on a lattice, where most distances are tied.
 TEST(NearestPoints, TiesGoByIndexWhateverTheTreeVisitsFirst) {
   std::vector<std::array<float, 3>> points;
-  for (int i = 0; i < 343; ++i) points.push_back({float(i % 7), float(i / 7 % 7), float(i / 49)});
+  for (int i = 0; i < 343; ++i) {
+    const int x = i % 7, y = i / 7 % 7, z = i / 49;
+    points.push_back({float(x), float(y), float(z)});
+  }
   std::mt19937 random(3);
   std::shuffle(points.begin(), points.end(), random);
   points.push_back(points[5]);  // a duplicate

@@ -268,7 +268,8 @@ TEST(ZeroCrossings, OfAPlaneAreOneLayerOfNodesAndFaceOutwards) {
       block.key = {x, y, 0};
       for (std::size_t i = 0; i < kNodesOfBlock; ++i) {
         block.weight[i] = 2;
-        block.distance[i] = 2 * (float(i / 64) - 3.3f);
+        const std::size_t z = i / 64;
+        block.distance[i] = 2 * (float(z) - 3.3f);
       }
       all.blocks.push_back(block);
     }

@@ -194,9 +194,9 @@ SummedField summed_field(const Basis& basis, std::size_t rank, bool joint, std::
     others.functions.push_back(static_cast<std::uint16_t>(k));
   others.rank = rank;
   others.lanes = joint ? 1 : 3;
-  for (std::uint16_t r = 1; r <= rank; ++r) {
-    others.components.push_back(r);
-    header.coded.push_back(r);
+  for (std::size_t r = 1; r <= rank; ++r) {
+    others.components.push_back(static_cast<std::uint16_t>(r));
+    header.coded.push_back(static_cast<std::uint16_t>(r));
   }
   for (std::size_t i = 0; i < others.rows() * others.columns(); ++i)
     others.matrix.push_back(symmetric(6000 / static_cast<std::int32_t>(std::sqrt(others.rows()))));

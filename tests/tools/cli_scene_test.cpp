@@ -54,7 +54,7 @@ TEST_F(SceneTest, ThePlanHasTheStepOfAllSlices) {
   const auto step_of = [&](const std::string& more) {
     const Ran ran = slf("plan street -o plan.json --work work --grid-bits 9 " + more);
     EXPECT_EQ(ran.code, 0) << ran.err;
-    const std::string q = parsed(read("plan.json"))["settings"].back()[1].get<std::string>();
+    std::string q = parsed(read("plan.json"))["settings"].back()[1].get<std::string>();
     EXPECT_NE(ran.err.find("Q " + q + ", "), std::string::npos) << ran.err;
     return q;
   };
