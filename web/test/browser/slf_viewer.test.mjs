@@ -112,7 +112,7 @@ test('twelve that are seen at once all show their picture, and a click wakes one
 test('a poster that does not arrive leaves no sign of a broken picture', { skip }, async () => {
   const page = await pageOf('poster', FAR + viewer('a', 'poster="/files/none.png"'));
   await page.waitForFunction(() => document.getElementById('a').shadowRoot.getElementById('poster').hidden);
-  assert.equal(await page.evaluate(() => document.getElementById('a').viewer), undefined); // it sleeps still
+  assert.equal(await page.evaluate(() => document.getElementById('a').viewer), null); // it sleeps still
   await page.close();
 });
 
