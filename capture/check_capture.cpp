@@ -100,7 +100,7 @@ bool far_from_origin(const PointCloud& cloud) {
     magnitude = std::max({magnitude, std::abs(low), std::abs(high)});
     extent = std::max(extent, high - low);
   }
-  return magnitude > 8192 * extent;
+  return extent > 0 && magnitude > 8192 * extent;  // all in one place: there is nothing to resolve
 }
 
 }  // namespace

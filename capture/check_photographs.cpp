@@ -64,11 +64,13 @@ struct Noticed {
   }
 };
 
+/// @param what  they have
 void warn_of(const Noticed& noticed, const char* what, Capture& capture) {
   if (noticed.count == 0) return;
-  capture.warnings.push_back(
-      std::to_string(noticed.count) + " of " + std::to_string(capture.cameras.size()) +
-      " photographs (" + (noticed.count > 1 ? "the first is " : "") + noticed.first + ") " + what);
+  capture.warnings.push_back(std::to_string(noticed.count) + " of " +
+                             std::to_string(capture.cameras.size()) + " photographs (" +
+                             (noticed.count > 1 ? "the first is " : "") + noticed.first + ") " +
+                             (noticed.count > 1 ? "have " : "has ") + what);
 }
 
 struct Shares {
@@ -116,7 +118,7 @@ Result<std::vector<std::size_t>, InputError> masked_cameras(const Capture& captu
 Result<Done, InputError> check_photographs(Capture& capture) {
   Noticed ambiguous, coloured;
   bool turned = false;
-  std::vector<int> orientation(capture.cameras.size(), 1);
+  std::vector<int> orientation(capture.cameras.size(), 1), either_way = orientation;
   for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
     const Camera& camera = capture.cameras[i];
     const auto& file = capture.image_files[i];
@@ -125,21 +127,29 @@ Result<Done, InputError> check_photographs(Capture& capture) {
       if (!fits_turned(header, camera)) return other_size_than(camera, file, header);
       orientation[i] = header.orientation;
       turned = true;
+    } else if (may_be_turned(header)) {
+      ambiguous.add(true, file);
+      either_way[i] = header.orientation;
     }
-    ambiguous.add(may_be_turned(header), file);
     coloured.add(header.other_colour, file);
     if (capture.mask_files.empty() || capture.mask_files[i].empty()) continue;
     SLF_TRY(const ImageHeader mask, header_of(capture.mask_files[i]));
     if (!fits(mask, camera)) return other_size_than(camera, capture.mask_files[i], mask);
   }
-  if (turned) capture.orientation = std::move(orientation);
+  if (turned) {
+    // Whoever calibrated turned photographs did so with all of them.
+    for (std::size_t i = 0; i < orientation.size(); ++i)
+      orientation[i] = std::max(orientation[i], either_way[i]);
+    capture.orientation = std::move(orientation);
+    ambiguous = {};
+  }
   warn_of(ambiguous,
-          "have an EXIF orientation, which is ignored: a calibration of upright pictures (OpenCV, "
+          "an EXIF orientation, which is ignored: a calibration of upright pictures (OpenCV, "
           "ffmpeg, browsers) does not fit them; store them upright (exiftran -a, mogrify "
           "-auto-orient)",
           capture);
   warn_of(coloured,
-          "have a colour profile or gamma other than sRGB's, which is ignored: convert them, or "
+          "a colour profile or gamma other than sRGB's, which is ignored: convert them, or "
           "their colours are shown as if they were sRGB",
           capture);
   return Done{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <vector>
@@ -65,10 +66,10 @@ struct Extent {
   double all, most, low, high;
 };
 
-Extent extent_along(const PointCloud& cloud, std::size_t axis) {
+Extent extent_along(std::span<const std::array<float, 3>> positions, std::size_t axis) {
   constexpr double kTail = 0.01;  // of the points at either end, which may be anywhere
   std::vector<float> values;
-  for (const auto& p : cloud.positions) values.push_back(p[axis]);
+  for (const auto& p : positions) values.push_back(p[axis]);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double first = quantile(values, kTail), last = quantile(values, 1 - kTail);
   const double margin = (last - first) / 2;
@@ -88,24 +89,29 @@ Result<Done, InputError> crop(Mesh& mesh, const Vec3& origin, const WorldBox& bo
 }
 
 std::string far_points_warning(const PointCloud& cloud, const Vec3& origin) {
+  return far_points_warning(cloud.positions, origin, "points", "the cloud");
+}
+
+std::string far_points_warning(std::span<const std::array<float, 3>> positions, const Vec3& origin,
+                               const char* points, const char* whole) {
   constexpr double kWide = 4;  // two bits of the grid
   constexpr std::size_t kFewest = 100;
-  if (cloud.positions.size() < kFewest) return "";
+  if (positions.size() < kFewest) return "";
   std::array<Extent, 3> extent{};
   double all = 0, most = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    extent[k] = extent_along(cloud, k);
+    extent[k] = extent_along(positions, k);
     all = std::max(all, extent[k].all);
     most = std::max(most, extent[k].most);
   }
   if (!(all > kWide * most) || most == 0) return "";
-  char text[320];
+  char text[400];
   std::snprintf(text, sizeof text,
-                "a few points far away make the cloud %.0f times as wide as it is, and its grid as "
-                "coarse; without them: --crop=%.10g,%.10g,%.10g,%.10g,%.10g,%.10g",
-                all / most, extent[0].low + origin[0], extent[1].low + origin[1],
-                extent[2].low + origin[2], extent[0].high + origin[0], extent[1].high + origin[1],
-                extent[2].high + origin[2]);
+                "a few %s far away make %s %.10g times as wide as it is, and its grid as coarse; "
+                "without them: --crop=%.10g,%.10g,%.10g,%.10g,%.10g,%.10g",
+                points, whole, std::round(all / most), extent[0].low + origin[0],
+                extent[1].low + origin[1], extent[2].low + origin[2], extent[0].high + origin[0],
+                extent[1].high + origin[1], extent[2].high + origin[2]);
   return text;
 }
 

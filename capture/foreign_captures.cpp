@@ -60,6 +60,8 @@ constexpr std::array kForeign = {
     Foreign{".pcd", "", "a cloud of PCL: save it as PLY (pcl_pcd2ply, CloudCompare)"},
     Foreign{".xyz", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
     Foreign{".pts", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
+    Foreign{".slf", "SLF", "is coded already: slf render, decode, export and info read it"},
+    Foreign{".igc", "", "is coded already: slf eval reads it"},
     Foreign{".mp4", "",
             "a video: take photographs from it (ffmpeg -i x.mp4 -r 2 images/%04d.jpg) "
             "and calibrate them by COLMAP"},
@@ -73,6 +75,7 @@ std::string foreign_file(const fs::path& file) {
   auto input = InputFile::open(file);
   if (!input) return {};
   const auto count = input->read(head);
+  if (count && *count == 0) return "is empty";
   const std::string_view text(reinterpret_cast<const char*>(head.data()), count ? *count : 0);
   const std::string extension = extension_of(file);
   for (const Foreign& foreign : kForeign)
@@ -81,6 +84,9 @@ std::string foreign_file(const fs::path& file) {
       return foreign.sentence;
   if (extension == ".jpg" || extension == ".jpeg" || extension == ".png")
     return "a photograph, not a capture, which is a folder of photographs with their cameras";
+  if (extension == ".txt" || extension == ".csv" || extension == ".asc")
+    return "not a capture that is understood; a cloud as text is to be saved as PLY (CloudCompare, "
+           "MeshLab)";
   if (extension == ".obj" || extension == ".glb" || extension == ".gltf")
     return "a mesh without photographs: --points takes it beside a capture's cameras";
   return {};

@@ -164,8 +164,7 @@ Result<PointCloud, InputError> read_points(Lines in) {
     SLF_CHECK(in.number<std::uint64_t>("point id"));
     for (double& x : position) {
       SLF_TRY(x, in.finite("position"));
-      if (!std::isfinite(static_cast<float>(x)))
-        return in.invalid("position is not finite as a float");
+      if (!std::isfinite(static_cast<float>(x))) return in.invalid("position is beyond 3.4e38");
     }
     for (auto& c : colour) {
       SLF_TRY(c, in.number<std::uint8_t>("colour"));

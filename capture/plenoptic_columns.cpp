@@ -18,6 +18,59 @@ bool is_alpha(const std::string& name) {
   return name == "alpha" || name == "a" || name == "opacity" || name == "Alpha";
 }
 
+/// What scanners measure beside a colour: LAS, E57, drivers of lidar, CloudCompare ("scalar_").
+bool is_of_scans(std::string name) {
+  constexpr std::array kNames = {"classification",
+                                 "class",
+                                 "label",
+                                 "intensity",
+                                 "reflectivity",
+                                 "reflectance",
+                                 "ambient",
+                                 "ring",
+                                 "laser_id",
+                                 "return_number",
+                                 "return_num",
+                                 "num_returns",
+                                 "number_of_returns",
+                                 "numberofreturns",
+                                 "returnnumber",
+                                 "scan_angle",
+                                 "scan_angle_rank",
+                                 "scanangle",
+                                 "scanner_channel",
+                                 "scan_direction_flag",
+                                 "edge_of_flight_line",
+                                 "synthetic",
+                                 "keypoint",
+                                 "key_point",
+                                 "withheld",
+                                 "overlap",
+                                 "flag",
+                                 "flags",
+                                 "user_data",
+                                 "userdata",
+                                 "point_source_id",
+                                 "source_id",
+                                 "segment",
+                                 "segment_id",
+                                 "instance",
+                                 "instance_id",
+                                 "object_id",
+                                 "semantic",
+                                 "category",
+                                 "confidence",
+                                 "quality",
+                                 "valid",
+                                 "time",
+                                 "timestamp",
+                                 "gps_time"};
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (name.starts_with("scalar_")) name.erase(0, 7);
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
 /// The name without its word for a channel: "_3" of "green_3". Nothing: it has none.
 std::optional<std::string> without_channel(const std::string& name, std::size_t channel) {
   constexpr std::array<const char*, 3> kWords{"red", "green", "blue"};
@@ -44,11 +97,13 @@ bool is_one_view(const PlyElement& vertex, const std::size_t* triple) {
 }
 
 /// Places of bytes that are no part of the own colour, in file order.
-std::vector<std::size_t> further_bytes(const PlyElement& vertex, const PlyColumns& columns) {
+std::vector<std::size_t> further_bytes(const PlyElement& vertex, const PlyColumns& columns,
+                                       PlenopticNames names) {
   std::vector<std::size_t> bytes;
   for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
     const PlyProperty& property = vertex.properties[p];
-    if (!property.is_list && property.type == PlyType::kUint8 && !columns.wanted[p])
+    if (!property.is_list && property.type == PlyType::kUint8 && !columns.wanted[p] &&
+        !(names == PlenopticNames::kNoneOfScans && is_of_scans(property.name)))
       bytes.push_back(p);
   }
   if (bytes.size() % 3 == 1)
@@ -70,7 +125,8 @@ void describe_columns(const PlyElement& vertex, const std::vector<std::size_t>& 
 
 }  // namespace
 
-Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex) {
+Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex,
+                                                       PlenopticNames names) {
   const PlyColumns cloud = ply_columns(vertex);
   PlenopticColumns columns;
   columns.place.resize(vertex.properties.size());
@@ -78,7 +134,7 @@ Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex)
       std::any_of(vertex.properties.begin(), vertex.properties.end(),
                   [](const PlyProperty& property) { return property.name == "f_dc_0"; });
   const bool positions = cloud.present[0] && cloud.present[1] && cloud.present[2];
-  const std::vector<std::size_t> bytes = further_bytes(vertex, cloud);
+  const std::vector<std::size_t> bytes = further_bytes(vertex, cloud, names);
   columns.own_colour = cloud.colours && cloud.type[kPlyColour] == PlyType::kUint8 &&
                        cloud.type[kPlyColour + 1] == PlyType::kUint8 &&
                        cloud.type[kPlyColour + 2] == PlyType::kUint8;

@@ -12,6 +12,12 @@
 
 namespace slf {
 
+/// Which bytes of vertices may be colours.
+enum class PlenopticNames {
+  kAny,         ///< whatever their names: of a cloud that was taken for plenoptic before
+  kNoneOfScans  ///< "classification", "ring" and others of scans (LAS, lidar) are none
+};
+
 struct PlenopticColumns {
   /// [properties] 0, 1, 2: x, y, z; 3 + i: byte i of the colours of a point; nothing: left out
   std::vector<std::optional<std::size_t>> place;
@@ -21,10 +27,11 @@ struct PlenopticColumns {
   std::string left_out;     ///< names; or empty
 };
 
-/// By file order, whatever the names; red, green, blue are the own colour of a point. A cloud of
-/// one triple is no plenoptic one, and splats are none.
+/// By file order; red, green, blue are the own colour of a point. A cloud of one triple is no
+/// plenoptic one, and splats are none.
 /// @errors kInvalidInput, without the file's name: bytes that are no whole triples, a triple whose
 ///         names say that a channel is missing, more than kMostViews
-Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex);
+Result<PlenopticColumns, InputError> plenoptic_columns(const PlyElement& vertex,
+                                                       PlenopticNames names = PlenopticNames::kAny);
 
 }  // namespace slf

@@ -72,7 +72,7 @@ Result<PlenopticRows, InputError> read_rows(const std::string& name, const PlyEl
 
 /// The grid of the points. Whole coordinates keep theirs.
 Result<Grid, InputError> grid_of(const std::string& name, const PlenopticRows& rows,
-                                 int grid_bits) {
+                                 const PlenopticColumns& columns, int grid_bits) {
   Vec3 low = rows.positions[0], high = low;
   for (const Vec3& p : rows.positions)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -91,9 +91,10 @@ Result<Grid, InputError> grid_of(const std::string& name, const PlenopticRows& r
   }
   if (grid_bits == 0)
     return refused_cloud(
-        name,
-        "coordinates are not whole numbers that fit 21 bits: --grid-bits 12, or as many as it is "
-        "to have, puts them on a grid");
+        name, "is taken for a plenoptic cloud of " + columns.taken +
+                  ". Its coordinates are not whole numbers that fit 21 bits: --grid-bits 12, or as "
+                  "many as it is to have, puts them on a grid" +
+                  (columns.own_colour ? "; --as colour takes red, green, blue alone" : ""));
   if (!(extent > 0)) return refused_cloud(name, "all points are in one place");
   grid.origin = low;
   grid.bits = grid_bits;
@@ -185,7 +186,7 @@ std::size_t count_plenoptic_views(const std::filesystem::path& file) {
   if (!opened) return 0;
   for (const PlyElement& element : opened->header.elements) {
     if (element.name != "vertex") continue;
-    const auto columns = plenoptic_columns(element);
+    const auto columns = plenoptic_columns(element, PlenopticNames::kNoneOfScans);
     return columns ? columns->views : kMostViews + 1;  // which read_plenoptic refuses in words
   }
   return 0;
@@ -204,7 +205,7 @@ Result<PlenopticCloud, InputError> read_plenoptic(const std::filesystem::path& f
         return refused_cloud(name, "PLY element '" + element.name + "' is cut off or damaged");
       continue;
     }
-    auto columns = plenoptic_columns(element);
+    auto columns = plenoptic_columns(element, PlenopticNames::kNoneOfScans);
     if (!columns) return refused_cloud(name, columns.error().message);
     if (columns->views == 0)
       return refused_cloud(name, "no views: its vertices have fewer than two colours of 8 bits");
@@ -219,7 +220,7 @@ Result<PlenopticCloud, InputError> read_plenoptic(const std::filesystem::path& f
     SLF_CHECK(find_views(name, ply.header, options.views, cloud, said));
     SLF_TRY(PlenopticRows rows, read_rows(name, element, *columns, body));
     if (rows.positions.empty()) return refused_cloud(name, "no points");
-    SLF_TRY(cloud.grid, grid_of(name, rows, options.grid_bits));
+    SLF_TRY(cloud.grid, grid_of(name, rows, *columns, options.grid_bits));
     warn_of_rows(name, *columns, rows, said);
     sort_rows(std::move(rows), cloud);
     if (cloud.merged > 0)

@@ -2,6 +2,7 @@
 #include "capture/ply_colours.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kWide = 1.0 / 257;  // of ushort
 // The least of the largest float of colours 0 .. 255: below, it is light brighter than white.
 constexpr double kLeastOfBytes = 16;
+// The largest that 12 bits hold, as many sensors have them: a scene of 16 bits is rarely as dark.
+constexpr double kMostOf12Bits = 4095;
 
 bool is_float(PlyType type) { return type == PlyType::kFloat || type == PlyType::kDouble; }
 
@@ -63,6 +66,12 @@ std::string PlyColours::warning() const {
   if (float_is_255_) return "colours are floats above 1: they are read as 0 to 255";
   if (!wide_is_16_bits_ && largest_wide_ > 0)
     return "no colour of 16 bits is above 255: they are read as 8 bits";
+  if (wide_is_16_bits_ && largest_wide_ <= kMostOf12Bits) {
+    const auto bits = static_cast<int>(std::bit_width(static_cast<unsigned>(largest_wide_)));
+    return "no colour of 16 bits is above " + std::to_string(static_cast<unsigned>(largest_wide_)) +
+           ": they are read as 0 to 65535; if they have " + std::to_string(bits) +
+           " bits, multiply them by " + std::to_string(1 << (16 - bits));
+  }
   return {};
 }
 

@@ -123,8 +123,7 @@ class VertexReader {
     std::array<float, 3> position{};
     for (std::size_t k = 0; k < 3; ++k) {
       position[k] = static_cast<float>(row[k]);
-      if (!std::isfinite(position[k]))
-        return invalid(at(i, kPlyWanted[k]) + " is not finite as a float");
+      if (!std::isfinite(position[k])) return invalid(at(i, kPlyWanted[k]) + " is beyond 3.4e38");
     }
     if (columns_.exact)
       exact_.push_back({row[0], row[1], row[2]});

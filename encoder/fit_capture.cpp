@@ -177,8 +177,10 @@ Result<CaptureFit, InputError> fit_capture(const Capture& given, std::span<const
 
 Result<CaptureFit, InputError> colours_alone(const VoxelCloud& cloud) {
   if (cloud.colours.empty())
-    return InputError{Errc::kInvalidInput,
-                      "the capture has no cameras and its points have no colours"};
+    return InputError{
+        Errc::kInvalidInput,
+        "the capture has no cameras and its points have no colours (slf pack codes positions "
+        "alone, as whole numbers)"};
   CaptureFit fit;
   for (const auto& rgb : cloud.colours)
     fit.coefficients.insert(fit.coefficients.end(), rgb.begin(), rgb.end());

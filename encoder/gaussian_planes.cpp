@@ -29,6 +29,8 @@ Result<Grid, InputError> grid_around(const Gaussians& splats, double step) {
   Grid grid{low, std::max(step, extent / ((1 << kMostBits) - 1)), 1};
   if (!(grid.step > 0)) grid.step = 1;
   while ((1 << grid.bits) - 1 < std::lround(extent / grid.step)) ++grid.bits;
+  if (!grid.fits_floats())
+    return invalid_input("splats: beyond 1e12, or all within 1e-12: no picture can be drawn");
   return grid;
 }
 

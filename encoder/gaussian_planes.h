@@ -17,7 +17,8 @@ std::array<Vec3, 2> bounds_of(const Gaussians& splats);
 /// The light field that gaussians_of() makes splats of again. Splats are sorted; those that share
 /// a voxel move on to the next that is free, along the curve (6.2).
 /// @param step  of the grid, world units; coarser where 21 bits would not hold the extent
-/// @errors kInvalidInput: there are none, or their extent is not finite. O(P (K + log P)).
+/// @errors kInvalidInput: there are none, or no picture shows them: Grid::fits_floats().
+///         O(P (K + log P)).
 Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads);
 
 }  // namespace slf

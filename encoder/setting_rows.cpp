@@ -69,9 +69,10 @@ void add_geometry(SettingTable& rows) {
                              {"trained", Surface::kTrained},
                              {"auto", Surface::kAuto},
                              {"splats", Surface::kSplats}},
-              "Points as given (scans, exact models), moved to where photographs agree, trained by "
-              "photographs, or what predicts held-out input photographs best; splats: no surface "
-              "but translucent points of any size, for outlines and rough geometry"),
+              "given: points as they are (scans, exact models); mended: moved to where photographs "
+              "agree; trained: by photographs; splats: no surface but translucent points of any "
+              "size, for outlines and rough geometry; auto: tries these, and keeps what shows "
+              "input photographs best that it has not seen"),
        in(kTrainedSurface, number("surface-seconds", SLF_AT(surface_seconds), 0, 1e6,
                                   "Train a surface for about so long, seconds; 0: as long as it "
                                   "pays. Files then differ "

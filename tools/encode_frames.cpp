@@ -102,12 +102,12 @@ void add_frames(CLI::App& verb, FrameOptions& options) {
                   "Frames from one that is not predicted to the next: what a lost byte can cost")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 4096))
+      ->check(whole_range(1, 4096))
       ->group(group);
   verb.add_option("--rate", options.rate, "Frames a second")
       ->type_name("F")
       ->capture_default_str()
-      ->check(CLI::Range(0.001, 10000.0))
+      ->check(range(0.001, 10000))
       ->group(group);
   verb.add_flag("--refit-still", options.refit,
                 "Fit every frame anew, also points where no photograph shows a change: these keep "

@@ -14,6 +14,7 @@ struct FrameOptions {
   double rate = 30;
   bool refit = false;  ///< points that stand still, too
   std::string part;    ///< "i/n", from 1
+  std::string given;   ///< an option that means something for frames alone; or empty
 };
 void add_frames(CLI::App& verb, FrameOptions& options);
 

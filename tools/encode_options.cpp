@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/encode_options.h"
 
+#include <algorithm>
+#include <array>
+
 #include "tools/choices.h"
 #include "tools/setting_options.h"
 
@@ -26,10 +29,10 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
                   "Folder of the photographs, where they are not where the capture says: by name, "
                   "with or without folders")
       ->type_name("DIR");
-  verb.add_option(
-          "--crop", o.crop,
-          "Only points (of a mesh: faces) in a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world "
-          "units")
+  verb.add_option("--crop", o.crop,
+                  "Only points (of a mesh: faces; splats by their centres) in a box: "
+                  "X0,Y0,Z0,X1,Y1,Z1, two corners in world "
+                  "units")
       ->delimiter(',')
       ->expected(6)
       ->check(range(-1e300, 1e300));
@@ -56,13 +59,52 @@ void add_common_options(CLI::App& verb, EncodeOptions& o) {
   add_json(verb, o.common);
 }
 
+/// Keys that the encoder writes: a second value of one would make the file say two things.
+bool is_written_by_encoder(const std::string& key) {
+  constexpr std::array kOwn = {"encoder",
+                               "source",
+                               "split",
+                               "crs",
+                               "preset",
+                               "cameras",
+                               "observations",
+                               "merged_points",
+                               "q",
+                               "grid",
+                               "densified",
+                               "voxel_pixels",
+                               "functions",
+                               "surfels",
+                               "cross_validation",
+                               "kernel",
+                               "cameras_dropped",
+                               "cameras_gain_corrected",
+                               "picture_pull",
+                               "quality_loss_held_out"};
+  if (key.starts_with("surface_") || key.starts_with("refine_") || key.starts_with("plenoptic"))
+    return true;
+  std::string option = key;
+  std::replace(option.begin(), option.end(), '_', '-');
+  const auto& settings = encoder_settings();
+  return std::find(kOwn.begin(), kOwn.end(), key) != kOwn.end() ||
+         std::any_of(settings.begin(), settings.end(),
+                     [&](const SettingInfo& setting) { return setting.name == option; });
+}
+
 Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
   for (const std::string& pair : given.metadata) {
     const std::size_t equals = pair.find('=');
     if (equals == 0 || equals == std::string::npos)
       return Failure{kUsage,
                      std::string(given.verb) + ": --metadata " + pair + " is not KEY=VALUE"};
-    metadata.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+    const std::string key = pair.substr(0, equals);
+    if (is_written_by_encoder(key))
+      return Failure{kUsage, std::string(given.verb) + ": --metadata " + key +
+                                 ": the encoder writes this key itself"};
+    for (const auto& [other, value] : metadata)
+      if (other == key)
+        return Failure{kUsage, std::string(given.verb) + ": --metadata " + key + " is given twice"};
+    metadata.emplace_back(key, pair.substr(equals + 1));
   }
   return Done{};
 }

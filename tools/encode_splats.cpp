@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "slf/crop_gaussians.h"
 #include "slf/encode_gaussians.h"
 #include "tools/output.h"
 #include "tools/splat_input.h"
@@ -29,9 +30,17 @@ Outcome check_given(const EncodeOptions& given) {
   if (!given.points.empty()) return refused("points");
   if (!given.images.empty()) return refused("images");
   if (!given.split.empty()) return refused("split");
-  if (!given.crop.empty()) return refused("crop");
   for (const auto& [name, value] : given.given)
     if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return refused(name);
+  return Done{};
+}
+
+/// Leaves out what is not wanted; else says what perhaps is not.
+Outcome crop_or_warn(const EncodeOptions& given, Gaussians& splats) {
+  if (const auto& c = given.crop; !c.empty())
+    return from(given.capture, crop(splats, WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}}));
+  const std::string far = far_splats_warning(splats);
+  if (!far.empty()) warn(given.capture + ": " + far, given.common.quiet);
   return Done{};
 }
 
@@ -43,6 +52,7 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
   LimitOptions limits;  // as of any file that is encoded: 16 million splats of degree 3
   limits.limits.max_stream_bytes = limits.limits.max_memory = kMostInput;
   SLF_TRY(GaussianFile file, read_splat_file("encode", given.capture, {}, limits, given.common));
+  SLF_CHECK(crop_or_warn(given, file.gaussians));
   if (given.up_given) file.gaussians.up = given.up;
   const double load = watch.lap();
   const int degree = file.gaussians.degree;

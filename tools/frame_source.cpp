@@ -1,33 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/frame_source.h"
 
+#include <algorithm>
+
 #include "slf/frame_inputs.h"
 #include "tools/output.h"
 #include "tools/text.h"
 
 namespace slf::tools {
 
+namespace {
+
+Outcome open(FrameSource& source, const std::string& file, const PartOptions& part,
+             const LimitOptions& given, const CommonOptions& common) {
+  if (source.decoder) return Done{};
+  const std::string name = input_name(file);
+  SLF_TRY(source.stream, read_stream(file, given, common));
+  const DecodeOptions options = decode_options(source.stream.info, part, given, common);
+  if (options.max_bytes > 0)
+    return Failure{kUsage, name + ": --max-bytes and frames do not go together"};
+  SLF_TRY(source.decoder, from(name, FrameDecoder::open(source.stream.bytes, options)));
+  return Done{};
+}
+
+}  // namespace
+
 Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOptions& part,
                                           const LimitOptions& given, const CommonOptions& common) {
   const std::string name = input_name(file);
   const auto source = part.source ? part.source : std::make_shared<FrameSource>();
-  if (!source->decoder) {
-    SLF_TRY(source->stream, read_stream(file, given, common));
-    const DecodeOptions options = decode_options(source->stream.info, part, given, common);
-    if (options.max_bytes > 0)
-      return Failure{kUsage, name + ": --max-bytes and frames do not go together"};
-    SLF_TRY(source->decoder, from(name, FrameDecoder::open(source->stream.bytes, options)));
-  }
+  SLF_CHECK(open(*source, file, part, given, common));
   const std::size_t count = source->decoder->frames().size(),
                     frame = static_cast<std::size_t>(part.frame);
-  if (frame >= count)
-    return Failure{kUsage, name + ": frame " + std::to_string(frame) +
-                               " is asked for, but it has " + std::to_string(count) +
-                               ", from 0 on"};
+  if (const std::size_t last = std::max(frame, source->last); last >= count)
+    return Failure{kUsage, name + ": frame " + std::to_string(last) + " is asked for, but it has " +
+                               std::to_string(count) + ", from 0 on"};
   Stopwatch watch;
   SLF_TRY(LightField field, from(name, source->decoder->decode(frame)));
   return DecodedFile{std::move(field), source->stream.bytes.size(), watch.lap(),
                      source->stream.info.metadata};
+}
+
+Result<std::string, Failure> all_frames(const std::string& file, PartOptions& part,
+                                        const LimitOptions& given, const CommonOptions& common) {
+  part.source = std::make_shared<FrameSource>();
+  SLF_CHECK(open(*part.source, file, part, given, common));
+  return "0:" + std::to_string(part.source->decoder->frames().size() - 1);
 }
 
 Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
@@ -38,7 +56,8 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
   if (pattern.empty() || numbered(pattern, 0) == pattern)
     return Failure{kUsage, std::string(verb) + ": --output " + pattern +
                                " has no %d for the number of a frame"};
-  part.source = std::make_shared<FrameSource>();
+  if (!part.source) part.source = std::make_shared<FrameSource>();
+  part.source->last = range.last;
   for (std::uint32_t f = range.first; f <= range.last; ++f) {
     part.frame = static_cast<int>(f);
     output = numbered(pattern, part.frame);

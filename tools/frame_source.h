@@ -19,11 +19,16 @@ class FrameSource {
  public:
   StreamFile stream;
   std::optional<FrameDecoder> decoder;
+  std::size_t last = 0;  ///< the greatest that is asked for: refused before work is done for others
 };
 
 /// Frame part.frame. Of a light field that does not move there is frame 0 alone.
 Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOptions& part,
                                           const LimitOptions& given, const CommonOptions& common);
+
+/// "0:N" for PartOptions::frames: every frame of a file, which part.source holds then.
+Result<std::string, Failure> all_frames(const std::string& file, PartOptions& part,
+                                        const LimitOptions& given, const CommonOptions& common);
 
 /// Runs a verb, or with --frames once for each of them: part.frame and output are set for it.
 /// @param output  whose %d becomes the frame's number

@@ -30,11 +30,9 @@ Capture with_points_of(const LightField& field, Capture capture, int threads) {
   return capture;
 }
 
-bool is_dropped(const CameraTrust& camera) { return camera.verdict == CameraVerdict::kDropped; }
-
 std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras) {
   for (const CameraTrust& trust : encoded.cameras)
-    if (is_dropped(trust)) std::erase(cameras, trust.camera);
+    if (trust.verdict == CameraVerdict::kDropped) std::erase(cameras, trust.camera);
   return cameras;
 }
 

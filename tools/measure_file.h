@@ -19,8 +19,6 @@ struct FilePictures {
   double seconds = 0;
 };
 
-bool is_dropped(const CameraTrust& camera);
-
 /// Those of the input that were not dropped.
 std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras);
 

@@ -18,8 +18,12 @@ CLI::Validator range(double low, double high) {
   return CLI::Validator(
       [=](std::string& given) {
         double value = 0;
-        if (!CLI::detail::lexical_cast(given, value)) return given + " is not a number";
-        if (!(value >= low && value <= high)) return given + " is not in the range " + between;
+        const char* end = given.data() + given.size();
+        const auto [stopped, error] = std::from_chars(given.data(), end, value);
+        if (error == std::errc::invalid_argument || stopped != end)
+          return given + " is not a number";
+        if (error != std::errc() || !(value >= low && value <= high))
+          return given + " is not in the range " + between;
         return std::string();
       },
       between);

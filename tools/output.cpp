@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -25,6 +26,17 @@ Outcome written(const std::string& file, const Write& write) {
   return from(output_name(file), write());
 }
 
+/// Permissions do not tell of every system of files: a file is made, as write_file() will, and
+/// gone.
+bool takes_a_file(const fs::path& directory) {
+  std::string name = (directory / ".slf.tmpXXXXXX").string();
+  const int made = mkstemp(name.data());
+  if (made < 0) return false;
+  close(made);
+  unlink(name.c_str());
+  return true;
+}
+
 }  // namespace
 
 std::string small_extension(const std::string& file) {
@@ -34,7 +46,14 @@ std::string small_extension(const std::string& file) {
   return extension;
 }
 
+Outcome check_directory(const std::string& directory) {
+  if (directory.empty()) return Failure{kUsage, "the name of a directory is empty"};
+  if (directory != "-") return Done{};
+  return Failure{kUsage, "-: standard output is no directory (./- names one)"};
+}
+
 Outcome check_output(const std::string& file) {
+  if (file.empty()) return Failure{kUsage, "the name of the output is empty"};
   if (file == "-") return Done{};
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return Failure{kWriteFailed, file + ": is a directory"};
@@ -47,7 +66,7 @@ Outcome check_output(const std::string& file) {
   if (!fs::is_directory(directory, ignored))
     return Failure{kWriteFailed,
                    file + ": the directory " + directory.string() + " does not exist"};
-  if (access(directory.c_str(), W_OK) != 0)
+  if (!takes_a_file(directory))
     return Failure{kWriteFailed,
                    file + ": the directory " + directory.string() + " is not writable"};
   return Done{};
@@ -71,6 +90,7 @@ Outcome check_output(const std::string& file, const char* verb,
 }
 
 Outcome make_directory(const std::string& directory) {
+  SLF_CHECK(check_directory(directory));
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) return Failure{kWriteFailed, directory + ": " + error.message()};
@@ -107,6 +127,7 @@ std::string inside(const std::string& directory, const std::string& name) {
 }
 
 std::string numbered(const std::string& pattern, int i) {
+  if (pattern == "-") return pattern;  // standard output, though a directory may have the name
   std::error_code ignored;
   if (std::filesystem::is_directory(pattern, ignored) || pattern.ends_with('/'))
     return inside(pattern, text("%03d.png", i));

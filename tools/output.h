@@ -12,9 +12,12 @@
 
 namespace slf::tools {
 
-/// Refuses, before any work is done, an output that could not be written after it: the directory
-/// is missing or not writable, or the name is that of a directory. "-" is standard output.
+/// Refuses, before any work is done, an output that could not be written after it: the name is
+/// empty or that of a directory, the directory is missing or takes no file. "-" is standard output.
 Outcome check_output(const std::string& file);
+
+/// The same of a directory, which standard output is not.
+Outcome check_directory(const std::string& directory);
 
 /// The extension of a name, in small letters, with its dot.
 std::string small_extension(const std::string& file);

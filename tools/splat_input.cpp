@@ -21,7 +21,7 @@ Result<GaussianFile, Failure> read_splat_file(const std::string& verb, const std
           from(file, parse_gaussians(file, bytes, folder.empty() ? "." : folder)));
   if (splats.left_out > 0)
     warn(file + ": " + grouped(splats.left_out) +
-             " splats are left out: a position, size or colour is no number",
+             " splats are left out: a position, size or colour is no number, or beyond its range",
          common.quiet);
   if (splats.mended > 0)
     warn(file + ": " + grouped(splats.mended) +

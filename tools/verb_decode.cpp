@@ -55,6 +55,7 @@ Outcome save_cloud(const DecodeVerbOptions& given, const DecodedFile& decoded) {
 Outcome run_decode(const DecodeVerbOptions& given) {
   if (given.output.empty() && given.dump.empty())
     return Failure{kUsage, "decode: --output or --dump is missing"};
+  if (!given.dump.empty()) SLF_CHECK(check_directory(given.dump));
   if (given.planes && given.dump.empty())
     return Failure{kUsage, "decode: --planes goes with --dump"};
   if (given.common.json && given.output == "-")

@@ -102,8 +102,9 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   return json;
 }
 
-std::string report_text(const Encoded& e, std::size_t cameras, double load,
-                        const FilePictures& pictures) {
+std::string report_text(const Encoded& e, const CaptureInput& input, const FilePictures& pictures) {
+  const std::size_t cameras = input.cameras.size(), all = input.capture.cameras.size();
+  const double load = input.seconds;
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
@@ -112,15 +113,16 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load,
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
-    const std::size_t dropped =
-        static_cast<std::size_t>(std::count_if(e.cameras.begin(), e.cameras.end(), is_dropped));
-    out += text("cameras       %zu", cameras - dropped);
-    out += dropped > 0 ? text(", %zu dropped\n", dropped) : "\n";
+    const std::size_t used = used_cameras(e, input.cameras).size();
+    out += text("cameras       %zu", used);
+    if (used < all) out += text(" of the capture's %zu", all);
+    if (used < cameras) out += text(", %zu dropped", cameras - used);
+    out += "\n";
     if (e.observations > 0)
       out += text("observations  %s (%.1f per point; %.1f %% of points unseen)\n",
                   grouped(e.observations).c_str(), percent(e.observations, e.points) / 100,
                   percent(e.unobserved_points, e.points));
-    out += pictures_text(pictures, e, cameras - dropped);
+    out += pictures_text(pictures, e, used);
   }
   if (e.step.origin != ChosenStep::kGiven && e.step.origin != ChosenStep::kTexture)
     out += text("quality       Q %.4g, %s\n", e.q, reason_of(e.step).c_str());
@@ -135,6 +137,16 @@ std::string report_text(const Encoded& e, std::size_t cameras, double load,
   out += text("file          %s bytes, %.2f bits per point\n", grouped(e.stream.size()).c_str(),
               bits_per_point(e.stream.size(), e.points));
   return out;
+}
+
+/// Points alone cannot be mended or trained.
+Outcome check_surface(const EncodeOptions& given, const CaptureInput& input) {
+  if (!input.cameras.empty()) return Done{};
+  for (const auto& [name, value] : given.given)
+    if (name == "surface" && value != "given" && value != "auto")
+      return Failure{kUsage, "encode: --surface " + value + " is for photographs, and " +
+                                 given.capture + " has none"};
+  return Done{};
 }
 
 /// A training that leaves checkpoints is interrupted between two of them, not in one.
@@ -160,6 +172,7 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   if (!scene.work.empty()) defer.emplace();
   const Progress progress = defer ? interruptible(line.callback()) : line.callback();
   SLF_TRY(const CaptureInput input, load_input(given, line, PointsWanted::kOrPhotographs));
+  SLF_CHECK(check_surface(given, input));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
   SLF_TRY(const Encoded encoded,
           from(given.capture, encode(input.capture, input.cameras, settings, progress)));
@@ -177,8 +190,7 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));
     return print(report_json(encoded, info, input, pictures));
   }
-  if (!given.common.quiet)
-    std::fputs(report_text(encoded, input.cameras.size(), input.seconds, pictures).c_str(), stderr);
+  if (!given.common.quiet) std::fputs(report_text(encoded, input, pictures).c_str(), stderr);
   return Done{};
 }
 
@@ -192,6 +204,9 @@ struct AllOptions {
 /// By what the capture is.
 Outcome encode_any(const AllOptions& o) {
   if (is_frame_input(o.encode, o.frames)) return encode_frame_list(o.encode, o.frames);
+  if (!o.frames.given.empty())
+    return Failure{kUsage, "encode: " + o.frames.given + " is for frames in time, and " +
+                               o.encode.capture + " is one light field"};
   if (is_plenoptic_input(o.encode, o.plenoptic))
     return encode_plenoptic_file(o.encode, o.plenoptic, o.scene.memory);
   if (o.plenoptic.given() && o.plenoptic.as != "colour")
@@ -213,7 +228,9 @@ void add_encode(CLI::App& program, Run& run) {
   add_scene(*verb, o->scene);
   add_plenoptic(*verb, o->plenoptic);
   add_frames(*verb, o->frames);
-  verb->callback([&run, o] {
+  verb->callback([&run, o, verb] {
+    for (const char* option : {"--group", "--rate", "--refit-still"})
+      if (verb->count(option) > 0) o->frames.given = option;
     run = [o]() -> Outcome {
       o->frames.part = o->scene.part;
       if (o->encode.capture != "-") return encode_any(*o);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "slf/evaluate.h"
+#include "slf/frame_inputs.h"
 #include "tools/choices.h"
 #include "tools/eval_report.h"
 #include "tools/eval_subject.h"
@@ -174,9 +175,20 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture, const Spla
   return check_floors(given, measured);
 }
 
+/// A directory of frames holds a capture for each.
+Outcome check_one_capture(const EvalOptions& given) {
+  if (!holds_frames(given.capture)) return Done{};
+  const auto inputs = list_frames(given.capture);
+  const std::string first = inputs ? inputs->frames.front().path.string() : given.capture + "/...";
+  return Failure{kUsage, "eval: " + given.capture +
+                             " holds frames, of which one is measured at a time: --frame 0 with " +
+                             first + ", and on"};
+}
+
 Outcome run_eval(const EvalOptions& given) {
   if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)
     return eval_plenoptic_file({given.input, given.capture, given.limits, given.common});
+  SLF_CHECK(check_one_capture(given));
   if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
   SLF_TRY(Capture capture, read_capture(given));
   if (is_splat_file(given.input)) {

@@ -60,8 +60,8 @@ Outcome merge_frames(const MergeOptions& given, const std::vector<PartStream>& p
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", stream.size()}, {"frames", frames.size()}});
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s bytes, %s frames\n", grouped(stream.size()).c_str(),
-                 grouped(frames.size()).c_str());
+    std::fprintf(stderr, "%s bytes, %s frames: %u to %u\n", grouped(stream.size()).c_str(),
+                 grouped(frames.size()).c_str(), frames.front().number, frames.back().number);
   return Done{};
 }
 

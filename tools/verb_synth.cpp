@@ -111,6 +111,7 @@ Outcome run_synth(const SynthOptions& given) {
   if (given.settings.scene.empty())
     return Failure{kUsage, "synth: SCENE is missing (see slf synth --list)"};
   if (given.output.empty()) return Failure{kUsage, "synth: --output is missing"};
+  if (given.plenoptic == 0) SLF_CHECK(check_directory(given.output));
   synth::SynthSettings settings = given.settings;
   synth::MovingSettings moving;
   if (!parse_size(given.size, settings.width, settings.height))
@@ -148,7 +149,8 @@ void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
       ->check(range(0, 20));
   verb.add_option("--seed", d.seed,
                   "Of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_range(0, 0xffffffff));
 }
 
 void add_motions(CLI::App& verb, SynthOptions& o) {

@@ -16,8 +16,9 @@ std::shared_ptr<const Stream> open(const py::object& source) {
 
 Field decode(const py::object& source, const Part& part) {
   const auto stream = open(source);
-  const slf_options options = options_of(part);
-  return {stream, [&](slf_field** field, slf_error* error) {
+  std::atomic<bool> ended = false;
+  const slf_options options = options_of(part, ended);
+  return {stream, ended, [&](slf_field** field, slf_error* error) {
             return slf_decode(stream->get(), &options, field, error);
           }};
 }

@@ -9,6 +9,8 @@
 #include "cameras.h"
 #include "failure.h"
 #include "module.h"
+#include "slf/frame_inputs.h"
+#include "slf/gaussian_files.h"
 #include "slf/settings.h"
 
 namespace slf::python {
@@ -159,6 +161,15 @@ py::tuple encode_capture(const Capture& capture, const std::string& split, const
 py::tuple encode_path(const std::string& path, const std::string& split, const py::dict& options,
                       int threads, const py::object& progress) {
   Capture capture;
+  const auto refused = [&](const char* what) {
+    return failure_of(InputError{Errc::kInvalidInput, path + what});
+  };
+  if (looks_like_gaussians(std::filesystem::path(path)))
+    throw refused(": holds Gaussian splats, which the program codes: slf encode");
+  if (holds_frames(path))
+    throw refused(
+        ": holds frames in time, which the program codes: slf encode; a frame of them is a "
+        "capture");
   {
     const py::gil_scoped_release no_gil;
     capture = value_of(load_capture(path, {.points = {}, .points_needed = false}));

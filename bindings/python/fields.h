@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "arrays.h"
 #include "failure.h"
+#include "interrupts.h"
 #include "module.h"
 #include "ranges.h"
 #include "slf/slf.h"
@@ -127,8 +129,13 @@ class Stream {
   std::unique_ptr<slf_stream, ReleaseStream> stream_;
 };
 
-inline slf_options options_of(const Part& part) {
+/// @param ended  ends the decode where it is set; outlives the options
+inline slf_options options_of(const Part& part, std::atomic<bool>& ended) {
   slf_options options = SLF_OPTIONS_INIT;
+  options.user = &ended;
+  options.progress = [](void* user, double) {
+    return static_cast<const std::atomic<bool>*>(user)->load() ? 1 : 0;
+  };
   options.levels = part.levels;
   options.groups = part.groups;
   options.layers = part.layers;
@@ -148,21 +155,22 @@ inline slf_options options_of(const Part& part) {
 /// A decoded field.
 class Field {
  public:
-  /// @param decode  gives it: called without Python's lock
+  /// @param ended   of the options of `decode`
+  /// @param decode  gives it: called without Python's lock, on a thread of its own
   template <class Decode>
-  Field(std::shared_ptr<const Stream> stream, const Decode& decode) : stream_(std::move(stream)) {
+  Field(std::shared_ptr<const Stream> stream, std::atomic<bool>& ended, const Decode& decode)
+      : stream_(std::move(stream)) {
     slf_error error = SLF_ERROR_INIT;
-    slf_field* field = nullptr;
-    slf_code code;
-    {
-      const py::gil_scoped_release no_gil;
+    slf_code code{};
+    run_interruptibly(ended, [&] {
+      slf_field* field = nullptr;
       code = decode(&field, &error);
-    }
+      field_.reset(field);
+    });
     stream_->rethrow();
     check(code, error);
-    field_.reset(field);
     shape_.size = sizeof shape_;
-    check(slf_get_shape(field, &shape_, &error), error);
+    check(slf_get_shape(field_.get(), &shape_, &error), error);
   }
 
   py::dict info() const { return stream_->info(); }

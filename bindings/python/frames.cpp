@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a light field that moves, on the C interface alone.
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -17,7 +18,7 @@ struct ReleaseFrames {
 class Frames {
  public:
   Frames(const py::object& source, const Part& part) : view_(std::make_shared<BytesView>(source)) {
-    const slf_options options = options_of(part);
+    const slf_options options = options_of(part, ended_);
     slf_error error = SLF_ERROR_INIT;
     slf_frames* frames = nullptr;
     check(slf_open_frames(&options, nullptr, &frames, &error), error);
@@ -42,8 +43,9 @@ class Frames {
 
   /// Headers are those of the frame that its group begins with.
   Field decode(std::size_t place) {
-    return {stream_of_group(place), [&](slf_field** field, slf_error* error) {
+    return {stream_of_group(place), ended_, [&](slf_field** field, slf_error* error) {
               const std::lock_guard one_at_a_time(mutex_);
+              ended_ = false;
               return slf_frames_decode(frames_.get(), place, field, error);
             }};
   }
@@ -69,6 +71,7 @@ class Frames {
 
   std::shared_ptr<const BytesView> view_;
   std::mutex mutex_;  // Python's lock is given up while a frame is decoded
+  std::atomic<bool> ended_ = false;
   std::unique_ptr<slf_frames, ReleaseFrames> frames_;
 };
 

@@ -2,6 +2,7 @@
 // Rendering, on the C++ library: the C interface has no renderer.
 #include "slf/render.h"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -9,6 +10,7 @@
 #include "cameras.h"
 #include "contents.h"
 #include "failure.h"
+#include "interrupts.h"
 #include "module.h"
 #include "ranges.h"
 #include "slf/decoder.h"
@@ -19,8 +21,10 @@
 namespace slf::python {
 namespace {
 
-DecodeOptions decode_options(const Part& part) {
+/// @param ended  ends the decode where it is set; outlives the options
+DecodeOptions decode_options(const Part& part, const std::atomic<bool>& ended) {
   DecodeOptions options;
+  options.progress = [&ended](double) { return !ended.load(); };
   options.levels = static_cast<int>(part.levels);
   options.groups = static_cast<int>(part.groups);
   options.layers = static_cast<int>(part.layers);
@@ -34,12 +38,11 @@ DecodeOptions decode_options(const Part& part) {
   return options;
 }
 
-/// No more is read than is asked for, unless that is all.
+/// No more is read than is asked for, unless that is all. Called without Python's lock.
 LightField decoded_in_parts(RangesView& ranges, const DecodeOptions& options) {
   const StreamSource source{ranges.size(), [&](std::uint64_t offset, std::span<std::uint8_t> to) {
                               return ranges.read(offset, to);
                             }};
-  const py::gil_scoped_release no_gil;
   if (const auto beginning = value_of(read_beginning(source, options.limits)))
     if (auto field = value_of(decode_part(source, *beginning, options))) return *std::move(field);
   if (source.bytes > options.limits.max_memory)
@@ -50,18 +53,22 @@ LightField decoded_in_parts(RangesView& ranges, const DecodeOptions& options) {
 }
 
 LightField decoded(const py::object& source, const Part& part) {
+  std::atomic<bool> ended = false;
+  const DecodeOptions options = decode_options(part, ended);
+  LightField field;
   if (RangesView::is(source)) {
     RangesView ranges(source);
     try {
-      return decoded_in_parts(ranges, decode_options(part));
+      run_interruptibly(ended, [&] { field = decoded_in_parts(ranges, options); });
     } catch (const Failure&) {
       ranges.rethrow();
       throw;
     }
+    return field;
   }
   const BytesView view(source);
-  const py::gil_scoped_release no_gil;
-  return value_of(decode(view.bytes(), decode_options(part)));
+  run_interruptibly(ended, [&] { field = value_of(decode(view.bytes(), options)); });
+  return field;
 }
 
 /// View maps and the discs of a field, or its splats.
@@ -124,15 +131,15 @@ class FramePictures {
   FramePictures(const py::object& source, const Part& part)
       : view_(source),
         threads_(part.threads),
-        decoder_(value_of(FrameDecoder::open(view_.bytes(), decode_options(part)))) {}
+        decoder_(value_of(FrameDecoder::open(view_.bytes(), decode_options(part, ended_)))) {}
 
   std::unique_ptr<FieldRenderer> renderer(std::size_t place) {
     LightField field;
-    {
-      const py::gil_scoped_release no_gil;
+    run_interruptibly(ended_, [&] {
       const std::lock_guard one_at_a_time(mutex_);
+      ended_ = false;
       field = value_of(decoder_.decode(place));
-    }
+    });
     return std::make_unique<FieldRenderer>(field, threads_);
   }
 
@@ -140,6 +147,7 @@ class FramePictures {
   BytesView view_;
   int threads_;
   std::mutex mutex_;
+  std::atomic<bool> ended_ = false;
   FrameDecoder decoder_;
 };
 

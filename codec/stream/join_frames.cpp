@@ -69,8 +69,15 @@ Result<Done, InputError> check_headers(std::span<const Part> parts) {
   return Done{};
 }
 
-/// Numbers go on from part to part, and times.
+/// Numbers go on from 0, part to part, and times. Whether frames are missing at the end no part
+/// knows.
 Result<Done, InputError> check_order(std::span<const Part> parts) {
+  if (const std::uint32_t first = parts.front().first(); first > 0)
+    return of_part(
+        *parts.front().name,
+        "its first frame is " + std::to_string(first) + ": " +
+            (first == 1 ? "frame 0 is" : "frames 0 to " + std::to_string(first - 1) + " are") +
+            " missing (--append joins what is there)");
   for (std::size_t p = 1; p < parts.size(); ++p) {
     const Part &before = parts[p - 1], &part = parts[p];
     if (part.first() <= before.last())

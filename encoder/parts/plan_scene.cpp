@@ -261,8 +261,10 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   plan.origin = capture.origin;
   plan.up = capture.up;
   if (cameras.empty() && capture.cloud.colours.empty())
-    return InputError{Errc::kInvalidInput,
-                      "the capture has no cameras and its points have no colours"};
+    return InputError{
+        Errc::kInvalidInput,
+        "the capture has no cameras and its points have no colours (slf pack codes positions "
+        "alone, as whole numbers)"};
   plan.planning_bytes = memory_of_points(capture, cameras, settings);
   SLF_CHECK(check_planning(plan, work));
   Planner planner(capture, settings, work, progress, plan);

@@ -11,8 +11,8 @@ InputError too_little(const char* what, std::uint64_t bytes, const SceneWork& wo
                       const std::string& instead) {
   const auto mebibytes = [](std::uint64_t x) { return std::to_string(x >> 20) + " MiB"; };
   return {Errc::kLimitExceeded, what + mebibytes(bytes) + ", more than the " +
-                                    mebibytes(work.memory) + " of --memory: " + instead +
-                                    "more memory would do"};
+                                    mebibytes(work.memory) + " of --memory: " + "give " + instead +
+                                    "more --memory"};
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ Result<Done, InputError> check_memory(const ScenePlan& plan, const SceneWork& wo
   std::uint32_t largest = 0;
   for (const PlannedSlice& slice : plan.slices) largest = std::max(largest, slice.points);
   return too_little("a slice takes ", cost.memory, work,
-                    "fewer --slice-points than " + std::to_string(largest) + ", or ");
+                    "--slice-points below " + std::to_string(largest) + ", or ");
 }
 
 Result<Done, InputError> check_planning(const ScenePlan& plan, const SceneWork& work) {

@@ -26,7 +26,8 @@ enum class JoinOrder : std::uint8_t {
 /// @param parts  1 or more, whole: units are not opened but for headers
 /// @errors kInvalidInput, names the part: no stream of frames, cut short, another grid, other
 ///         functions, attributes or steps than the first, units that were left out; kByNumber: a
-///         frame that is missing or there twice, a time that does not ascend. kInvalidArgument: no
+///         frame that is missing, from 0 on, or there twice (frames that are missing at the end
+///         nobody knows of), a time that does not ascend. kInvalidArgument: no
 ///         parts. O(bytes)
 Result<std::vector<std::uint8_t>, InputError> join_frames(std::span<const PartStream> parts,
                                                           JoinOrder order = JoinOrder::kByNumber);

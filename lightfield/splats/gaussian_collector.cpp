@@ -78,7 +78,7 @@ Result<GaussianFile, InputError> GaussianCollector::take(const std::string& name
                           (file_.left_out == 0
                                ? "has no splats"
                                : "none of its " + std::to_string(file_.left_out) +
-                                     " splats has a place, a size and a colour that are numbers")};
+                                     " splats has a place, a size and a colour within its range")};
   file_.format = std::move(format);
   return std::move(file_);
 }

@@ -89,6 +89,17 @@ TEST(CloudColours, HaveTheRangeThatTheyUse) {
               AllOf(HasSubstr("vertex 2, property red is out of range"), HasSubstr("0 to 255")));
 }
 
+TEST(CloudColours, OfTwelveBitsInSixteenAreWarnedOf) {
+  const std::string rows = "0 0 0 0 1 1\n1 0 0 4080 0 0\n";
+  const Read twelve = read(2, three("ushort", kRgb), rows);
+  EXPECT_THAT(twelve.warnings, ElementsAre(AllOf(HasSubstr("above 4080"),
+                                                 HasSubstr("12 bits, multiply them by 16"))));
+  EXPECT_THAT(twelve.mesh.vertices.colours[1], ElementsAre(16, 0, 0));
+  EXPECT_THAT(read(1, three("ushort", kRgb), "0 0 0 1000 1 1\n").warnings,
+              ElementsAre(HasSubstr("10 bits, multiply them by 64")));
+  EXPECT_THAT(read(1, three("ushort", kRgb), "0 0 0 4096 1 1\n").warnings, IsEmpty());
+}
+
 TEST(CloudPoints, ThatAreNotFiniteAreLeftOutAndCounted) {
   const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
   const Read got = read(5, three("uchar", kRgb),

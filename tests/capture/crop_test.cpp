@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cloud with points far away: what is said, and what --crop leaves of it.
 #include "capture/crop.h"
+#include "slf/crop_gaussians.h"
 
 #include <gmock/gmock.h>
 
@@ -69,6 +70,39 @@ TEST(FarPoints, SmallAndFlatCloudsAreLeftInPeace) {
   PointCloud line;  // long, but all along
   for (int i = 0; i < 1000; ++i) line.positions.push_back({float(i), 0, 0});
   EXPECT_EQ(far_points_warning(line, {0, 0, 0}), "");
+}
+
+/// 1,000 splats of the cube, as large as their spacing.
+Gaussians splats_of_cube() {
+  Gaussians splats;
+  splats.positions = cube().positions;
+  splats.log_deviations.assign(1000, {-3, -3, -3});
+  splats.rotations.assign(1000, {1, 0, 0, 0});
+  splats.logits.assign(1000, 1);
+  for (int i = 0; i < 3000; ++i) splats.harmonics.push_back(float(i));
+  return splats;
+}
+
+TEST(FarSplats, OneIsNamedWithABoxThatLeavesAllOthers) {
+  const Gaussians cube = splats_of_cube();
+  EXPECT_EQ(far_splats_warning(cube), "");
+  for (const float far : {1e6f, 1e30f}) {
+    Gaussians splats = splats_of_cube();
+    splats.positions[500][1] = far;
+    const std::string warning = far_splats_warning(splats);
+    EXPECT_THAT(warning, HasSubstr("a few splats far away"));
+    ASSERT_TRUE(crop(splats, box_of(warning)));
+    EXPECT_EQ(splats.size(), 999u);
+    EXPECT_EQ(splats.positions[500], cube.positions[501]);
+    EXPECT_EQ(splats.harmonics[1500], cube.harmonics[1503]);
+  }
+}
+
+TEST(FarSplats, ThatNoGridLosesAnythingForAreLeftInPeace) {
+  Gaussians splats = splats_of_cube();
+  splats.positions[500][1] = 1000;  // 21 bits of it are finer than a splat by far
+  EXPECT_EQ(far_splats_warning(splats), "");
+  EXPECT_FALSE(crop(splats, {{5, 5, 5}, {6, 6, 6}}));
 }
 
 TEST(Crop, KeepsFacesByTheirCentroidsAndRefusesAnEmptyBox) {

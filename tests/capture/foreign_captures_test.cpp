@@ -10,6 +10,7 @@ namespace {
 using namespace test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string refusal(const std::string& name, const std::string& content) {
   return message_of(load_with([&](const fs::path& p) { write_text(p / name, content); }, name));
@@ -25,7 +26,14 @@ TEST(ForeignCaptures, FilesAreNamedWithTheWayToACapture) {
   EXPECT_THAT(refusal("a.mp4", "x"), HasSubstr("ffmpeg"));
   EXPECT_THAT(refusal("a.json", "{}"), HasSubstr("neither 'cameras' nor 'frames'"));
   EXPECT_THAT(refusal("a.unknown", std::string(5000, '\0')), HasSubstr("that is understood"));
-  EXPECT_THAT(refusal("a.unknown", ""), HasSubstr("that is understood"));
+  EXPECT_THAT(refusal("a.unknown", ""), HasSubstr("a.unknown: is empty"));
+}
+
+TEST(ForeignCaptures, WhatIsCodedEmptyOrTextIsSaidToBe) {
+  EXPECT_THAT(refusal("a.slf", "\x8BSLF\r\n"), HasSubstr("coded already"));
+  EXPECT_THAT(refusal("a.spz", ""), AllOf(HasSubstr("is empty"), Not(HasSubstr("splats"))));
+  for (const char* name : {"s.xyz", "s.pts", "s.txt", "s.csv", "s.asc"})
+    EXPECT_THAT(refusal(name, "1 2 3 255 0 0\n"), HasSubstr("PLY")) << name;
 }
 
 TEST(ForeignCaptures, AFolderOfPhotographsIsToldHowToBeCalibrated) {

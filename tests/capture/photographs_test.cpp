@@ -130,6 +130,25 @@ TEST(Photographs, AnOrientationIsNamedWhereItsSizeDoesNotTell) {
               HasSubstr("a.png: image of 12 x 16 pixels, calibrated as 16 x 12"));
 }
 
+TEST(Photographs, WhoseSizeDoesNotTellAreTurnedWhereAnotherIs) {
+  const auto with_upside_down = [](const std::string& other) {
+    return load_with([&](const fs::path& p) {
+      write_shared(p);
+      write_text(p / "images/a.png", other);
+      write_text(p / "images/b.png", jpeg_of(16, 12, segment('\xE1', exif(3, false))));
+    });
+  };
+  const auto turned = with_upside_down(jpeg_of(12, 16, segment('\xE1', exif(6, false))));
+  ASSERT_TRUE(turned) << turned.error().message;
+  EXPECT_THAT(turned->orientation, ElementsAre(6, 3));
+  EXPECT_THAT(turned->warnings, IsEmpty());
+  const auto stored = with_upside_down(jpeg_of(16, 12, segment('\xE1', exif(6, false))));
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_THAT(stored->orientation, IsEmpty());
+  EXPECT_THAT(stored->warnings, ElementsAre(AllOf(HasSubstr("1 of 2 photographs (b.png) has an "),
+                                                  HasSubstr("EXIF orientation"))));
+}
+
 // The letter F of 3 x 2 pixels' numbers, as each orientation stores it: row by row what is seen.
 TEST(Photographs, AreShownAsTheirOrientationSays) {
   const auto shown = [](int orientation) {

@@ -115,6 +115,9 @@ TEST(JoinFrames, NamesWhatDoesNotGoTogether) {
     return joined ? std::string("joined") : joined.error().message;
   };
   EXPECT_THAT(refused({parts[0], parts[2]}), HasSubstr("part 2: frame 3 is missing"));
+  EXPECT_THAT(refused({parts[2], parts[1]}),
+              HasSubstr("part 1: its first frame is 3: frames 0 to 2 are missing"));
+  EXPECT_THAT(refused({parts[1]}), HasSubstr("frames 0 to 2 are missing"));
   EXPECT_THAT(refused({parts[1], parts[0], parts[1]}), HasSubstr("is in part 1 too"));
   PartStream cut = parts[0];
   cut.bytes.pop_back();

@@ -76,6 +76,30 @@ TEST(PlenopticReader, TakesPositionsOfViewsFromCommentsOrFromJson) {
   EXPECT_EQ(json.cloud.view_positions, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}})) << json.error;
 }
 
+TEST(PlenopticReader, WhatScansMeasureIsNoColourOfAView) {
+  const std::string row = "0 0 0 10 20 30 1 2 3\n";
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"classification", "ring", "flag"},
+        {"Intensity", "scalar_Label", "return_number"},
+        {"scan_angle", "user_data", "point_source_id"}}) {
+    std::vector<std::string> all{"red", "green", "blue"};
+    all.insert(all.end(), names.begin(), names.end());
+    EXPECT_EQ(read(properties_of(all), row).views, 0u) << names[0];
+  }
+  const Read mixed = read(properties_of({"red", "green", "blue", "ring", "a", "b", "c"}),
+                          "0 0 0 10 20 30 9 1 2 3\n");
+  EXPECT_EQ(mixed.views, 1u) << mixed.error;
+  EXPECT_THAT(mixed.cloud.colours, testing::ElementsAre(10, 20, 30, 1, 2, 3));
+}
+
+TEST(PlenopticReader, SaysWhatItTookForViewsWhereCoordinatesHaveNoGrid) {
+  const std::string row = "0.5 0 0 10 20 30 1 2 3\n1 0 0 10 20 30 1 2 3\n";
+  const std::string error = read(properties_of({"red", "green", "blue", "a", "b", "c"}), row).error;
+  EXPECT_THAT(error, HasSubstr("1 view: a b c"));
+  EXPECT_THAT(error, HasSubstr("--as colour"));
+  EXPECT_THAT(error, HasSubstr("--grid-bits"));
+}
+
 TEST(PlenopticReader, RefusesAViewWithoutAColour) {
   EXPECT_THAT(
       read(properties_of({"p", "q", "r_", "s", "t", "u", "v"}), "0 0 0 1 2 3 4 5 6 7\n").error,

@@ -137,6 +137,33 @@ TEST_F(BadCaptureTest, OutputThatCannotBeWritten) {
                  "No space left");
 }
 
+TEST_F(BadCaptureTest, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
+  const std::string heavy = " --effort 8 --quiet";  // minutes, if it were begun
+  expect_failure(slf("encode tiny -o ''" + heavy), 2, "output", "empty");
+  expect_failure(slf("encode tiny -o /proc/x.slf" + heavy), 7, "/proc/x.slf", "not writable");
+}
+
+TEST_F(CliTest, StandardOutputIsNoDirectory) {
+  expect_failure(slf("synth can -o -"), 2, "standard output", "directory");
+  ASSERT_EQ(slf("synth rot1 --frames 2 --bits 5 -o m --quiet").code, 0);
+  ASSERT_EQ(slf("encode m -o m.slf --quiet").code, 0);
+  expect_failure(slf("decode m.slf --dump -"), 2, "standard output", "directory");
+  std::filesystem::create_directory(path("-"));
+  expect_failure(slf("render m.slf -o - --frames 0:1 --quiet"), 2, "--output -", "%d");
+  EXPECT_TRUE(std::filesystem::is_empty(path("-")));
+}
+
+TEST_F(CliTest, AFullDiskLeavesNoPartOfASyntheticCapture) {
+  const std::string how = " --size 16x16 --circles 1 --per-circle 2 --points 5000";
+  const Ran ran = slf("synth can -o can" + how, "ulimit -f 4;");
+  expect_failure(ran, 7, "can", "cannot be written");
+  EXPECT_FALSE(exists("can"));
+  std::filesystem::create_directory(path("own"));
+  write("own/note.txt", "mine");
+  EXPECT_EQ(slf("synth can --force -o own" + how, "ulimit -f 4;").code, 7);
+  EXPECT_EQ(read("own/note.txt"), "mine");
+}
+
 TEST_F(BadCaptureTest, AFullDiskLeavesTheOldFile) {
   write("a.slf", "what was there");
   // A limit on the size of files stands for the disk: write() fails in the middle.

@@ -113,6 +113,19 @@ TEST_F(CliFilmTest, OfFramesHasTheirPicturesAndTheirRate) {
   EXPECT_NE(avi.pictures[0], avi.pictures[1]);
 }
 
+TEST_F(CliFilmTest, WithoutAChoiceHasAllFrames) {
+  ASSERT_EQ(slf("render x.slf --frames 0:2 --size 32x32 -o v.avi --quiet").code, 0);
+  const Ran ran = slf("render x.slf --size 32x32 -o all.avi");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(read("all.avi"), read("v.avi"));
+  for (const char* frame : {"frame 0", "frame 1", "frame 2"})
+    EXPECT_NE(ran.err.find(frame), std::string::npos) << ran.err;
+  ASSERT_EQ(slf("render - --size 32x32 -o in.avi --quiet <x.slf").code, 0);
+  EXPECT_EQ(read("in.avi"), read("v.avi"));
+  ASSERT_EQ(slf("render x.slf --frame 1 --size 32x32 -o one.avi --quiet").code, 0);
+  EXPECT_EQ(read_avi(read("one.avi")).pictures.size(), 1u);
+}
+
 TEST_F(CliFilmTest, OfAnOrbitHasAllViews) {
   ASSERT_EQ(slf("render x.slf --orbit 4 --size 32x32 -o v.AVI --quiet").code, 0);
   ASSERT_EQ(slf("render x.slf --orbit 4 --size 32x32 -o v%d.jpg --quiet").code, 0);

@@ -58,6 +58,21 @@ TEST_F(CliFramesTest, MergeRefusesByName) {
   EXPECT_FALSE(exists("y.slf"));
 }
 
+TEST_F(CliFramesTest, ARangeBeyondTheEndWritesNothing) {
+  for (const char* verb : {"render x.slf --size 9x9 -o v%d.png", "decode x.slf -o v%d.ply"})
+    expect_failure(slf(std::string(verb) + " --frames 1:9 --quiet"), 2, "x.slf",
+                   "frame 9 is asked for, but it has 3");
+  EXPECT_FALSE(exists("v1.png") || exists("v1.ply"));
+}
+
+TEST_F(CliFramesTest, EvalOfADirectoryOfFramesNamesOneOfThem) {
+  ASSERT_EQ(slf("synth turn --frames 2 --size 16x16 --points 300 --circles 1 --per-circle 2 "
+                "-o take --quiet")
+                .code,
+            0);
+  expect_failure(slf("eval x.slf take"), 2, "--frame 0", "take/frame_0001");
+}
+
 TEST_F(CliFramesTest, MergeAppends) {
   ASSERT_EQ(slf("merge x.slf x.slf -o y.slf --quiet --append").code, 0);
   EXPECT_EQ(parsed(slf("info y.slf --json").out)["frames"].size(), 6u);

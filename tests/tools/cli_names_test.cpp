@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names that people give: cameras by their photographs, outputs by their formats; and what is said
 // of a file that was written.
+#include "capture/upright.h"
 #include "cli_support.h"
+#include "slf/jpeg.h"
 
 namespace slf::cli_names_test {
 namespace {
@@ -33,6 +35,38 @@ TEST_F(CliNames, ACameraGoesByItsPhotographBeforeItsNumber) {
   EXPECT_EQ(drawn("--camera tiny/cameras.json:11"), image) << "no photograph has that name";
   const Ran none = slf("render x.slf --camera tiny/cameras.json:1234567 -o y.png");
   expect_failure(none, 4, "has no camera 1234567", "100 are named as " + first);
+}
+
+TEST_F(CliTest, APhotographThatIsStoredTurnedIsShownUprightBesideItsRendering) {
+  ASSERT_EQ(slf("synth can -o can --size 48x32 --points 1500 --circles 3 --per-circle 4").code, 0);
+  ASSERT_EQ(slf("encode can -o x.slf --effort 1 --quiet").code, 0);
+  auto json = parsed(read("can/cameras.json"));
+  const std::string first = json["cameras"][0]["image"], turned = "images/turned.jpg";
+  const auto seen = read_image(path("can/" + first));
+  ASSERT_TRUE(seen);
+  const auto stored = encode_jpeg(upright(*seen, 8), 95);  // turned to the left: 6 turns it back
+  ASSERT_TRUE(stored);
+  const std::string exif(
+      "\xFF\xE1\0\x22"
+      "Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0",
+      36);
+  const std::string whole(stored->begin(), stored->end());
+  write("can/" + turned, whole.substr(0, 2) + exif + whole.substr(2));
+  std::string text = json.dump();
+  for (std::size_t at; (at = text.find(first)) != text.npos;)
+    text.replace(at, first.size(), turned);
+  write("can/cameras.json", text);
+  const Ran ran = slf("render x.slf --capture can --image turned.jpg --pair -o pair.png");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto pair = read_image(path("pair.png"));
+  ASSERT_TRUE(pair);
+  ASSERT_EQ(pair->width, 96);
+  ASSERT_EQ(pair->height, 32);
+  double difference = 0;
+  for (std::size_t y = 0; y < 32; ++y)
+    for (std::size_t x = 0; x < 48; ++x)
+      difference += std::abs(int{pair->data[3 * (96 * y + x)]} - int{seen->data[3 * (48 * y + x)]});
+  EXPECT_LT(difference / (32 * 48), 6) << "of JPEG at 95";
 }
 
 TEST_F(CliNames, AnOutputIsWhatItsNameSays) {

@@ -132,6 +132,28 @@ TEST_F(SplatFileTest, WarnsOfSplatsThatAreLeftOut) {
   EXPECT_NE(ran.err.find("1 splats are left out"), std::string::npos) << ran.err;
 }
 
+TEST_F(SplatFileTest, OneFarAwayIsWarnedOfAndCroppedOrRefusedWhereNothingShowsIt) {
+  Gaussians splats = test::random_gaussians(300, 0);
+  const auto coded = [&](float far, const std::string& options) {
+    splats.positions[7] = {0, far, 0};
+    const auto bytes = gaussian_file(splats, SplatFormat::kPly);
+    write("far.ply", {bytes->begin(), bytes->end()});
+    return slf("encode far.ply -o far.slf --json " + options);
+  };
+  const Ran warned = coded(1e8f, "");
+  ASSERT_EQ(warned.code, 0) << warned.err;
+  const std::size_t at = warned.err.find("--crop=");
+  ASSERT_NE(at, std::string::npos) << warned.err;
+  const std::string box = warned.err.substr(at, warned.err.find('\n', at) - at);
+  const Ran cropped = coded(1e8f, box);
+  ASSERT_EQ(cropped.code, 0) << cropped.err;
+  EXPECT_EQ(cropped.err, "");
+  EXPECT_LT(parsed(cropped.out)["grid"]["step"],
+            1e-3 * parsed(warned.out)["grid"]["step"].get<double>());
+  expect_failure(coded(1e30f, "--quiet"), 4, "far.ply", "1e12");
+  EXPECT_EQ(coded(1e30f, box).code, 0);
+}
+
 TEST_F(SplatFileTest, IsJudgedAgainstPhotographs) {
   ASSERT_EQ(slf("synth can -o can --size 64x64 --points 500 --quiet").code, 0);
   const Ran ran = slf("eval x.ply can --json");

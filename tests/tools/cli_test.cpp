@@ -61,11 +61,39 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   contradiction("--fit hierarchical --environment-radius 1", "--environment-radius", "2 to 1e");
   expect_failure(slf("encode a -o b --preset best"), 2, "--preset", "default|paper");
   expect_failure(slf("encode a -o b --metadata nothing"), 2, "--metadata", "KEY=VALUE");
+  for (const char* key : {"q=99", "split=all", "grid_bits=3", "surface_start=x"})
+    expect_failure(slf(std::string("encode a -o b --metadata ") + key), 2, "--metadata",
+                   "the encoder writes this key itself");
+  expect_failure(slf("encode a -o b --metadata k=1 k=2"), 2, "--metadata", "twice");
   expect_failure(slf("encode a -o - --json"), 2, "--json", "standard output");
   expect_failure(slf("render a -o b.png --size 0x5"), 2, "--size", "WxH");
   expect_failure(slf("render a -o b.png --background 1,2,256"), 2, "--background", "0 to 255");
   expect_failure(slf("render a -o b.png --orbit 3"), 2, "b.png", "%d");
   expect_failure(slf("decode a"), 2, "--output", "missing");
+}
+
+TEST_F(CliTest, NumbersAreReadInOneWayEverywhere) {
+  for (const char* option :
+       {"encode a -o b --group", "encode a -o b --rate", "encode a -o b --grid-bits",
+        "encode a -o b --lambda", "synth can -o b --seed", "render a -o b.png --fov",
+        "render a -o b.png --azimuth", "render a -o b.png --radius", "export a -o b.ply --size"}) {
+    const std::string flag = std::string(option).substr(std::string(option).rfind(' ') + 1);
+    for (const char* value : {"0x10", "+2", "' 1'", "nan", "1e", "''"})
+      expect_failure(slf(std::string(option) + " " + value), 2, flag, "");
+  }
+  for (const char* seed : {"--seed=-1", "--seed=99999999999999999999", "--seed=4294967296"})
+    expect_failure(slf(std::string("synth can -o b ") + seed), 2, "--seed", "0 to 4294967295");
+  EXPECT_FALSE(exists("b"));
+}
+
+TEST_F(TinyCaptureTest, WhatIsForOtherInputsIsRefusedByName) {
+  for (const char* surface : {"trained", "splats", "mended"})
+    expect_failure(slf(std::string("encode tiny/points.ply -o x.slf --quiet --surface ") + surface),
+                   2, surface, "photographs");
+  for (const char* option : {"--group 4", "--rate 5", "--refit-still"})
+    expect_failure(slf(std::string("encode tiny -o x.slf --quiet ") + option), 2,
+                   std::string(option).substr(0, std::string(option).find(' ')), "frames");
+  EXPECT_FALSE(exists("x.slf"));
 }
 
 TEST_F(TinyCaptureTest, EveryVerbAgreesOnWhatWasEncoded) {

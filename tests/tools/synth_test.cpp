@@ -69,6 +69,22 @@ TEST_F(SynthTest, ACaptureIsReadBackAsItWasMade) {
   }
 }
 
+TEST(SynthRings, HaveSplitsThatAFitCanUseHoweverFewTheyAre) {
+  for (const int circles : {1, 3, 4, 5, 11})
+    for (const int per_circle : {4, 8, 14, 50}) {
+      const Rings rings = make_rings(circles, per_circle, 40, 32, 1);
+      const auto& dense = rings.splits.at("dense");
+      const auto& evaluation = rings.splits.at("evaluation");
+      EXPECT_GE(6 * dense.size(), rings.cameras.size()) << circles << " x " << per_circle;
+      EXPECT_GE(evaluation.size(), rings.cameras.size() / 8) << circles << " x " << per_circle;
+      for (const int camera : evaluation)
+        EXPECT_EQ(std::count(dense.begin(), dense.end(), camera), 0);
+      if (const auto other = rings.splits.find("intermediate"); other != rings.splits.end()) {
+        EXPECT_LT(other->second.size(), rings.cameras.size());
+      }
+    }
+}
+
 TEST_F(SynthTest, FilesAreTheSameForAnyThreadCount) {
   SynthSettings settings = small("can");
   for (const int threads : {1, 3}) {

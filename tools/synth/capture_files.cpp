@@ -95,6 +95,22 @@ Result<Done, InputError> prepare_capture(const fs::path& directory, const std::s
   return write_json(directory, cameras_json(scene, {}));
 }
 
+Result<Done, InputError> write_capture(const fs::path& directory, const std::string& scene,
+                                       bool force,
+                                       const std::function<Result<Done, InputError>()>& write) {
+  std::error_code error;
+  const bool existed = fs::exists(directory, error);
+  const bool foreign = existed && !is_synthetic(directory) && !fs::is_empty(directory, error);
+  auto written = prepare_capture(directory, scene, force);
+  if (written) written = write();
+  if (written || foreign) return written;
+  fs::remove_all(directory / "images", error);
+  for (const char* name : {"cameras.json", "points.ply", "exact.ply", "mesh.obj"})
+    fs::remove(directory / name, error);
+  if (!existed) fs::remove(directory, error);
+  return written;
+}
+
 Result<Done, InputError> write_images(const Subject& subject, const Rings& rings,
                                       const PhotographSettings& settings, int threads,
                                       const fs::path& directory, const Progress& progress) {

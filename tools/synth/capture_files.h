@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "slf/error.h"
@@ -17,6 +18,12 @@ namespace slf::synth {
 /// @param force  a directory that holds something else is used too
 Result<Done, InputError> prepare_capture(const std::filesystem::path& directory,
                                          const std::string& scene, bool force);
+
+/// prepare_capture, then `write`. What a failure (a full disk) leaves of a capture is removed, and
+/// the directory if it was not there; not where it held something else.
+Result<Done, InputError> write_capture(const std::filesystem::path& directory,
+                                       const std::string& scene, bool force,
+                                       const std::function<Result<Done, InputError>()>& write);
 
 struct PhotographSettings {
   int supersampling = 2;

@@ -13,6 +13,8 @@ constexpr double kDistance = 5;  // of the cameras from the origin
 constexpr double kLowest =
     -0.85;  // z of the first circle / kDistance; the last is its mirror image
 constexpr std::size_t kMostEvaluation = 100;
+// Where the paper's splits take no more than half of the cameras.
+constexpr int kLeastCircles = 5, kLeastPerCircle = 14;
 
 Camera ring_camera(double height, double azimuth, int width, int image_height, double radius) {
   Camera camera;
@@ -93,6 +95,8 @@ Rings make_even_rings(int circles, int per_circle, int width, int height, double
 }
 
 Rings make_rings(int circles, int per_circle, int width, int height, double radius) {
+  if (circles < kLeastCircles || per_circle < kLeastPerCircle)
+    return make_even_rings(circles, per_circle, width, height, radius);
   const auto numbers = split_numbers(circles, per_circle);
   std::map<int, int> camera_of;  // number -> index into cameras
   for (const auto& [split, members] : numbers)

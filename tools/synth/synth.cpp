@@ -106,15 +106,15 @@ Result<Done, InputError> synthesise(const SynthSettings& settings, const fs::pat
                                                   ", nor of those that move (slf synth --list)"};
   const Rings rings = make_rings(settings.circles, settings.per_circle, settings.width,
                                  settings.height, scene->bounds().radius);
-  SLF_TRY([[maybe_unused]] const Done prepared,
-          prepare_capture(directory, settings.scene, settings.force));
-  SLF_CHECK(write_points(*scene, settings, directory));
-  if (settings.mesh) SLF_CHECK(write_mesh(*scene, directory));
-  SLF_TRY([[maybe_unused]] const Done images,
-          write_images(*scene, rings,
-                       {settings.supersampling, settings.exposure_drift, settings.disturb.seed},
-                       settings.threads, directory, progress));
-  return write_cameras(directory, settings.scene, rings);
+  return write_capture(
+      directory, settings.scene, settings.force, [&]() -> Result<Done, InputError> {
+        SLF_CHECK(write_points(*scene, settings, directory));
+        if (settings.mesh) SLF_CHECK(write_mesh(*scene, directory));
+        SLF_CHECK(write_images(
+            *scene, rings, {settings.supersampling, settings.exposure_drift, settings.disturb.seed},
+            settings.threads, directory, progress));
+        return write_cameras(directory, settings.scene, rings);
+      });
 }
 
 }  // namespace slf::synth

@@ -49,11 +49,13 @@ Result<Done, InputError> synthesise_terrace(const SynthSettings& settings,
   const Rings views =
       make_terrace_views(terrace.plan(), settings.cameras > 0 ? settings.cameras : kCameras,
                          settings.width, settings.height);
-  SLF_CHECK(prepare_capture(directory, settings.scene, settings.force));
-  SLF_CHECK(write_points(terrace, settings, directory, progress));
-  SLF_CHECK(write_images(terrace, views, {settings.supersampling}, settings.threads, directory,
-                         progress));
-  return write_cameras(directory, settings.scene, views);
+  return write_capture(directory, settings.scene, settings.force,
+                       [&]() -> Result<Done, InputError> {
+                         SLF_CHECK(write_points(terrace, settings, directory, progress));
+                         SLF_CHECK(write_images(terrace, views, {settings.supersampling},
+                                                settings.threads, directory, progress));
+                         return write_cameras(directory, settings.scene, views);
+                       });
 }
 
 }  // namespace slf::synth

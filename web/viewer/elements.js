@@ -151,6 +151,9 @@ export class Elements {
   writePoster(address) {
     const poster = this.at('poster');
     if (address) {
+      poster.onerror = () => {
+        poster.hidden = true; // one that does not arrive is no picture, nor a sign of a broken one
+      };
       poster.src = address;
       poster.hidden = false;
       poster.classList.remove('gone');

@@ -53,6 +53,12 @@ _CLASSES: dict[str, type[Error]] = {
 }
 
 
+def of_source(error: Error, name: str) -> Error:
+    """The same error, which says what of. What is no stream at all is said to be none."""
+    what = 'not an .slf file' if error.code == 'SLF_NOT_SLF' else str(error)
+    return make(error.code, f'{name}: {what}', error.element, error.unit, error.bit_offset)
+
+
 def make(code: str, message: str, element: str, unit: str, bit_offset: int) -> Error:
     """The exception for a failure of the library. Called by the extension module."""
     error = _CLASSES.get(code, Error)(message)

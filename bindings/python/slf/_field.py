@@ -2,15 +2,17 @@
 """Decoding: what of a stream, its arrays, its pictures."""
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
-from typing import Any, Callable, Dict, Optional, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole
+from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole, wrong
+from ._errors import ArgumentError, DamagedError, Error, LimitError, UnsupportedError, of_source
 from ._notebook import Turntable, png
 from ._ranges import FileRanges, Ranges, UrlRanges, is_address, ranges_of, whole_of
 from ._types import Box, Camera, Frame, Info, Source, Vector
@@ -42,6 +44,17 @@ def _in_parts(source: Source) -> Union[Data, Ranges]:
     return ranges if not isinstance(ranges, UrlRanges) or ranges.ranges else whole_of(ranges)
 
 
+@contextlib.contextmanager
+def _named(source: Source) -> Iterator[None]:
+    """Errors of a stream name the path or the address that it is from."""
+    try:
+        yield
+    except (DamagedError, UnsupportedError, LimitError) as error:
+        if not isinstance(source, (str, os.PathLike)):
+            raise
+        raise of_source(error, os.fspath(source)) from None
+
+
 def _info(fields: Dict[str, Any]) -> Info:
     return Info(**fields)
 
@@ -52,7 +65,8 @@ def info(source: Source) -> Info:
     If a file has an index, as `slf encode` writes it, only its beginning is read: damage behind it
     is not seen. Raises DamagedError, UnsupportedError; OSError of a file.
     """
-    return _info(_slf.info(_in_parts(source)))
+    with _named(source):
+        return _info(_slf.info(_in_parts(source)))
 
 
 class LightField:
@@ -160,6 +174,8 @@ class LightField:
         first call decodes once more, for the renderer, within the max_memory of read(). Raises
         ValueError, InputError of a field without colours.
         """
+        if not all(hasattr(camera, name) for name in ('width', 'height', 'K', 'R', 't')):
+            raise TypeError(f'a Camera is needed, as orbit() gives it, not {type(camera).__name__}')
         view = camera if size is None else camera.resized(size)
         return self._renderer.render(view, colour(background, 'background'), view_dependent)
 
@@ -242,15 +258,28 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
     less = any((levels, groups, layers, max_bytes)) or region is not None
-    data = _in_parts(source) if less else _bytes(source)
     part: Dict[str, Any] = {
-        'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
-        'layers': whole(layers, 'layers'),
+        'levels': whole(levels, 'levels', 0, 21), 'groups': whole(groups, 'groups', 0, 16),
+        'layers': whole(layers, 'layers', 0, 4),
         'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
         'threads': whole(threads, 'threads'),
-        'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
-        'region': None if region is None else _voxels(data, region)}
-    return _decoded(data, part)
+        'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES)}
+    with _named(source):
+        data = _in_parts(source) if less else _bytes(source)
+        part['region'] = None if region is None else _voxels(data, region)
+        try:
+            return _decoded(data, part)
+        except ArgumentError as error:
+            raise _of_part(error, data) from None
+
+
+def _of_part(error: ArgumentError, data: Union[Data, Ranges]) -> Error:
+    """Fewer levels or groups than the file has can be asked for: says how many it has."""
+    has = {'levels': 'bits', 'groups': 'groups'}.get(error.element)
+    if has is None:
+        return error
+    most = getattr(_info(_slf.info(data)), has)
+    return wrong(error.element, f'{error.element} of this file are 1 to {most}; 0 is all')
 
 
 def _decoded(data: Union[Data, Ranges], part: Dict[str, Any]) -> LightField:

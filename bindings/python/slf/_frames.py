@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import functools
+import operator
 from typing import Any, Callable, Dict, Iterator, Optional, Sequence, Tuple, Union, overload
 
 from . import _slf
 from ._arguments import MOST_BYTES, whole
-from ._field import Data, LightField, _bytes, _kept, _voxels
+from ._field import Data, LightField, _bytes, _kept, _named, _voxels
 from ._types import Box, Frame, Source
 
 
@@ -43,6 +44,8 @@ class Frames(Sequence[LightField]):
     def __getitem__(self, place: Union[int, slice]) -> Union[LightField, Sequence[LightField]]:
         if isinstance(place, slice):
             return [self[i] for i in range(*place.indices(len(self)))]
+        if not -len(self) <= operator.index(place) < len(self):
+            raise IndexError(f'frame {place} is asked for, but there are {len(self)}, from 0 on')
         at = range(len(self))[place]
         return LightField(self._frames.decode(at), lambda: self._pictures.renderer(at),
                           lambda: (_frame, (_kept(self._data), self._part, at)), self.list[at])
@@ -74,9 +77,11 @@ def frames(source: Source, *, levels: int = 0, groups: int = 0, region: Optional
     is decoded, and so do those of its group after it; later groups do not.
     Raises DamagedError where no frame begins, ArgumentError; OSError of a file.
     """
-    data = _bytes(source)
-    part = {'levels': whole(levels, 'levels'), 'groups': whole(groups, 'groups'),
-            'threads': whole(threads, 'threads'),
-            'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES),
-            'region': None if region is None else _voxels(data, region)}
-    return Frames(data, part)
+    part: Dict[str, Any] = {
+        'levels': whole(levels, 'levels', 0, 21), 'groups': whole(groups, 'groups', 0, 16),
+        'threads': whole(threads, 'threads'),
+        'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES)}
+    with _named(source):
+        data = _bytes(source)
+        part['region'] = None if region is None else _voxels(data, region)
+        return Frames(data, part)

@@ -141,6 +141,12 @@ class Encoded:
     def write(self, path: Union[str, 'os.PathLike[str]']) -> None:
         """To a temporary file beside `path`, renamed over it."""
         temporary = f'{os.fspath(path)}.tmp{secrets.token_hex(8)}'
+        try:
+            self._write(temporary, path)
+        except OSError as error:  # a temporary name tells nobody anything
+            raise type(error)(error.errno, error.strerror, os.fspath(path)) from None
+
+    def _write(self, temporary: str, path: Union[str, 'os.PathLike[str]']) -> None:
         file = open(temporary, 'xb')  # outside of try: a file that was there is another writer's
         try:
             with file:

@@ -109,6 +109,13 @@ test('twelve that are seen at once all show their picture, and a click wakes one
   await page.close();
 });
 
+test('a poster that does not arrive leaves no sign of a broken picture', { skip }, async () => {
+  const page = await pageOf('poster', FAR + viewer('a', 'poster="/files/none.png"'));
+  await page.waitForFunction(() => document.getElementById('a').shadowRoot.getElementById('poster').hidden);
+  assert.equal(await page.evaluate(() => document.getElementById('a').viewer), null); // it sleeps still
+  await page.close();
+});
+
 test('an embedded page lets the page around it scroll', { skip }, async () => {
   const page = await pageOf('around', `<iframe src="${here.server.page}?src=/files/can.slf&embed" title="A can" width="300" height="300"></iframe>${FAR}`);
   const frame = await (await page.waitForSelector('iframe')).contentFrame();

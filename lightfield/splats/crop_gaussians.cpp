@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slf/crop_gaussians.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/crop.h"
+#include "capture/quantile.h"
+
+namespace slf {
+namespace {
+
+constexpr int kMostBits = 21;           // of a grid
+constexpr double kCoarsestVoxel = 0.1;  // of a deviation: that of the usual step (kGaussianQ)
+
+bool is_inside(const std::array<float, 3>& position, const WorldBox& box) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax(box.low[k], box.high[k]);
+    if (!(double{position[k]} >= low && double{position[k]} <= high)) return false;
+  }
+  return true;
+}
+
+double extent_of(const Gaussians& splats) {
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] =
+        std::minmax_element(splats.positions.begin(), splats.positions.end(),
+                            [k](const auto& a, const auto& b) { return a[k] < b[k]; });
+    extent = std::max(extent, double{(*high)[k]} - double{(*low)[k]});
+  }
+  return extent;
+}
+
+/// The median deviation along the middle axis, world units.
+double typical_deviation(const Gaussians& splats) {
+  std::vector<float> middle;
+  middle.reserve(splats.size());
+  for (std::array<float, 3> d : splats.log_deviations) {
+    std::sort(d.begin(), d.end());
+    middle.push_back(d[1]);
+  }
+  return std::exp(double{median(std::move(middle))});
+}
+
+}  // namespace
+
+Result<Done, InputError> crop(Gaussians& splats, const WorldBox& box) {
+  const std::size_t row = 3 * splats.num_harmonics();
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < splats.size(); ++p) {
+    if (!is_inside(splats.positions[p], box)) continue;
+    splats.positions[kept] = splats.positions[p];
+    splats.log_deviations[kept] = splats.log_deviations[p];
+    splats.rotations[kept] = splats.rotations[p];
+    splats.logits[kept] = splats.logits[p];
+    std::copy_n(&splats.harmonics[p * row], row, &splats.harmonics[kept * row]);
+    ++kept;
+  }
+  if (kept == 0) return InputError{Errc::kInvalidInput, "no splat is inside the box to crop to"};
+  splats.positions.resize(kept);
+  splats.log_deviations.resize(kept);
+  splats.rotations.resize(kept);
+  splats.logits.resize(kept);
+  splats.harmonics.resize(kept * row);
+  return Done{};
+}
+
+std::string far_splats_warning(const Gaussians& splats) {
+  if (splats.size() == 0 ||
+      std::ldexp(extent_of(splats), -kMostBits) <= kCoarsestVoxel * typical_deviation(splats))
+    return "";
+  return far_points_warning(splats.positions, {0, 0, 0}, "splats", "the file");
+}
+
+}  // namespace slf
