@@ -45,7 +45,7 @@ def ordinary_files(slf, folder):
         call("synth", *options.split(), "-o", str(folder / name))
     made = []
     for name, scene, options, requests in FILES:
-        call("encode", str(folder / scene), "-o", str(folder / f"{name}.slf"), "-j", "1", "--densify", "off", "--quiet", *options.split())
+        call("encode", str(folder / scene), "-o", str(folder / f"{name}.slf"), "-j", "1", "--densify", "off", "--surface", "given", "--quiet", *options.split())
         made.append([name, (folder / f"{name}.slf").read_bytes(), requests])
     np.save(folder / "positions.npy", cloud(7))
     call("pack", str(folder / "positions.npy"), "-o", str(folder / "cloud.slf"), "--quiet")

@@ -158,7 +158,7 @@ class Judging(Scratch):
         def slf(*words):
             return subprocess.run([SLF, *map(str, words)], capture_output=True, text=True, check=True).stdout
         slf("synth", "can", "-o", place, "--size", "96x96", "--points", 4000, "--circles", 4, "--per-circle", 6, "--quiet")
-        slf("encode", place, "-o", coded, "-q", 32, "--quiet")
+        slf("encode", place, "-o", coded, "-q", 32, "--surface", "given", "--quiet")
         expected = json.loads(slf("eval", coded, place, "--json", "--quiet"))["held_out"]["image"]
         capture, quality = judge.Capture(place), judge.Quality()
 
