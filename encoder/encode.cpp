@@ -102,7 +102,8 @@ void warn_of_cameras(std::span<const CameraTrust> cameras, const Capture& captur
 Result<std::vector<CameraTrust>, InputError> foreign_to(const Capture& capture, StartId start,
                                                         std::span<const int> cameras,
                                                         const EncoderSettings& settings) {
-  if (!settings.check_cameras || settings.surface == Surface::kGiven || start != StartId::kPoints)
+  const bool trains = !cameras.empty() && settings.surface != Surface::kGiven;
+  if (!settings.check_cameras || !trains || start != StartId::kPoints)
     return std::vector<CameraTrust>{};
   return foreign_photographs(capture, capture.cloud, cameras, settings.threads);
 }

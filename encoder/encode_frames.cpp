@@ -8,6 +8,7 @@
 
 #include "base/stopwatch.h"
 #include "bitstream/units.h"
+#include "capture/photograph_size.h"
 #include "capture/voxelise.h"
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
@@ -15,7 +16,6 @@
 #include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "encoder/frames_to_bitrate.h"
-#include "capture/photograph_size.h"
 #include "encoder/still_points.h"
 #include "slf/frames.h"
 
