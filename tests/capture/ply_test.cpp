@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"zero_points", test::replaced(kHeader, "vertex 2", "vertex 0"), "no points"},
         Refused{"float_overflow",
                 test::replaced(kHeader, "float x", "double x") + "0 0 0 1e39 1 1\n",
-                "vertex 1, property x is not finite"},
+                "vertex 1, property x is beyond 3.4e38"},
         Refused{"no_number", kHeader + "0 0 0 1 1 one\n",
                 "vertex 1, property z is missing or damaged"},
         Refused{"too_few", kHeader + "0 0 0 1 1\n", "vertex 1, property z is missing"},
