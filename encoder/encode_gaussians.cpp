@@ -10,6 +10,7 @@
 #include "encoder/gaussian_planes.h"
 #include "encoder/rate_control.h"
 #include "encoder/splat_pictures.h"
+#include "lightfield/keep_splats.h"
 #include "slf/decoder.h"
 
 namespace slf {
@@ -25,22 +26,7 @@ constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and do
 const double kLeastLogit = -std::log(254.0);
 
 Gaussians that_show(Gaussians splats) {
-  const std::size_t row = 3 * splats.num_harmonics();
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < splats.size(); ++p) {
-    if (double{splats.logits[p]} < kLeastLogit) continue;
-    splats.positions[kept] = splats.positions[p];
-    splats.log_deviations[kept] = splats.log_deviations[p];
-    splats.rotations[kept] = splats.rotations[p];
-    splats.logits[kept] = splats.logits[p];
-    std::copy_n(&splats.harmonics[p * row], row, &splats.harmonics[kept * row]);
-    ++kept;
-  }
-  splats.positions.resize(kept);
-  splats.log_deviations.resize(kept);
-  splats.rotations.resize(kept);
-  splats.logits.resize(kept);
-  splats.harmonics.resize(kept * row);
+  keep_splats(splats, [&](std::size_t p) { return !(double{splats.logits[p]} < kLeastLogit); });
   return splats;
 }
 

@@ -6,6 +6,7 @@
 
 #include "capture/crop.h"
 #include "capture/quantile.h"
+#include "lightfield/keep_splats.h"
 
 namespace slf {
 namespace {
@@ -46,23 +47,9 @@ double typical_deviation(const Gaussians& splats) {
 }  // namespace
 
 Result<Done, InputError> crop(Gaussians& splats, const WorldBox& box) {
-  const std::size_t row = 3 * splats.num_harmonics();
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < splats.size(); ++p) {
-    if (!is_inside(splats.positions[p], box)) continue;
-    splats.positions[kept] = splats.positions[p];
-    splats.log_deviations[kept] = splats.log_deviations[p];
-    splats.rotations[kept] = splats.rotations[p];
-    splats.logits[kept] = splats.logits[p];
-    std::copy_n(&splats.harmonics[p * row], row, &splats.harmonics[kept * row]);
-    ++kept;
-  }
-  if (kept == 0) return InputError{Errc::kInvalidInput, "no splat is inside the box to crop to"};
-  splats.positions.resize(kept);
-  splats.log_deviations.resize(kept);
-  splats.rotations.resize(kept);
-  splats.logits.resize(kept);
-  splats.harmonics.resize(kept * row);
+  keep_splats(splats, [&](std::size_t p) { return is_inside(splats.positions[p], box); });
+  if (splats.size() == 0)
+    return InputError{Errc::kInvalidInput, "no splat is inside the box to crop to"};
   return Done{};
 }
 
