@@ -30,14 +30,19 @@ void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
   use.pull.resize(kept);
 }
 
+std::size_t longest_axis(const TrainedSurfel& surfel, std::size_t axes) {
+  const float* radius = &surfel.value[TrainedSurfel::kLogRadius];
+  return std::size_t(std::max_element(radius, radius + axes) - radius);
+}
+
 /// Two for one: it, and the one that is returned.
-TrainedSurfel split(TrainedSurfel& surfel) {
+TrainedSurfel split(TrainedSurfel& surfel, std::size_t count) {
   const SurfelAxes axes = axes_of(surfel);
-  const std::size_t longer = surfel.radius(1) > surfel.radius(0);
-  const Float3& axis = longer ? axes.second : axes.first;
-  const float step = kApart * surfel.radius(longer);
-  surfel.value[TrainedSurfel::kLogRadius + longer] += std::log(kLonger);
-  surfel.value[TrainedSurfel::kLogRadius + 1 - longer] += std::log(kShorter);
+  const std::size_t longest = longest_axis(surfel, count);
+  const Float3& axis = axes.axis(longest);
+  const float step = kApart * surfel.radius(longest);
+  for (std::size_t k = 0; k < count; ++k)
+    surfel.value[TrainedSurfel::kLogRadius + k] += std::log(k == longest ? kLonger : kShorter);
   TrainedSurfel other = surfel;
   for (std::size_t a = 0; a < 3; ++a) {
     surfel.value[TrainedSurfel::kPosition + a] += step * axis[a];
@@ -72,7 +77,7 @@ void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state
   std::size_t count = std::min(room, std::size_t(settings.share * double(surfels.size())));
   std::vector<std::uint32_t> order;
   for (std::size_t i = 0; i < surfels.size(); ++i)
-    if (use.pull[i] > 0 && std::max(surfels[i].radius(0), surfels[i].radius(1)) >
+    if (use.pull[i] > 0 && surfels[i].radius(longest_axis(surfels[i], settings.axes)) >
                                settings.smallest * settings.space.pixels_at(surfels[i].position()))
       order.push_back(std::uint32_t(i));
   count = std::min(count, order.size());
@@ -82,7 +87,7 @@ void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state
   });
   order.resize(count);
   for (const std::uint32_t i : order) {
-    surfels.push_back(split(surfels[i]));
+    surfels.push_back(split(surfels[i], settings.axes));
     state.mean[i] = state.square[i] = {};
   }
   state.resize(surfels.size());

@@ -24,12 +24,13 @@ struct GrowSettings {
   std::size_t most = 0;     ///< surfels
   double share = 0.1;       ///< of the surfels: at most so many are added
   float least_opacity = 0;  ///< fainter ones go
+  std::size_t axes = 2;     ///< that are split: 3 of ellipsoids
   float smallest = 0;       ///< world radius: no smaller ones split; far away larger
   ViewedSpace space = {};   ///< where a pixel is larger
   bool all_seen = false;    ///< every photograph was drawn since: what was not drawn goes
 };
 
-/// Splits across the longer axis those with the greatest pull, so that the two draw about what the
+/// Splits across the longest axis those with the greatest pull, so that the two draw about what the
 /// one did; removes those that show nothing. Use is empty after.
 void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,
                   TrainedSurfels& surfels);

@@ -100,16 +100,16 @@ void add_colour_gradient(const TrainedSurfel& surfel, const SurfelProjection& p,
   direction = direction_gradient(p.direction, weights);
 }
 
-/// By the two radii in pixels, from that by the ellipse: dQ = -C dC C, dA = 2 dQ A.
-std::array<std::array<float, 2>, 2> across_gradient(const SurfelProjection& p,
+/// By the radii in pixels, from that by the ellipse: dQ = -C dC C, dA = 2 dQ A.
+std::array<std::array<float, 2>, 3> across_gradient(const SurfelProjection& p,
                                                     const ProjectedGradient& g) {
   const auto& [a, b, c] = std::array{p.projected.a, p.projected.b, p.projected.c};
   const float h = g.b / 2;
   const float r0 = g.a * a + h * b, r1 = g.a * b + h * c;  // rows of dC C
   const float s0 = h * a + g.c * b, s1 = h * b + g.c * c;
   const float uu = -(a * r0 + b * s0), uv = -(a * r1 + b * s1), vv = -(b * r1 + c * s1);
-  std::array<std::array<float, 2>, 2> out{};
-  for (std::size_t k = 0; k < 2; ++k) {
+  std::array<std::array<float, 2>, 3> out{};
+  for (std::size_t k = 0; k < out.size(); ++k) {
     out[k][0] = 2 * (uu * p.across[k][0] + uv * p.across[k][1]);
     out[k][1] = 2 * (uv * p.across[k][0] + vv * p.across[k][1]);
   }
@@ -129,14 +129,14 @@ std::optional<SurfelProjection> project_surfel(const TrainedSurfel& surfel,
   p.projected.u = camera.fx * x / z + camera.cx;
   p.projected.v = camera.fy * y / z + camera.cy;
   p.axes = axes_of(surfel);
-  p.radius = {surfel.radius(0), surfel.radius(1)};
+  p.radius = {surfel.radius(0), surfel.radius(1), camera.gaussian ? surfel.radius(2) : 0};
   p.slope = {slope(x / z, camera.fx, camera.cx, camera.width),
              slope(y / z, camera.fy, camera.cy, camera.height)};
   p.clamped = {p.slope[0] != x / z, p.slope[1] != y / z};
   p.jacobian = {Float3{camera.fx / z, 0, -camera.fx * p.slope[0] / z},
                 Float3{0, camera.fy / z, -camera.fy * p.slope[1] / z}};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Float3 axis = turned(camera.rotation, k == 0 ? p.axes.first : p.axes.second);
+  for (std::size_t k = 0; k < p.across.size(); ++k) {
+    const Float3 axis = turned(camera.rotation, p.axes.axis(k));
     for (std::size_t i = 0; i < 2; ++i) p.across[k][i] = p.radius[k] * dot(p.jacobian[i], axis);
   }
   if (camera.gaussian) p.projected.reach = gaussian_reach(p.projected.opacity);
@@ -164,9 +164,9 @@ void add_projection_gradient(const TrainedSurfel& surfel, const TrainingCamera& 
   const auto across = across_gradient(p, g);
   // across[k] = radius_k J R axis_k
   Float3 at{};
-  std::array<Float3, 2> axes{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Float3 axis = turned(camera.rotation, k == 0 ? p.axes.first : p.axes.second);
+  std::array<Float3, 3> axes{};
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const Float3 axis = turned(camera.rotation, p.axes.axis(k));
     Float3 in_camera{};
     for (std::size_t i = 0; i < 2; ++i)
       in_camera = along(in_camera, across[k][i] * p.radius[k], p.jacobian[i]);
@@ -191,7 +191,8 @@ void add_projection_gradient(const TrainedSurfel& surfel, const TrainingCamera& 
     normal = along(normal, plane, p.at);
     at = along(at, plane, p.normal);
   }
-  add_turn_gradient(surfel, {axes[0], axes[1], turned_back(camera.rotation, normal)},
+  add_turn_gradient(surfel,
+                    {axes[0], axes[1], along(axes[2], 1, turned_back(camera.rotation, normal))},
                     &sum.value[TrainedSurfel::kTurn]);
   Float3 position = turned_back(camera.rotation, at);
   // The direction is that of length 1.

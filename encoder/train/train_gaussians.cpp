@@ -61,7 +61,9 @@ Gaussians gaussians_of(const TrainedSurfels& surfels) {
     out.positions.push_back(surfel.position());
     const float first = v[TrainedSurfel::kLogRadius] - reach,
                 second = v[TrainedSurfel::kLogRadius + 1] - reach;
-    out.log_deviations.push_back({first, second, std::min(first, second) + std::log(kThickness)});
+    const float least = std::min(first, second) + std::log(kThickness);
+    out.log_deviations.push_back(
+        {first, second, std::max(v[TrainedSurfel::kLogRadius + 2] - reach, least)});
     const float* turn = v + TrainedSurfel::kTurn;
     const float length =
         std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);

@@ -218,6 +218,7 @@ class Training {
   void grow() {
     GrowSettings grow;
     grow.most = settings_.surfels;
+    if (views_.front().camera.gaussian) grow.axes = 3;
     grow.smallest = float(kSmallest * pixel_);
     grow.space = space_;
     grow.least_opacity = settings_.least_opacity;

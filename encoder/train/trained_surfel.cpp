@@ -4,6 +4,8 @@
 namespace slf {
 namespace {
 
+constexpr float kFirstThickness = 0.1f;  // of the radius: docs/decisions/051
+
 // Kerbl et al., "3D Gaussian Splatting" (2023), as their files have it.
 constexpr float kLinear = 0.4886025119029199f;
 constexpr float kProduct = 1.0925484305920792f;  // of two coordinates
@@ -46,6 +48,7 @@ TrainedSurfel flat_surfel(const Float3& position, const Float3& normal, float ra
   }
   surfel.value[TrainedSurfel::kLogRadius] = surfel.value[TrainedSurfel::kLogRadius + 1] =
       std::log(radius);
+  surfel.value[TrainedSurfel::kLogRadius + 2] = std::log(kFirstThickness * radius);
   surfel.value[TrainedSurfel::kOpacity] = std::log(opacity / (1 - opacity));
   return surfel;
 }

@@ -259,6 +259,21 @@ TEST(GrowSurfels, ASurfelThatIsPulledBecomesTwoAndOneThatShowsNothingGoes) {
   EXPECT_EQ(use.pull, (std::vector<float>{0, 0, 0}));
 }
 
+TEST(GrowSurfels, AnEllipsoidIsSplitAcrossItsLongestAxisAndADiscInItsPlane) {
+  for (const std::size_t axes : {std::size_t(2), std::size_t(3)}) {
+    TrainedSurfels surfels = {flat_surfel({0, 0, 0}, {0, 0, 1}, 1, 0.9f)};
+    surfels[0].value[TrainedSurfel::kLogRadius + 2] = 1;
+    AdamState state;
+    state.resize(1);
+    SurfelUse use;
+    use.resize(1);
+    use.drawn = use.pull = {1};
+    grow_surfels({.most = 2, .share = 1, .axes = axes}, use, state, surfels);
+    ASSERT_EQ(surfels.size(), 2u);
+    EXPECT_EQ(surfels[0].position()[2] != surfels[1].position()[2], axes == 3);
+  }
+}
+
 /// Distances of a plane z = 3.3 at the nodes of two by two blocks.
 TEST(ZeroCrossings, OfAPlaneAreOneLayerOfNodesAndFaceOutwards) {
   DistanceBlocks all;

@@ -57,6 +57,7 @@ Scene scene(int count, float depth = 1, bool gaussian = false) {
   for (int i = 0; i < count; ++i) {
     TrainedSurfel surfel;
     for (std::size_t k = 0; k < TrainedSurfel::kSize; ++k) {
+      if (k == TrainedSurfel::kLogRadius + 2) continue;
       const float x = noise.next();
       surfel.value[k] = k < TrainedSurfel::kTurn        ? 0.6f * x
                         : k < TrainedSurfel::kLogRadius ? depth * x
@@ -64,6 +65,7 @@ Scene scene(int count, float depth = 1, bool gaussian = false) {
                         : k < TrainedSurfel::kColour    ? 1.2f * x
                                                         : 0.3f * x;
     }
+    surfel.value[TrainedSurfel::kLogRadius + 2] = 0.1f * float(i % 7) - 0.8f;
     if (depth < 1) {
       surfel.value[2] *= depth;
       surfel.value[TrainedSurfel::kTurn] = 1;
@@ -107,7 +109,7 @@ double mismatch(std::size_t first, std::size_t last, float spread, float depth,
                 bool gaussian = false) {
   Scene s = scene(12, depth, gaussian);
   for (TrainedSurfel& surfel : s.surfels)
-    for (std::size_t k = 0; gaussian && k < 2; ++k) surfel.value[Surfel::kLogRadius + k] += 2.5f;
+    for (std::size_t k = 0; gaussian && k < 3; ++k) surfel.value[Surfel::kLogRadius + k] += 2.5f;
   const auto gradients = gradients_of(s, spread, 1);
   constexpr float kStep = 2e-3f;
   double apart = 0, size = 0;
