@@ -3,7 +3,8 @@
 """The RD laboratory: runs experiments and writes their table, plots, verdicts and one report page.
 
     rd.py quick --slf build/bin/slf --out build/rd          small captures, minutes; what CI runs
-    rd.py full  --slf build/bin/slf --out build/rd-full     every experiment of the paper's section IV
+    rd.py paper --slf build/bin/slf --out build/rd-paper    every experiment of the paper's section IV
+    rd.py full  --slf build/bin/slf --out build/rd-paper    and those of the default preset, with what each tool is worth
     rd.py my_experiment.json ...                            any manifests (README.md)
 
 Interrupted, it goes on where it was; run again, it reruns what changed. Exit code: 0 all well, 1 jobs
@@ -26,13 +27,13 @@ from options import coded_name
 from run_job import write_json
 
 HERE = pathlib.Path(__file__).resolve().parent
-SETS = {"quick": "quick", "full": "experiments"}
+SETS = {"quick": ("quick",), "paper": ("experiments",), "full": ("experiments", "defaults")}
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="rd.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("manifests", nargs="+", metavar="quick|full|FILE", help="a set of this directory, or manifest files")
+    add("manifests", nargs="+", metavar="quick|paper|full|FILE", help="a set of this directory, or manifest files")
     add("--slf", default=os.environ.get("SLF_PROGRAM", "slf"), help="the program; default: SLF_PROGRAM, else slf")
     add("--out", default="build/rd", help="directory of all results; default: build/rd")
     add("--data", default=os.environ.get("SLF_DATA"), help="directory of captures named data:NAME; default: SLF_DATA")
@@ -50,7 +51,7 @@ def files_of(names):
     """[(path, name in messages)] of sets and files."""
     out = []
     for name in names:
-        found = sorted((HERE / SETS[name]).glob("*.json")) if name in SETS else [pathlib.Path(name)]
+        found = [path for folder in SETS[name] for path in sorted((HERE / folder).glob("*.json"))] if name in SETS else [pathlib.Path(name)]
         out += [(path, os.path.relpath(path)) for path in found]
     return out
 
