@@ -46,7 +46,7 @@ export class FrameSession {
   async decode(place) {
     const stream = this.#stream;
     if (!(await stream.arrive(place))) return {};
-    this.#say();
+    if (stream === this.#stream) this.#say(); // else it was closed meanwhile, and the decode says so
     const begin = performance.now(),
       field = await stream.decode(place);
     try {
