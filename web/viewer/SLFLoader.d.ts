@@ -16,7 +16,8 @@ export interface SLFParts {
 
 /**
  * three.js loader of surface light fields: scene.add(await new SLFLoader().loadAsync('can.slf')).
- * load() and loadAsync() also take a File or Blob, and decode in a worker.
+ * load() and loadAsync() also take a File or Blob, and decode in a worker. What moves shows its first frame; its worker
+ * decodes the others until it is disposed of.
  */
 export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
   constructor(manager?: LoadingManager, parts?: SLFParts);
@@ -31,7 +32,10 @@ export class SLFLoader extends Loader<SurfaceLightField, string | Blob> {
   /** Fewer octree levels, plane groups or quality layers than the file has; 0, the default: all. */
   setPart(part: { levels?: number; groups?: number; layers?: number }): this;
 
-  /** Coarse objects first: `onCoarse` is called with each, which the next one replaces. */
+  /**
+   * Coarse objects first: `onCoarse` is called with each, which the next one replaces. What moves comes with its first
+   * frame, while the others arrive.
+   */
   stream(url: string, onCoarse: (field: SurfaceLightField) => void): Promise<SurfaceLightField>;
 
   /**

@@ -7,7 +7,11 @@ import { FileLoader, Loader } from 'three';
 import { SlfDecoder, decoderModule } from '../slf.js';
 import { FieldLoader } from './field_loader.js';
 import { DecodeSession, plainError } from './decode_session.js';
+import { FrameSession } from './frame_session.js';
+import { FrameSource } from './frame_source.js';
 import { ViewerError } from './packed_field.js';
+import { aborted } from './source_stream.js';
+import { moves } from './stream_units.js';
 import { SurfaceLightField } from './surface_light_field.js';
 
 /** A decoder for parse() of all loaders of one module: each keeps memory for its next decode. */
@@ -20,7 +24,8 @@ async function decoderOf(module) {
 
 /**
  * load(url, onLoad, onProgress, onError), loadAsync(url, onProgress) as every loader of three; both also
- * take a File or Blob. They decode in a worker. parse() decodes on this thread. Every error is a ViewerError.
+ * take a File or Blob. They decode in a worker. parse() decodes on this thread. Every error is a ViewerError. What moves
+ * shows its first frame, and keeps what decodes the others until it is disposed of.
  */
 export class SLFLoader extends Loader {
   /**
@@ -59,26 +64,18 @@ export class SLFLoader extends Loader {
       });
   }
 
-  /** Coarse objects first. @param onCoarse  called with each, which the next replaces */
-  async stream(url, onCoarse) {
-    const loader = this.fieldLoader();
-    try {
-      const field = (packed, info, final) => {
-        if (!final) onCoarse(new SurfaceLightField(packed, info));
-      };
-      const { packed, info } = await loader.load(
-        this.manager.resolveURL(this.path + url),
-        { field },
-        {
-          ...this.part,
-          headers: this.requestHeader,
-          credentials: this.withCredentials ? 'include' : 'same-origin', // as three's own FileLoader
-        },
-      );
-      return new SurfaceLightField(packed, info);
-    } finally {
-      loader.dispose();
-    }
+  /**
+   * Coarse objects first; of what moves the first frame, while the others arrive.
+   * @param onCoarse  called with each, which the next replaces
+   */
+  stream(url, onCoarse) {
+    const field = (packed, info, final) => {
+      if (!final) onCoarse(new SurfaceLightField(packed, info));
+    };
+    return this.decode(this.manager.resolveURL(this.path + url), { field }, {
+      headers: this.requestHeader,
+      credentials: this.withCredentials ? 'include' : 'same-origin', // as three's own FileLoader
+    });
   }
 
   /**
@@ -87,6 +84,7 @@ export class SLFLoader extends Loader {
    * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network', 'policy'
    */
   async parse(buffer) {
+    if (moves(new Uint8Array(buffer))) return this.parseFrames(new Uint8Array(buffer));
     const session = new DecodeSession(() => decoderOf(decoderModule(this)));
     session.append(new Uint8Array(buffer));
     try {
@@ -94,6 +92,30 @@ export class SLFLoader extends Loader {
       return new SurfaceLightField(packed, info);
     } catch (error) {
       throw ViewerError.from(plainError(error));
+    }
+  }
+
+  /** As a worker does it: without one, and a frame takes the page as long as its decode takes. */
+  async parseFrames(bytes) {
+    let over = false;
+    const session = new FrameSession(() => decoderOf(decoderModule(this)), (list) => frames.take(list));
+    const frames = new FrameSource(async ({ frames: opened, frame }) => {
+      try {
+        return opened ? await session.open(opened) : await session.decode(frame);
+      } catch (error) {
+        throw over ? aborted() : ViewerError.from(plainError(error));
+      }
+    });
+    const end = () => {
+      over = true;
+      session.close();
+    };
+    try {
+      await frames.open(bytes, { ...this.part, maxMemory: this.maxMemory });
+      return SurfaceLightField.moving(await frames.decode(0), frames, end);
+    } catch (error) {
+      end();
+      throw error;
     }
   }
 
@@ -117,13 +139,22 @@ export class SLFLoader extends Loader {
     }
   }
 
-  async decode(bytes) {
+  /** @param source, on, request  of FieldLoader.load() */
+  async decode(source, on = {}, request = {}) {
     const loader = this.fieldLoader();
+    let frames = null;
+    const moving = (source) => (frames = source);
     try {
-      const { packed, info } = await loader.load(bytes, {}, this.part);
-      return new SurfaceLightField(packed, info);
+      const first = await loader.load(source, { ...on, moving }, { ...this.part, ...request });
+      loader.moving = null; // the worker has it
+      return frames
+        ? SurfaceLightField.moving(first, frames, () => loader.dispose())
+        : new SurfaceLightField(first.packed, first.info);
+    } catch (error) {
+      frames = null;
+      throw error;
     } finally {
-      loader.dispose();
+      if (!frames) loader.dispose();
     }
   }
 }

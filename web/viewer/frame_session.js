@@ -24,8 +24,7 @@ export class FrameSession {
    */
   async open({ source, levels = 0, groups = 0, layers = 0, maxMemory, tableSize = 65, ...request }) {
     const decoder = await this.#load();
-    await this.#stream?.close();
-    this.#stream = null;
+    await this.close();
     let stream = await SlfFrameStream.open(source, { ...request, decoder, maxMemory });
     const info = plainInfo(stream.info());
     checkColours(info);
@@ -47,7 +46,7 @@ export class FrameSession {
   async decode(place) {
     const stream = this.#stream;
     if (!(await stream.arrive(place))) return {};
-    this.#say();
+    if (stream === this.#stream) this.#say(); // else it was closed meanwhile, and the decode says so
     const begin = performance.now(),
       field = await stream.decode(place);
     try {
@@ -60,6 +59,13 @@ export class FrameSession {
     } finally {
       field.release();
     }
+  }
+
+  /** Frees the memory of what is open. */
+  async close() {
+    const stream = this.#stream;
+    this.#stream = null;
+    await stream?.close();
   }
 
   /** What stops it is met, and said, by the decode that needs it. */

@@ -24,7 +24,8 @@ export class FramePlayer {
   /**
    * @param source  FrameSource, or what has list, ended, groupOf and decode as it: {packed, info, seconds}
    * @param {object} on  show(answer, frame); failed(error, frame): it is passed over; stopped(error): there is no
-   *   more to come; changed(): of state or list; finished(): the last frame was shown, and there is no loop
+   *   more to come; sought(error, there): a jump is over, and its frame shows, or is damaged, or not there; changed(): of
+   *   state or list; finished(): the last frame was shown, and there is no loop
    * @param {object} options  loop, speed
    */
   constructor(source, on, { loop = true, speed = 1 } = {}) {
@@ -181,7 +182,10 @@ export class FramePlayer {
     if (error) this.#fail(error, place);
     else if (answer && (asked.wanted !== null)) this.#show({ place, ...answer }); // what a hand has passed by shows, too
     else if (answer && here && (this.loop || lap === 0)) this.#queue.push({ lap, place, time: this.#timeIn(asked), bytes: sizeOf(answer.packed), ...answer });
-    if (here && asked.wanted !== null) this.#wanted = null;
+    if (here && asked.wanted !== null) {
+      this.#wanted = null;
+      this.on.sought?.(error, answer !== null);
+    }
     this.on.changed?.();
     this.#ask();
   }

@@ -4,19 +4,23 @@
 //
 //     <script type="module">import 'slf-decoder/viewer/slf_viewer.js'</script>
 //     <slf-viewer src="can.slf" poster="can.jpg" azimuth="40"></slf-viewer>
-import { markup, style } from '../made/viewer_markup.js';
 import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
+import { missingCard, missingPart } from './missing_part.js';
 import { backgroundOf, memoryOfDevice, readOptions } from './options.js';
 import { placeAt } from './pick.js';
 import { Viewer } from './viewer.js';
-import { viewParameters } from './view_link.js';
+import { addressOf, viewOfAddress, viewParameters } from './view_link.js';
 import { Turns } from './viewer_turns.js';
 import { wordsOf } from './words.js';
 
 const LIVE = ['background', 'exposure', 'mean', 'points', 'autorotate', 'loop', 'speed']; // that change what is shown at once
 const turns = new Turns();
 let sheet = null;
+
+// web/build.sh makes it. Where a page lacks it, a static import would leave every viewer empty, without a word.
+let made; // markup and style; null: they did not arrive
+const arriving = import('../made/viewer_markup.js').then((parts) => (made = parts), () => (made = null));
 
 export class SlfViewerElement extends HTMLElement {
   static observedAttributes = ['src', ...LIVE];
@@ -96,6 +100,7 @@ export class SlfViewerElement extends HTMLElement {
 
   /** idle, loading, coarse, ready, or failed and the kind of the error. */
   get state() {
+    if (made === null) return 'failed network';
     return this.#elements?.frame.dataset.state ?? (this.viewer ? 'loading' : 'idle');
   }
 
@@ -202,8 +207,11 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   async #start() {
+    await arriving;
+    if (!made) throw missingPart();
+    if (!this.isConnected) return null;
     this.#markUp(this.#still ?? undefined);
-    const words = await wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));
+    const words = await this.#words();
     if (!this.isConnected || this.viewer) return this.viewer;
     const frame = this.#elements.frame;
     frame.classList.remove('asleep');
@@ -221,6 +229,10 @@ export class SlfViewerElement extends HTMLElement {
       emit: (name, detail) => this.#emit(name, detail),
     });
     return this.viewer;
+  }
+
+  #words() {
+    return wordsOf([this.getAttribute('lang') ?? this.closest('[lang]')?.lang, ...navigator.languages].filter(Boolean));
   }
 
   #hashChanged = () => {
@@ -266,14 +278,16 @@ export class SlfViewerElement extends HTMLElement {
 
   /** The elements as they are before anything is shown. */
   #markUp(still = this.getAttribute('poster')) {
+    if (made === undefined) return void arriving.then(() => this.isConnected && !this.#elements && this.#markUp());
+    if (made === null) return void this.#words().then((words) => missingCard(this.shadowRoot, words));
     if (!sheet) {
       sheet = new CSSStyleSheet();
-      sheet.replaceSync(style);
+      sheet.replaceSync(made.style);
     }
     this.shadowRoot.adoptedStyleSheets = [sheet];
     const frame = document.createElement('div');
     frame.className = 'frame asleep';
-    frame.innerHTML = markup;
+    frame.innerHTML = made.markup;
     this.shadowRoot.replaceChildren(frame);
     this.#elements = new Elements(this.shadowRoot, frame);
     if (still) this.#elements.writePoster(still);
@@ -282,18 +296,6 @@ export class SlfViewerElement extends HTMLElement {
   #emit(name, detail) {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
-}
-
-/** `#can?azimuth=30`: a view of the viewer with that id. */
-function addressOf(id, parameters) {
-  const address = new URL(location.href);
-  address.hash = `${id}?${new URLSearchParams(parameters)}`;
-  return address.href;
-}
-
-function viewOfAddress(id) {
-  const [name, view] = decodeURIComponent(location.hash.slice(1)).split('?');
-  return id && name === id && view ? new URLSearchParams(view) : null;
 }
 
 if (!customElements.get('slf-viewer')) customElements.define('slf-viewer', SlfViewerElement);

@@ -16,9 +16,13 @@ import {
   Vector3,
   Vector4,
 } from 'three';
+import { withState } from './gl_state.js';
+import { LightFieldMotion } from './light_field_motion.js';
 import { colourFrom, pick } from './pick.js';
 import { pipelineWith } from './pipelines.js';
 import { viewOfCamera } from './view.js';
+
+export { withState };
 
 const viewport = new Vector4(),
   toObject = new Matrix4(),
@@ -30,30 +34,92 @@ const viewport = new Vector4(),
  * mapping do not apply: the light it was photographed in is in it. Blended after opaque objects.
  *
  * meanOnly: without what depends on the view; exposure: stops; share: of the points, 0 .. 1.
- * One renderer at a time: another gets its own copy of the textures when it draws first. Clones share them.
+ * One renderer at a time: another gets its own copy of the textures when it draws first. Clones share them, and the
+ * frame that shows.
  */
 export class SurfaceLightField extends Mesh {
   /**
    * @param packed  of packField(); kept, so that a lost context can be filled again and rays can meet it
-   * @param shared  of a clone: what draws its original
+   * @param shared  of a clone: what it has in common with its original
    */
-  constructor(packed, info = {}, shared = { pipelines: new Map(), users: 0 }) {
-    super(geometryOf(packed), new MeshBasicMaterial({ transparent: true, depthWrite: false, colorWrite: false }));
+  constructor(packed, info = {}, shared = sharedOf(packed, info)) {
+    super(shared.geometry, new MeshBasicMaterial({ transparent: true, depthWrite: false, colorWrite: false }));
     this.isSurfaceLightField = true;
     this.type = 'SurfaceLightField';
-    this.info = info;
-    this.packed = packed;
     this.meanOnly = false;
     this.exposure = 0;
     this.share = 1;
     this.shared = shared;
-    this.disposed = false;
-    ++shared.users;
+    this.disposed = true;
+    this.join();
     this.onBeforeRender = this.draw;
   }
 
+  /**
+   * One that moves.
+   * @param first  {packed, info} of its first frame
+   * @param source  FrameSource of all  @param {() => void} end  ends what decodes them
+   */
+  static moving({ packed, info }, source, end) {
+    const field = new SurfaceLightField(packed, info),
+      { shared } = field;
+    shared.motion = new LightFieldMotion(source, (frame) => showFrame(shared, frame), end);
+    shared.motion.objects.add(field);
+    return field;
+  }
+
+  /** What shows now. */
+  get packed() { return this.shared.packed; }
+  get info() { return this.shared.info; }
+
   get pipelines() {
     return this.shared.pipelines;
+  }
+
+  // What moves: the names of <slf-viewer>, and update() and setTime() of three's AnimationMixer. All but update() are
+  // of all clones at once.
+
+  /** Frames that have arrived; 0 where nothing moves. */
+  get frames() { return this.shared.motion?.source.list.length ?? 0; }
+  /** Place of the frame that shows or is being jumped to, from 0. */
+  get frame() { return this.shared.motion?.player.frame ?? 0; }
+  /** Seconds of the frames that have arrived; 0 where nothing moves. */
+  get duration() { return this.shared.motion?.player.duration ?? 0; }
+  /** Seconds from the first frame to `frame`. */
+  get time() { return this.shared.motion?.player.time ?? 0; }
+  get paused() { return !this.shared.motion?.player.playing; }
+  get loop() { return this.shared.motion?.player.loop ?? true; }
+  set loop(on) { this.shared.motion?.player.setLoop(Boolean(on)); }
+  /** 1: as the file has it; 1/16 to 16. */
+  get speed() { return this.shared.motion?.player.speed ?? 1; }
+  set speed(speed) { this.shared.motion?.player.setSpeed(speed); }
+
+  /** From where it stands; from the first frame, where it has ended. update() moves it. */
+  play() { this.shared.motion?.play(); }
+  pause() { this.shared.motion?.player.pause(); }
+
+  /**
+   * Moves what plays on, before a scene is rendered; once for all clones.
+   * @param {number} seconds  since the last call
+   * @returns {boolean} whether it plays  @throws {RangeError} of no such number
+   */
+  update(seconds) {
+    return this.shared.motion?.update(seconds) ?? false;
+  }
+
+  /**
+   * To the frame of a time: where it repeats, of a time in any lap, else from the first to the last.
+   * @returns {Promise<number>} the place of the frame that was asked for last, when it shows
+   *   It is rejected with a ViewerError where a decode fails, with an AbortError after dispose()
+   * @throws {RangeError} of no such number
+   */
+  setTime(seconds) {
+    return this.shared.motion?.setTime(seconds) ?? Promise.resolve(0);
+  }
+
+  /** To a frame that has arrived, by its place from 0; else as setTime(). */
+  setFrame(place) {
+    return this.shared.motion?.setFrame(place) ?? Promise.resolve(0);
   }
 
   /** Another of the same texels: graphics memory does not grow. */
@@ -128,135 +194,94 @@ export class SurfaceLightField extends Mesh {
     });
   }
 
+  /** With the frame that shows in its textures: one that is never drawn is never uploaded. */
   pipelineOf(gl) {
-    if (this.disposed) ++this.shared.users;
-    this.disposed = false;
-    let own = this.pipelines.get(gl);
-    if (own && !own.lost) {
-      if (own.failure) throw own.failure;
-      return own;
+    this.join();
+    const { pipelines, packed } = this.shared;
+    let own = pipelines.get(gl);
+    if (!own || own.lost) {
+      own = { pipeline: null, packed: null, failure: null, lost: false };
+      pipelines.set(gl, own);
+      gl.canvas.addEventListener('webglcontextlost', markLost(own), { once: true });
     }
-    withState(gl, () => {
-      own = pipelineOrFailure(gl, this.packed);
-    });
-    gl.canvas.addEventListener(
-      'webglcontextlost',
-      () => {
-        own.lost = true;
-      },
-      { once: true },
-    );
-    this.pipelines.set(gl, own);
+    if (own.packed !== packed) withState(gl, () => fill(gl, own, packed));
     if (own.failure) throw own.failure;
-    return own;
+    return own.pipeline;
   }
 
-  /** Textures go with the last of the clones. It can be drawn again. */
-  dispose() {
-    this.geometry.dispose();
-    this.material.dispose();
-    if (!this.disposed) --this.shared.users;
-    this.disposed = true;
-    if (this.shared.users > 0) return;
-    for (const pipeline of this.pipelines.values()) if (!pipeline.lost) pipeline.dispose?.();
-    this.pipelines.clear();
+  /** Among those that share, again after dispose(). */
+  join() {
+    if (!this.disposed) return;
+    this.disposed = false;
+    ++this.shared.users;
+    this.shared.motion?.objects.add(this);
   }
+
+  /**
+   * Textures go with the last of the clones, and what decodes frames. It can be drawn again, and stands still then at the
+   * frame that showed last.
+   */
+  dispose() {
+    const { shared } = this;
+    this.material.dispose();
+    shared.motion?.objects.delete(this);
+    if (!this.disposed) --shared.users;
+    this.disposed = true;
+    if (shared.users > 0) return;
+    shared.geometry.dispose();
+    shared.motion?.dispose();
+    for (const own of shared.pipelines.values()) if (!own.lost) own.pipeline?.dispose();
+    shared.pipelines.clear();
+  }
+}
+
+/** What a light field and its clones have in common. */
+function sharedOf(packed, info) {
+  return { packed, info, geometry: geometryOf(packed), pipelines: new Map(), users: 0, motion: null };
+}
+
+/** Another frame in place of the one that shows: its bounds and rays at once, its textures when it is drawn. */
+function showFrame(shared, { packed, info }) {
+  Object.assign(shared, { packed, info });
+  setBounds(shared.geometry, packed);
 }
 
 /** What three asks for bounds: a box of all discs, whose corners are all that it has. None of it is drawn. */
-function geometryOf({ box: [low, high], centre, reach, step }) {
-  const corners = Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((k) => ((i >> k) & 1 ? high : low)[k]));
+function geometryOf(packed) {
   const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(corners.flat()), 3));
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * 8), 3));
   geometry.setDrawRange(0, 3);
-  geometry.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
-  geometry.boundingSphere = new Sphere(new Vector3(...centre), reach + 2 * step);
+  geometry.boundingBox = new Box3();
+  geometry.boundingSphere = new Sphere();
   geometry.computeBoundingBox = geometry.computeBoundingSphere = () => {};
+  setBounds(geometry, packed);
   return geometry;
 }
 
-/** A pipeline with a field, or why there is none: the next frame need not try again. */
-function pipelineOrFailure(gl, packed) {
+function setBounds(geometry, { box: [low, high], centre, reach, step }) {
+  const { position } = geometry.attributes;
+  for (let i = 0; i < 8; ++i) position.setXYZ(i, ...[0, 1, 2].map((k) => ((i >> k) & 1 ? high : low)[k]));
+  position.needsUpdate = true;
+  geometry.boundingBox.set(new Vector3(...low), new Vector3(...high));
+  geometry.boundingSphere.set(new Vector3(...centre), reach + 2 * step);
+}
+
+/** A pipeline with a field, or why there is none: the next picture of the same field need not try again. */
+function fill(gl, own, packed) {
+  Object.assign(own, { packed, failure: null });
   try {
-    return pipelineWith(gl, packed);
+    own.pipeline = pipelineWith(gl, packed, own.pipeline);
   } catch (failure) {
-    return { failure };
+    own.failure = failure;
   }
 }
+
+const markLost = (own) => () => {
+  own.lost = true;
+};
 
 /** Depth in the frame buffer is x + y / z, z in voxels; `voxel` in the camera's units. */
 function depthRange(p, voxel) {
   // clip z over w of a point z before the camera: (-p[10] z + p[14]) / z
   return [0.5 - 0.5 * p[10], (0.5 * p[14]) / voxel];
-}
-
-const FLAGS = ['BLEND', 'DEPTH_TEST', 'CULL_FACE', 'SCISSOR_TEST', 'STENCIL_TEST'];
-const UNITS = 6;
-
-/** Calls `draw` and leaves WebGL as it was, so that three's own record of it stays true. */
-export function withState(gl, draw) {
-  const get = (name) => gl.getParameter(gl[name]);
-  const flags = FLAGS.map((name) => gl.isEnabled(gl[name]));
-  const unit = get('ACTIVE_TEXTURE');
-  const textures = Array.from({ length: UNITS }, (_, i) => {
-    gl.activeTexture(gl.TEXTURE0 + i);
-    return [get('TEXTURE_BINDING_2D'), get('TEXTURE_BINDING_2D_ARRAY'), get('SAMPLER_BINDING')];
-  });
-  for (let i = 0; i < UNITS; ++i) gl.bindSampler(i, null);
-  const saved = Object.fromEntries(
-    [
-      'CURRENT_PROGRAM',
-      'VERTEX_ARRAY_BINDING',
-      'DRAW_FRAMEBUFFER_BINDING',
-      'READ_FRAMEBUFFER_BINDING',
-      'VIEWPORT',
-      'BLEND_EQUATION_RGB',
-      'BLEND_EQUATION_ALPHA',
-      'BLEND_SRC_RGB',
-      'BLEND_DST_RGB',
-      'BLEND_SRC_ALPHA',
-      'BLEND_DST_ALPHA',
-      'DEPTH_FUNC',
-      'DEPTH_WRITEMASK',
-      'DEPTH_CLEAR_VALUE',
-      'COLOR_WRITEMASK',
-      'COLOR_CLEAR_VALUE',
-      'PIXEL_UNPACK_BUFFER_BINDING',
-      'UNPACK_ALIGNMENT',
-      'UNPACK_FLIP_Y_WEBGL',
-      'UNPACK_PREMULTIPLY_ALPHA_WEBGL',
-    ].map((name) => [name, get(name)]),
-  );
-  try {
-    draw();
-  } finally {
-    restore(gl, saved);
-    FLAGS.forEach((name, i) => (flags[i] ? gl.enable(gl[name]) : gl.disable(gl[name])));
-    textures.forEach(([plain, array, sampler], i) => {
-      gl.activeTexture(gl.TEXTURE0 + i);
-      gl.bindTexture(gl.TEXTURE_2D, plain);
-      gl.bindTexture(gl.TEXTURE_2D_ARRAY, array);
-      gl.bindSampler(i, sampler);
-    });
-    gl.activeTexture(unit);
-  }
-}
-
-function restore(gl, s) {
-  gl.useProgram(s.CURRENT_PROGRAM);
-  gl.bindVertexArray(s.VERTEX_ARRAY_BINDING);
-  gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, s.DRAW_FRAMEBUFFER_BINDING);
-  gl.bindFramebuffer(gl.READ_FRAMEBUFFER, s.READ_FRAMEBUFFER_BINDING);
-  gl.viewport(...s.VIEWPORT);
-  gl.blendEquationSeparate(s.BLEND_EQUATION_RGB, s.BLEND_EQUATION_ALPHA);
-  gl.blendFuncSeparate(s.BLEND_SRC_RGB, s.BLEND_DST_RGB, s.BLEND_SRC_ALPHA, s.BLEND_DST_ALPHA);
-  gl.depthFunc(s.DEPTH_FUNC);
-  gl.depthMask(s.DEPTH_WRITEMASK);
-  gl.clearDepth(s.DEPTH_CLEAR_VALUE);
-  gl.colorMask(...s.COLOR_WRITEMASK);
-  gl.clearColor(...s.COLOR_CLEAR_VALUE);
-  gl.bindBuffer(gl.PIXEL_UNPACK_BUFFER, s.PIXEL_UNPACK_BUFFER_BINDING);
-  gl.pixelStorei(gl.UNPACK_ALIGNMENT, s.UNPACK_ALIGNMENT);
-  gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, s.UNPACK_FLIP_Y_WEBGL);
-  gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, s.UNPACK_PREMULTIPLY_ALPHA_WEBGL);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loader in a scene of its own: a light field on a plinth, among meshes that hide it and that it
-// hides. three.html?src=FILE
+// hides. What moves plays, unless less motion is asked for. three.html?src=FILE
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { SLFLoader } from './SLFLoader.js';
@@ -56,6 +56,17 @@ function plinth() {
   return [top, ring];
 }
 
+/** The page's clock moves it; every frame that shows is drawn, by whatever it was asked for. */
+function playIn(field) {
+  let last = null;
+  field.addEventListener('framechange', draw);
+  renderer.setAnimationLoop((now) => {
+    field.update((now - (last ?? now)) / 1000);
+    last = now;
+  });
+  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) field.play();
+}
+
 try {
   const field = await new SLFLoader().loadAsync(query.get('src') ?? 'can.slf');
   stand(field);
@@ -67,6 +78,7 @@ try {
     `${field.packed.points.toLocaleString('en')} points in a three.js scene`;
   addEventListener('resize', resize);
   resize();
+  if (field.frames) playIn(field);
   Object.assign(window, { scene, camera, renderer, field, THREE, ready: true });
 } catch (error) {
   document.getElementById('note').textContent = error.message;

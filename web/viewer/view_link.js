@@ -47,3 +47,16 @@ async function copy(viewer, text) {
     viewer.report.say('Copy it from the field.');
   }
 }
+
+/** `#can?azimuth=30`: a view of the viewer with that id. */
+export function addressOf(id, parameters) {
+  const address = new URL(location.href);
+  address.hash = `${id}?${new URLSearchParams(parameters)}`;
+  return address.href;
+}
+
+/** The parameters of the page's own address for a viewer; null where it names none. */
+export function viewOfAddress(id) {
+  const [name, view] = decodeURIComponent(location.hash.slice(1)).split('?');
+  return id && name === id && view ? new URLSearchParams(view) : null;
+}

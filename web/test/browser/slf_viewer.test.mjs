@@ -260,3 +260,27 @@ test("a page's policy without unsafe-eval and unsafe-inline is enough; without w
     await page.close();
   }
 });
+
+test('where made/ is missing a viewer says so, in its language, beside what its page has written into it', { skip }, async () => {
+  const name = 'missing', body = '<slf-viewer id="a" src="/files/can.slf" lang="fr" loading="click"><p>A can.</p></slf-viewer><div id="later"></div>';
+  await (await pageOf(name, body)).close();
+  const page = await newPage(here.chrome);
+  await page.route('**/made/**', (route) => route.fulfill({ status: 404, body: '' }));
+  await page.goto(`${here.server.url}/files/pages/${name}.html`);
+  await page.waitForFunction(() => document.getElementById('a').state === 'failed network');
+  await page.waitForFunction(() => document.getElementById('a').shadowRoot.querySelector('[role=alert]'));
+  const said = await page.evaluate(async () => {
+    const a = document.getElementById('a'), card = a.shadowRoot.querySelector('[role=alert]'), later = document.createElement('slf-viewer');
+    const kinds = [];
+    later.addEventListener('error', ({ detail }) => kinds.push(detail.kind, detail.detail));
+    document.getElementById('later').append(later);
+    await later.open('/files/can.slf');
+    return { lang: card.lang, text: card.innerText, own: a.innerText, height: a.getBoundingClientRect().height, kinds, viewer: later.viewer };
+  });
+  assert.match(said.text, /^Quelque chose n’est pas arrivé\s+made\/viewer_markup\.js$/);
+  assert.deepEqual([said.lang, said.own, said.height], ['fr', 'A can.', 300]);
+  assert.deepEqual([said.kinds, said.viewer], [['network', 'made/viewer_markup.js'], null]);
+  assert.deepEqual(page.wrong, []);
+  await page.screenshot({ path: join(here.can.dir, 'missing.png') });
+  await page.close();
+});

@@ -204,3 +204,22 @@ test('the clock waits for frames that are on their way', async () => {
   await run(player, 2.5 / RATE);
   assert.deepEqual(told.shown.slice(3), [4, 5]);
 });
+
+test('the end of a jump is told once: its frame shows, is damaged, or is not there', async () => {
+  const source = sourceOf(24, { damaged: [10] }), { player } = playerOf(source), told = [];
+  player.on.sought = (error, there) => told.push([error?.kind ?? null, there]);
+  player.seek(3);
+  player.seek(5);
+  for (let i = 0; i < 4; ++i) await settled();
+  assert.deepEqual([told, player.shown], [[[null, true]], 5]);
+  player.seek(12);
+  for (let i = 0; i < 4; ++i) await settled();
+  const { decode } = source;
+  source.decode = async () => null;
+  player.seek(2);
+  for (let i = 0; i < 4; ++i) await settled();
+  source.decode = decode;
+  player.play();
+  await run(player, 0.2); // what plays is no jump
+  assert.deepEqual(told, [[null, true], ['damaged', false], [null, false]]);
+});

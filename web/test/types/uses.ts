@@ -70,6 +70,18 @@ export async function element(bytes: Uint8Array) {
   return [viewer.view?.target, await viewer.picture()];
 }
 
+export async function moving(field: SurfaceLightField) {
+  field.addEventListener('framechange', ({ frame, time, target }) => [frame.toFixed(), time, target.visible]);
+  field.addEventListener('frameerror', ({ error }) => error.kind);
+  field.addEventListener('ended', () => field.setTime(0));
+  Object.assign(field, { loop: false, speed: 2 });
+  field.play();
+  const goesOn: boolean = field.update(1 / 60);
+  // @ts-expect-error a place is read alone: setFrame()
+  field.frame = 3;
+  return [goesOn, field.paused, field.time / field.duration, (await field.setTime(1.5)) < field.frames, await field.setFrame(0)];
+}
+
 export function met(field: SurfaceLightField) {
   const loader = new SLFLoader(undefined, { wasm: new URL('slf.wasm', 'http://localhost'), worker: () => new Worker('w.js') });
   const [found] = new Raycaster().intersectObject(field) as LightFieldIntersection[];
