@@ -20,6 +20,7 @@
 #include "encoder/fit/match_exposure.h"
 #include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
+#include "encoder/train/refine_cameras.h"
 #include "slf/encoder.h"
 
 namespace slf {
@@ -212,6 +213,16 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   return std::move(job.encoded);
 }
 
+/// Cameras where photographs agree best, if they are to be moved.
+Result<PoseReport, InputError> poses_of(const Capture& capture, StartId start,
+                                        std::span<const int> cameras,
+                                        const EncoderSettings& settings, const Progress& progress) {
+  if (settings.refine_cameras == RefineCameras::kOff || cameras.empty()) return PoseReport{};
+  const std::string obstacle = training_obstacle(capture, cameras);
+  if (!obstacle.empty()) return InputError{Errc::kInvalidArgument, "refine-cameras: " + obstacle};
+  return refine_cameras(capture, cameras, pose_training_of(settings, start), progress);
+}
+
 }  // namespace
 
 Result<Encoded, InputError> encode(const Capture& given, std::span<const int> cameras,
@@ -237,9 +248,15 @@ Result<Encoded, InputError> encode(const Capture& given, std::span<const int> ca
     changed->gains = exposure.gains;
     recorded.metadata.emplace_back("exposure", "matched");
   }
-  const Capture& seen = changed ? *changed : capture;
-  SLF_TRY(const std::vector<CameraTrust> foreign, foreign_to(seen, start, cameras, settings));
+  SLF_TRY(const std::vector<CameraTrust> foreign,
+          foreign_to(changed ? *changed : capture, start, cameras, settings));
   const std::vector<int> own = without(cameras, foreign);
+  SLF_TRY(PoseReport poses, poses_of(changed ? *changed : capture, start, own, settings, progress));
+  if (!poses.cameras.empty()) {
+    if (!changed) changed = capture;
+    changed->cameras = poses.cameras;
+  }
+  const Capture& seen = changed ? *changed : capture;
   TrainingCache cache;
   SLF_TRY(Encoded encoded,
           splats ? encode_splats(seen, start, own, with_dropped(recorded, foreign), progress, cache)
@@ -250,6 +267,7 @@ Result<Encoded, InputError> encode(const Capture& given, std::span<const int> ca
     encoded.warnings.push_back(
         "exposure is not matched: photographs have no points in common to compare");
   encoded.exposure = std::move(exposure);
+  encoded.poses = std::move(poses);
   return encoded;
 }
 

@@ -34,6 +34,7 @@ Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings&
   if (!(s.target_bitrate >= 0) || !std::isfinite(s.target_bitrate))
     return of_frames("target bitrate: bits a second, above 0");
   if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
+  if (s.refine_cameras == RefineCameras::kOn) return of_frames("poses are not refined over them");
   if (s.quality_layers > 1) return of_frames("they have one quality layer");
   if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
     return of_frames("they are coded by the octree and vector coders");

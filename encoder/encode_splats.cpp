@@ -19,6 +19,7 @@
 namespace slf {
 namespace {
 
+constexpr int kPoseIterations = 3000;
 constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIterations = 600;
 // dB, of splats, which are judged as they will be drawn, over a surface that is judged by a quick
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
@@ -67,6 +68,14 @@ Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
 }
 
 }  // namespace
+
+TrainGeometrySettings pose_training_of(const EncoderSettings& settings, StartId start) {
+  TrainingCache none;
+  TrainGeometrySettings training = training_of(settings, start, kPoseIterations, none);
+  training.surfels = 0;
+  training.cache = nullptr;
+  return training;
+}
 
 bool may_be_splats(const EncoderSettings& settings) {
   const EncoderSettings plain;

@@ -5,10 +5,14 @@
 #include <cstddef>
 #include <span>
 
+#include "encoder/train/train_geometry.h"
 #include "encoder/train/training_cache.h"
 #include "slf/encoder.h"
 
 namespace slf {
+
+/// The training of poses: splats, as many as the photographs resolve.
+TrainGeometrySettings pose_training_of(const EncoderSettings& settings, StartId start);
 
 /// What splats are tried with.
 struct SplatJob {

@@ -44,6 +44,11 @@ void add_observation(SettingTable& rows) {
                                    {"auto", MatchExposure::kAuto}},
               "Multiply R, G, B of each photograph so that all see the same points alike; auto: "
               "where most of them differ; off in preset paper"),
+       choice(
+           "refine-cameras", SLF_AT(refine_cameras),
+           Words<RefineCameras>{{"on", RefineCameras::kOn}, {"off", RefineCameras::kOff}},
+           "Train the poses of input photographs first, by splats that are given up again: where "
+           "calibration is wrong by parts of a pixel; takes as long as half a training of splats"),
        on_or_off("check-cameras", SLF_AT(check_cameras),
                  "Leave out input images that the others contradict (another object, a wrong "
                  "pose), and correct those of another exposure; off in preset paper")});

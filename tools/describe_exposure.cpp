@@ -32,4 +32,18 @@ std::string exposure_text(const ExposureReport& r) {
       double(least), double(most), percent(r.differ), percent(r.differ_matched));
 }
 
+nlohmann::ordered_json poses_json(const PoseReport& r) {
+  nlohmann::ordered_json json = {{"refined", !r.cameras.empty()},
+                                 {"median_pixels", r.median_pixels},
+                                 {"most_pixels", r.most_pixels}};
+  if (!r.cameras.empty()) json["moved_most"] = r.cameras[std::size_t(r.moved_most)].name;
+  return json;
+}
+
+std::string poses_text(const PoseReport& r) {
+  if (r.cameras.empty()) return {};
+  return text("poses         refined: pictures moved by %.2f pixels (median), %s by %.2f\n",
+              r.median_pixels, r.cameras[std::size_t(r.moved_most)].name.c_str(), r.most_pixels);
+}
+
 }  // namespace slf::tools

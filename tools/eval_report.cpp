@@ -23,6 +23,7 @@ nlohmann::ordered_json image_json(const ImageQuality& image) {
   json["coverage"] = image.coverage;
   json["uncovered_error_share"] = image.uncovered_error_share;
   json["outside_error_share"] = image.outside_error_share;
+  json["off_pixels"] = image.off_pixels;
   json["all"] = picture_json(image.all);
   json["regions"] = {{"grazing", region_json(image.grazing)},
                      {"rim", region_json(image.rim)},
@@ -67,6 +68,7 @@ std::string image_text(const ImageQuality& image) {
            psnr_text(image.psnr).c_str(), image.ssim, image.ms_ssim, 100 * image.coverage);
   out += text("  all their pixels   %s   SSIM %.4f, MS-SSIM %.4f\n",
               psnr_text(image.all.psnr).c_str(), image.all.ssim, image.all.ms_ssim);
+  out += text("  off their cameras  %.2f pixels (median)\n", image.off_pixels);
   const std::array<std::pair<const char*, const PictureRegion*>, 3> regions = {
       {{"grazing", &image.grazing}, {"rim", &image.rim}, {"rest", &image.rest}}};
   for (const auto& [name, r] : regions)

@@ -16,6 +16,7 @@ Capture with_points_of(const LightField& field, Capture capture, int threads);
 struct FilePictures {
   double psnr = 0;          ///< dB, as `slf eval` has it of images; NaN: nothing to compare
   std::size_t cameras = 0;  ///< that it is of: all of the input, or some where there are many
+  double off_pixels = 0;    ///< ImageQuality::off_pixels of these
   double seconds = 0;
 };
 
@@ -26,6 +27,12 @@ std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras);
 /// @param capture  what was encoded
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
                                            std::span<const int> cameras, int threads);
+
+/// The cameras where the encoder had them.
+void take_poses(const PoseReport& poses, Capture& capture);
+
+/// Says what to do where poses seem wrong; empty: they do not.
+std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded);
 
 /// A line of the report.
 std::string pictures_text(const FilePictures& pictures, const Encoded& encoded,

@@ -68,11 +68,15 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["bytes_by_type"] = bytes_by_type_json(info);
   json["cameras"] = cameras;
   json["exposure"] = exposure_json(e.exposure);
+  json["poses"] = poses_json(e.poses);
   json["camera_check"] = camera_check_json(e, input.capture);
   json["observations"] = e.observations;
   json["unobserved_points"] = e.unobserved_points;
   json["pictures"] = nullptr;
-  if (cameras > 0) json["pictures"] = {{"psnr", pictures.psnr}, {"cameras", pictures.cameras}};
+  if (cameras > 0)
+    json["pictures"] = {{"psnr", pictures.psnr},
+                        {"cameras", pictures.cameras},
+                        {"off_pixels", pictures.off_pixels}};
   if (e.fit.settings.pictures.rounds > 0)
     json["pictures"].update({{"psnr_before", e.pictures.psnr_before},
                              {"psnr_after", e.pictures.psnr_after},
@@ -82,6 +86,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["seconds"] = {
       {"load", load},
       {"exposure", e.exposure.seconds},
+      {"poses", e.poses.seconds},
       {"surface", e.surface.seconds()},
       {"voxelise", e.seconds_voxelise},
       {"observe", e.seconds_observe},
@@ -91,9 +96,9 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
       {"quality", e.step.seconds},
       {"code", e.seconds_code},
       {"measure", pictures.seconds},
-      {"total", load + e.exposure.seconds + e.surface.seconds() + e.seconds_voxelise +
-                    e.seconds_observe + e.seconds_choose + e.seconds_fit + e.seconds_pictures +
-                    e.step.seconds + e.seconds_code}};
+      {"total", load + e.exposure.seconds + e.poses.seconds + e.surface.seconds() +
+                    e.seconds_voxelise + e.seconds_observe + e.seconds_choose + e.seconds_fit +
+                    e.seconds_pictures + e.step.seconds + e.seconds_code}};
   json["peak_memory_mib"] = peak_memory_mib();
   json["settings"] = settings_json(info);
   std::vector<std::string> warnings = input.capture.warnings;
@@ -108,8 +113,8 @@ std::string report_text(const Encoded& e, const CaptureInput& input, const FileP
   const auto percent = [](std::size_t part, std::size_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  std::string out =
-      exposure_text(e.exposure) + surface_text(e.surface) + density_text(e.grid, e.density);
+  std::string out = exposure_text(e.exposure) + poses_text(e.poses) + surface_text(e.surface) +
+                    density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
   if (cameras > 0) {
@@ -174,7 +179,7 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   SLF_TRY(const CaptureInput input, load_input(given, line, PointsWanted::kOrPhotographs));
   SLF_CHECK(check_surface(given, input));
   settings.metadata.insert(settings.metadata.begin(), input.metadata.begin(), input.metadata.end());
-  SLF_TRY(const Encoded encoded,
+  SLF_TRY(Encoded encoded,
           from(given.capture, encode(input.capture, input.cameras, settings, progress)));
   line.clear();
   warn(encoded.warnings, given.common.quiet);
@@ -183,8 +188,13 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   if (!input.cameras.empty() && (given.common.json || !given.common.quiet)) {
     Capture matched = input.capture;
     matched.gains = encoded.exposure.gains;
+    take_poses(encoded.poses, matched);
     SLF_TRY(pictures, measure_file(encoded, matched, used_cameras(encoded, input.cameras),
                                    given.common.threads));
+    if (std::string warning = off_cameras_warning(pictures, encoded); !warning.empty()) {
+      warn({warning}, given.common.quiet);
+      encoded.warnings.push_back(std::move(warning));
+    }
   }
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));

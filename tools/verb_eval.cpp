@@ -233,6 +233,9 @@ void add_inputs(CLI::App& verb, EvalOptions& o) {
   verb.add_flag("--match-exposure", o.settings.match_exposure,
                 "Give each rendering the exposure and white balance of its photograph first; "
                 "points are judged as they are");
+  verb.add_flag("--align-cameras", o.settings.align_cameras,
+                "Shift, turn and scale each picture by what brings it nearest to its photograph "
+                "first, 4 pixels at most: wrong poses are then no error of the file");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "base/error_sum.h"
 #include "base/stopwatch.h"
 #include "capture/quantile.h"
+#include "encoder/measure/align_camera.h"
 #include "encoder/measure/picture_background.h"
 #include "encoder/measure/ssim.h"
 #include "slf/parallel.h"
@@ -45,6 +46,7 @@ struct PictureErrors {
   std::array<ErrorSum, 3> region;  ///< of inside, by PictureRegionId
   ErrorSum uncovered, outside;     ///< object pixels that are not drawn; no object pixels
   double seconds = 0;              ///< of one rendering
+  double off = 0;                  ///< ImageQuality::off_pixels
 
   void add_all(const PictureErrors& other) {
     inside.add_all(other.inside);
@@ -136,6 +138,24 @@ Rendering with_exposure_of(const Image& photograph, Rendering over_black,
   return over_black;
 }
 
+constexpr int kAlignments = 3;  // each from the picture of the one before
+
+/// @param photograph  over its background
+/// @param rendering   over black, from the camera; receives that of the camera that is returned
+Alignment with_pose_of(const Image& photograph, const DrawPicture& draw, const Capture& capture,
+                       const Camera& camera, const std::array<std::uint8_t, 3>& background,
+                       Rendering& rendering) {
+  Alignment found{camera, 0};
+  for (int i = 0; i < kAlignments; ++i) {
+    const Alignment next = aligned(found.camera, photograph, over_background(rendering, background),
+                                   rendering.coverage);
+    if (!(next.pixels > 0)) break;
+    found = {next.camera, i == 0 ? next.pixels : found.pixels};  // later ones are small
+    rendering = draw(moved(found.camera, capture.origin));
+  }
+  return found;
+}
+
 /// `camera`'s photograph against what is drawn over black.
 Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const Capture& capture,
                                                  int camera_index, const CapturedSurface& surface,
@@ -151,11 +171,18 @@ Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const 
   const bool has_mask = index < capture.mask_files.size() && !capture.mask_files[index].empty();
   const auto background = picture_background(loaded, view.object, has_mask);
   const Image photograph = over_background(loaded, background);
+  const double off =
+      settings.align_cameras
+          ? with_pose_of(photograph, draw, capture, camera, background, over_black).pixels
+          : aligned(camera, photograph, over_background(over_black, background),
+                    over_black.coverage)
+                .pixels;
   if (settings.match_exposure)
     over_black = with_exposure_of(photograph, std::move(over_black), view.object);
   const Image rendering = over_background(over_black, background);
   PictureErrors errors = compare(photograph, rendering, over_black.coverage, view);
   errors.seconds = seconds;
+  errors.off = off;
   if (settings.error_map)
     SLF_CHECK(settings.error_map(camera_index, error_map(photograph, rendering)));
   return errors;
@@ -207,14 +234,16 @@ Result<Done, InputError> evaluate_images(const DrawPicture& draw, const Capture&
         if (progress) progress("images", double(done) / double(cameras.size()));
       });
   PictureErrors pooled;
-  std::vector<double> seconds;
+  std::vector<double> seconds, off;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (failures[i]) return *failures[i];
     pooled.add_all(each[i]);
     seconds.push_back(each[i].seconds);
+    off.push_back(each[i].off);
     quality.image.psnr_each.push_back(each[i].inside.errors.psnr());
   }
   set_image_quality(pooled, quality.image);
+  quality.image.off_pixels = median(std::move(off));
   quality.render_seconds = median(std::move(seconds));
   return Done{};
 }

@@ -127,6 +127,7 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   for (const Surface surface : {Surface::kMended, Surface::kTrained, Surface::kSplats})
     if (settings.surface == surface) return refused(std::string("--surface ") + word_of(surface));
   if (settings.match_exposure == MatchExposure::kOn) return refused("--match-exposure on");
+  if (settings.refine_cameras == RefineCameras::kOn) return refused("--refine-cameras on");
   if (settings.densify.mode == Densify::kOn) return refused("--densify on");
   if (settings.preset == Preset::kPaper) return refused("--preset paper");
   if (settings.fit.method != FitMethod::kHierarchical) return refused("--fit paper");

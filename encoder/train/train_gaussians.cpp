@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/train/camera_twists.h"
 #include "encoder/train/far_surfels.h"
 #include "encoder/train/outlines.h"
 #include "encoder/train/tile_pixels.h"
@@ -102,6 +103,10 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
     const TrainedSurfels far =
         far_surfels(start.views, surfels, training.surfels / kFarShare, settings.threads);
     surfels.insert(surfels.end(), far.begin(), far.end());
+  }
+  if (settings.twists != nullptr) {
+    *settings.twists = CameraTwists(start.views.size(), surfels, training_pixel(start.views));
+    training.twists = settings.twists;
   }
   SLF_CHECK(train_surfels(start.views, training, surfels));
   if (outlined) keep_object(outlines, settings.threads, surfels);

@@ -15,6 +15,8 @@
 
 namespace slf {
 
+class CameraTwists;
+
 struct TrainGeometrySettings {
   int grid_bits = 0;        ///< of the grid that follows; 0: as fine as photographs resolve
   double voxel_size = 0;    ///< > 0: in place of grid_bits
@@ -25,6 +27,7 @@ struct TrainGeometrySettings {
   double photograph_bytes = double(1 << 30);  ///< most, as floats: they are halved to fit
   std::filesystem::path work = {};            ///< TrainSettings
   bool resume = false;
+  CameraTwists* twists = nullptr;  ///< of splats: poses are trained with them, and left there
   TrainingCache* cache = nullptr;  ///< of the capture; or none
   int threads = 0;
 };

@@ -12,6 +12,7 @@
 #include "base/sha256.h"
 #include "base/stopwatch.h"
 #include "encoder/train/adam.h"
+#include "encoder/train/camera_twists.h"
 #include "encoder/train/chance.h"
 #include "encoder/train/draw_surfels.h"
 #include "encoder/train/grow_surfels.h"
@@ -28,7 +29,8 @@ namespace {
 constexpr double kFirstMove = 0.15, kLastMove = 0.004;
 constexpr float kTurnRate = 5e-3f, kRadiusRate = 1e-2f, kOpacityRate = 5e-2f;
 constexpr float kColourRate = 5e-3f, kHarmonicRate = 1.5e-3f;
-constexpr double kTail = 0.15;  // of the iterations: rates fall to a tenth
+constexpr double kFirstTwist = 0.1, kLastTwist = 0.01;  // pixels: of cameras
+constexpr double kTail = 0.15;                          // of the iterations: rates fall to a tenth
 
 // Pulls: of the iterations.
 constexpr double kPullFirst = 0.4, kDecideFirst = 2.0 / 3;
@@ -179,7 +181,9 @@ class Training {
     const std::size_t level = level_at(done, settings_.coarse, coarser_.size() + 1);
     const std::size_t index = order_.next();
     const TrainingView& view = level == 0 ? views_[index] : coarser_[level - 1][index];
-    const SurfelTiles tiles = tile_surfels(surfels_, view.camera, settings_.threads);
+    const TrainingCamera camera =
+        settings_.twists != nullptr ? settings_.twists->camera(index, view.camera) : view.camera;
+    const SurfelTiles tiles = tile_surfels(surfels_, camera, settings_.threads);
     draw_surfels(tiles, view, settings_.threads, drawn_);
     // Similarity every second time, at twice the weight: it takes most of the loss's time.
     const LossShares shares = {iteration_ % 2 == 0 ? 2 * settings_.structure : 0,
@@ -190,8 +194,8 @@ class Training {
     surfel_gradients(tiles, view, drawn_, loss_.gradient, settings_.spread * focal * focal,
                      settings_.threads, projected_);
     gradients_.assign(surfels_.size(), {});
-    add_surfel_gradients(surfels_, view.camera, tiles, projected_.sums, gradients_,
-                         settings_.threads);
+    add_surfel_gradients(surfels_, camera, tiles, projected_.sums, gradients_, settings_.threads);
+    if (settings_.twists != nullptr) move_camera(index, done);
     pull(done);
     use_.add(tiles, projected_.sums);
     adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), space_,
@@ -213,6 +217,12 @@ class Training {
     }
     if (done > kDecideFirst && settings_.decided > 0)
       pull_opacities(settings_.decided, surfels_, gradients_);
+  }
+
+  void move_camera(std::size_t view, double done) {
+    const double rate = kFirstTwist * std::pow(kLastTwist / kFirstTwist, done);
+    settings_.twists->step(view, rate, surfels_, gradients_);
+    if (std::size_t(iteration_ + 1) % views_.size() == 0) settings_.twists->centre();
   }
 
   void grow() {
@@ -251,7 +261,7 @@ class Training {
 Result<Done, InputError> train_surfels(std::span<const TrainingView> views,
                                        const TrainSettings& settings, TrainedSurfels& surfels) {
   std::optional<TrainingCheckpoint> checkpoint;
-  if (!settings.work.empty() && settings.seconds == 0)
+  if (!settings.work.empty() && settings.seconds == 0 && settings.twists == nullptr)
     checkpoint.emplace(settings.work, digest_of(views, settings, surfels));
   Training training(views, settings, surfels);
   if (checkpoint && settings.resume)

@@ -13,6 +13,8 @@
 
 namespace slf {
 
+class CameraTwists;
+
 struct TrainSettings {
   int iterations = 3000;    ///< one photograph each
   double from = 0;          ///< 0 .. 1: share of the iterations that was done before
@@ -24,8 +26,9 @@ struct TrainSettings {
   float spread = 1e-3f;     ///< weight of the squared spread in depth, pixels
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
-  float least_opacity = 0.02f;  ///< fainter ones make room for others while surfels grow
-  double seconds = 0;           ///< > 0: the schedule is passed through in so long, if not sooner
+  float least_opacity = 0.02f;     ///< fainter ones make room for others while surfels grow
+  CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too; no checkpoints
+  double seconds = 0;  ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
   /// Where the training leaves what it would need to go on; empty: nowhere. Not with `seconds`.
   std::filesystem::path work = {};

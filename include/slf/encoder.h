@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "slf/camera_poses.h"
 #include "slf/camera_trust.h"
 #include "slf/capture.h"
 #include "slf/error.h"
@@ -139,6 +140,8 @@ struct EncoderSettings {
   /// Photographs are given one exposure and white balance before anything else; not without
   /// points, nor in parts or frames.
   MatchExposure match_exposure = MatchExposure::kAuto;
+  /// Poses are trained before anything else; not without photographs, nor in parts or frames.
+  RefineCameras refine_cameras = RefineCameras::kOff;
   bool check_cameras = true;  ///< leaves out, or corrects, cameras that the others contradict
   FitSettings fit = FitSettings::hierarchical();
   FitSearch search;  ///< changes fit; not without cameras
@@ -208,6 +211,7 @@ struct Encoded {
   Density density;  ///< what the photographs resolve; all of it where grid_bits was 0
   std::size_t points = 0, merged = 0, observations = 0, unobserved_points = 0;
   ExposureReport exposure;           ///< what became of the photographs
+  PoseReport poses;                  ///< what became of the cameras
   SurfaceReport surface;             ///< what became of the capture's points before anything else
   ChosenFit fit;                     ///< of a capture with cameras
   PictureFit pictures;               ///< where fit.settings.pictures has rounds

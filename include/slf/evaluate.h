@@ -24,6 +24,10 @@ struct EvaluateSettings {
   /// squares where both show the object: photographs of any exposure and white balance are then
   /// judged by their patterns. Points are judged as they are.
   bool match_exposure = false;
+  /// Each camera's picture is first shifted, turned and scaled by what brings the rendering nearest
+  /// to its photograph, 4 pixels at most: poses that are wrong by parts of a pixel are then no
+  /// error of the file. Points are judged with the cameras as they are.
+  bool align_cameras = false;
   int threads = 0;
   /// Where given: called once for every camera, from several threads, with one image of three times
   /// the photograph's width: photograph, rendering, and 128 + 4 (rendering - photograph), clamped.
@@ -62,6 +66,9 @@ struct ImageQuality : PictureQuality {  ///< where both show the object
   PictureRegion grazing;  ///< the ray is within 10° of the capture's surface
   PictureRegion rim;  ///< not that, but within 2 pixels of a silhouette or a step in depth of it
   PictureRegion rest;
+  /// How far a picture would have to move to lie on its photograph, or was moved by align_cameras:
+  /// median over cameras. 0.1 or less says nothing; more says that poses are wrong.
+  double off_pixels = 0;
   std::vector<double> psnr_each;  ///< [cameras] dB, where both show the object
 };
 
