@@ -88,7 +88,7 @@ class Judge:
         with tempfile.TemporaryDirectory() as scratch:
             outputs = [["render", file, "--size", "48x48", "-o", scratch + "/x.png"], ["decode", file, "-o", scratch + "/d.ply"],
                        ["export", file, "--mean", "-o", scratch + "/m.ply"]]
-            outputs += [["export", file, "-o", f"{scratch}/x.{kind}"] for kind in ("ply", "glb", "spz")]
+            outputs += [["export", file, "-o", f"{scratch}/x.{kind}"] for kind in ("ply", "glb", "spz", "sog")]
             for command in outputs:
                 code, _, _, said = run([self.program, *command, "-j", "1"])
                 made = pathlib.Path(command[-1])
