@@ -74,11 +74,11 @@ Outcome check_output(const std::string& file) {
 
 Outcome check_output(const std::string& file, const char* verb,
                      std::span<const char* const> formats) {
-  constexpr std::array kKnown = {".avi",  ".avif", ".bmp",   ".e57", ".exr",  ".gif",   ".glb",
-                                 ".gltf", ".html", ".igc",   ".ivf", ".jpeg", ".jpg",   ".ksplat",
-                                 ".las",  ".laz",  ".mjpeg", ".mkv", ".mov",  ".mp4",   ".npy",
-                                 ".obj",  ".pcd",  ".ply",   ".png", ".slf",  ".splat", ".spz",
-                                 ".stl",  ".tif",  ".tiff",  ".txt", ".webm", ".webp",  ".xyz"};
+  constexpr std::array kKnown = {
+      ".avi",   ".avif", ".bmp",  ".e57", ".exr",    ".gif", ".glb",  ".gltf",  ".html",
+      ".igc",   ".ivf",  ".jpeg", ".jpg", ".ksplat", ".las", ".laz",  ".mjpeg", ".mkv",
+      ".mov",   ".mp4",  ".npy",  ".obj", ".pcd",    ".ply", ".png",  ".slf",   ".sog",
+      ".splat", ".spz",  ".stl",  ".tif", ".tiff",   ".txt", ".webm", ".webp",  ".xyz"};
   const std::string extension = small_extension(file);
   const auto is_it = [&](const char* other) { return extension == other; };
   const bool written = std::any_of(formats.begin(), formats.end(), is_it);

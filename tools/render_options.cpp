@@ -84,8 +84,8 @@ Outcome check_options(const RenderOptions& given) {
 
 void add_render_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("FILE", o.input,
-                  "The .slf file, or Gaussian splats (PLY, SPZ, splat, ksplat, glTF); - is a .slf "
-                  "on standard input")
+                  "The .slf file, or Gaussian splats (PLY, SPZ, SOG, splat, ksplat, glTF); - is a "
+                  ".slf on standard input")
       ->type_name("")
       ->required();
   verb.add_option(

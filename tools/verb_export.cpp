@@ -19,11 +19,14 @@
 namespace slf::tools {
 namespace {
 
-const std::map<std::string, SplatFormat> kExportFormats{
-    {"ply", SplatFormat::kPly}, {"glb", SplatFormat::kGlb}, {"spz", SplatFormat::kSpz}};
+const std::map<std::string, SplatFormat> kExportFormats{{"ply", SplatFormat::kPly},
+                                                        {"glb", SplatFormat::kGlb},
+                                                        {"spz", SplatFormat::kSpz},
+                                                        {"sog", SplatFormat::kSog}};
 
 struct ExportOptions {
   std::string input, output, format, axes = "auto";
+  int spz_version = 0;  // 0: 2 of light fields, 3 of splats
   bool mean = false;
   SplatSettings splats;
   bool degree_given = false;
@@ -31,6 +34,11 @@ struct ExportOptions {
   LimitOptions limits;
   CommonOptions common;
 };
+
+SplatFormat spz_of(int version) {
+  if (version == 4) return SplatFormat::kSpz4;
+  return version == 3 ? SplatFormat::kSpz3 : SplatFormat::kSpz;
+}
 
 /// By --format, else by the name's extension.
 std::optional<SplatFormat> format_of(const ExportOptions& given) {
@@ -40,7 +48,8 @@ std::optional<SplatFormat> format_of(const ExportOptions& given) {
   for (char& c : name)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   const auto found = kExportFormats.find(name);
-  return found == kExportFormats.end() ? std::nullopt : std::optional(found->second);
+  if (found == kExportFormats.end()) return std::nullopt;
+  return found->second == SplatFormat::kSpz ? spz_of(given.spz_version) : found->second;
 }
 
 SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
@@ -49,8 +58,7 @@ SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
   if (given.axes == "world") settings.axes = SplatAxes::kWorld;
   if (given.axes == "y-up") settings.axes = SplatAxes::kYUp;
   if (given.axes == "y-down") settings.axes = SplatAxes::kYDown;
-  if (given.axes == "auto")
-    settings.axes = format == SplatFormat::kPly ? SplatAxes::kYDown : SplatAxes::kYUp;
+  if (given.axes == "auto") settings.axes = axes_of(format);
   return settings;
 }
 
@@ -124,10 +132,11 @@ Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatForma
     return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
                                " holds splats"};
   if (given.degree_given) cut(file.gaussians, given.splats.degree);
-  if (format == SplatFormat::kSpz) format = SplatFormat::kSpz3;
+  if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
   const int degree = file.gaussians.degree;
-  SLF_TRY(const auto bytes, from(given.input, gaussian_file(std::move(file.gaussians), format)));
+  SLF_TRY(const auto bytes, from(given.input, gaussian_file(std::move(file.gaussians), format,
+                                                            given.common.threads)));
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   const double each = static_cast<double>(bytes.size()) / static_cast<double>(count);
   if (given.common.json)
@@ -166,21 +175,24 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
   }
   const ViewMaps maps(decoded.field, given.common.threads);
   SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
-  SLF_TRY(const auto bytes, from(name, splat_file(splats, format)));
+  SLF_TRY(const auto bytes, from(name, splat_file(splats, format, given.common.threads)));
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   if (given.common.quiet && !given.common.json) return Done{};
-  return report(given, splats, bytes.size(),
-                splat_loss(maps, as_stored(splats, format), given.common.threads),
-                decoded.field.partial);
+  return report(
+      given, splats, bytes.size(),
+      splat_loss(maps, as_stored(splats, format, given.common.threads), given.common.threads),
+      decoded.field.partial);
 }
 
 Outcome run_export(const ExportOptions& given) {
   const auto format = format_of(given);
   if (!format)
     return Failure{kUsage, "export: --output " + given.output +
-                               " ends in none of .ply, .glb, .spz, and there is no --format"};
+                               " ends in none of .ply, .glb, .spz, .sog, and there is no --format"};
   if (given.mean && *format != SplatFormat::kPly)
     return Failure{kUsage, "export: --mean writes points, as PLY alone"};
+  if (given.spz_version != 0 && *format != spz_of(given.spz_version))
+    return Failure{kUsage, "export: --spz-version is for .spz, and " + given.output + " is none"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "export: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output));
@@ -196,21 +208,27 @@ Outcome run_export(const ExportOptions& given) {
 
 void add_export(CLI::App& program, Run& run) {
   auto* verb = program.add_subcommand(
-      "export", "Write Gaussian splats (PLY, glTF, SPZ) or coloured points for other programs");
+      "export",
+      "Write Gaussian splats (PLY, glTF, SPZ, SOG) or coloured points for other programs");
   auto o = std::make_shared<ExportOptions>();
   verb->add_option("FILE", o->input,
-                   "The .slf file, or Gaussian splats (PLY, SPZ, splat, ksplat, glTF); - is a .slf "
-                   "on standard input")
+                   "The .slf file, or Gaussian splats (PLY, SPZ, SOG, splat, ksplat, glTF); - is a "
+                   ".slf on standard input")
       ->type_name("")
       ->required();
   verb->add_option("-o,--output", o->output,
-                   "y.ply (3-D Gaussian splatting), y.glb (KHR_gaussian_splatting) or y.spz; - is "
-                   "standard output")
+                   "y.ply (3-D Gaussian splatting), y.glb (KHR_gaussian_splatting), y.spz or y.sog "
+                   "(PlayCanvas); - is standard output")
       ->type_name("FILE")
       ->required();
   verb->add_option("--format", o->format, "In place of the name's extension")
       ->type_name("")
-      ->check(CLI::IsMember({"ply", "glb", "spz"}));
+      ->check(CLI::IsMember({"ply", "glb", "spz", "sog"}));
+  verb->add_option("--spz-version", o->spz_version,
+                   "2 (every reader knows it), 3 (finer turns) or 4 (zstd); default 2 of light "
+                   "fields, 3 of splats")
+      ->type_name("")
+      ->check(whole_range(2, 4));
   verb->add_option("--degree", o->splats.degree, "Of the harmonics")
       ->capture_default_str()
       ->check(whole_range(0, 3));
@@ -219,11 +237,12 @@ void add_export(CLI::App& program, Run& run) {
                        "Standard deviation of a splat, in distances between neighbouring points")
           ->capture_default_str()
           ->check(range(0.1, 4));
-  auto* axes = verb->add_option("--axes", o->axes,
-                                "auto: y down in a PLY, y up in the others; world: as in the .slf")
-                   ->type_name("")
-                   ->capture_default_str()
-                   ->check(CLI::IsMember({"auto", "world", "y-up", "y-down"}));
+  auto* axes =
+      verb->add_option("--axes", o->axes,
+                       "auto: y down in PLY and SOG, y up in the others; world: as in the .slf")
+          ->type_name("")
+          ->capture_default_str()
+          ->check(CLI::IsMember({"auto", "world", "y-up", "y-down"}));
   verb->add_flag("--mean", o->mean,
                  "PLY of points with the colour averaged over all directions, not of splats; world "
                  "axes, as slf decode writes it")

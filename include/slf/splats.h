@@ -68,16 +68,23 @@ enum class SplatFormat : std::uint8_t {
   kGlb,   ///< glTF 2.0 binary with KHR_gaussian_splatting
   kSpz,   ///< SPZ version 2
   kSpz3,  ///< SPZ version 3, which has ten bits for each component of a turn and not eight
+  kSpz4,  ///< SPZ version 4: the same in zstd, and harmonics of degree 4
+  kSog,   ///< SOG version 2, bundled: pictures in WebP, harmonics by a palette
 };
 
-/// What a reader of the format gets: rounded and clamped where it has fewer bits.
-SplatCloud as_stored(SplatCloud splats, SplatFormat format);
+/// Axes of a file by the convention of its format: y down of PLY and SOG, y up of the others.
+SplatAxes axes_of(SplatFormat format);
 
-/// The file. The same bytes for the same splats.
-/// @errors kInvalidInput: SPZ, a coordinate or a deviation beyond what it can hold; glTF, more than
-///         4 GiB, which is 17.6 million splats of degree 3.
+/// What a reader of the format gets: rounded and clamped where it has fewer bits.
+SplatCloud as_stored(SplatCloud splats, SplatFormat format, int threads = 0);
+
+/// The file. The same bytes for the same splats and any thread count.
+/// @errors kInvalidInput: SOG, no splats; SPZ and SOG, a coordinate or a deviation beyond what they
+/// can
+///         hold; glTF and SOG, more than 4 GiB, which is 17.6 million splats of degree 3 of glTF.
+///         kUnsupported: SPZ 4 and SOG in builds without zstd and WebP.
 Result<std::vector<std::uint8_t>, InputError> splat_file(const SplatCloud& splats,
-                                                         SplatFormat format);
+                                                         SplatFormat format, int threads = 0);
 
 /// Colours of splats against those of the light field, over points and directions that were not
 /// fitted to, weighted as the fit is. dB; infinite where nothing differs.

@@ -8,7 +8,7 @@
 namespace slf {
 namespace {
 
-Result<Bytes, InputError> file_of(const SplatRows& rows, SplatFormat format) {
+Result<Bytes, InputError> file_of(const SplatRows& rows, SplatFormat format, int threads) {
   switch (format) {
     case SplatFormat::kPly:
       return write_splat_ply(rows);
@@ -18,28 +18,46 @@ Result<Bytes, InputError> file_of(const SplatRows& rows, SplatFormat format) {
       return write_spz(rows, 2);
     case SplatFormat::kSpz3:
       return write_spz(rows, 3);
+    case SplatFormat::kSpz4:
+      return write_spz(rows, 4);
+    case SplatFormat::kSog:
+      return write_sog(rows, threads);
   }
   return InputError{Errc::kInvalidArgument, "no such format of splats"};
 }
 
 }  // namespace
 
-SplatCloud as_stored(SplatCloud splats, SplatFormat format) {
-  const bool spz = format == SplatFormat::kSpz || format == SplatFormat::kSpz3;
-  return spz ? rounded_to_spz(std::move(splats)) : splats;
+SplatAxes axes_of(SplatFormat format) {
+  return format == SplatFormat::kPly || format == SplatFormat::kSog ? SplatAxes::kYDown
+                                                                    : SplatAxes::kYUp;
+}
+
+SplatCloud as_stored(SplatCloud splats, SplatFormat format, int threads) {
+  switch (format) {
+    case SplatFormat::kPly:
+    case SplatFormat::kGlb:
+      return splats;
+    case SplatFormat::kSpz:
+    case SplatFormat::kSpz3:
+    case SplatFormat::kSpz4:
+      return rounded_to_spz(std::move(splats));
+    case SplatFormat::kSog:
+      return rounded_to_sog(std::move(splats), threads);
+  }
+  return splats;
 }
 
 Result<std::vector<std::uint8_t>, InputError> splat_file(const SplatCloud& splats,
-                                                         SplatFormat format) {
-  return file_of(DiscRows(splats), format);
+                                                         SplatFormat format, int threads) {
+  return file_of(DiscRows(splats), format, threads);
 }
 
-Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians,
-                                                            SplatFormat format) {
+Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians, SplatFormat format,
+                                                            int threads) {
   if (gaussians.size() == 0) return InputError{Errc::kInvalidInput, "has no splats"};
-  const SplatAxes axes = format == SplatFormat::kPly ? SplatAxes::kYDown : SplatAxes::kYUp;
-  const Gaussians turned = in_axes(std::move(gaussians), axes);
-  return file_of(GaussianRows(turned), format);
+  const Gaussians turned = in_axes(std::move(gaussians), axes_of(format));
+  return file_of(GaussianRows(turned), format, threads);
 }
 
 Gaussians gaussians_of(const SplatCloud& splats, UpAxis up) {

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// SPZ versions 2 and 3 (Niantic): fixed-point positions, bytes for the rest, in gzip. Every reader
+// SPZ versions 2 to 4 (Niantic): fixed-point positions, bytes for the rest, in gzip. Every reader
 // of SPZ knows version 2. Its quaternions have x, y and z in 8 bits each, which is coarse only
 // where w is small; those of discs (disc_rotation) never are. Version 3 leaves the largest out.
+// Version 4 has each attribute in zstd, behind a header that is not packed.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "bitstream/deflate.h"
 #include "lightfield/splats/splat_writers.h"
+#include "lightfield/splats/zstd_adapter.h"
 
 namespace slf {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x5053474e;  // "NGSP"
-constexpr int kSpzDegree = 3;                 // the most that readers of these versions know
+constexpr int kSpzDegree = 3;                 // the most that readers of versions 2 and 3 know
+constexpr int kSpz4Degree = 4;
+constexpr std::uint32_t kSpz4Header = 32;
 constexpr int kMostFractionBits = 24;
 constexpr float kLargestCoordinate = 8388607;         // of 24 bits with sign
 constexpr float kScaleOffset = 10, kScaleSteps = 16;  // byte = (log + 10) * 16
@@ -78,14 +84,21 @@ void put_smallest_three(const std::array<float, 4>& q, Bytes& out) {
   put(out, word);
 }
 
-void put_shapes(const SplatRows& splats, int version, Bytes& out) {
+void put_sizes(const SplatRows& splats, Bytes& out) {
   for (std::size_t p = 0; p < splats.size(); ++p)
     for (const float scale : splats.deviations(p)) out.push_back(scale_byte(scale));
+}
+
+void put_turns(const SplatRows& splats, int version, Bytes& out) {
   for (std::size_t p = 0; p < splats.size(); ++p)
     if (version == 2)
       put_first_three(splats.rotation(p), out);
     else
       put_smallest_three(splats.rotation(p), out);
+}
+
+void put_opacities(const SplatRows& splats, Bytes& out) {
+  for (std::size_t p = 0; p < splats.size(); ++p) out.push_back(byte_of(255 * splats.opacity(p)));
 }
 
 void put_colours(const SplatRows& splats, Bytes& out) {
@@ -113,10 +126,47 @@ bool holds(const SplatRows& splats) {
          std::log(most) < 255 / kScaleSteps - kScaleOffset;
 }
 
+/// Attributes in their order; degree 0 has no last one.
+std::vector<Bytes> spz_attributes(const SplatRows& splats, int version, int bits, int degree) {
+  std::vector<Bytes> out(degree == 0 ? 5 : 6);
+  put_positions(splats, bits, out[0]);
+  put_opacities(splats, out[1]);
+  put_colours(splats, out[2]);
+  put_sizes(splats, out[3]);
+  put_turns(splats, version, out[4]);
+  if (degree > 0) put_harmonics(splats, degree, out[5]);
+  return out;
+}
+
+/// Version 4: how many bytes each attribute takes, packed and not, then these.
+Result<Bytes, InputError> spz4_file(Bytes header, const std::vector<Bytes>& attributes) {
+  if (!has_zstd())
+    return InputError{Errc::kUnsupported,
+                      "SPZ 4 is in zstd, which this build does not write (SLF_ZSTD)"};
+  const auto put_long = [&](std::uint64_t value) {
+    put(header, static_cast<std::uint32_t>(value));
+    put(header, static_cast<std::uint32_t>(value >> 32));
+  };
+  header.back() = static_cast<std::uint8_t>(attributes.size());
+  put(header, kSpz4Header);
+  header.resize(kSpz4Header);
+  Bytes all;
+  for (const Bytes& attribute : attributes) {
+    const auto packed = zstd(attribute);
+    if (!packed) return InputError{Errc::kInvalidInput, "SPZ 4: no memory to pack it"};
+    put_long(packed->size());
+    put_long(attribute.size());
+    all.insert(all.end(), packed->begin(), packed->end());
+  }
+  header.insert(header.end(), all.begin(), all.end());
+  return header;
+}
+
 }  // namespace
 
 Result<Bytes, InputError> write_spz(const SplatRows& splats, int version) {
-  const int bits = fraction_bits(splats), degree = std::min(splats.degree(), kSpzDegree);
+  const int bits = fraction_bits(splats);
+  const int degree = std::min(splats.degree(), version == 4 ? kSpz4Degree : kSpzDegree);
   if (bits < 0 || (splats.step() > 0 && std::ldexp(splats.step(), bits) < 1))
     return InputError{Errc::kInvalidInput, "SPZ cannot hold its coordinates"};
   if (!holds(splats))
@@ -130,11 +180,10 @@ Result<Bytes, InputError> write_spz(const SplatRows& splats, int version) {
   put(raw, static_cast<std::uint32_t>(version));
   put(raw, static_cast<std::uint32_t>(splats.size()));
   for (const int byte : {degree, bits, 0, 0}) raw.push_back(static_cast<std::uint8_t>(byte));
-  put_positions(splats, bits, raw);
-  for (std::size_t p = 0; p < splats.size(); ++p) raw.push_back(byte_of(255 * splats.opacity(p)));
-  put_colours(splats, raw);
-  put_shapes(splats, version, raw);
-  put_harmonics(splats, degree, raw);
+  const std::vector<Bytes> attributes = spz_attributes(splats, version, bits, degree);
+  if (version == 4) return spz4_file(std::move(raw), attributes);
+  for (const Bytes& attribute : attributes)
+    raw.insert(raw.end(), attribute.begin(), attribute.end());
   return gzip(raw);
 }
 

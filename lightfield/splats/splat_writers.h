@@ -19,10 +19,14 @@ Result<Bytes, InputError> write_splat_glb(const SplatRows& splats);
 /// Bytes of a GLB's buffer. @errors kInvalidInput: GLB has 32 bits for them.
 Result<std::uint32_t, InputError> glb_buffer_bytes(std::uint64_t splats,
                                                    std::uint64_t num_harmonics);
-/// @param version  2 or 3
+/// @param version  2, 3 or 4. @errors also kUnsupported: 4 without zstd
 Result<Bytes, InputError> write_spz(const SplatRows& splats, int version);
 /// What write_spz() leaves of it.
 SplatCloud rounded_to_spz(SplatCloud splats);
+/// @errors kUnsupported: no WebP. kInvalidInput: too many, or coordinates that it does not resolve.
+Result<Bytes, InputError> write_sog(const SplatRows& splats, int threads);
+/// What write_sog() leaves of it.
+SplatCloud rounded_to_sog(SplatCloud splats, int threads);
 
 /// Little endian.
 inline void put(Bytes& out, std::uint32_t value) {

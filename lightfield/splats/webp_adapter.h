@@ -23,4 +23,10 @@ struct RgbaPicture {
 /// at before there is memory for them, or has_webp() is false.
 std::optional<RgbaPicture> decode_webp(std::span<const std::uint8_t> file, std::size_t most);
 
+/// A lossless WebP file in which pixels that are transparent keep their colours. The same bytes for
+/// the same picture. Nothing where a side is 0 or beyond kMostWebpSide, there is no memory, or
+/// has_webp() is false.
+std::optional<std::vector<std::uint8_t>> encode_webp(const RgbaPicture& picture);
+inline constexpr std::size_t kMostWebpSide = 16383;
+
 }  // namespace slf

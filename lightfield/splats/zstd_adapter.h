@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace slf {
 
@@ -14,5 +16,8 @@ bool has_zstd();
 /// Decompresses one or several frames (RFC 8878) to exactly `to.size()` bytes.
 /// @return false: damaged, or of another size; false always where has_zstd() is
 bool unzstd(std::span<const std::uint8_t> frames, std::span<std::uint8_t> to);
+
+/// One frame that says its size. Nothing where there is no memory, or has_zstd() is false.
+std::optional<std::vector<std::uint8_t>> zstd(std::span<const std::uint8_t> bytes);
 
 }  // namespace slf

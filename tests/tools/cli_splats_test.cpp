@@ -27,6 +27,15 @@ TEST_F(SplatFileTest, IsDrawnAndItsCopiesInOtherFormatsAre) {
     EXPECT_EQ(slf("export x.ply -o x." + format).code, 0);
     EXPECT_EQ(slf("render x." + format + " --orbit 2 --sheet -o sheet.png --size 50x50").code, 0);
   }
+  for (const std::string options : {"-o four.spz --spz-version 4", "-o x.sog"}) {
+    const Ran ran = slf("export x.ply " + options);
+    ASSERT_TRUE(ran.code == 0 || ran.err.find("this build") != std::string::npos) << ran.err;
+    if (ran.code != 0) continue;
+    const std::string file = options.substr(3, options.find(' ', 3) - 3);
+    EXPECT_EQ(slf("render " + file + " -o sheet.png --size 50x50").code, 0);
+    EXPECT_EQ(slf("encode " + file + " -o x.slf --quiet").code, 0);
+  }
+  expect_failure(slf("export x.ply -o y.glb --spz-version 4"), 2, "y.glb", "--spz-version");
   ASSERT_EQ(slf("export x.glb -o back.ply").code, 0);
   EXPECT_EQ(read_gaussians(path("back.ply"))->gaussians.positions,
             read_gaussians(path("x.ply"))->gaussians.positions);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "cli_support.h"
+#include "slf/gaussian_files.h"
 
 namespace slf::cli_test {
 namespace {
@@ -226,10 +227,14 @@ TEST_F(TinyCaptureTest, ExportsSplatsAndPointsAndSaysWhatIsLost) {
   ASSERT_EQ(slf("decode a.slf --quiet -o decoded.ply").code, 0);
   EXPECT_EQ(read("mean.ply"), read("decoded.ply"));
   EXPECT_EQ(slf("export a.slf --quiet --format spz --degree 2 -o -").out, read("a.spz"));
+  EXPECT_EQ(slf("export a.slf --quiet --spz-version 2 --degree 2 -o b.spz").code, 0);
+  EXPECT_EQ(read("b.spz"), read("a.spz"));
+  EXPECT_EQ(slf("export a.slf --quiet --spz-version 3 --degree 2 -o b.spz").code, 0);
+  EXPECT_EQ(read_gaussians(path("b.spz"))->format, "SPZ 3");
   expect_failure(slf("export a.slf -o a.obj"), 2, "a.obj", "--format");
-  expect_failure(slf("export a.slf --mean -o b.spz"), 2, "export", "--mean");
-  expect_failure(slf("export tiny/cameras.json -o b.spz"), 4, "cameras.json", "not an .slf");
-  EXPECT_FALSE(exists("b.spz"));
+  expect_failure(slf("export a.slf --mean -o c.spz"), 2, "export", "--mean");
+  expect_failure(slf("export tiny/cameras.json -o c.spz"), 4, "cameras.json", "not an .slf");
+  EXPECT_FALSE(exists("c.spz"));
 }
 
 }  // namespace
