@@ -226,16 +226,13 @@ void add_inputs(CLI::App& verb, EvalOptions& o) {
   verb.add_option("FILE", o.input, "A .slf or .igc, - of standard input; or Gaussian splats")
       ->type_name("")
       ->required();
-  verb.add_option("CAPTURE", o.capture,
-                  "The capture (see slf encode --help), or the plenoptic cloud")
+  verb.add_option("CAPTURE", o.capture, "The capture (slf encode --help), or the plenoptic cloud")
       ->type_name("")
       ->required();
   verb.add_flag("--match-exposure", o.settings.match_exposure,
-                "Give each rendering the exposure and white balance of its photograph first; "
-                "points are judged as they are");
+                "Give each rendering its photograph's exposure first; points stay as they are");
   verb.add_flag("--align-cameras", o.settings.align_cameras,
-                "Shift, turn and scale each picture by what brings it nearest to its photograph "
-                "first, 4 pixels at most: wrong poses are then no error of the file");
+                "Move each picture onto its photograph first, by 4 pixels at most");
 }
 
 }  // namespace
