@@ -217,8 +217,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
 Result<PoseReport, InputError> poses_of(const Capture& capture, StartId start,
                                         std::span<const int> cameras,
                                         const EncoderSettings& settings, const Progress& progress) {
-  if (settings.refine_cameras == RefineCameras::kOff || cameras.empty()) return PoseReport{};
-  const std::string obstacle = training_obstacle(capture, cameras);
+  if (settings.refine_cameras == RefineCameras::kOff) return PoseReport{};
+  const std::string obstacle =
+      cameras.empty() ? "there are no photographs" : training_obstacle(capture, cameras);
   if (!obstacle.empty()) return InputError{Errc::kInvalidArgument, "refine-cameras: " + obstacle};
   return refine_cameras(capture, cameras, pose_training_of(settings, start), progress);
 }
@@ -255,6 +256,7 @@ Result<Encoded, InputError> encode(const Capture& given, std::span<const int> ca
   if (!poses.cameras.empty()) {
     if (!changed) changed = capture;
     changed->cameras = poses.cameras;
+    recorded.metadata.emplace_back("poses", "refined");
   }
   const Capture& seen = changed ? *changed : capture;
   TrainingCache cache;

@@ -121,7 +121,8 @@ void add_igc_options(CLI::App& verb, EncodeOptions& o) {
   add_input_options(verb, o, ".igc");
   add_settings(verb, o.given, [](const SettingInfo& setting) {
     return setting.group != "Coding" && !setting.group.starts_with("Texture") &&
-           setting.name != "check-cameras" && setting.name != "match-exposure";
+           setting.name != "check-cameras" && setting.name != "match-exposure" &&
+           setting.name != "refine-cameras";
   });
   add_common_options(verb, o);
 }

@@ -58,6 +58,23 @@ TEST_F(TinyCaptureTest, PhotographsOfManyExposuresAreMatchedAndSaidSo) {
                  "");
 }
 
+TEST_F(TinyCaptureTest, PosesAreRefinedWhereThatIsAskedForAndSaid) {
+  const std::string how = "encode tiny -o a.slf --grid-bits 5 --effort 1 --surface given --json";
+  const auto given = parsed(slf(how).out);
+  EXPECT_FALSE(given["poses"]["refined"].get<bool>());
+  EXPECT_FALSE(given["settings"].contains("poses"));
+  const auto refined = parsed(slf(how + " --refine-cameras on").out);
+  EXPECT_TRUE(refined["poses"]["refined"].get<bool>());
+  EXPECT_EQ(refined["settings"]["poses"], "refined");
+  EXPECT_GT(refined["poses"]["most_pixels"], 0);
+  const auto as_given = parsed(slf("eval a.slf tiny --json").out)["held_out"]["image"];
+  const auto aligned = parsed(slf("eval a.slf tiny --align-cameras --json").out);
+  EXPECT_GT(as_given["off_pixels"], 0);
+  EXPECT_GT(aligned["held_out"]["image"]["psnr"], as_given["psnr"]);
+  for (const char* other : {"encode tiny -o b.slf --memory 1G", "encode tiny/points.ply -o b.slf"})
+    expect_failure(slf(std::string(other) + " --refine-cameras on"), 2, "refine-cameras", "");
+}
+
 TEST_F(TinyCaptureTest, TheGridFollowsThePhotographsUnlessItIsGiven) {
   const auto report = parsed(slf("encode tiny -o a.slf --effort 1 --json").out);
   EXPECT_EQ(report["settings"]["grid"], "auto");
