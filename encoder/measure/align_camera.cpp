@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kLeastSlope = 2;  // grey levels a pixel: flatter ones say nothing
 constexpr std::size_t kLeastPixels = 64;
-constexpr double kLarge = 8;  // grey levels: larger differences are something else
-constexpr int kRounds = 5;    // of weights
+constexpr double kEnoughPixels = 1 << 19;  // of 12 megapixels all slopes take 700 MB
+constexpr double kLarge = 8;               // grey levels: larger differences are something else
+constexpr int kRounds = 5;                 // of weights
 constexpr double kMostPixels = 4;
 
 using Row = Eigen::Vector4d;  // by shifts along x and y, a turn and a scale about the middle
@@ -30,8 +31,10 @@ Slopes slopes_of(const Image& photograph, const Image& drawn,
   Slopes out;
   const auto width = std::size_t(drawn.width), height = std::size_t(drawn.height);
   const auto grey = [](const Image& image, std::size_t i) { return luma(&image.data[3 * i]); };
-  for (std::size_t y = 1; y + 1 < height; ++y)
-    for (std::size_t x = 1; x + 1 < width; ++x) {
+  const auto step = std::size_t(
+      std::max(1.0, std::ceil(std::sqrt(double(width) * double(height) / kEnoughPixels))));
+  for (std::size_t y = 1; y + 1 < height; y += step)
+    for (std::size_t x = 1; x + 1 < width; x += step) {
       const std::size_t i = y * width + x;
       if (coverage[i] < 128) continue;
       const double gx = (grey(drawn, i + 1) - grey(drawn, i - 1)) / 2;

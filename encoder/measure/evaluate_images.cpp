@@ -138,22 +138,23 @@ Rendering with_exposure_of(const Image& photograph, Rendering over_black,
   return over_black;
 }
 
-constexpr int kAlignments = 3;  // each from the picture of the one before
-
+/// How far the picture lies off its photograph, pixels; 0 where it does not say.
 /// @param photograph  over its background
-/// @param rendering   over black, from the camera; receives that of the camera that is returned
-Alignment with_pose_of(const Image& photograph, const DrawPicture& draw, const Capture& capture,
-                       const Camera& camera, const std::array<std::uint8_t, 3>& background,
-                       Rendering& rendering) {
-  Alignment found{camera, 0};
+/// @param align      the rendering, over black, becomes that of the camera that stands right
+double off_pixels(const Image& photograph, const DrawPicture& draw, const Capture& capture,
+                  Camera camera, const std::array<std::uint8_t, 3>& background, bool align,
+                  Rendering& rendering) {
+  constexpr int kAlignments = 3;  // each from the picture of the one before: later ones are small
+  double off = 0;
   for (int i = 0; i < kAlignments; ++i) {
-    const Alignment next = aligned(found.camera, photograph, over_background(rendering, background),
-                                   rendering.coverage);
-    if (!(next.pixels > 0)) break;
-    found = {next.camera, i == 0 ? next.pixels : found.pixels};  // later ones are small
-    rendering = draw(moved(found.camera, capture.origin));
+    const Alignment next =
+        aligned(camera, photograph, over_background(rendering, background), rendering.coverage);
+    if (i == 0) off = next.pixels;
+    if (!align || !(next.pixels > 0)) break;
+    camera = next.camera;
+    rendering = draw(moved(camera, capture.origin));
   }
-  return found;
+  return off;
 }
 
 /// `camera`'s photograph against what is drawn over black.
@@ -172,11 +173,7 @@ Result<PictureErrors, InputError> compare_camera(const DrawPicture& draw, const 
   const auto background = picture_background(loaded, view.object, has_mask);
   const Image photograph = over_background(loaded, background);
   const double off =
-      settings.align_cameras
-          ? with_pose_of(photograph, draw, capture, camera, background, over_black).pixels
-          : aligned(camera, photograph, over_background(over_black, background),
-                    over_black.coverage)
-                .pixels;
+      off_pixels(photograph, draw, capture, camera, background, settings.align_cameras, over_black);
   if (settings.match_exposure)
     over_black = with_exposure_of(photograph, std::move(over_black), view.object);
   const Image rendering = over_background(over_black, background);

@@ -10,7 +10,7 @@
 namespace slf {
 namespace {
 
-constexpr double kMeanDecay = 0.9, kSquareDecay = 0.99;  // a view is drawn some ten times in all
+constexpr double kMeanDecay = 0.9, kSquareDecay = 0.99;  // a view is drawn some thirty times in all
 
 /// R, t of a rigid motion of the world.
 struct Motion {
