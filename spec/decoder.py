@@ -622,7 +622,8 @@ def check_index(sequence, payload, following):
     for i in range(count):
         unit_type, size = reader.u(8, "index_unit_type"), reader.ue("index_unit_bytes")
         named = unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT)
-        numbers = sequence.unit_kind(unit_type, reader, "index_") if named else None
+        numbers = sequence.unit_kind(unit_type, reader, "index_") if named else (0,)
+        require((numbers[0] or 0) < 1 << 16, "index_slice_id")
         if i < len(following):
             require(unit_type == following[i][0], "index_unit_type")
             require(size == following[i][2], "index_unit_bytes")
