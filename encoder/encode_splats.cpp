@@ -126,7 +126,10 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   if (progress) progress("code", 0);
   coding.target_bytes = 0;
   coding.target_psnr = 0;
-  if (coding.q == kAutomaticQ) coding.q = kGaussianQ;
+  if (coding.q == kAutomaticQ) {
+    coding.q = kGaussianQ;
+    if (!has_target(settings)) out.step.origin = ChosenStep::kSplats;
+  }
   const auto code = [&](double q) -> Result<Done, InputError> {
     EncoderSettings with = coding;
     with.q = q;

@@ -20,6 +20,13 @@ void exclude(SettingTable& rows, const std::vector<std::string>& names) {
         row.info.excludes.push_back(name);
 }
 
+void count_for_splats(SettingTable& rows, SettingInfo::Splats splats,
+                      std::initializer_list<std::string_view> names) {
+  for (SettingRow& row : rows)
+    if (std::find(names.begin(), names.end(), row.info.name) != names.end())
+      row.info.splats = splats;
+}
+
 const SettingScope kTextures = {"--coefficients texture", [](const EncoderSettings& s) {
                                   return s.coefficients == CoefficientCoder::kTexture;
                                 }};
@@ -207,6 +214,13 @@ SettingTable all_rows() {
   exclude(rows, {"quality-loss", "target-psnr"});
   exclude(rows, {"functions", "scales"});
   exclude(rows, {"penalise-dc", "free-dc"});
+  count_for_splats(rows, SettingInfo::kTrainedSplats,
+                   {"preset", "surface", "surface-seconds", "surface-memory", "photograph-pixels",
+                    "match-exposure", "refine-cameras", "check-cameras"});
+  count_for_splats(
+      rows, SettingInfo::kAnySplats,
+      {"effort", "grid-bits", "voxel-size", "quality", "target-bytes", "target-psnr", "klt",
+       "predict", "rdo", "quality-layers", "base-levels", "slice-points", "slice-start"});
   return rows;
 }
 

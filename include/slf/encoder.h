@@ -192,6 +192,7 @@ struct ChosenStep {
     kNoPictures,     ///< nothing is fitted to pictures
     kTooFewCameras,  ///< to hold some out
     kTooFewPixels,   ///< that held-out cameras see whole of the sample
+    kSplats,         ///< splats have a step of their own
   };
   Origin origin = kGiven;
   double loss = 0;                      ///< kChosen: dB of the held-out pictures that q costs
