@@ -15,7 +15,7 @@
 namespace slf {
 namespace {
 
-/// Codes of the base in the grid's frame, so that splits and levels are those of the whole tree.
+/// Codes of the base on the grid's axes, so that splits and levels are those of the whole tree.
 std::vector<std::uint64_t> grid_codes(const BaseState& base, const StreamHeader& stream) {
   std::vector<std::uint64_t> codes = base.cells;
   for (auto& code : codes) code <<= stream.lowest_split(base.level);
