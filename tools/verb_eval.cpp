@@ -263,8 +263,7 @@ void add_eval(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 1000));
   verb->add_option("--frame", o->frame,
-                   "Of a file of several frames the one to measure, from 0 on, against its own "
-                   "capture and by its own bytes")
+                   "Frame to measure of a file of several, from 0 on, by its own capture and bytes")
       ->type_name("N")
       ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
   verb->add_flag("--estimate-normals", o->estimate_normals,

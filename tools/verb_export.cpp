@@ -229,7 +229,7 @@ void add_export(CLI::App& program, Run& run) {
                    "fields, 3 of splats")
       ->type_name("")
       ->check(whole_range(2, 4));
-  verb->add_option("--degree", o->splats.degree, "Of the harmonics")
+  verb->add_option("--degree", o->splats.degree, "Degree of the harmonics")
       ->capture_default_str()
       ->check(whole_range(0, 3));
   auto* size =

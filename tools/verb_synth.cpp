@@ -148,7 +148,7 @@ void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
       ->capture_default_str()
       ->check(range(0, 20));
   verb.add_option("--seed", d.seed,
-                  "Of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
+                  "Seed of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
       ->capture_default_str()
       ->check(whole_range(0, 0xffffffff));
 }
@@ -158,7 +158,7 @@ void add_motions(CLI::App& verb, SynthOptions& o) {
                   "Frames of a scene that moves: captures DIR/frame_0001 or clouds "
                   "DIR/frame_0001.ply and so on (8)")
       ->check(whole_range(1, 9999));
-  verb.add_option("--bits", o.bits, "Of the grid of clouds that move (8)")
+  verb.add_option("--bits", o.bits, "Bits of the grid of clouds that move (8)")
       ->check(whole_range(5, 12));
   verb.add_option("--camera-turn", o.camera_turn,
                   "Degrees that all cameras of a capture that moves go on by in a frame (0: they "

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """No file above 300 lines, no function above 60: long ones hold more than one thing. Every file names its licence.
-No comment begins with "Of": it says first what it is about.
+No comment and no help text begins with "Of": it says first what it is about.
 
     house_limits_test.py ROOT
 
@@ -19,6 +19,8 @@ OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css'}  # lines of fil
 LICENCE = re.compile(r'\A(?:#![^\n]*\n)?(?://|#|/\*) SPDX-License-Identifier: Apache-2\.0\b')
 
 OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
+OF_LITERAL = re.compile(r'[^"\s]\s*("Of [^\n]*)')  # but not where it goes on with the literal before
+SAYS_HELP = re.compile(r'(?:encoder|tools)/.*\.(?:cpp|h)$')
 
 # Why a file may be longer.
 FILES = {
@@ -109,6 +111,15 @@ def functions_of(file, text):
     return list(python_functions(text)) if file.suffix in PYTHON else []
 
 
+def genitives(name, text):
+    """Place and text of every comment, and of every literal of what prints help, that begins with "Of"."""
+    found = [('a comment', comment.start(), comment[0].strip()) for comment in OF.finditer(text)]
+    if SAYS_HELP.match(name):
+        found += [('a text', literal.start(1), literal[1]) for literal in OF_LITERAL.finditer(text)]
+    for kind, at, said in found:
+        yield f'{name}:{text.count(chr(10), 0, at) + 1}: {kind} begins with "Of": {said[:60]}'
+
+
 def findings(root, counts):
     """What is too long: by whom it is excused, and a line that says it."""
     for file in files(root):
@@ -117,9 +128,8 @@ def findings(root, counts):
             yield name, {}, f'{name}: does not begin with its licence, as others do (SPDX-License-Identifier)'
         if text.count('\n') - 1 > FILE_LINES:
             yield name, FILES, f'{name}: {text.count(chr(10)) - 1} lines'
-        for comment in OF.finditer(text):
-            line = text.count('\n', 0, comment.start()) + 1
-            yield name, {}, f'{name}:{line}: a comment begins with "Of": {comment[0].strip()[:60]}'
+        for said in genitives(name, text):
+            yield name, {}, said
         functions = functions_of(file, text)
         counts[file.suffix] = counts.get(file.suffix, 0) + len(functions)
         for function, lines in functions:
