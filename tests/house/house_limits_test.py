@@ -15,8 +15,8 @@ import sys
 FILE_LINES, FUNCTION_LINES = 300, 60
 NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made'}
 CPP, PYTHON = {'.cpp', '.h', '.c'}, {'.py'}
-OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css'}  # lines of files alone
-LICENCE = re.compile(r'\A(?:#![^\n]*\n)?(?://|#|/\*) SPDX-License-Identifier: Apache-2\.0\b')
+OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css', '.html'}  # lines of files alone
+LICENCE = re.compile(r'\A(?:#![^\n]*\n|<!doctype html>\n)?(?://|#|/\*|<!--) SPDX-License-Identifier: Apache-2\.0\b')
 
 OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
 OF_LITERAL = re.compile(r'[^"\s]\s*("Of [^\n]*)')  # but not where it goes on with the literal before

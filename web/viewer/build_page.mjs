@@ -63,7 +63,7 @@ const replace = (html, from, to) => {
   if (!html.includes(from)) throw new Error(`viewer.html has no ${from}`);
   return html.replace(from, () => to);
 };
-let html = (await text('viewer.html')).replace(/\n\s+/g, '\n');
+let html = (await text('viewer.html')).replace(/<!--.*?-->\n/gs, '').replace(/\n\s+/g, '\n');
 html = replace(
   html,
   '<title>Surface light field</title>',
