@@ -3,7 +3,8 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9;
+first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
 import math

@@ -1,26 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """No file above 300 lines, no function above 60: long ones hold more than one thing. Every file names its licence.
-No comment and no help text begins with "Of": it says first what it is about.
+No comment and no help text begins with "Of": it says first what it is about. No line has more than 160 characters, of code or of prose.
 
     house_limits_test.py ROOT
 
-The line of the licence does not count. Lines of a function go from its name, or what stands before it, to its last brace. A function within a function counts with it.
+The line of the licence does not count. Lines of a function go from its name, or what stands before it, to its last brace.
+A function within a function counts with it.
 """
 import ast
 import pathlib
 import re
 import sys
 
-FILE_LINES, FUNCTION_LINES = 300, 60
+FILE_LINES, FUNCTION_LINES, LINE_CHARACTERS = 300, 60, 160
 NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made'}
 CPP, PYTHON = {'.cpp', '.h', '.c'}, {'.py'}
 OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css', '.html'}  # lines of files alone
+PROSE = {'.md'}
 LICENCE = re.compile(r'\A(?:#![^\n]*\n|<!doctype html>\n)?(?://|#|/\*|<!--) SPDX-License-Identifier: Apache-2\.0\b')
 
 OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
 OF_LITERAL = re.compile(r'[^"\s]\s*("Of [^\n]*)')  # but not where it goes on with the literal before
 SAYS_HELP = re.compile(r'(?:encoder|tools)/.*\.(?:cpp|h)$')
+
+# Lines of any length: markup, dated pages that nobody edits, the page of figures, which a program writes.
+ANY_WIDTH = re.compile(r'.*\.(?:html|css)$|docs/(?:decisions|experiments)/|docs/figures\.md$')
 
 # Why a file may be longer.
 FILES = {
@@ -101,7 +106,7 @@ def files(root):
             continue
         if path.is_dir():
             yield from files(path)
-        elif path.suffix in CPP | PYTHON | OTHERS or path.name == 'CMakeLists.txt':
+        elif path.suffix in CPP | PYTHON | OTHERS | PROSE or path.name == 'CMakeLists.txt':
             yield path
 
 
@@ -120,10 +125,25 @@ def genitives(name, text):
         yield f'{name}:{text.count(chr(10), 0, at) + 1}: {kind} begins with "Of": {said[:60]}'
 
 
+def wide_lines(file, name, text):
+    """Place of every line that is too wide; in prose not of tables, code and pictures, which are one line."""
+    if ANY_WIDTH.match(name):
+        return
+    if file.suffix in PROSE:
+        text = re.sub(r'^(```|~~~)(?s:.*?)^\1|^ *\|[^\n]*|^!\[[^\n]*|^ {4}(?! *[*-] )\S[^\n]*', blank, text, flags=re.M)
+    for at, line in enumerate(text.split('\n'), 1):
+        if len(line.rstrip()) > LINE_CHARACTERS:
+            yield f'{name}:{at}: {len(line)} characters'
+
+
 def findings(root, counts):
     """What is too long: by whom it is excused, and a line that says it."""
     for file in files(root):
         name, text = file.relative_to(root).as_posix(), file.read_text(encoding='utf-8')
+        for said in wide_lines(file, name, text):
+            yield name, {}, said
+        if file.suffix in PROSE:
+            continue
         if not LICENCE.match(text):
             yield name, {}, f'{name}: does not begin with its licence, as others do (SPDX-License-Identifier)'
         if text.count('\n') - 1 > FILE_LINES:
