@@ -46,8 +46,8 @@ std::string metadata_value(const Metadata& metadata, const std::string& key) {
   return {};
 }
 
-Outcome report(const EvalOptions& given, const Subject& subject,
-               const std::vector<Measured>& measured, double seconds) {
+Outcome report_measured(const EvalOptions& given, const Subject& subject,
+                        const std::vector<Measured>& measured, double seconds) {
   const bool images = given.settings.images;
   if (given.common.json) return print(eval_json(subject, measured, images, seconds));
   return print(eval_text(input_name(given.input), subject, measured, images));
@@ -171,7 +171,7 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture, const Spla
   };
   Stopwatch watch;
   SLF_TRY(const auto measured, measure(given, capture, splats.subject.metadata, judge, {}));
-  SLF_CHECK(report(given, splats.subject, measured, watch.lap()));
+  SLF_CHECK(report_measured(given, splats.subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
 
@@ -218,7 +218,7 @@ Outcome run_eval(const EvalOptions& given) {
   SLF_TRY(const auto measured,
           measure(given, capture, subject.metadata, judge_of(maps, capture),
                   unquantised_maps ? judge_of(*unquantised_maps, capture) : Judge{}));
-  SLF_CHECK(report(given, subject, measured, watch.lap()));
+  SLF_CHECK(report_measured(given, subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
 

@@ -171,7 +171,7 @@ Failure refused(const PackOptions& given, const InputError& error) {
   return {kUsage, (levels ? "pack: --levels: " : "pack: ") + cause};
 }
 
-nlohmann::ordered_json report_json(const LightField& field, std::uint64_t bytes, double seconds) {
+nlohmann::ordered_json packed_json(const LightField& field, std::uint64_t bytes, double seconds) {
   return {{"bytes", bytes},
           {"points", field.num_points()},
           {"functions", field.header.num_functions},
@@ -198,7 +198,7 @@ Outcome run_pack(const PackOptions& given) {
   const double seconds = watch.lap();
   if (!packed) return refused(given, packed.error());
   SLF_CHECK(save(given.output, packed->data(), packed->size()));
-  if (given.common.json) return print(report_json(field, packed->size(), seconds));
+  if (given.common.json) return print(packed_json(field, packed->size(), seconds));
   if (!given.common.quiet)
     std::fprintf(stderr, "%s points, %d functions: %s bytes, %.3f bits per point, %.3f s\n",
                  grouped(field.num_points()).c_str(), field.header.num_functions,

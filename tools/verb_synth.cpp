@@ -57,7 +57,7 @@ Outcome run_plenoptic(const SynthOptions& given) {
 }
 
 /// What a progress function does besides drawing: it leaves when it was interrupted.
-Progress interruptible(const std::filesystem::path& directory, ProgressLine& line) {
+Progress leaving_if_interrupted(const std::filesystem::path& directory, ProgressLine& line) {
   return [directory, draw = line.callback()](const char* stage, double fraction) {
     leave_if_interrupted(directory);
     if (draw) draw(stage, fraction);
@@ -85,8 +85,8 @@ Outcome run_moving(const SynthOptions& given, synth::MovingSettings settings) {
   settings.camera_turn = given.camera_turn;
   ProgressLine line(given.common.quiet);
   const DeferInterrupts defer;
-  return from(given.output,
-              synth::synthesise_moving(settings, given.output, interruptible(given.output, line)));
+  return from(given.output, synth::synthesise_moving(settings, given.output,
+                                                     leaving_if_interrupted(given.output, line)));
 }
 
 Outcome run_synth(const SynthOptions& given) {
@@ -129,8 +129,8 @@ Outcome run_synth(const SynthOptions& given) {
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
   const DeferInterrupts defer;
-  return from(given.output,
-              synth::synthesise(settings, given.output, interruptible(given.output, line)));
+  return from(given.output, synth::synthesise(settings, given.output,
+                                              leaving_if_interrupted(given.output, line)));
 }
 
 void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
