@@ -154,8 +154,8 @@ double largest_correlation_within_a_scale(int order) {
   return largest;
 }
 
-TEST(Gram, CorrelationsWithinAScaleAreThoseOfThePrototype) {
-  // Independent figures: research/prototype.md section 3.
+TEST(Gram, CorrelationsWithinAScaleAreThoseOfASecondProgram) {
+  // It was written before this one, from the definition of the basis alone.
   EXPECT_NEAR(largest_correlation_within_a_scale(1), 0, 1e-12);
   EXPECT_NEAR(largest_correlation_within_a_scale(2), 0.385, 5e-4);
   EXPECT_NEAR(largest_correlation_within_a_scale(3), 0.557, 5e-4);
@@ -166,7 +166,7 @@ TEST(BasisNorms, SpanTheFactorThatUniformStepsIgnore) {
   const std::vector<double> norms = basis_norms(Basis{});
   ASSERT_EQ(norms.size(), 128u);
   EXPECT_DOUBLE_EQ(norms[0], 1);
-  // Smallest squared norm 1.95e-3 (prototype.md section 3), 1 : 0.044.
+  // Smallest squared norm 1.95e-3 by the same program, 1 : 0.044.
   EXPECT_NEAR(*std::min_element(norms.begin(), norms.end()), 0.044, 5e-4);
   // w_1 of order 2 is a triangle wave between -1 and 1: mean square 1/3.
   EXPECT_NEAR(norms[1], std::sqrt(1.0 / 3), 1e-14);
