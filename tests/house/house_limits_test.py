@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """No file above 300 lines, no function above 60: long ones hold more than one thing. Every file names its licence.
-No comment and no help text begins with "Of": it says first what it is about. No line has more than 160 characters, of code or of prose.
+No comment, no help text and no name of a test begins with "Of": it says first what it is about. No line has more than 160 characters, of code or of prose.
 
     house_limits_test.py ROOT
 
@@ -22,6 +22,7 @@ LICENCE = re.compile(r'\A(?:#![^\n]*\n|<!doctype html>\n)?(?://|#|/\*|<!--) SPDX
 
 OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
 OF_LITERAL = re.compile(r'[^"\s]\s*("Of [^\n]*)')  # but not where it goes on with the literal before
+OF_TEST = re.compile(r'\bTEST\w*\(\s*\w+,\s*(Of[A-Z]\w*)')
 SAYS_HELP = re.compile(r'(?:encoder|tools)/.*\.(?:cpp|h)$')
 
 # Lines of any length: markup, dated pages that nobody edits, the page of figures, which a program writes.
@@ -117,8 +118,9 @@ def functions_of(file, text):
 
 
 def genitives(name, text):
-    """Place and text of every comment, and of every literal of what prints help, that begins with "Of"."""
+    """Place and text of every comment, name of a test, and literal of what prints help, that begins with "Of"."""
     found = [('a comment', comment.start(), comment[0].strip()) for comment in OF.finditer(text)]
+    found += [('a test', test.start(1), test[1]) for test in OF_TEST.finditer(text)]
     if SAYS_HELP.match(name):
         found += [('a text', literal.start(1), literal[1]) for literal in OF_LITERAL.finditer(text)]
     for kind, at, said in found:

@@ -42,7 +42,7 @@ TEST(WaveletTaps, AreHaarForOrderOneAndChuiWangForOrderTwo) {
     EXPECT_NEAR(wavelet_taps(3)[n], quadratic[n] / 480, 1e-15) << n;
 }
 
-TEST(WaveletValue, OfOrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
+TEST(WaveletValue, OrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
   EXPECT_EQ(wavelet_value(1, 0, 0.3), 1);
   EXPECT_EQ(wavelet_value(1, 1, 0.49), 1);
   EXPECT_EQ(wavelet_value(1, 1, 0.5), -1);
@@ -52,7 +52,7 @@ TEST(WaveletValue, OfOrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
   EXPECT_EQ(wavelet_value(1, 6, 0.49), 0);
 }
 
-TEST(WaveletValue, OfOrderTwoHasItsTapsAtTheNodesAndWrapsAround) {
+TEST(WaveletValue, OrderTwoHasItsTapsAtTheNodesAndWrapsAround) {
   // Scale 2, offset 0: psi(4x), N_2(8x - n) peaks at 8x = n + 1.
   EXPECT_NEAR(wavelet_value(2, 4, 1.0 / 8), 1.0 / 12, 1e-15);
   EXPECT_NEAR(wavelet_value(2, 4, 3.0 / 8), 10.0 / 12, 1e-15);
