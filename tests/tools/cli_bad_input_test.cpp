@@ -117,7 +117,7 @@ TEST_F(BadCaptureTest, WhatIsSmallIsNotSaidToBeZero) {
                  "a voxel size of 1e-09");
 }
 
-TEST_F(BadCaptureTest, OfJsonTheCauseIsSaid) {
+TEST_F(BadCaptureTest, WrongJsonSaysItsCause) {
   std::string text = cameras().dump();
   text.replace(text.find("\"t\":[") + 5, 0, "NaN,");
   write("tiny/cameras.json", text);
