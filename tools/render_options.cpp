@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/render_options.h"
 
+#include <array>
 #include <charconv>
 
 #include "tools/output.h"
@@ -41,6 +42,15 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
     option->group(group);
 }
 
+Outcome check_picture(const RenderOptions& given, const std::string& file) {
+  if (given.format == "png")
+    return check_output(file, "render --format png", std::array{".png"}, FormatBy::kOption);
+  if (given.format == "jpg")
+    return check_output(file, "render --format jpg", std::array{".jpg", ".jpeg"},
+                        FormatBy::kOption);
+  return check_output(file, "render", std::array{".png", ".jpg", ".jpeg", ".avi"});
+}
+
 }  // namespace
 
 bool parse_background(const std::string& given, std::array<std::uint8_t, 3>& rgb) {
@@ -70,17 +80,20 @@ Outcome check_options(const RenderOptions& given) {
     return Failure{kUsage, "render: --sheet is not transparent"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "render: --json and --output - both want standard output"};
-  if (given.transparent && (given.film || small_extension(given.output).starts_with(".jp")))
+  const std::string format =
+      given.format.empty() ? small_extension(given.output) : "." + given.format;
+  if (given.film && !given.format.empty())
+    return Failure{kUsage, "render: --format is of pictures, and " + given.output + " is a film"};
+  if (given.transparent && (given.film || format.starts_with(".jp")))
     return Failure{kUsage, "render: --transparent needs PNG: JPEG has no alpha"};
-  constexpr std::array kFormats = {".png", ".jpg", ".jpeg", ".avi"};
-  if (given.film) return check_output(given.output);
-  if (given.sheet || given.pair) return check_output(given.output, "render", kFormats);
+  if (given.film) return check_output(given.output, "render", std::array{".avi"});
+  if (given.sheet || given.pair) return check_picture(given, given.output);
   const std::string first = numbered(given.output, 0);
   if (given.orbit > 1 && first == given.output)
     return Failure{kUsage, "render: --output " + given.output +
                                " is neither a directory nor has a %d for the view's number"};
   if (given.output.ends_with('/')) SLF_CHECK(make_directory(given.output));
-  return check_output(first, "render", kFormats);
+  return check_picture(given, first);
 }
 
 void add_render_options(CLI::App& verb, RenderOptions& o) {
@@ -96,6 +109,9 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
           "that moves, those of --frames, or the views of --orbit")
       ->required()
       ->type_name("FILE");
+  verb.add_option("--format", o.format, "In place of the name's extension")
+      ->type_name("")
+      ->check(CLI::IsMember({"png", "jpg"}));
   add_view_options(verb, o);
   verb.add_option("--size", o.size, "Pixels, WxH; default: 800x800, or the camera's own")
       ->type_name("WxH");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // slf export: a light field for programs that do not know .slf.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,10 +19,10 @@
 namespace slf::tools {
 namespace {
 
-const std::map<std::string, SplatFormat> kExportFormats{{"ply", SplatFormat::kPly},
-                                                        {"glb", SplatFormat::kGlb},
-                                                        {"spz", SplatFormat::kSpz},
-                                                        {"sog", SplatFormat::kSog}};
+const std::map<std::string, SplatFormat> kExportFormats{{".ply", SplatFormat::kPly},
+                                                        {".glb", SplatFormat::kGlb},
+                                                        {".spz", SplatFormat::kSpz},
+                                                        {".sog", SplatFormat::kSog}};
 
 struct ExportOptions {
   std::string input, output, format, axes = "auto";
@@ -40,14 +40,13 @@ SplatFormat spz_of(int version) {
   return version == 3 ? SplatFormat::kSpz3 : SplatFormat::kSpz;
 }
 
-/// By --format, else by the name's extension.
+/// ".ply": by --format, else by the name.
+std::string extension_of(const ExportOptions& given) {
+  return given.format.empty() ? small_extension(given.output) : "." + given.format;
+}
+
 std::optional<SplatFormat> format_of(const ExportOptions& given) {
-  std::string name = given.format;
-  if (name.empty()) name = std::filesystem::path(given.output).extension().string();
-  name.erase(0, name.starts_with('.') ? 1 : 0);
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto found = kExportFormats.find(name);
+  const auto found = kExportFormats.find(extension_of(given));
   if (found == kExportFormats.end()) return std::nullopt;
   return found->second == SplatFormat::kSpz ? spz_of(given.spz_version) : found->second;
 }
@@ -195,7 +194,9 @@ Outcome run_export(const ExportOptions& given) {
     return Failure{kUsage, "export: --spz-version is for .spz, and " + given.output + " is none"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "export: --json and --output - both want standard output"};
-  SLF_CHECK(check_output(given.output));
+  const std::string extension = extension_of(given);
+  const auto by = given.format.empty() ? FormatBy::kName : FormatBy::kOption;
+  SLF_CHECK(check_output(given.output, "export", std::array{extension.c_str()}, by));
   if (is_splat_file(given.input)) {
     SLF_TRY(GaussianFile file,
             read_splat_file("export", given.input, given.part, given.limits, given.common));

@@ -53,7 +53,7 @@ Outcome check_options(const HtmlOptions& given) {
     return Failure{kUnsupported,
                    "html: this program was built without the viewer page web/dist/one_file.html; "
                    "run npm ci && npm run build in web/, then build slf again"};
-  return check_output(given.output, "html", std::array{".html"});
+  return check_output(given.output, "html", std::array{".html", ".htm"});
 }
 
 std::string title_of(const HtmlOptions& given, const Metadata& metadata) {

@@ -111,7 +111,8 @@ Result<Image, Failure> photograph(const RenderOptions& given, const Capture& cap
 }
 
 Outcome keep(RenderOptions& given, const std::string& file, const Image& image) {
-  return given.film ? given.film->add(image) : save(file, image);
+  return given.film ? given.film->add(image)
+                    : save(file, image, given.format.empty() ? "" : "." + given.format);
 }
 
 Outcome run_render(RenderOptions& given) {
