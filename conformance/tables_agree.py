@@ -3,7 +3,8 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9;
+first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
 import math
@@ -186,6 +187,10 @@ def check_limits():
     agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)
     rows = re.findall(r"^\| (?:rows|values|bytes|points a second) .*\| 2\^(\d+) \| 2\^(\d+) \|", section("Table 9-1", "## Annex A"), re.M)
     levels = [[f"1u << {power}" for power in level] for level in zip(*rows)]
+    defaults = [1 << int(re.search(rf"{name} = std::uint64_t\{{1\}} << (\d+);", code("include/slf/limits.h"))[1])
+                for name in ("max_values_per_byte", "kFreeValues")]
+    told = re.search(r"at most ([\d,]+) values a byte beyond the first ([\d,]+)", (ROOT / "SECURITY.md").read_text(encoding="utf-8"))
+    agree("limits of SECURITY.md", [int(number.replace(",", "")) for number in told.groups()], defaults)
     agree("table 9-1", levels, [re.findall(r"1u << \d+", line) for line in re.findall(r"^    \{1u.*\}", code("bitstream/level.h"), re.M)])
     agree("table 9-1 of the text decoder", [[power.replace("1u", "1") for power in level] for level in levels],
           [re.findall(r"1 << \d+", level) for level in re.search(r"LEVELS = .*?\* 4, \((.*?)\), \((.*?)\)\)", DECODER).groups()])

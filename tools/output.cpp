@@ -37,22 +37,8 @@ bool takes_a_file(const fs::path& directory) {
   return true;
 }
 
-}  // namespace
-
-std::string small_extension(const std::string& file) {
-  std::string extension = fs::path(file).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
-Outcome check_directory(const std::string& directory) {
-  if (directory.empty()) return Failure{kUsage, "the name of a directory is empty"};
-  if (directory != "-") return Done{};
-  return Failure{kUsage, "-: standard output is no directory (./- names one)"};
-}
-
-Outcome check_output(const std::string& file) {
+/// The name is empty or that of a directory, or the directory is missing or takes no file.
+Outcome check_place(const std::string& file) {
   if (file.empty()) return Failure{kUsage, "the name of the output is empty"};
   if (file == "-") return Done{};
   std::error_code ignored;
@@ -72,17 +58,35 @@ Outcome check_output(const std::string& file) {
   return Done{};
 }
 
+}  // namespace
+
+std::string small_extension(const std::string& file) {
+  std::string extension = fs::path(file).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+Outcome check_directory(const std::string& directory) {
+  if (directory.empty()) return Failure{kUsage, "the name of a directory is empty"};
+  if (directory != "-") return Done{};
+  return Failure{kUsage, "-: standard output is no directory (./- names one)"};
+}
+
 Outcome check_output(const std::string& file, const char* verb,
-                     std::span<const char* const> formats) {
+                     std::span<const char* const> formats, FormatBy by) {
   constexpr std::array kKnown = {
-      ".avi",   ".avif", ".bmp",  ".e57", ".exr",    ".gif", ".glb",  ".gltf",  ".html",
-      ".igc",   ".ivf",  ".jpeg", ".jpg", ".ksplat", ".las", ".laz",  ".mjpeg", ".mkv",
-      ".mov",   ".mp4",  ".npy",  ".obj", ".pcd",    ".ply", ".png",  ".slf",   ".sog",
-      ".splat", ".spz",  ".stl",  ".tif", ".tiff",   ".txt", ".webm", ".webp",  ".xyz"};
+      ".avi", ".avif", ".bmp",   ".csv", ".e57",  ".exr",  ".gif",  ".glb",   ".gltf",
+      ".htm", ".html", ".igc",   ".ivf", ".jpeg", ".jpg",  ".json", ".jxl",   ".ksplat",
+      ".las", ".laz",  ".mjpeg", ".mkv", ".mov",  ".mp4",  ".npy",  ".obj",   ".pcd",
+      ".pdf", ".ply",  ".png",   ".ppm", ".pts",  ".slf",  ".sog",  ".splat", ".spz",
+      ".stl", ".tif",  ".tiff",  ".txt", ".webm", ".webp", ".xyz"};
   const std::string extension = small_extension(file);
   const auto is_it = [&](const char* other) { return extension == other; };
-  const bool written = std::any_of(formats.begin(), formats.end(), is_it);
-  if (written || std::none_of(kKnown.begin(), kKnown.end(), is_it)) return check_output(file);
+  const bool promises_none =
+      file == "-" || extension.empty() ||
+      (by == FormatBy::kOption && std::none_of(kKnown.begin(), kKnown.end(), is_it));
+  if (promises_none || std::any_of(formats.begin(), formats.end(), is_it)) return check_place(file);
   std::string names;
   for (const char* format : formats) names += (names.empty() ? "" : ", ") + std::string(format);
   return Failure{kUsage,
@@ -109,8 +113,8 @@ Outcome save(const std::string& file, const std::string& text) {
   return save(file, text.data(), text.size());
 }
 
-Outcome save(const std::string& file, const Image& image) {
-  const std::string extension = small_extension(file);
+Outcome save(const std::string& file, const Image& image, const std::string& format) {
+  const std::string extension = format.empty() ? small_extension(file) : format;
   if (extension == ".jpg" || extension == ".jpeg") {
     SLF_TRY(const auto bytes, from(file, encode_jpeg(image, kJpegQuality)));
     return save(file, bytes.data(), bytes.size());

@@ -12,22 +12,26 @@
 
 namespace slf::tools {
 
-/// Refuses, before any work is done, an output that could not be written after it: the name is
-/// empty or that of a directory, the directory is missing or takes no file. "-" is standard output.
-Outcome check_output(const std::string& file);
-
-/// The same of a directory, which standard output is not.
+/// Refuses an empty name of a directory, and standard output, which is none.
 Outcome check_directory(const std::string& directory);
 
 /// The extension of a name, in small letters, with its dot.
 std::string small_extension(const std::string& file);
 
-/// The same, and refuses a name that promises a format which is not written: x.obj of slf decode.
-/// Unknown extensions and none are taken.
+/// What says which format is written.
+enum class FormatBy {
+  kName,    ///< the name's extension
+  kOption,  ///< an option: the name may have an extension that nobody knows
+};
+
+/// Refuses, before any work is done, an output that could not be written after it: the name is
+/// empty or that of a directory, the directory is missing or takes no file. Refuses too a name that
+/// promises a format which is not written: x.obj, x.pts of slf decode. Names without an extension
+/// are taken, and "-", standard output.
 /// @param verb     for the message
 /// @param formats  extensions that are written: ".png"
 Outcome check_output(const std::string& file, const char* verb,
-                     std::span<const char* const> formats);
+                     std::span<const char* const> formats, FormatBy by = FormatBy::kName);
 
 /// Creates the directory (and those above it) if it is missing.
 Outcome make_directory(const std::string& directory);
@@ -37,8 +41,8 @@ Outcome save(const std::string& file, const void* data, std::size_t size);
 Outcome save(const std::string& file, std::span<const std::span<const std::byte>> pieces);
 Outcome save(const std::string& file, const std::string& text);
 inline constexpr int kJpegQuality = 95;  ///< as libjpeg has it
-/// PNG; JPEG where the name says so.
-Outcome save(const std::string& file, const Image& image);
+/// PNG; JPEG where the name says so, or `format`, ".jpg", in its place.
+Outcome save(const std::string& file, const Image& image, const std::string& format = {});
 Outcome save(const std::string& file, const PointCloud& cloud);
 
 /// "%03d" or "%d" of a name replaced by a number; within a directory NUMBER.png; else the name.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/render_options.h"
 
+#include <array>
 #include <charconv>
 
 #include "tools/output.h"
@@ -26,18 +27,28 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
           ->type_name("NAME");
   auto* pair = verb.add_flag("--pair", o.pair, "Photograph and rendering side by side");
   auto* sheet = verb.add_flag("--sheet", o.sheet, "All views of the orbit in one image");
-  auto* azimuth = verb.add_option("--azimuth", o.azimuth, "Of the orbit's first view, degrees")
-                      ->capture_default_str()
-                      ->check(range(-360, 360));
-  auto* elevation =
-      verb.add_option("--elevation", o.elevation, "Of the orbit, degrees above the horizon")
+  auto* azimuth =
+      verb.add_option("--azimuth", o.azimuth, "Azimuth of the orbit's first view, degrees")
           ->capture_default_str()
-          ->check(range(-90, 90));
+          ->check(range(-360, 360));
+  auto* elevation = verb.add_option("--elevation", o.elevation,
+                                    "Elevation of the orbit, degrees above the horizon")
+                        ->capture_default_str()
+                        ->check(range(-90, 90));
   auto* fov = verb.add_option("--fov", o.fov, "Field of view of the orbit's cameras, degrees")
                   ->capture_default_str()
                   ->check(range(1, 170));
   for (CLI::Option* option : {orbit, camera, capture, image, pair, sheet, azimuth, elevation, fov})
     option->group(group);
+}
+
+Outcome check_picture(const RenderOptions& given, const std::string& file) {
+  if (given.format == "png")
+    return check_output(file, "render --format png", std::array{".png"}, FormatBy::kOption);
+  if (given.format == "jpg")
+    return check_output(file, "render --format jpg", std::array{".jpg", ".jpeg"},
+                        FormatBy::kOption);
+  return check_output(file, "render", std::array{".png", ".jpg", ".jpeg", ".avi"});
 }
 
 }  // namespace
@@ -69,17 +80,20 @@ Outcome check_options(const RenderOptions& given) {
     return Failure{kUsage, "render: --sheet is not transparent"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "render: --json and --output - both want standard output"};
-  if (given.transparent && (given.film || small_extension(given.output).starts_with(".jp")))
+  const std::string format =
+      given.format.empty() ? small_extension(given.output) : "." + given.format;
+  if (given.film && !given.format.empty())
+    return Failure{kUsage, "render: --format is of pictures, and " + given.output + " is a film"};
+  if (given.transparent && (given.film || format.starts_with(".jp")))
     return Failure{kUsage, "render: --transparent needs PNG: JPEG has no alpha"};
-  constexpr std::array kFormats = {".png", ".jpg", ".jpeg", ".avi"};
-  if (given.film) return check_output(given.output);
-  if (given.sheet || given.pair) return check_output(given.output, "render", kFormats);
+  if (given.film) return check_output(given.output, "render", std::array{".avi"});
+  if (given.sheet || given.pair) return check_picture(given, given.output);
   const std::string first = numbered(given.output, 0);
   if (given.orbit > 1 && first == given.output)
     return Failure{kUsage, "render: --output " + given.output +
                                " is neither a directory nor has a %d for the view's number"};
   if (given.output.ends_with('/')) SLF_CHECK(make_directory(given.output));
-  return check_output(first, "render", kFormats);
+  return check_picture(given, first);
 }
 
 void add_render_options(CLI::App& verb, RenderOptions& o) {
@@ -95,6 +109,9 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
           "that moves, those of --frames, or the views of --orbit")
       ->required()
       ->type_name("FILE");
+  verb.add_option("--format", o.format, "In place of the name's extension")
+      ->type_name("")
+      ->check(CLI::IsMember({"png", "jpg"}));
   add_view_options(verb, o);
   verb.add_option("--size", o.size, "Pixels, WxH; default: 800x800, or the camera's own")
       ->type_name("WxH");
@@ -103,7 +120,7 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
       ->capture_default_str();
   verb.add_flag("--transparent", o.transparent, "No background: coverage becomes alpha");
   verb.add_flag("--diffuse-only", o.diffuse_only, "Mean colours, without what depends on the view");
-  verb.add_option("--radius", o.radius, "Of a surfel, voxels; 0: from the points' spacing")
+  verb.add_option("--radius", o.radius, "Radius of a surfel, voxels; 0: from the points' spacing")
       ->capture_default_str()
       ->check(range(0, 1000));
   add_part(verb, o.part);

@@ -16,6 +16,7 @@ namespace slf::tools {
 
 struct RenderOptions {
   std::string input, output, camera, capture, image, size, background = "128,128,128";
+  std::string format;  ///< "png" or "jpg" in place of the name's
   int orbit = 0;
   double azimuth = 0, elevation = 20, fov = 30, radius = 0;
   bool own_view = false;  ///< no view was asked for: the file's own, if it has one

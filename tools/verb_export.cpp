@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // slf export: a light field for programs that do not know .slf.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,10 +19,10 @@
 namespace slf::tools {
 namespace {
 
-const std::map<std::string, SplatFormat> kExportFormats{{"ply", SplatFormat::kPly},
-                                                        {"glb", SplatFormat::kGlb},
-                                                        {"spz", SplatFormat::kSpz},
-                                                        {"sog", SplatFormat::kSog}};
+const std::map<std::string, SplatFormat> kExportFormats{{".ply", SplatFormat::kPly},
+                                                        {".glb", SplatFormat::kGlb},
+                                                        {".spz", SplatFormat::kSpz},
+                                                        {".sog", SplatFormat::kSog}};
 
 struct ExportOptions {
   std::string input, output, format, axes = "auto";
@@ -40,19 +40,18 @@ SplatFormat spz_of(int version) {
   return version == 3 ? SplatFormat::kSpz3 : SplatFormat::kSpz;
 }
 
-/// By --format, else by the name's extension.
+/// ".ply": by --format, else by the name.
+std::string extension_of(const ExportOptions& given) {
+  return given.format.empty() ? small_extension(given.output) : "." + given.format;
+}
+
 std::optional<SplatFormat> format_of(const ExportOptions& given) {
-  std::string name = given.format;
-  if (name.empty()) name = std::filesystem::path(given.output).extension().string();
-  name.erase(0, name.starts_with('.') ? 1 : 0);
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto found = kExportFormats.find(name);
+  const auto found = kExportFormats.find(extension_of(given));
   if (found == kExportFormats.end()) return std::nullopt;
   return found->second == SplatFormat::kSpz ? spz_of(given.spz_version) : found->second;
 }
 
-SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
+SplatSettings splat_settings(const ExportOptions& given, SplatFormat format) {
   SplatSettings settings = given.splats;
   settings.threads = given.common.threads;
   if (given.axes == "world") settings.axes = SplatAxes::kWorld;
@@ -67,8 +66,8 @@ nlohmann::ordered_json decibels(double psnr) {
   return std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nlohmann::ordered_json(nullptr);
 }
 
-Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
-               const SplatLoss& loss, bool partial) {
+Outcome report_splats(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
+                      const SplatLoss& loss, bool partial) {
   const double each = static_cast<double>(bytes) / static_cast<double>(splats.size());
   if (given.common.json)
     return print(
@@ -116,7 +115,7 @@ Outcome export_points(const ExportOptions& given) {
 }
 
 /// Harmonics up to a degree alone.
-void cut(Gaussians& splats, int degree) {
+void cut_degree(Gaussians& splats, int degree) {
   const std::size_t from = 3 * splats.num_harmonics();
   splats.degree = std::min(splats.degree, degree);
   const std::size_t to = 3 * splats.num_harmonics();
@@ -131,7 +130,7 @@ Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatForma
   if (given.mean || given.axes != "auto")
     return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
                                " holds splats"};
-  if (given.degree_given) cut(file.gaussians, given.splats.degree);
+  if (given.degree_given) cut_degree(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
   const int degree = file.gaussians.degree;
@@ -174,11 +173,11 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
     return convert_splats(given, {std::move(gaussians), "slf"}, format);
   }
   const ViewMaps maps(decoded.field, given.common.threads);
-  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
+  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, splat_settings(given, format))));
   SLF_TRY(const auto bytes, from(name, splat_file(splats, format, given.common.threads)));
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   if (given.common.quiet && !given.common.json) return Done{};
-  return report(
+  return report_splats(
       given, splats, bytes.size(),
       splat_loss(maps, as_stored(splats, format, given.common.threads), given.common.threads),
       decoded.field.partial);
@@ -195,7 +194,9 @@ Outcome run_export(const ExportOptions& given) {
     return Failure{kUsage, "export: --spz-version is for .spz, and " + given.output + " is none"};
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "export: --json and --output - both want standard output"};
-  SLF_CHECK(check_output(given.output));
+  const std::string extension = extension_of(given);
+  const auto by = given.format.empty() ? FormatBy::kName : FormatBy::kOption;
+  SLF_CHECK(check_output(given.output, "export", std::array{extension.c_str()}, by));
   if (is_splat_file(given.input)) {
     SLF_TRY(GaussianFile file,
             read_splat_file("export", given.input, given.part, given.limits, given.common));
@@ -229,7 +230,7 @@ void add_export(CLI::App& program, Run& run) {
                    "fields, 3 of splats")
       ->type_name("")
       ->check(whole_range(2, 4));
-  verb->add_option("--degree", o->splats.degree, "Of the harmonics")
+  verb->add_option("--degree", o->splats.degree, "Degree of the harmonics")
       ->capture_default_str()
       ->check(whole_range(0, 3));
   auto* size =

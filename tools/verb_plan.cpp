@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // slf plan: what the parts of a scene share.
+#include <array>
 #include <memory>
 
 #include "tools/interrupt.h"
@@ -19,7 +20,7 @@ struct PlanOptions {
 Outcome run_plan(const PlanOptions& o) {
   const EncodeOptions& given = o.encode;
   if (o.scene.work.empty()) return Failure{kUsage, "plan: --work DIR is missing"};
-  SLF_CHECK(check_output(given.output));
+  SLF_CHECK(check_output(given.output, "plan", std::array{".json"}));
   SLF_TRY(const EncoderSettings settings, resolved(given));
   ProgressLine line(given.common.quiet);
   SLF_TRY(const auto log, SceneLog::open(o.scene.log, line));

@@ -78,8 +78,8 @@ TEST_F(CliNames, AnOutputIsWhatItsNameSays) {
   EXPECT_FALSE(exists("x.obj") || exists("x.webp") || exists("x.html") || exists("x.jpg"));
   ASSERT_EQ(slf("render x.slf -o x.JPG --size 20x20").code, 0);
   EXPECT_EQ(read("x.JPG").substr(0, 2), "\xFF\xD8");
-  ASSERT_EQ(slf("render x.slf -o x.other --size 20x20").code, 0);
-  EXPECT_EQ(read("x.other").substr(1, 3), "PNG");
+  ASSERT_EQ(slf("render x.slf -o other --size 20x20").code, 0);
+  EXPECT_EQ(read("other").substr(1, 3), "PNG");
 }
 
 TEST_F(CliNames, TheReportOfAnEncodeIsWhatEvalMeasures) {
