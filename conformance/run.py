@@ -6,7 +6,8 @@
 
 The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--layers N", "--frame N", "--region=X0,Y0,Z0,X1,Y1,Z1",
 "--planes" or nothing; a region is in units of the world, put on the grid as spec 6.1 puts points) and leaves
-positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]), where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
+positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]),
+where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
 {out}: an object with points, partial and the keys and values of "header" in meaning.json, others beside them; numbers to 1e-6 of
 themselves. It must exit with 0 on streams/, and with another code,
 not by a signal and not after the time limit, on refused/ and, for the frame that it is given, on refused_frames/. Of a stream of several
