@@ -14,7 +14,7 @@ import re
 import sys
 
 FILE_LINES, FUNCTION_LINES, LINE_CHARACTERS = 300, 60, 160
-NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made'}
+NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made', 'dist'}
 CPP, PYTHON = {'.cpp', '.h', '.c'}, {'.py'}
 OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css', '.html'}  # lines of files alone
 PROSE = {'.md'}
