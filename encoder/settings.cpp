@@ -267,8 +267,8 @@ Result<EncoderSettings, InputError> settings_from(const GivenSettings& all,
     if (const std::string* value = given.find(row.info.name); value != nullptr && row.apply)
       row.apply(settings, *value);
   SLF_CHECK(choose_scales(given, settings.fit.basis));
-  SLF_CHECK(refuse_idle(given, settings, table));
   SLF_CHECK(refuse_what_splats_lack(given, settings, table));
+  SLF_CHECK(refuse_idle(given, settings, table));
   // More slices than one need a base, whatever the preset has.
   if (given.has("slice-points") && !given.has("base-levels")) settings.base_levels = kAutomaticBase;
   return settings;

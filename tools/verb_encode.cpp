@@ -215,10 +215,11 @@ struct AllOptions {
 Outcome check_scene_options(const AllOptions& o) {
   const bool given = o.scene.in_parts() || !o.scene.work.empty();
   if (!given || !is_splat_file(o.encode.capture)) return Done{};
-  return Failure{kUsage,
-                 "encode: --memory, --work, --plan, --part and --dry-run are for photographs and "
-                 "clouds, and " +
-                     o.encode.capture + " holds splats"};
+  return Failure{
+      kUsage,
+      "encode: --memory, --work, --log, --plan, --part and --dry-run are for photographs and "
+      "clouds, and " +
+          o.encode.capture + " holds splats"};
 }
 
 /// By what the capture is.

@@ -44,31 +44,30 @@ def without_brackets(text, left, right):
     return ''.join(kept)
 
 
-def name_of(declaration):
-    """The name that a declaration introduces at its own level, or nothing."""
+def names_of(declaration):
+    """The names that a declaration introduces at its own level: several of "int a = 1, b = 2"."""
     declaration = re.sub(r'\[\[.*?\]\]|\balignas\s*\([^)]*\)', '', declaration)
     declaration = re.sub(r'\btemplate\s*<[^<>]*(?:<[^<>]*>[^<>]*)*>', '', declaration).strip()
     if re.match(r'(?:static_assert|using|friend|namespace|extern)\b', declaration) or 'operator' in declaration:
-        return None
+        return []
     defined = DEFINED.match(declaration)
     if defined:
-        return defined[1]
-    head = without_brackets(without_brackets(declaration, '(', ')'), '<', '>')
+        return [defined[1]]
+    head = without_brackets(declaration, '(', ')')
     if '()' in head and '=' not in head.partition('()')[0]:
-        named = FUNCTION.search(head.partition('()')[0])
-    else:
-        named = VARIABLE.search(re.split(r'=|\{', head)[0].strip())
-    return named[1] if named and ' ' in head.strip() else None
+        named = FUNCTION.search(without_brackets(head.partition('()')[0], '<', '>'))
+        return [named[1]] if named and ' ' in head else []
+    head = without_brackets(re.sub(r'=[^,]*', '', head), '<', '>').strip()
+    return [named[1] for named in map(VARIABLE.search, head.split(',')) if named and ' ' in head]
 
 
 def local_names(text):
     """Names that the unnamed namespaces of a file define."""
     text = code_alone(text)
     for begin in UNNAMED.finditer(text):
-        for declaration in re.split(r';|\}', re.sub(r'\{(?=\s*[;}])', '{', body_of(text, begin.end()))):
-            name = name_of(declaration.split('{')[0] + ('{' if '{' in declaration else ''))
-            if name:
-                yield name
+        body = re.sub(r'\{\}(?=\s*[;,()<>+\-*/&|?.\]])', '', body_of(text, begin.end()))  # of values; others end something
+        for declaration in re.split(r';|\{?\}', body):
+            yield from names_of(declaration)
 
 
 def main():
