@@ -11,8 +11,8 @@
 #include "codec/scene_units.h"
 #include "conformance/cases.h"
 #include "conformance/edit_units.h"
+#include "geometry/encoder/octree_encoder.h"
 #include "geometry/morton.h"
-#include "geometry/octree_encoder.h"
 #include "geometry/weight_classes.h"
 
 namespace slf::conformance {

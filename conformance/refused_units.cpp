@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bitstream/bit_writer.h"
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "bitstream/parameter_sets.h"
 #include "bitstream/units.h"
 #include "conformance/cases.h"

@@ -3,9 +3,9 @@
 
 #include <numeric>
 
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/raht_forward.h"
 #include "codec/encoder/component_encoder.h"
-#include "geometry/octree_encoder.h"
+#include "geometry/encoder/octree_encoder.h"
 
 namespace slf {
 

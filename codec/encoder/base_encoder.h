@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_quantiser.h"
+#include "attributes/encoder/coefficient_quantiser.h"
 #include "codec/encoder/coded_unit.h"
 #include "codec/encoder/scene_layout.h"
 #include "geometry/occupancy_states.h"

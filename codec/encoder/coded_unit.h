@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/coefficient_quantiser.h"
+#include "attributes/encoder/coefficient_quantiser.h"
 #include "bitstream/slice_headers.h"
 #include "codec/frame_state.h"
 #include "codec/unit_layout.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/raht_forward.h"
 #include "base/signed_index.h"
 #include "bitstream/checked_syntax.h"
 #include "bitstream/transform_header.h"

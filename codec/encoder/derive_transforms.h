@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "attributes/coefficient_models.h"
-#include "attributes/forward_transform.h"
+#include "attributes/encoder/forward_transform.h"
 #include "codec/encoder/scene_layout.h"
 #include "slf/encoder.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "attributes/forward_transform.h"
+#include "attributes/encoder/forward_transform.h"
 
 namespace slf {
 

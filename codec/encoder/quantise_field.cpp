@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/raht_forward.h"
 #include "codec/encoder/pack_parameters.h"
 #include "codec/encoder/use_transforms.h"
 #include "codec/sequence.h"

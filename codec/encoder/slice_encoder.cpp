@@ -6,15 +6,15 @@
 #include <numeric>
 #include <optional>
 
+#include "attributes/encoder/raht_forward.h"
 #include "attributes/normal_model.h"
 #include "attributes/quantiser.h"
-#include "attributes/raht_forward.h"
 #include "codec/encoder/component_encoder.h"
 #include "codec/slice_digest.h"
 #include "codec/unit_reference.h"
 #include "entropy/range_encoder.h"
-#include "geometry/draco_encoder.h"
-#include "geometry/octree_encoder.h"
+#include "geometry/encoder/draco_encoder.h"
+#include "geometry/encoder/octree_encoder.h"
 
 namespace slf {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "attributes/texture/atlas.h"
+#include "attributes/texture/encoder/texture_encoder.h"
 #include "attributes/texture/texture_decoder.h"
-#include "attributes/texture/texture_encoder.h"
 #include "codec/encoder/slice_encoder.h"
 #include "slf/parallel.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "attributes/forward_transform.h"
+#include "attributes/encoder/forward_transform.h"
 #include "codec/encoder/coded_unit.h"
 #include "codec/encoder/derive_transforms.h"
 #include "codec/encoder/scene_layout.h"

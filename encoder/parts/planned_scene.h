@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "attributes/forward_transform.h"
+#include "attributes/encoder/forward_transform.h"
 #include "codec/encoder/coded_unit.h"
 #include "encoder/parts/region.h"
 #include "slf/scene.h"

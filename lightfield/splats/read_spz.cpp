@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "lightfield/splats/gaussian_readers.h"
 #include "lightfield/splats/half_float.h"
 #include "lightfield/splats/zstd_adapter.h"

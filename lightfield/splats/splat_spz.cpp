@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "lightfield/splats/splat_writers.h"
 #include "lightfield/splats/zstd_adapter.h"
 

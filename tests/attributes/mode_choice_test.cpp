@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "attributes/coefficient_quantiser.h"
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/coefficient_quantiser.h"
+#include "attributes/encoder/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "level_prediction_support.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "attributes/encoder/raht_forward.h"
 #include "attributes/raht_arithmetic.h"
-#include "attributes/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "attributes/raht_tree.h"
 #include "tests/codec/field_support.h"

@@ -3,8 +3,8 @@
 // Spec 8.7.6.
 #include <gtest/gtest.h>
 
-#include "attributes/coefficient_quantiser.h"
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/coefficient_quantiser.h"
+#include "attributes/encoder/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "level_prediction_support.h"
 

@@ -6,7 +6,7 @@
 
 #include "attributes/texture/box_packing.h"
 #include "attributes/texture/charts.h"
-#include "attributes/texture/padding.h"
+#include "attributes/texture/encoder/padding.h"
 #include "tests/codec/field_support.h"
 
 namespace slf::texture_atlas_test {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "attributes/video/encoder/hevc_encoder.h"
 #include "attributes/video/hevc_decoder.h"
-#include "attributes/video/hevc_encoder.h"
 #include "slf/decoder.h"
 #include "slf/encoder.h"
 #include "tests/codec/field_support.h"

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-#include "attributes/video/hevc_encoder.h"
+#include "attributes/video/encoder/hevc_encoder.h"
 #include "attributes/video/picture.h"
 #include "video_support.h"
 

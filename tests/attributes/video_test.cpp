@@ -6,8 +6,8 @@
 #include <malloc.h>
 #endif
 
+#include "attributes/video/encoder/hevc_encoder.h"
 #include "attributes/video/hevc_decoder.h"
-#include "attributes/video/hevc_encoder.h"
 #include "attributes/video/hevc_stream.h"
 #include "tools/rd/igc/av1_codec.h"
 #include "video_pictures.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "bitstream/parameter_sets.h"

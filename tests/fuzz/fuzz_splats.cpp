@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "slf/gaussian_files.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/draco_decoder.h"
-#include "geometry/draco_encoder.h"
+#include "geometry/encoder/draco_encoder.h"
 #include "geometry/morton.h"
 
 namespace slf::draco_test {

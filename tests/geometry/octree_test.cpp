@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "geometry/encoder/octree_encoder.h"
 #include "geometry/octree_decoder.h"
-#include "geometry/octree_encoder.h"
 #include "tests/codec/field_support.h"
 
 namespace slf::octree_test {

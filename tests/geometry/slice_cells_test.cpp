@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/raht_forward.h"
 #include "attributes/raht_inverse.h"
 #include "tests/codec/field_support.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/encoder/octree_encoder.h"
 #include "geometry/octree_decoder.h"
-#include "geometry/octree_encoder.h"
 #include "tests/codec/field_support.h"
 
 namespace slf::weight_classes_test {

@@ -2,7 +2,7 @@
 // Files of splats that are damaged, or whose values mean nothing.
 #include <gmock/gmock.h>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "gaussian_bundles.h"
 
 namespace slf::gaussian_bad_input_test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bitstream/crc32.h"
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "gaussian_support.h"
 #if SLF_WITH_ZSTD
 #include <zstd.h>

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <optional>
 
-#include "attributes/video/hevc_encoder.h"
+#include "attributes/video/encoder/hevc_encoder.h"
 #include "base/input_error.h"
 #include "base/stopwatch.h"
 #include "encoder/check_settings.h"

@@ -57,9 +57,8 @@ struct IgcEncoded {
 /// @errors kInvalidArgument: a setting out of range, no cameras. kInvalidInput: an image of another
 ///         size (names it). kUnsupported: x265 or libaom was left out of this build. Those of
 ///         voxelise, load_image and pack.
-/// The video codec runs on one thread. HEVC in low delay: see attributes/video/hevc_encoder.h for
-/// what x265's
-/// slower presets do not promise.
+/// The video codec runs on one thread. What x265's slower presets do not promise of HEVC in low
+/// delay: attributes/video/encoder/hevc_encoder.h.
 Result<IgcEncoded, InputError> encode_igc(const Capture& capture, std::span<const int> cameras,
                                           const IgcSettings& settings,
                                           const Progress& progress = {});

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "bitstream/inflate.h"
 #include "encoder/check_settings.h"
 #include "encoder/fit_capture.h"

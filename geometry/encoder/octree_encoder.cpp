@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geometry/octree_encoder.h"
+#include "geometry/encoder/octree_encoder.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/video/hevc_encoder.h"
+#include "attributes/video/encoder/hevc_encoder.h"
 
 #if SLF_WITH_X265
 #include <x265.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/texture/padding.h"
+#include "attributes/texture/encoder/padding.h"
 
 #include <algorithm>
 

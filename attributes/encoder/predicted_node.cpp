@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/predicted_node.h"
+#include "attributes/encoder/predicted_node.h"
 
 #include <algorithm>
 

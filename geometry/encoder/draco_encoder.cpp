@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geometry/draco_encoder.h"
+#include "geometry/encoder/draco_encoder.h"
 
 #if SLF_WITH_DRACO
 #include <draco/compression/encode.h>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "attributes/coefficient_models.h"
+#include "attributes/encoder/rate_model.h"
 #include "attributes/raht_tree.h"
-#include "attributes/rate_model.h"
 #include "attributes/slice_cells.h"
 #include "attributes/transform_levels.h"
 

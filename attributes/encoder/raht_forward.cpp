@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/raht_forward.h"
+#include "attributes/encoder/raht_forward.h"
 
 #include "attributes/raht_arithmetic.h"
 #include "base/multiversion.h"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "attributes/encoder/rate_model.h"
 #include "attributes/quantiser_step.h"
-#include "attributes/rate_model.h"
 
 namespace slf {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/forward_transform.h"
+#include "attributes/encoder/forward_transform.h"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 
 #include <zlib.h>
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "attributes/encoder/rate_model.h"
 #include "attributes/quantiser_step.h"
-#include "attributes/rate_model.h"
 
 namespace slf {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mirror of bitstream/metadata.cpp.
 #include "bitstream/bit_writer.h"
-#include "bitstream/deflate.h"
+#include "bitstream/encoder/deflate.h"
 #include "bitstream/metadata.h"
 
 namespace slf {

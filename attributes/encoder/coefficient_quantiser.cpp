@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/coefficient_quantiser.h"
+#include "attributes/encoder/coefficient_quantiser.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdlib>
 
+#include "attributes/encoder/mode_trial.h"
+#include "attributes/encoder/predicted_node.h"
+#include "attributes/encoder/rate_model.h"
+#include "attributes/encoder/row_quantiser.h"
 #include "attributes/kept_means.h"
 #include "attributes/level_prediction.h"
-#include "attributes/mode_trial.h"
-#include "attributes/predicted_node.h"
 #include "attributes/quantiser_step.h"
 #include "attributes/raht_arithmetic.h"
-#include "attributes/rate_model.h"
-#include "attributes/row_quantiser.h"
 #include "base/multiversion.h"
 #include "base/prefetch.h"
 #include "slf/parallel.h"

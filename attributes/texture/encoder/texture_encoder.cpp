@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/texture/texture_encoder.h"
+#include "attributes/texture/encoder/texture_encoder.h"
 
 #include <algorithm>
 
-#include "attributes/texture/padding.h"
+#include "attributes/texture/encoder/padding.h"
 #include "attributes/texture/texture_header.h"
-#include "attributes/video/hevc_encoder.h"
+#include "attributes/video/encoder/hevc_encoder.h"
 #include "bitstream/checked_syntax.h"
 
 namespace slf {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "attributes/row_quantiser.h"
+#include "attributes/encoder/row_quantiser.h"
 
 #include <algorithm>
 #include <cmath>
