@@ -4,11 +4,16 @@
 #include <filesystem>
 #include <string>
 
+#include "slf/crop_gaussians.h"
+#include "slf/splat_surface.h"
+#include "tools/splat_input.h"
 #include "tools/spooled_input.h"
 #include "tools/text.h"
 
 namespace slf::tools {
 namespace {
+
+constexpr std::uint64_t kMostSplatBytes = std::uint64_t{1} << 32;
 
 /// The last component of the path, whatever it ends with; never more, so that no machine's paths
 /// get into a file.
@@ -40,6 +45,21 @@ Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
   return std::vector<int>{};
 }
 
+/// Points that splats show to the cameras.
+Outcome take_splats(const EncodeOptions& given, CaptureInput& input) {
+  LimitOptions limits;
+  limits.limits.max_stream_bytes = limits.limits.max_memory = kMostSplatBytes;
+  SLF_TRY(GaussianFile file, read_splat_file(given.verb, given.points, {}, limits, given.common));
+  if (const auto& c = given.crop; !c.empty())
+    SLF_CHECK(
+        from(given.points, crop(file.gaussians, WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}})));
+  SLF_TRY(input.capture.cloud,
+          from(given.points, surface_of_splats(file.gaussians, input.capture, input.cameras,
+                                               given.common.threads)));
+  input.capture.mesh = {};
+  return Done{};
+}
+
 }  // namespace
 
 Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
@@ -47,11 +67,13 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   Stopwatch watch;
   if (const Progress progress = line.callback()) progress("load", 0);
   CaptureOptions options;
-  options.points = given.points;
+  const bool splats = !given.points.empty() && is_splat_file(given.points);
+  if (!splats) options.points = given.points;
+  options.cloud = !splats;
   options.points_needed = wanted != PointsWanted::kOrPhotographs;
   options.may_be_empty = wanted == PointsWanted::kOrNone;
   options.images = given.images;
-  if (const auto& c = given.crop; !c.empty())
+  if (const auto& c = given.crop; !c.empty() && !splats)
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   CaptureInput input;
   SLF_TRY(input.capture, from(given.capture, load_capture(given.capture, options)));
@@ -61,6 +83,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
     warning = SpooledInput::named(std::move(warning));
   warn(input.capture.warnings, given.common.quiet);
   SLF_TRY(input.cameras, input_cameras(input.capture, given));
+  if (splats) SLF_CHECK(take_splats(given, input));
   input.metadata.emplace_back("source", last_name(given.capture));
   if (!input.cameras.empty())
     input.metadata.emplace_back("split", split_name(input.capture, given.split));

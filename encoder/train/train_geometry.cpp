@@ -67,22 +67,27 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
                                                    const TrainGeometrySettings& settings,
                                                    TrainedSurfels trained,
                                                    const Progress& progress) {
-  TrainedGeometry out;
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
-  if (start.views.empty()) return out;
-  const std::vector<TrainingView>& views = start.views;
+  if (start.views.empty()) return TrainedGeometry{};
   if (!trained.empty()) start.settings.from = kTrainedBefore;
-  TrainedSurfels& surfels = out.surfels;
-  surfels = !trained.empty() ? std::move(trained) : first_surfels(start, settings);
-  SLF_CHECK(train_surfels(views, start.settings, surfels));
-  if (surfels.size() < kLeastPoints) return out;
+  TrainedSurfels surfels = !trained.empty() ? std::move(trained) : first_surfels(start, settings);
+  SLF_CHECK(train_surfels(start.views, start.settings, surfels));
+  return geometry_of(std::move(surfels), capture, cameras, start.views, settings);
+}
+
+TrainedGeometry geometry_of(TrainedSurfels surfels, const Capture& capture,
+                            std::span<const int> cameras, std::span<const TrainingView> views,
+                            const TrainGeometrySettings& settings) {
+  TrainedGeometry out;
+  out.surfels = std::move(surfels);
+  if (out.surfels.size() < kLeastPoints) return out;
   Lattice lattice;
-  out.pixel = sharpest_pixel(capture, cameras, surfels);
-  lattice.step = lattice_step(settings, surfels, out.pixel);
+  out.pixel = sharpest_pixel(capture, cameras, out.surfels);
+  lattice.step = lattice_step(settings, out.surfels, out.pixel);
   if (!(lattice.step > 0) || !std::isfinite(lattice.step)) return out;
   FuseSettings fusing;
   fusing.threads = settings.threads;
-  SurfacePoints fused = fuse_surfels(surfels, views, lattice, fusing);
+  SurfacePoints fused = fuse_surfels(out.surfels, views, lattice, fusing);
   if (fused.size() < kLeastFused) return out;
   out.cloud.positions = std::move(fused.positions);
   out.cloud.normals = std::move(fused.normals);

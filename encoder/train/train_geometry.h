@@ -16,6 +16,7 @@
 namespace slf {
 
 class CameraTwists;
+struct TrainingView;
 
 struct TrainGeometrySettings {
   int grid_bits = 0;        ///< of the grid that follows; 0: as fine as photographs resolve
@@ -56,5 +57,12 @@ Result<TrainedGeometry, InputError> train_geometry(const Capture& capture,
                                                    const TrainGeometrySettings& settings,
                                                    TrainedSurfels trained = {},
                                                    const Progress& progress = {});
+
+/// What surfels show in photographs' cameras, fused into one layer; without points where that is
+/// next to nothing.
+/// @param views  of the cameras
+TrainedGeometry geometry_of(TrainedSurfels surfels, const Capture& capture,
+                            std::span<const int> cameras, std::span<const TrainingView> views,
+                            const TrainGeometrySettings& settings);
 
 }  // namespace slf
