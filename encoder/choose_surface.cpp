@@ -9,23 +9,27 @@
 #include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
+#include "encoder/other_start.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/refine/refine_geometry.h"
 #include "encoder/train/train_geometry.h"
 #include "encoder/trial_file.h"
+#include "slf/splat_surface.h"
 
 namespace slf {
 namespace {
 
 constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the place of another
 constexpr double kPerfect = 48;     // dB: errors of a grey level; what is gained there is nothing
-constexpr double kDense = 3;  // pixels: points that lie farther apart leave holes, exact or not
 // dB of look_of: what a glance at splats may be below a quick fit. blender_can has -2.0, a lattice
 // of rods 0.0, a translucent die +1.0.
 constexpr double kPromise = 1;
 // dB of worth that splats gain more than a surface does by the photographs that a trial has not
 // seen and by the iterations that follow: a lattice 0.4, a die 0.6. docs/decisions/035
 constexpr double kGoesOn = 0.5;
+// dB that splats are above points after a quick fit, where no surface is trained: a training gains
+// 2.2 of the dino's hull, and has to come as near as splats_win().
+constexpr double kBeyond = 6;
 constexpr int kIterations = 2500;
 constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
 
@@ -96,17 +100,23 @@ SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
           job.settings, job.progress,     job.cache};
 }
 
-/// Whether a file of splats is worth more than one of the best surface: both are made, of some
-/// photographs, and judged by the others. Where a quick fit says so already, the second is not.
+/// A file of splats, of some photographs, judged by the others.
+Result<Gaussians, InputError> tried_splats(const SurfaceChoice& job, const CameraParts& parts) {
+  Stopwatch watch;
+  SLF_TRY(SplatTrial trial, try_splats(splat_job(job, parts)));
+  job.report.as_splats = trial.file;
+  job.report.seconds_train += watch.lap();
+  return std::move(trial.splats);
+}
+
+/// Whether the file of splats that was tried is worth more than one of the best surface, which is
+/// made as well, unless a quick fit says so already.
 /// @param quick  of the surface, after a quick fit
 Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const CameraParts& parts,
                                            const VoxelCloud& surface, const DrawnQuality& quick) {
-  if (!job.splats) return false;
-  Stopwatch watch;
   SurfaceReport& report = job.report;
-  SLF_TRY(report.as_splats, try_splats(splat_job(job, parts)));
-  report.seconds_train += watch.lap();
   if (report.as_splats.bytes == 0) return false;
+  Stopwatch watch;
   if (splats_win(report, surface.positions.size())) return true;
   if (look_of(report.as_splats) < look_of(quick)) return false;
   SLF_TRY(report.as_surface, try_surface(job.capture, parts.matched, parts.held_out, surface,
@@ -127,6 +137,7 @@ Result<bool, InputError> exact_yields(const SurfaceChoice& job, const VoxelCloud
   job.report.seconds_train += watch.lap();
   if (look_of(glance) < look_of(quick) - kPromise) return false;
   job.report.before_psnr = quick.psnr;
+  SLF_CHECK(tried_splats(job, parts));
   return splats_are_better(job, parts, exact, quick);
 }
 
@@ -135,12 +146,37 @@ VoxelCloud no_surface(const SurfaceChoice& job) {
   return {};
 }
 
-/// The points lie so close that nothing is missing between them.
-bool is_dense(const Density& density) { return density.spacing <= kDense * density.pixel; }
+/// Photographs that agree nowhere with a surface that was trained.
+Result<Done, InputError> find_foreign(const SurfaceChoice& job, const PointCloud& trained) {
+  if (!job.settings.check_cameras) return Done{};
+  SLF_TRY(job.cache.foreign,
+          foreign_photographs(job.capture, trained, job.cameras, job.settings.threads));
+  return Done{};
+}
 
-/// Trained by three quarters of the photographs; where the others say that it pays, by all.
+/// Whether splats leave nothing to find out: no training brings dense points near them.
+/// @param quick  of the points before a training
+Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const CameraParts& parts,
+                                           const DrawnQuality& quick) {
+  if (!job.splats) return false;
+  SLF_TRY(const Gaussians splats, tried_splats(job, parts));
+  const bool dense = is_dense(job.capture, job.cameras);
+  if (!dense || job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
+  const auto shown = surface_of_splats(splats, job.capture, parts.matched, job.settings.threads);
+  if (!shown) return false;
+  SLF_CHECK(find_foreign(job, *shown));
+  return true;
+}
+
+/// A surface that three quarters of the photographs train; where the others say that it pays, all.
+/// Or splats.
 Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud before) {
   const CameraParts parts = split_for_mending(job.cameras);
+  SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
+  job.report.before_psnr = before_quality.psnr;
+  if (before_quality.psnr > kPerfect) return before;
+  SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality));
+  if (beyond) return no_surface(job);
   SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}, 1 - kAgain));
   if (trained.cloud.positions.empty()) {
     job.report.untrained = "photographs agree on no surface";
@@ -151,17 +187,11 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
     job.report.untrained = cloud.error().message;
     return before;
   }
-  SLF_TRY(job.cache.foreign,
-          job.settings.check_cameras
-              ? foreign_photographs(job.capture, trained.cloud, job.cameras, job.settings.threads)
-              : std::vector<CameraTrust>{});
+  SLF_CHECK(find_foreign(job, trained.cloud));
   if (!job.cache.foreign.empty()) return before;
-  SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
   SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
-  job.report.before_psnr = before_quality.psnr;
   job.report.trained_psnr = trained_quality.psnr;
   const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
-  if (job.report.before_psnr > kPerfect) return before;
   SLF_TRY(const bool better, splats_are_better(job, parts, pays ? *cloud : before,
                                                pays ? trained_quality : before_quality));
   if (better) return no_surface(job);
@@ -200,7 +230,7 @@ Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
   }
   SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
   if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
-  if (job.report.mended.exact && is_dense(choose_density(job.capture, job.cameras))) {
+  if (job.report.mended.exact && is_dense(job.capture, job.cameras)) {
     SLF_TRY(const bool yields, exact_yields(job, before));
     if (yields) return no_surface(job);
     job.report.untrained = "the points lie where photographs agree";
@@ -232,51 +262,6 @@ Result<VoxelCloud, InputError> chosen_surface(const SurfaceChoice& job) {
 }
 
 }  // namespace
-
-const char* word_of(Surface surface) {
-  switch (surface) {
-    case Surface::kGiven:
-      return "given";
-    case Surface::kMended:
-      return "mended";
-    case Surface::kTrained:
-      return "trained";
-    case Surface::kAuto:
-      return "auto";
-    case Surface::kSplats:
-      return "splats";
-  }
-  return "";
-}
-
-const char* word_of(StartId start) {
-  return start == StartId::kPoints ? "points" : start == StartId::kHull ? "hull" : "volume";
-}
-
-Result<std::optional<StartingPoints>, InputError> other_start(const Capture& capture,
-                                                              std::span<const int> cameras,
-                                                              const EncoderSettings& settings) {
-  using Start = std::optional<StartingPoints>;
-  if (cameras.empty()) return Start{};
-  if (capture.cloud.positions.empty()) {
-    SLF_TRY(StartingPoints points, starting_points(capture, cameras, settings.threads));
-    return Start{std::move(points)};
-  }
-  if (!capture.mesh.triangles.empty()) {
-    const bool keeps = settings.surface == Surface::kGiven || settings.surface == Surface::kAuto;
-    return keeps ? Start{} : Start{{capture.cloud, StartId::kPoints}};
-  }
-  const bool trains = settings.surface == Surface::kAuto || settings.surface == Surface::kTrained ||
-                      settings.surface == Surface::kSplats;
-  if (!trains || !training_obstacle(capture, cameras).empty() ||
-      is_dense(choose_density(capture, cameras)))
-    return Start{};
-  auto points = starting_points(capture, cameras, settings.threads);
-  const bool taken = points && points->start == StartId::kHull &&
-                     points->cloud.positions.size() > capture.cloud.positions.size() &&
-                     lies_on(points->cloud, capture.cloud);
-  return taken ? Start{*std::move(points)} : Start{};
-}
 
 Result<VoxelCloud, InputError> choose_surface(const Capture& capture, std::span<const int> cameras,
                                               const EncoderSettings& settings, StartId start,

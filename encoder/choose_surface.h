@@ -2,22 +2,12 @@
 // Which surface photographs are predicted best by: as given, mended, or trained.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "encoder/encode_splats.h"
-#include "encoder/train/starting_points.h"
 #include "slf/encoder.h"
 
 namespace slf {
-
-/// What takes the place of the capture's points and mesh: where it has none, where points are few
-/// and the outlines' hull says the same with more, and points of a mesh that is to be mended or to
-/// start training. Nothing: they stay.
-/// @errors those of starting_points, of captures without points
-Result<std::optional<StartingPoints>, InputError> other_start(const Capture& capture,
-                                                              std::span<const int> cameras,
-                                                              const EncoderSettings& settings);
 
 /// The cloud on the grid, of the surface that settings.surface asks for.
 /// @param start   where the capture's points are from: those of a volume have to be trained

@@ -20,6 +20,7 @@
 #include "encoder/fit/match_exposure.h"
 #include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
+#include "encoder/other_start.h"
 #include "encoder/train/refine_cameras.h"
 #include "slf/encoder.h"
 

@@ -58,13 +58,14 @@ Result<TrialFile, InputError> coded_splats(const Gaussians& splats, const Captur
   return trial_of(quality, file.stream.size());
 }
 
-Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
-  SLF_TRY(
-      const Gaussians splats,
-      train_gaussians(job.capture, job.fitted,
-                      training_of(job.settings, job.start, iterations, job.cache), job.progress));
-  if (splats.size() == 0) return TrialFile{};
-  return coded_splats(splats, job.capture, job.held_out, job.settings);
+Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations) {
+  SplatTrial trial;
+  SLF_TRY(trial.splats, train_gaussians(job.capture, job.fitted,
+                                        training_of(job.settings, job.start, iterations, job.cache),
+                                        job.progress));
+  if (trial.splats.size() == 0) return trial;
+  SLF_TRY(trial.file, coded_splats(trial.splats, job.capture, job.held_out, job.settings));
+  return trial;
 }
 
 }  // namespace
@@ -92,12 +93,13 @@ bool splats_win(const SurfaceReport& report, std::size_t points) {
          double(report.as_splats.bytes) < kSurfaceBytes * double(points);
 }
 
-Result<TrialFile, InputError> try_splats(const SplatJob& job) {
+Result<SplatTrial, InputError> try_splats(const SplatJob& job) {
   return tried(job, kTrialIterations);
 }
 
 Result<TrialFile, InputError> glance_at_splats(const SplatJob& job) {
-  return tried(job, kGlanceIterations);
+  SLF_TRY(const SplatTrial trial, tried(job, kGlanceIterations));
+  return trial.file;
 }
 
 Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,

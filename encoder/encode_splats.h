@@ -8,6 +8,7 @@
 #include "encoder/train/train_geometry.h"
 #include "encoder/train/training_cache.h"
 #include "slf/encoder.h"
+#include "slf/gaussians.h"
 
 namespace slf {
 
@@ -24,9 +25,14 @@ struct SplatJob {
   TrainingCache& cache;  ///< of the capture
 };
 
-/// A file of splats of some cameras, for others. bytes 0: photographs agree on no splat.
+struct SplatTrial {
+  TrialFile file;    ///< bytes 0: photographs agree on no splat
+  Gaussians splats;  ///< as they were trained
+};
+
+/// A file of splats of some cameras, for others.
 /// @errors those of train_gaussians, encode_gaussians and load_image
-Result<TrialFile, InputError> try_splats(const SplatJob& job);
+Result<SplatTrial, InputError> try_splats(const SplatJob& job);
 
 /// The same after few iterations.
 Result<TrialFile, InputError> glance_at_splats(const SplatJob& job);
