@@ -6,12 +6,18 @@
 #include "capture/image_formats.h"
 #include "capture/image_reduction.h"
 #include "capture/netpbm.h"
+#include "slf/picture_sides.h"
 
 namespace slf {
 
 Result<Image, InputError> read_image(const std::filesystem::path& file) {
   ImageSize ignored;
   return read_image_reduced(file, 0, ignored);
+}
+
+Result<PictureSides, InputError> picture_sides(const std::filesystem::path& file) {
+  SLF_TRY(const ImageSize size, read_image_size(file));
+  return PictureSides{size.width, size.height};
 }
 
 Result<Image, InputError> read_image_reduced(const std::filesystem::path& file, int reduction,

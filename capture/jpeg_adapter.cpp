@@ -22,8 +22,29 @@ namespace {
 constexpr std::uint64_t kMaxPixelsPerByte = 4096;
 
 // A progressive photograph has some 10 scans. Each takes a pass over all blocks, however few bytes
-// it has.
-constexpr int kMaxScans = 200;
+// it has: so many pixels of all scans together are 16 scans of the largest picture, half a second.
+constexpr std::uint64_t kMaxScans = 200, kMaxPixelsOfScans = std::uint64_t{1} << 32;
+
+std::uint64_t most_scans(ImageSize size) {
+  return std::min(kMaxScans, kMaxPixelsOfScans / (std::uint64_t{size.width} * size.height));
+}
+
+// By the markers alone, as libjpeg finds them: bytes between segments are passed over.
+std::uint64_t scans_of(Bytes file) {
+  constexpr std::uint8_t kEnd = 0xD9, kScan = 0xDA;
+  std::uint64_t scans = 0;
+  auto at = file.begin() + 2;
+  while ((at = std::find(at, file.end(), 0xFF)) != file.end()) {
+    while (at != file.end() && *at == 0xFF) ++at;
+    if (file.end() - at < 3 || *at == kEnd) break;
+    const std::uint8_t marker = *at;
+    const bool alone = marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD8);  // 0: a byte of data
+    scans += marker == kScan;
+    const std::ptrdiff_t length = alone ? 0 : at[1] << 8 | at[2];
+    at += std::min<std::ptrdiff_t>(1 + length, file.end() - at);
+  }
+  return scans;
+}
 
 // libjpeg fills what is missing with grey and warns; that is no photograph.
 void on_message(j_common_ptr info, int level) {
@@ -35,11 +56,13 @@ void on_message(j_common_ptr info, int level) {
   errors->damaged = true;
 }
 
-// Called now and then while scans are read.
+// Called now and then while scans are read: whatever they were counted before.
 void on_progress(j_common_ptr info) {
-  if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMaxScans) return;
+  const auto* reader = reinterpret_cast<j_decompress_ptr>(info);
+  const std::uint64_t most = most_scans({reader->image_width, reader->image_height});
+  if (static_cast<std::uint64_t>(reader->input_scan_number) <= most) return;
   auto* errors = reinterpret_cast<JpegErrors*>(info->err);
-  std::snprintf(errors->text, sizeof errors->text, "more than %d scans", kMaxScans);
+  std::snprintf(errors->text, sizeof errors->text, "more than %d scans", static_cast<int>(most));
   std::longjmp(errors->jump, 1);
 }
 
@@ -106,6 +129,9 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int r
   if (const auto problem = image_size_problem(size)) return invalid(*problem);
   if (std::uint64_t{size.width} * size.height / kMaxPixelsPerByte > file.size())
     return invalid("damaged JPEG: larger than its bytes can hold");
+  if (const std::uint64_t most = most_scans(size); scans_of(file) > most)
+    return invalid("JPEG of more than " + std::to_string(most) + " scans of " +
+                   std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   const auto space = reader.info.jpeg_color_space;
   if (space != JCS_GRAYSCALE && space != JCS_YCbCr && space != JCS_RGB)
     return invalid("JPEG that is neither grey nor RGB (CMYK?)");

@@ -87,7 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   // Pointers to open values stay valid: while one is open nothing is added to its parent.
   bool open(JsonValue value) {
-    if (open_.size() == kMaxDepth) return fail("nested too deeply");
+    if (open_.size() == kMaxDepth) return fail("nested deeper than " + std::to_string(kMaxDepth));
     open_.push_back(add(std::move(value)));
     return true;
   }

@@ -84,6 +84,8 @@ bool read_png_header(PngReader& reader, Source& source) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_user_limits(reader.png, kMaxImageSide, kMaxImageSide);
   png_set_chunk_malloc_max(reader.png, 16u << 20);
+  // What stands beside the pixels is passed over: a thousand texts may unpack to 16 MB each.
+  png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_set_read_fn(reader.png, &source, on_read);
   png_read_info(reader.png, reader.info);
   return true;

@@ -31,7 +31,8 @@ class XmlParser {
  private:
   /// From its "<" to behind its end.
   Result<XmlElement, InputError> element(int depth) {
-    if (depth >= kMostNesting) return invalid("elements are nested too deep");
+    if (depth >= kMostNesting)
+      return invalid("elements are nested deeper than " + std::to_string(kMostNesting));
     if (++elements_ > kMostElements) return invalid("more than 1,048,576 elements");
     XmlElement result;
     result.line = line();

@@ -37,7 +37,7 @@ Result<LightField> frame_of_stream(const StreamFile& stream, int frame,
 Result<Subject, Failure> decode_slf(const SubjectOptions& given, const std::string& input,
                                     std::vector<std::uint8_t> bytes) {
   SLF_TRY(const StreamFile stream,
-          open_stream(input, std::move(bytes), given.limits, given.common));
+          open_stream(input, std::move(bytes), given.limits, given.common, UnitList::kKept));
   const StreamInfo& info = stream.info;
   if (given.frame < 0 && stream.frames > 1)
     warn(input_name(input) + ": of " + grouped(stream.frames) +

@@ -76,15 +76,12 @@ double pictures_a_second(const PartOptions& part, std::size_t count) {
   return seconds > 0 ? static_cast<double>(count - 1) / seconds : kRate;
 }
 
-nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
-  auto list = nlohmann::ordered_json::array();
-  for (const FrameInfo& f : frames)
-    list.push_back({{"number", f.number},
-                    {"time", f.time},
-                    {"predicted", f.predicted},
-                    {"offset", f.offset},
-                    {"bytes", f.bytes}});
-  return list;
+nlohmann::ordered_json frame_json(const FrameInfo& frame) {
+  return {{"number", frame.number},
+          {"time", frame.time},
+          {"predicted", frame.predicted},
+          {"offset", frame.offset},
+          {"bytes", frame.bytes}};
 }
 
 std::string frames_text(const std::vector<FrameInfo>& frames) {

@@ -40,7 +40,7 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
 double pictures_a_second(const PartOptions& part, std::size_t count);
 
 /// The frames of a light field that moves. What else `slf info` tells is about the first.
-nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames);
+nlohmann::ordered_json frame_json(const FrameInfo& frame);
 std::string frames_text(const std::vector<FrameInfo>& frames);
 
 }  // namespace slf::tools

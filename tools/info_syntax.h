@@ -6,11 +6,14 @@
 #include <span>
 #include <string>
 
+#include "slf/limits.h"
 #include "tools/failure.h"
 
 namespace slf::tools {
 
-/// @param file  the name in messages
-Outcome print_syntax(std::span<const std::uint8_t> stream, const std::string& file, bool json);
+/// @param file    the name in messages
+/// @param limits  max_memory: of units, and of what is listed of one
+Outcome print_syntax(std::span<const std::uint8_t> stream, const std::string& file,
+                     const DecodeLimits& limits, bool json);
 
 }  // namespace slf::tools

@@ -31,6 +31,9 @@ std::string filled_template(std::string_view page,
                             const std::map<std::string, std::string>& values) {
   constexpr std::string_view kOpen = "{{slf:", kClose = "}}";
   std::string out;
+  std::size_t size = page.size();
+  for (const auto& [name, value] : values) size += value.size();  // each stands there once
+  out.reserve(size);
   std::size_t at = 0;
   for (std::size_t open; (open = page.find(kOpen, at)) != std::string_view::npos;) {
     const std::size_t begin = open + kOpen.size(), end = page.find(kClose, begin);
@@ -68,7 +71,7 @@ std::string base64(const void* data, std::size_t size) {
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   std::string out;
-  out.reserve((size + 2) / 3 * 4);
+  out.reserve(base64_size(size));
   for (std::size_t i = 0; i < size; i += 3) {
     const std::size_t count = size - i < 3 ? size - i : 3;
     std::uint32_t three = 0;

@@ -42,9 +42,9 @@ std::string missing(const StreamInfo& info) {
 /// How many frames a stream has; 1 where nothing moves.
 Result<std::size_t, Failure> count_frames(const std::string& file,
                                           std::span<const std::uint8_t> bytes,
-                                          const StreamInfo& info) {
+                                          const StreamInfo& info, const DecodeLimits& limits) {
   if (info.units.size() < 2 || info.units[1].type != "frame") return std::size_t{1};
-  SLF_TRY(const auto frames, from(input_name(file), list_frames(bytes)));
+  SLF_TRY(const auto frames, from(input_name(file), list_frames(bytes, limits)));
   return frames.size();
 }
 
@@ -109,16 +109,18 @@ Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
 }
 
 Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
-                                        const CommonOptions& common) {
+                                        const CommonOptions& common, UnitList units) {
   SLF_TRY(auto bytes, read_input(file, given));
-  return open_stream(file, std::move(bytes), given, common);
+  return open_stream(file, std::move(bytes), given, common, units);
 }
 
 Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std::uint8_t> bytes,
-                                        const LimitOptions& given, const CommonOptions& common) {
+                                        const LimitOptions& given, const CommonOptions& common,
+                                        UnitList units) {
   SLF_TRY(StreamInfo info, from(input_name(file), read_info(bytes, given.limits)));
   SLF_CHECK(check_whole(file, info, given, common));
-  SLF_TRY(const std::size_t frames, count_frames(file, bytes, info));
+  SLF_TRY(const std::size_t frames, count_frames(file, bytes, info, given.limits));
+  if (units == UnitList::kNone) std::vector<UnitInfo>().swap(info.units);
   return StreamFile{std::move(bytes), std::move(info), frames};
 }
 

@@ -20,23 +20,28 @@ struct LimitOptions {
 };
 void add_limits(CLI::App& verb, LimitOptions& options);
 
+/// Is the list of the units of a file kept? It takes more than the units where they are short.
+enum class UnitList : std::uint8_t { kNone, kKept };
+
 /// A stream whose headers were read and, by --strict, found whole.
 struct StreamFile {
   std::vector<std::uint8_t> bytes;
-  StreamInfo info;         ///< of the first frame
+  StreamInfo info;         ///< of the first frame; its units only with UnitList::kKept
   std::size_t frames = 1;  ///< warned of where there are several
 };
 
 /// Warns of what is missing, unless quiet. "-" is standard input.
 Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
-                                        const CommonOptions& common);
+                                        const CommonOptions& common,
+                                        UnitList units = UnitList::kNone);
 
 /// Bytes of any file, as far as the limits allow.
 Result<std::vector<std::uint8_t>, Failure> read_input(const std::string& file,
                                                       const LimitOptions& given);
 /// The same for bytes that were read.
 Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std::uint8_t> bytes,
-                                        const LimitOptions& given, const CommonOptions& common);
+                                        const LimitOptions& given, const CommonOptions& common,
+                                        UnitList units = UnitList::kNone);
 
 /// Is the file not all that was coded: cut short, or cut by `slf truncate`?
 bool is_partial(const StreamInfo& info);

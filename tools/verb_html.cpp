@@ -8,6 +8,8 @@
 #include "slf/jpeg.h"
 #include "slf/render.h"
 #include "tools/camera_file.h"
+#include "tools/given_poster.h"
+#include "tools/html_page.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/page_template.h"
@@ -18,7 +20,9 @@
 namespace slf::tools {
 namespace {
 
-constexpr int kPosterPixels = 480, kPosterQuality = 75;
+constexpr int kPosterPixels = 480;
+// As base64 that is two thirds of the longest text that browsers hold, 2^29 characters.
+constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 28;
 // The viewer's own by day and by night: `paper` and `slate` of web/viewer/options.js.
 constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
@@ -58,21 +62,9 @@ Outcome check_options(const HtmlOptions& given) {
 
 std::string title_of(const HtmlOptions& given, const Metadata& metadata) {
   if (!given.title.empty()) return given.title;
-  for (const char* wanted : {"title", "source"})
-    for (const auto& [key, value] : metadata)
-      if (key == wanted && !value.empty()) return value;
+  if (std::string title = page_title(metadata); !title.empty()) return title;
   return given.input == "-" ? "Surface light field"
                             : std::filesystem::path(given.input).stem().string();
-}
-
-/// The camera as the viewer reads it: rows right, down, forward, and where the eye is.
-nlohmann::ordered_json view_json(const Camera& camera) {
-  auto rotation = nlohmann::ordered_json::array();
-  for (const auto& row : camera.rotation)
-    for (const double value : row) rotation.push_back(value);
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy},
-          {"rotation", rotation},  {"eye", camera.centre()}};
 }
 
 /// The part of the camera's picture that a square poster shows, which is where the viewer starts.
@@ -83,12 +75,6 @@ Camera square(Camera camera) {
   camera.width = camera.height = side;
   return resized(std::move(camera), kPosterPixels, kPosterPixels);
 }
-
-/// Addresses of the pictures that show until the file is decoded; `night` is empty where it is that
-/// of the day.
-struct Posters {
-  std::string day, night;
-};
 
 /// The first view by the renderer of points or that of splats.
 template <class Drawn, class Of>
@@ -134,32 +120,6 @@ Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightF
   });
 }
 
-/// A picture that was given, as it is; as JPEG where browsers do not know its format.
-Result<std::string, Failure> given_poster(const std::string& file) {
-  SLF_TRY(const auto bytes, from(file, read_file(file)));
-  SLF_TRY(const Image image, from(file, read_image(file)));
-  if (bytes[0] == 'P') {
-    SLF_TRY(const auto jpeg, from(file, encode_jpeg(image, kPosterQuality)));
-    return "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
-  }
-  const char* type = bytes[0] == 0xff ? "jpeg" : "png";  // what read_image takes
-  return std::string("data:image/") + type + ";base64," + base64(bytes.data(), bytes.size());
-}
-
-/// Nothing in it ends the script element that it stands in.
-std::string script_json(const nlohmann::ordered_json& json) {
-  std::string out;
-  for (const char c : json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))
-    out += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return out;
-}
-
-/// The source element for night in the template's picture element; none without such a poster.
-std::string night_source(const std::string& poster) {
-  if (poster.empty()) return "";
-  return "<source media=\"(prefers-color-scheme: dark)\" srcset=\"" + poster + "\">";
-}
-
 nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string& title,
                                     const std::optional<Camera>& camera) {
   nlohmann::ordered_json options{{"title", title},
@@ -175,14 +135,27 @@ nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string&
   return options;
 }
 
+/// Refuses what no browser would open.
+Outcome check_file_bytes(const std::string& name, std::uint64_t bytes) {
+  if (bytes <= kMostFileBytes) return Done{};
+  return Failure{kLimitExceeded, name + ": its " + grouped(bytes) + " bytes are more than the " +
+                                     grouped(kMostFileBytes) +
+                                     " that one page holds; web/viewer shows a file beside a page"};
+}
+
 Outcome run_html(const HtmlOptions& given) {
   SLF_CHECK(check_options(given));
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(given.input, none);
+  if (!none) SLF_CHECK(check_file_bytes(given.input, size));
   std::optional<Camera> camera;
   if (!given.camera.empty()) {
     SLF_TRY(camera, read_camera(given.camera));
   }
   const std::string name = input_name(given.input);
-  SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
+  LimitOptions limits = given.limits;
+  limits.limits.max_stream_bytes = kMostFileBytes;
+  SLF_TRY(const StreamFile input, read_stream(given.input, limits, given.common));
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);
@@ -198,22 +171,17 @@ Outcome run_html(const HtmlOptions& given) {
     SLF_TRY(poster, rendered_posters(given, field, camera));
   }
   const std::string title = title_of(given, input.info.metadata);
-  const std::string file = base64(stream.data(), stream.size());
-  const std::string page = filled_template(
-      page_template(), {{"title", escaped_html(title)},
-                        {"poster", poster.day.empty() ? "data:," : poster.day},
-                        {"night", night_source(poster.night)},
-                        {"options", script_json(page_options(given, title, camera))},
-                        {"file", file}});
+  const std::string page =
+      html_page(page_template(), title, poster, page_options(given, title, camera), stream);
   SLF_CHECK(save(given.output, page));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", page.size()},
-                                        {"file", file.size()},
+                                        {"file", base64_size(stream.size())},
                                         {"poster", poster.day.size() + poster.night.size()},
                                         {"partial", field.partial}});
   if (!given.common.quiet)
     std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
-                 grouped(page.size()).c_str(), grouped(file.size()).c_str());
+                 grouped(page.size()).c_str(), grouped(base64_size(stream.size())).c_str());
   return Done{};
 }
 

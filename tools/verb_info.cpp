@@ -7,8 +7,10 @@
 #include "tools/describe.h"
 #include "tools/frame_source.h"
 #include "tools/info_syntax.h"
+#include "tools/long_json.h"
 #include "tools/stream_input.h"
 #include "tools/text.h"
+#include "tools/unit_listing.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
@@ -25,33 +27,6 @@ struct InfoOptions {
 const char* start_name(SliceStart start) {
   constexpr const char* kNames[] = {"shared", "base", "apart"};
   return kNames[static_cast<std::size_t>(start)];
-}
-
-nlohmann::ordered_json units_json(const StreamInfo& info) {
-  auto list = nlohmann::ordered_json::array();
-  for (const UnitInfo& unit : info.units) {
-    nlohmann::ordered_json entry = {
-        {"type", unit.type}, {"offset", unit.offset}, {"bytes", unit.bytes}};
-    if (unit.base) entry["base"] = true;
-    if (unit.slice >= 0) entry["slice"] = unit.slice;
-    if (unit.group >= 0) entry["group"] = unit.group;
-    if (unit.layer > 0) entry["layer"] = unit.layer;
-    if (unit.level_first >= 0) entry["levels"] = {unit.level_first, unit.level_last};
-    if (!unit.prediction.empty()) entry["prediction"] = unit.prediction;
-    list.push_back(std::move(entry));
-  }
-  return list;
-}
-
-nlohmann::ordered_json slices_json(const StreamInfo& info) {
-  auto list = nlohmann::ordered_json::array();
-  for (const SliceInfo& slice : info.slices) {
-    nlohmann::ordered_json entry = {
-        {"cells", slice.cells}, {"points", slice.points}, {"bytes", slice.bytes}};
-    if (slice.box) entry["voxels"] = {slice.box->low, slice.box->high};
-    list.push_back(std::move(entry));
-  }
-  return list;
 }
 
 nlohmann::ordered_json base_json(const StreamInfo& info) {
@@ -105,12 +80,12 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
   json["decode"] = decode_cost_json(cost, page_memory(info, cost, frames.size()));
-  if (frames.size() > 1) json["frames"] = frames_json(frames);
+  if (frames.size() > 1) json["frames"] = nullptr;
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["slice_start"] = start_name(info.slice_start);
   json["base"] = base_json(info);
-  json["slice"] = slices_json(info);
+  json["slice"] = nullptr;  // as a list, as units
   if (info.cut)
     json["cut"] = {{"levels", info.cut->levels},
                    {"groups", info.cut->groups},
@@ -126,26 +101,9 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["step"] = info.step;
   json["transforms"] = transforms_json(info);
   json["bytes_by_type"] = bytes_by_type_json(info);
-  json["units"] = units_json(info);
+  json["units"] = nullptr;
   json["metadata"] = metadata_json(info.metadata);
   return json;
-}
-
-std::string units_text(const StreamInfo& info) {
-  std::string out = "\nunits\n      offset       bytes  type\n";
-  for (const UnitInfo& unit : info.units) {
-    out += text("%12llu %11llu  %s", static_cast<unsigned long long>(unit.offset),
-                static_cast<unsigned long long>(unit.bytes), unit.type.c_str());
-    if (unit.base) out += "  base";
-    if (unit.slice >= 0) out += text("  slice %d", unit.slice);
-    if (unit.group >= 0) out += text("  group %d", unit.group);
-    if (unit.layer > 0) out += text("  layer %d", unit.layer);
-    if (unit.level_first >= 0) out += text("  levels %d to %d", unit.level_first, unit.level_last);
-    for (std::size_t i = 0; i < unit.prediction.size(); ++i)
-      out += text(i == 0 ? "  prediction %d" : " %d", unit.prediction[i]);
-    out += '\n';
-  }
-  return out;
 }
 
 /// Functions, shifts and steps of every group on one line.
@@ -174,6 +132,19 @@ std::string groups_text(const StreamInfo& info) {
   return out;
 }
 
+Outcome print_json(const StreamInfo& info, std::uint64_t bytes,
+                   const std::vector<FrameInfo>& frames, const DecodeCost& cost) {
+  std::vector<LongList> lists;
+  if (frames.size() > 1)
+    lists.push_back(
+        {"frames", frames.size(), [&](std::size_t f) { return frame_json(frames[f]); }});
+  lists.push_back(
+      {"slice", info.slices.size(), [&](std::size_t s) { return slice_json(info.slices[s]); }});
+  lists.push_back(
+      {"units", info.units.size(), [&](std::size_t u) { return unit_json(info.units[u]); }});
+  return print(info_json(info, bytes, frames, cost), lists);
+}
+
 std::string cut_text(const CutInfo& cut) {
   const auto left = [](int count) { return count > 0 ? std::to_string(count) : "all"; };
   return text(
@@ -191,20 +162,6 @@ std::string base_text(const StreamInfo& info) {
   return text("  base          %d levels, %s cells, %s bytes%s\n", info.base_levels,
               grouped(base["cells"].get<std::uint64_t>()).c_str(),
               grouped(base["bytes"].get<std::uint64_t>()).c_str(), slices.c_str());
-}
-
-std::string slices_text(const StreamInfo& info) {
-  std::string out = "\nslices\n       cells      points       bytes  voxels\n";
-  for (const SliceInfo& slice : info.slices) {
-    out += text("%12llu %11llu %11llu", static_cast<unsigned long long>(slice.cells),
-                static_cast<unsigned long long>(slice.points),
-                static_cast<unsigned long long>(slice.bytes));
-    if (slice.box)
-      out += text("  %d %d %d to %d %d %d", slice.box->low[0], slice.box->low[1], slice.box->low[2],
-                  slice.box->high[0], slice.box->high[1], slice.box->high[2]);
-    out += '\n';
-  }
-  return out;
 }
 
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t all_bytes,
@@ -245,16 +202,16 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
 
 Outcome run_info(const InfoOptions& given) {
   const LimitOptions any{given.asked, given.limits.strict};  // but for those that were given
-  SLF_TRY(const StreamFile file, read_stream(given.input, any, given.common));
+  SLF_TRY(const StreamFile file, read_stream(given.input, any, given.common, UnitList::kKept));
   auto cost = cost_of(file, given, given.limits);
   if (cost) SLF_CHECK(check_limits(file, *cost, given));
-  if (given.syntax) return print_syntax(file.bytes, given.input, given.common.json);
+  if (given.syntax) return print_syntax(file.bytes, given.input, given.asked, given.common.json);
   if (!cost) return cost.error();
   cost->memory += file.bytes.size();
   cost->memory_most += file.bytes.size();
-  SLF_TRY(const auto frames, from(input_name(given.input), list_frames(file.bytes)));
+  SLF_TRY(const auto frames, from(input_name(given.input), list_frames(file.bytes, given.asked)));
   const std::uint64_t bytes = file.bytes.size();
-  if (given.common.json) return print(info_json(file.info, bytes, frames, *cost));
+  if (given.common.json) return print_json(file.info, bytes, frames, *cost);
   return print(info_text(file.info, given.input, bytes, frames, given.units, *cost));
 }
 

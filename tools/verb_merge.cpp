@@ -8,6 +8,7 @@
 #include "slf/join_frames.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"
+#include "tools/stream_input.h"
 #include "tools/text.h"
 #include "tools/verb.h"
 
@@ -18,19 +19,30 @@ struct MergeOptions {
   std::vector<std::string> parts;
   std::string output;
   bool allow_missing = false, append = false;
+  LimitOptions limits;  ///< of decoding what was merged
+  bool has_limits = false;
+  std::uint64_t max_memory = DecodeLimits::kNone;  ///< of parts and lists, where it was given
   CommonOptions common;
 };
 
+DecodeLimits memory_limit(const MergeOptions& given) {
+  DecodeLimits limits = DecodeLimits::none();
+  limits.max_memory = given.max_memory;
+  return limits;
+}
+
 /// A unit with a sound checksum can hold what does not decode. Not looked at where that takes more
-/// memory than a decoder gives it unasked.
-Outcome check_decodes(const std::vector<PartStream>& parts, const MergedScene& merged,
-                      const CommonOptions& common) {
+/// memory than a decoder gives it unasked; beyond a limit that was given it is refused.
+Outcome check_decodes(const MergeOptions& given, const std::vector<PartStream>& parts,
+                      const MergedScene& merged) {
   DecodeOptions options;
-  options.threads = common.threads;
+  options.limits = given.limits.limits;
+  options.threads = given.common.threads;
   const auto decoded = decode(merged.stream, options);
   if (decoded) return Done{};
   if (decoded.error().code == Errc::kLimitExceeded) {
-    warn("merge: too large to look whether all of it decodes", common.quiet);
+    if (given.has_limits) return failure_of(decoded.error(), "merge");
+    warn("merge: too large to look whether all of it decodes", given.common.quiet);
     return Done{};
   }
   for (const PartStream& part : parts)
@@ -40,8 +52,10 @@ Outcome check_decodes(const std::vector<PartStream>& parts, const MergedScene& m
 }
 
 /// Every frame: damage that no checksum shows is in one of them.
-Outcome check_frames_decode(std::span<const std::uint8_t> stream, const CommonOptions& common) {
+Outcome check_frames_decode(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
+                            const CommonOptions& common) {
   DecodeOptions options;
+  options.limits = limits;
   options.threads = common.threads;
   SLF_TRY(FrameDecoder decoder, from("merge", FrameDecoder::open(stream, options)));
   for (std::size_t f = 0; f < decoder.frames().size(); ++f)
@@ -53,10 +67,10 @@ Outcome merge_frames(const MergeOptions& given, const std::vector<PartStream>& p
   if (given.allow_missing)
     return Failure{kUsage, "merge: --allow-missing is of scenes: frames follow each other"};
   const JoinOrder order = given.append ? JoinOrder::kAsGiven : JoinOrder::kByNumber;
-  SLF_TRY(const auto stream, from("merge", join_frames(parts, order)));
-  SLF_CHECK(check_frames_decode(stream, given.common));
+  SLF_TRY(const auto stream, from("merge", join_frames(parts, order, memory_limit(given))));
+  SLF_CHECK(check_frames_decode(stream, given.limits.limits, given.common));
   SLF_CHECK(save(given.output, stream.data(), stream.size()));
-  SLF_TRY(const auto frames, from("merge", list_frames(stream)));
+  SLF_TRY(const auto frames, from("merge", list_frames(stream, memory_limit(given))));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", stream.size()}, {"frames", frames.size()}});
   if (!given.common.quiet)
@@ -65,20 +79,30 @@ Outcome merge_frames(const MergeOptions& given, const std::vector<PartStream>& p
   return Done{};
 }
 
+/// All parts together within the limit.
+Result<std::vector<PartStream>, Failure> read_parts(const MergeOptions& given) {
+  std::vector<PartStream> parts;
+  LimitOptions left;
+  left.limits.max_memory = given.max_memory;
+  for (const std::string& name : given.parts) {
+    SLF_TRY(auto bytes, read_input(name, left));
+    if (left.limits.max_memory != DecodeLimits::kNone) left.limits.max_memory -= bytes.size();
+    parts.push_back({name, std::move(bytes)});
+  }
+  return parts;
+}
+
 Outcome run_merge(const MergeOptions& given) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "merge: --json and --output - both want standard output"};
   SLF_CHECK(check_output(given.output, "merge", std::array{".slf"}));
-  std::vector<PartStream> parts;
-  for (const std::string& name : given.parts) {
-    SLF_TRY(auto bytes, from(name, read_file(name)));
-    parts.push_back({name, std::move(bytes)});
-  }
+  SLF_TRY(const std::vector<PartStream> parts, read_parts(given));
   if (is_of_frames(parts.front().bytes)) return merge_frames(given, parts);
   if (given.append) return Failure{kUsage, "merge: --append is of frames"};
   SLF_TRY(const MergedScene merged,
-          from("merge", merge_parts(parts, given.allow_missing, given.common.threads)));
-  SLF_CHECK(check_decodes(parts, merged, given.common));
+          from("merge",
+               merge_parts(parts, given.allow_missing, given.common.threads, memory_limit(given))));
+  SLF_CHECK(check_decodes(given, parts, merged));
   SLF_CHECK(save(given.output, merged.stream.data(), merged.stream.size()));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", merged.stream.size()},
@@ -107,10 +131,21 @@ void add_merge(CLI::App& program, Run& run) {
                  "Slices that no part has are left out: the file is partial");
   verb->add_flag("--append", o->append,
                  "Frames: one part after the other as they are given, with new numbers and times");
+  add_limits(*verb, o->limits);
+  verb->get_option("--max-memory")
+      ->description("Bytes of all parts, of lists of their units, and of decoding what they make")
+      ->default_str("none, of decoding 1G");
+  verb->remove_option(verb->get_option("--strict"));  // parts are partial
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
-  verb->callback([&run, o] { run = [o] { return run_merge(*o); }; });
+  verb->callback([&run, o, verb] {
+    for (const char* limit :
+         {"--max-memory", "--max-points", "--max-values-per-byte", "--max-work"})
+      o->has_limits = o->has_limits || verb->count(limit) > 0;
+    if (verb->count("--max-memory") > 0) o->max_memory = o->limits.limits.max_memory;
+    run = [o] { return run_merge(*o); };
+  });
 }
 
 }  // namespace slf::tools

@@ -53,7 +53,8 @@ Outcome run_truncate(const TruncateOptions& given) {
   const DecodeOptions options = decode_options(stream.info, given.part, given.limits, given.common);
   SLF_TRY(const auto kept, cut(given, stream, options));
   SLF_CHECK(save(given.output, kept.data(), kept.size()));
-  SLF_TRY(const StreamInfo left, from(output_name(given.output), read_info(kept)));
+  SLF_TRY(const StreamInfo left,
+          from(output_name(given.output), read_info(kept, given.limits.limits)));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},
                                         {"bytes", kept.size()},

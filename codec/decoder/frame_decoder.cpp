@@ -19,6 +19,7 @@ namespace {
 
 std::vector<FrameInfo> infos_of(const std::vector<FrameUnits>& frames) {
   std::vector<FrameInfo> infos;
+  infos.reserve(frames.size());
   for (const FrameUnits& f : frames)
     infos.push_back(
         {f.header.frame_number, f.header.frame_time, f.header.predicted(), f.offset, f.bytes});
@@ -27,8 +28,9 @@ std::vector<FrameInfo> infos_of(const std::vector<FrameUnits>& frames) {
 
 }  // namespace
 
-Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream) {
-  SLF_TRY(const auto frames, split_frames(stream));
+Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream,
+                                           const DecodeLimits& limits) {
+  SLF_TRY(const auto frames, split_frames(stream, limits.max_memory));
   return infos_of(frames);
 }
 

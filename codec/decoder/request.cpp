@@ -60,6 +60,12 @@ Result<Done> choose_groups(const Units& units, const DecodeOptions& options, Req
 
 }  // namespace
 
+std::uint64_t most_values(const DecodeLimits& limits, std::uint64_t bytes) {
+  const std::uint64_t each = limits.max_values_per_byte;
+  if (each >= DecodeLimits::kNone >> 32) return DecodeLimits::kNone;
+  return DecodeLimits::kFreeValues + each * bytes;
+}
+
 bool Request::wants(const UnitSlot& slot) const {
   const auto most = static_cast<std::uint32_t>(levels);
   if (slot.owner == Owner::kSlice && base_alone()) return false;
@@ -88,9 +94,7 @@ Result<Request> request_of(const Units& units, const SceneUnits& scene,
   SLF_CHECK(check_options(set, options));
   Request request(scene.stream);
   request.region = options.region;
-  if (const std::uint64_t each = options.limits.max_values_per_byte;
-      each < DecodeLimits::kNone >> 32)
-    request.most_values = DecodeLimits::kFreeValues + each * scene.stream.bytes;
+  request.most_values = most_values(options.limits, scene.stream.bytes);
   request.levels = static_cast<int>(least(set.grid_bits(), options.levels, set.sps_cut_levels));
   request.layers = static_cast<int>(least(set.num_layers(), options.layers, set.sps_cut_layers));
   if (group == nullptr) {

@@ -67,6 +67,9 @@ struct Request : GroupRequest {
   }
 };
 
+/// Components that a stream of so many bytes may give; kNone: any number.
+std::uint64_t most_values(const DecodeLimits& limits, std::uint64_t bytes);
+
 /// @param scene  kept by reference: what it is asked of
 /// @errors kInvalidArgument: levels or groups beyond what the stream has; those of the transforms.
 /// @param group  of a predicted frame, which has no transforms of its own

@@ -23,7 +23,11 @@ Result<Done, InputError> append_sequence(std::vector<std::uint8_t>& stream,
 /// @param boxes  of the index, [slices] or none; nullopt: no index
 /// @errors kInvalidArgument: an element of the sequence or the index that a reader would refuse
 Result<std::vector<std::uint8_t>, InputError> assemble(
-    SequenceParameterSet set, std::span<const CodedUnit> units,
+    SequenceParameterSet set, std::span<const UnitView> units,
+    const std::optional<std::vector<CellBox>>& boxes);
+/// The same of units that were just coded.
+Result<std::vector<std::uint8_t>, InputError> assemble(
+    const SequenceParameterSet& set, std::span<const CodedUnit> units,
     const std::optional<std::vector<CellBox>>& boxes);
 
 /// Spec 7.1: units of slices in the order of the layout, each of all slices, behind `units`: a

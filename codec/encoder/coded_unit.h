@@ -21,6 +21,13 @@ struct CodedUnit {
   SliceUnitHeader ids;  ///< of a part of the scene
 };
 
+/// A unit to be written that lies elsewhere: many short ones take little.
+struct UnitView {
+  UnitType type{};
+  std::span<const std::uint8_t> payload;
+};
+std::vector<UnitView> views_of(std::span<const CodedUnit> units);
+
 /// What the base and all slices share.
 struct SliceCoding {
   const SequenceParameterSet& set;

@@ -31,13 +31,20 @@ struct Part {
   std::uint32_t last() const { return frames.back().header.frame_number; }
 };
 
-Result<Part, InputError> open_part(const PartStream& given) {
+constexpr std::uint64_t kMemoryOfFrame = 3 * sizeof(FrameUnits);  // while a list grows
+
+/// @param left  of the memory of lists; less by that of this one
+Result<Part, InputError> open_part(const PartStream& given, std::uint64_t& left) {
   if (!moves(given.bytes)) return of_part(given.name, "no stream of frames");
-  auto frames = split_frames(given.bytes);
+  auto frames = split_frames(given.bytes, left);
+  if (!frames && frames.error().code == Errc::kLimitExceeded)
+    return InputError{Errc::kLimitExceeded,
+                      given.name + ": its frames take more memory than the limit"};
   if (!frames) return of_part(given.name, to_string(frames.error()));
   std::uint64_t end = 0;
   for (const FrameUnits& frame : *frames) end = frame.end();
   if (end != given.bytes.size()) return of_part(given.name, "its last frame is cut short");
+  left -= std::min(left, frames->size() * kMemoryOfFrame);
   return Part{&given.name, given.bytes, *std::move(frames)};
 }
 
@@ -137,11 +144,13 @@ Result<Bytes, InputError> append_all(std::span<const Part> parts) {
 
 bool is_of_frames(std::span<const std::uint8_t> stream) { return moves(stream); }
 
-Result<Bytes, InputError> join_frames(std::span<const PartStream> given, JoinOrder order) {
+Result<Bytes, InputError> join_frames(std::span<const PartStream> given, JoinOrder order,
+                                      const DecodeLimits& limits) {
   if (given.empty()) return InputError{Errc::kInvalidArgument, "parts: there are none"};
   std::vector<Part> parts;
+  std::uint64_t left = limits.max_memory;
   for (const PartStream& part : given) {
-    SLF_TRY(Part opened, open_part(part));
+    SLF_TRY(Part opened, open_part(part, left));
     parts.push_back(std::move(opened));
   }
   SLF_CHECK(check_headers(parts));

@@ -13,6 +13,9 @@
 namespace slf {
 namespace {
 
+/// Bytes of up to six elements, logged, listed and shown. By measurement.
+constexpr std::uint64_t kMemoryOfListedEntry = 1024;
+
 /// Visits what a unit holds before its codeword.
 class UnitVisitor {
  public:
@@ -119,18 +122,30 @@ Result<ListedUnit> list_unit(const Units& units, const Unit& unit, SequenceParam
 
 }  // namespace
 
-Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream,
-                                            const DecodeLimits& limits) {
+Result<Done> visit_syntax(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
+                          const std::function<bool(const ListedUnit&)>& show) {
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   SLF_TRY(const FrameUnits first, first_frame(stream));
-  SLF_TRY(const Units units, split_units(stream.first(static_cast<std::size_t>(first.bytes))));
+  SLF_TRY(const Units units,
+          split_units(stream.first(static_cast<std::size_t>(first.bytes)), 0, limits.max_memory));
   SLF_CHECK(find_sequence(units));  // the unit that all others need
   SequenceParameterSet set;
-  std::vector<ListedUnit> listed;
   for (const Unit& unit : units.units) {
-    SLF_TRY(ListedUnit one, list_unit(units, unit, set));
-    listed.push_back(std::move(one));
+    if (listed_units(unit) > limits.max_memory / kMemoryOfListedEntry)
+      return Error{Errc::kLimitExceeded, "max_memory"};
+    SLF_TRY(const ListedUnit listed, list_unit(units, unit, set));
+    if (!show(listed)) break;
   }
+  return Done{};
+}
+
+Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream,
+                                            const DecodeLimits& limits) {
+  std::vector<ListedUnit> listed;
+  SLF_CHECK(visit_syntax(stream, limits, [&](const ListedUnit& unit) {
+    listed.push_back(unit);
+    return true;
+  }));
   return listed;
 }
 

@@ -94,6 +94,7 @@ Result<StreamInfo> read_info(std::span<const std::uint8_t> stream, const DecodeL
   info.prediction = set.sps_prediction_flag != 0;
   SLF_TRY(info.metadata, collect_metadata(units));
   info.normal_bits = static_cast<int>(set.sps_normal_bits);
+  info.units.reserve(units.units.size());
   for (const Unit& unit : units.units) {
     SLF_TRY(UnitInfo described, describe(unit, set));
     if (described.slice >= 0) info.slices[std::size_t(described.slice)].bytes += described.bytes;

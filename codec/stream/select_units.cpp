@@ -11,17 +11,21 @@ bool is_written_anew(UnitType type) {
 
 }  // namespace
 
-Result<std::vector<CodedUnit>> select_units(const Units& units, const Request& request,
-                                            const std::vector<std::uint8_t>& chosen) {
-  std::vector<CodedUnit> kept;
+Result<SelectedUnits> select_units(const Units& units, const Request& request,
+                                   const std::vector<std::uint8_t>& chosen) {
+  SelectedUnits kept;
+  kept.units.reserve(units.units.size());
   for (const Unit& unit : units.units) {
-    if (is_written_anew(unit.type)) continue;
-    SliceUnitHeader ids;
+    if (is_written_anew(unit.type) || unit.type == UnitType::kFiller) continue;
     if (has_ids(unit.type)) {
-      SLF_TRY(ids, read_ids(unit, request.stream.set));
-      if (!wants_unit(request, chosen, unit.type, ids)) continue;
+      SLF_TRY(const SliceUnitHeader ids, read_ids(unit, request.stream.set));
+      if (!wants_unit(request, chosen, unit.type, ids)) {
+        // A digest, which is of the whole, goes with whatever else does.
+        kept.all = kept.all && unit.type == UnitType::kDigest;
+        continue;
+      }
     }
-    kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
+    kept.units.push_back({unit.type, unit.payload});
   }
   return kept;
 }

@@ -9,9 +9,16 @@
 
 namespace slf {
 
-/// In the order of the stream, without those that are written anew: sequence, index, frame, end.
+/// Those to keep, in the order of the stream and in its memory.
+struct SelectedUnits {
+  /// Without those that are written anew (sequence, index, frame, end), and without fillers, which
+  /// have no meaning.
+  std::vector<UnitView> units;
+  bool all = true;  ///< none was left out that has one
+};
+
 /// @param chosen  [slices] those to keep
-Result<std::vector<CodedUnit>> select_units(const Units& units, const Request& request,
-                                            const std::vector<std::uint8_t>& chosen);
+Result<SelectedUnits> select_units(const Units& units, const Request& request,
+                                   const std::vector<std::uint8_t>& chosen);
 
 }  // namespace slf

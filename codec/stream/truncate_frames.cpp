@@ -72,9 +72,9 @@ class FrameCutter {
                                    const Request& request, Bytes& bytes) {
     SLF_TRY(const auto kept, select_units(own, request, all_slices(request)));
     Bytes rest;
-    for (const CodedUnit& unit : kept) append_unit(rest, unit.type, unit.payload);
+    for (const UnitView& unit : kept.units) append_unit(rest, unit.type, unit.payload);
     const std::size_t before = frame.header.predicted() ? 1 : 2;
-    if (own.complete) append_unit(rest, UnitType::kEnd, end_payload(before + kept.size()));
+    if (own.complete) append_unit(rest, UnitType::kEnd, end_payload(before + kept.units.size()));
     FrameHeader header = frame.header;
     header.frame_bytes = static_cast<std::uint32_t>(rest.size());
     SLF_TRY(const auto payload, of_what_was_read(frame_payload(std::move(header), frame.vectors)));
@@ -97,19 +97,25 @@ Result<Bytes> truncate_frames(std::span<const std::uint8_t> stream, std::size_t 
                               std::size_t last, const DecodeOptions& options) {
   if (stream.size() > options.limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   if (options.region) return Error{Errc::kInvalidArgument, "region"};
-  SLF_TRY(const std::vector<FrameUnits> frames, split_frames(stream));
+  SLF_TRY(const std::vector<FrameUnits> frames, split_frames(stream, options.limits.max_memory));
   if (first >= frames.size() || last < first) return Error{Errc::kInvalidArgument, "frame"};
   last = std::min(last, frames.size() - 1);
   while (frames[first].header.predicted()) --first;
   FrameCutter cutter(stream, options);
   Bytes kept;
+  std::uint64_t before = 0;  // bytes of the frames that are kept, as they were
   for (std::size_t f = first; f <= last; ++f) {
     SLF_TRY(const Bytes frame, cutter.cut(frames[f]));
     if (options.max_bytes > 0 && kept.size() + frame.size() > options.max_bytes) break;
     kept.insert(kept.end(), frame.begin(), frame.end());
+    before += frames[f].bytes;
   }
   if (kept.empty()) return Error{Errc::kInvalidArgument, "max_bytes"};
-  return kept;
+  if (kept.size() <= before) return kept;
+  // To say that frames are cut can take more bytes than were left out.
+  const auto as_they_were = stream.subspan(static_cast<std::size_t>(frames[first].offset),
+                                           static_cast<std::size_t>(before));
+  return Bytes(as_they_were.begin(), as_they_were.end());
 }
 
 }  // namespace slf

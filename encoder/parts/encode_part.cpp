@@ -141,13 +141,17 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
 }
 
 Result<MergedScene, InputError> merge_parts(std::span<const PartStream> given, bool allow_missing,
-                                            int threads) {
+                                            int threads, const DecodeLimits& limits) {
   if (given.empty()) return InputError{Errc::kInvalidArgument, "merge: no part is given"};
-  SLF_TRY(SceneParts parts, read_part(given[0]));
+  SLF_TRY(SceneParts parts, read_part(given[0], limits.max_memory));
+  std::uint64_t taken = std::min(memory_of(parts), limits.max_memory);
   for (const PartStream& part : given.subspan(1)) {
-    SLF_TRY(SceneParts more, read_part(part));
+    SLF_TRY(SceneParts more, read_part(part, limits.max_memory - taken));
+    taken = std::min(taken + memory_of(more), limits.max_memory);
     SLF_CHECK(combine(parts, std::move(more)));
   }
+  if (taken >= limits.max_memory)
+    return InputError{Errc::kLimitExceeded, "merge: the parts take more memory than the limit"};
   MergedScene merged;
   merged.missing = parts.missing();
   if (!merged.missing.empty() && !allow_missing) {

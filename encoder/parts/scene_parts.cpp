@@ -26,13 +26,14 @@ CodedUnit copy_of(const Unit& unit) {
 /// A part as it is read.
 class PartReader {
  public:
-  PartReader(const PartStream& part, SceneParts& parts) : part_(part), parts_(parts) {}
+  PartReader(const PartStream& part, SceneParts& parts, std::uint64_t max_memory)
+      : part_(part), parts_(parts), max_memory_(max_memory) {}
 
   Result<Done> read() {
     SLF_TRY(const FrameUnits first, first_frame(part_.bytes));
     if (first.moves())
       return of_unit(first.unit.type, first.unit.offset, Errc::kUnsupported, kOneLightField);
-    SLF_TRY(units_, split_units(part_.bytes));
+    SLF_TRY(units_, split_units(part_.bytes, 0, max_memory_));
     SLF_TRY(cut_, find_sequence(units_));
     SLF_TRY(scene_, collect_units(units_, cut_));
     SLF_TRY(parts_.metadata, collect_metadata(units_));
@@ -104,6 +105,7 @@ class PartReader {
 
   const PartStream& part_;
   SceneParts& parts_;
+  std::uint64_t max_memory_;
   Units units_;
   SequenceParameterSet cut_;
   SceneUnits scene_;
@@ -153,10 +155,21 @@ void add_slice(SceneParts& parts, CodedSlice slice) {
   parts.slices[slice.slice] = std::move(piece);
 }
 
-Result<SceneParts, InputError> read_part(const PartStream& part) {
+std::uint64_t memory_of(const SceneParts& parts) {
+  std::uint64_t bytes = 0;
+  for (const auto& piece : parts.slices)
+    if (piece)
+      for (const CodedUnit& unit : piece->units) bytes += kMemoryOfPartUnit + unit.payload.size();
+  return bytes;
+}
+
+Result<SceneParts, InputError> read_part(const PartStream& part, std::uint64_t max_memory) {
   SceneParts parts;
   parts.name = part.name;
-  if (const auto read = PartReader(part, parts).read(); !read) {
+  if (const auto read = PartReader(part, parts, max_memory).read(); !read) {
+    if (read.error().code == Errc::kLimitExceeded)
+      return InputError{Errc::kLimitExceeded,
+                        part.name + ": its units take more memory than the limit"};
     const bool other = std::string_view(read.error().element) == "part_plan";
     if (other) return wrong(part.name, "not a part of a scene");
     return InputError{read.error().code, part.name + ": " + in_words(read.error())};

@@ -65,7 +65,15 @@ Result<std::vector<std::uint8_t>, InputError> join(const SceneParts& parts, cons
                                                    bool as_part);
 
 /// @errors kInvalidInput: not a part, or a damaged one; names it
-Result<SceneParts, InputError> read_part(const PartStream& part);
+/// @param max_memory  of its units; see kMemoryOfPartUnit
+Result<SceneParts, InputError> read_part(const PartStream& part,
+                                         std::uint64_t max_memory = DecodeLimits::kNone);
+
+/// Bytes of a unit of a slice, however short it is, while parts are joined: as it is kept, and
+/// copied to its place.
+inline constexpr std::uint64_t kMemoryOfPartUnit = 2 * kMemoryOfUnit;
+/// Bytes of what is kept of the slices.
+std::uint64_t memory_of(const SceneParts& parts);
 
 /// Adds the slices of another part of the same plan.
 /// @errors kInvalidInput: of another plan, or a slice is in both

@@ -38,8 +38,10 @@ struct FrameInfo {
 ///         one that was cut off, or is damaged in its first units' lengths
 /// @errors kNotSlf, kTruncated: no frame begins. Those of a frame unit; kOutOfRange also: numbers
 /// or
-///         times that do not ascend, a predicted frame first. O(frames)
-Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream);
+///         times that do not ascend, a predicted frame first. kLimitExceeded: max_memory, of the
+///         list and of what is looked at for it. O(frames)
+Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream,
+                                           const DecodeLimits& limits = DecodeLimits::none());
 
 /// Decodes any frame of a stream held in memory. A predicted frame needs those before it, back to
 /// one that is not: in order each frame is decoded once.

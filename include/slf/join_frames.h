@@ -28,8 +28,10 @@ enum class JoinOrder : std::uint8_t {
 ///         functions, attributes or steps than the first, units that were left out; kByNumber: a
 ///         frame that is missing, from 0 on, or there twice (frames that are missing at the end
 ///         nobody knows of), a time that does not ascend. kInvalidArgument: no
-///         parts. O(bytes)
-Result<std::vector<std::uint8_t>, InputError> join_frames(std::span<const PartStream> parts,
-                                                          JoinOrder order = JoinOrder::kByNumber);
+///         parts. kLimitExceeded: max_memory. O(bytes)
+/// @param limits  max_memory: of the lists of frames of all parts
+Result<std::vector<std::uint8_t>, InputError> join_frames(
+    std::span<const PartStream> parts, JoinOrder order = JoinOrder::kByNumber,
+    const DecodeLimits& limits = DecodeLimits::none());
 
 }  // namespace slf

@@ -15,6 +15,7 @@
 #include "slf/encoder.h"
 #include "slf/error.h"
 #include "slf/fit.h"
+#include "slf/limits.h"
 #include "slf/settings.h"
 #include "slf/types.h"
 
@@ -136,8 +137,10 @@ struct MergedScene {
 /// Joins parts without coding slices again.
 /// @param allow_missing  else missing slices are an error; with it the stream is partial
 /// @errors kInvalidInput: names the parts that are of different plans or have a slice in common,
-///         and the slices that are missing; the part that is damaged
+///         and the slices that are missing; the part that is damaged. kLimitExceeded: max_memory
+/// @param limits  max_memory: of the units of all parts together, 512 bytes each and their payloads
 Result<MergedScene, InputError> merge_parts(std::span<const PartStream> parts, bool allow_missing,
-                                            int threads = 0);
+                                            int threads = 0,
+                                            const DecodeLimits& limits = DecodeLimits::none());
 
 }  // namespace slf

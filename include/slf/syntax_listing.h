@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,5 +34,13 @@ struct ListedUnit {
 ///         rules over several units say is not looked at. Thread-safe. O(bytes of headers).
 Result<std::vector<ListedUnit>> list_syntax(std::span<const std::uint8_t> stream,
                                             const DecodeLimits& limits = {});
+
+/// The same, a unit at a time: `show` gets each, and ends the listing where it gives false. What is
+/// before a unit with an error is shown.
+/// @param limits  max_memory: of the units, and of the elements of one, 1 KiB for each entry of an
+///                index
+/// @errors those of list_syntax; kLimitExceeded: max_memory
+Result<Done> visit_syntax(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
+                          const std::function<bool(const ListedUnit&)>& show);
 
 }  // namespace slf

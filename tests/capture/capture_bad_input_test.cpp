@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"long_name", image_b("../" + std::string(100000, 'n')),
             "kInvalidInput: nnn...' leads out of the capture"},
         Bad{"deep_json", [](const fs::path& p) { write_shared(p, std::string(100000, '[')); },
-            "kInvalidInput: nested too deeply"}),
+            "kInvalidInput: nested deeper than 64"}),
     [](const auto& bad) { return bad.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -2,7 +2,9 @@
 // JPEG in, and sizes out of headers alone.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <ctime>
 // jpeglib.h needs stdio.
 #include <jpeglib.h>
 
@@ -67,8 +69,9 @@ TEST(Jpeg, CmykIsRefused) {
   EXPECT_THAT(image.error().message, HasSubstr("CMYK"));
 }
 
-/// Grey 8 x 8, every coefficient above the mean in scans of its own, a bit of each at a time.
-std::string jpeg_of_many_scans() {
+/// Grey 8 x 8, every coefficient above the mean in scans of its own, a bit of each at a time; the
+/// first so many of these scans.
+std::string jpeg_of_scans(std::size_t count) {
   jpeg_error_mgr errors;
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&errors);
@@ -84,6 +87,7 @@ std::string jpeg_of_many_scans() {
   for (int k = 1; k < 64; ++k)
     for (int bit = 4; bit >= 0; --bit)
       scans.push_back({1, {0, 0, 0, 0}, k, k, bit == 4 ? 0 : bit + 1, bit});
+  scans.resize(std::min(count, scans.size()));
   info.scan_info = scans.data();
   info.num_scans = static_cast<int>(scans.size());
   jpeg_start_compress(&info, TRUE);
@@ -98,10 +102,32 @@ std::string jpeg_of_many_scans() {
 }
 
 TEST(Jpeg, MoreScansThanAPhotographHasAreRefused) {
-  const auto image = read(jpeg_of_many_scans());
+  const auto image = read(jpeg_of_scans(201));
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().code, Errc::kInvalidInput);
   EXPECT_THAT(image.error().message, HasSubstr("more than 200 scans"));
+  const auto most = read(jpeg_of_scans(200));
+  EXPECT_TRUE(most) << most.error().message;
+}
+
+/// The file with other sides in its frame header, and zeros behind its end.
+std::string with_sides(std::string file, int side, std::size_t size) {
+  const std::size_t frame = file.find("\xFF\xC2");
+  file.replace(frame + 5, 4, bytes({side >> 8, side & 255, side >> 8, side & 255}));
+  file.resize(std::max(size, file.size()));
+  return file;
+}
+
+TEST(Jpeg, ScansTimesPixelsAreRefusedBeforeTimeIsSpentOnThem) {
+  constexpr std::size_t kPaid = std::size_t{1} << 28 >> 12;  // for a picture of 2^28 pixels
+  for (const std::size_t scans : {17, 200}) {
+    const std::clock_t before = std::clock();
+    const auto image = read(with_sides(jpeg_of_scans(scans), 16384, kPaid));
+    EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC / 20) << scans;
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().code, Errc::kInvalidInput);
+    EXPECT_THAT(image.error().message, HasSubstr("more than 16 scans of 16384 x 16384 pixels"));
+  }
 }
 
 TEST(ImageSize, IsReadFromTheHeaderAlone) {

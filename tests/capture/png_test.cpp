@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG in, PNG out.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <iterator>
 
@@ -120,6 +121,25 @@ TEST(WritePng, FieldsThatDoNotFitTogetherAreRefused) {
     EXPECT_EQ(written.error().code, Errc::kInvalidArgument);
   }
   EXPECT_EQ(directory.num_entries(), 0u);
+}
+
+std::uint64_t most_resident_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) << 10;
+}
+
+TEST(Png, TextBesideThePixelsIsNotUnpacked) {
+  const std::string text =
+      chunk("zTXt", std::string("Comment\0\0", 9) + deflated(std::string(8 << 20, ' ')));
+  std::string texts;
+  for (int i = 0; i < 64; ++i) texts += text;
+  const std::string file = png(2, 1, 8, 2, bytes({0, 1, 2, 3, 4, 5, 6}), texts);
+  const std::uint64_t before = most_resident_bytes();
+  const auto image = read(file);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->data, (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_LT(most_resident_bytes() - before, 32u << 20);  // 512 MB of text
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class Judge:
         nothing = [run([program, "--version"]) for _ in range(3)]
         self.base, self.base_seconds = nothing[0][1], min(seconds for _, _, seconds, _ in nothing)
         self.wrong, self.worst_bytes, self.worst_seconds, self.worst_small, self.count = [], 0, 0.0, 0.0, 0
-        self.count_drawn = 0
+        self.count_drawn, self.most_kept = 0, 0.0
 
     def check(self, good, what):
         """Notes a failure."""
@@ -91,6 +91,23 @@ class Judge:
             self.check(code in (0, LIMIT), f"decode {file}: exit code {code} {said}")
             self.check(code != 0 or peak - self.base <= 1.1 * most + MOST_BEYOND, f"decode {file}: {peak} bytes")
 
+    def counts_all_that_is_kept(self, file):
+        """Units and entries of an index count against --max-memory in every verb: a limit below them refuses, one above them holds."""
+        with tempfile.TemporaryDirectory() as scratch:
+            verbs = [["info"], ["info", "--json"], ["info", "--units"], ["info", "--syntax"], ["info", "--syntax", "--json"]]
+            verbs += [[verb, "-o", scratch + "/x.slf", *more] for verb, *more in
+                      (["truncate"], ["truncate", "--levels", "1"], ["truncate", "--max-bytes", "5000"], ["merge"])]
+            verbs += [["decode", "-o", scratch + "/x.ply"], ["decode", "--frame", "0", "-o", scratch + "/y.ply"],
+                      ["render", "-o", scratch + "/x.png"], ["export", "-o", scratch + "/z.ply"], ["html", "-o", scratch + "/x.html"]]
+            for verb in verbs:
+                for limit, expected in ((16, {LIMIT}), (128, {0, 2, 4, LIMIT})):
+                    code, peak, _, said = run([self.program, verb[0], file, *verb[1:], "--max-memory", f"{limit}M"])
+                    what = f"{' '.join(verb)} of {pathlib.Path(file).name} within {limit} MiB"
+                    no_page = verb[0] == "html" and code == 6  # a build without the viewer's page
+                    self.check(code in expected or no_page, f"{what}: exit code {code} {said[-200:]}")
+                    self.check(peak - self.base <= limit * MEBIBYTE, f"{what}: {(peak - self.base) / MEBIBYTE:.0f} MiB")
+                    self.most_kept = max(self.most_kept, (peak - self.base) / (limit * MEBIBYTE))
+
     def draws_no_nonsense(self, file):
         """Pictures and files of a grid anywhere: refused, or finite."""
         with tempfile.TemporaryDirectory() as scratch:
@@ -138,6 +155,9 @@ def main():
             judge.stays_within(str(file), 64 * MEBIBYTE)
         for file in sorted(pathlib.Path(made, "grids").iterdir()):
             judge.draws_no_nonsense(str(file))
+        for name in ("units-300k", "index-300k"):
+            judge.counts_all_that_is_kept(str(pathlib.Path(made, name + ".slf")))
+        print(f"units and entries: at most {100 * judge.most_kept:.0f} % of the limit")
         judge.reads_in_proportion(made)
         judge.check(30 < judge.count_drawn < 100, f"{judge.count_drawn} pictures and files of far grids")
     print(f"{judge.count} refusals: at most {judge.worst_bytes / MEBIBYTE:.1f} MiB and {judge.worst_seconds:.2f} s, "

@@ -71,6 +71,7 @@ std::vector<DecodeOptions> options_of(const StreamInfo& info) {
     add(std::max(bits - 1, 1), 1, 1, region);
     add(std::max(info.base_levels, 1), 0, 0, region);
   }
+  all.emplace_back().means_only = true;
   return all;
 }
 
@@ -103,6 +104,7 @@ int check_promise(const Stream& stream, DecodeOptions options) {
   const auto cut = truncate(stream, options);
   EXPECT_TRUE(cut) << to_string(cut.error());
   if (!cut) return 0;
+  EXPECT_LE(cut->size(), stream.size());
   const auto again = decode(*cut, options);
   EXPECT_TRUE(again) << to_string(again.error());
   if (again) expect_equal(*again, *whole);
@@ -155,6 +157,49 @@ TEST(Spec_8_9_TruncatePromise, HoldsForStreamsThatWereCut) {
   EXPECT_GT(checked, 2000);
 }
 
+TEST(Spec_8_9_TruncatePromise, ACutIsNeverLongerThanTheStreamOrThanWasAskedFor) {
+  int checked = 0, within = 0;
+  for (const auto& folder : suite()) {
+    SCOPED_TRACE(folder.filename().string());
+    const Stream stream = read(folder);
+    if (!has_one_light_field(stream)) continue;
+    const auto info = read_info(stream);
+    ASSERT_TRUE(info);
+    const UnitInfo& last = info->units[info->units.size() * 2 / 3];
+    const auto end = stream.begin() + static_cast<std::ptrdiff_t>(last.offset + last.bytes);
+    for (DecodeOptions options : options_of(*info)) {
+      if (!options.region) checked += check_promise({stream.begin(), end}, options);
+      options.max_bytes = stream.size() - stream.size() / 5;
+      const auto cut = truncate(stream, options);
+      if (!cut) continue;
+      EXPECT_LE(cut->size(), options.max_bytes);
+      ++within;
+    }
+  }
+  EXPECT_GT(checked, 500);
+  EXPECT_GT(within, 2000);
+}
+
+TEST(Spec_8_9_TruncatePromise, WhereNothingIsLeftOutTheStreamIsAsItWas) {
+  int streams = 0;
+  for (const auto& folder : suite()) {
+    SCOPED_TRACE(folder.filename().string());
+    const Stream stream = read(folder);
+    const auto info = read_info(stream);
+    if (!info || !has_one_light_field(stream)) continue;
+    for (std::size_t u = 0; u < info->units.size(); u += 3) {
+      const UnitInfo& last = info->units[info->units.size() - 1 - u];
+      const Stream begin(stream.begin(),
+                         stream.begin() + static_cast<std::ptrdiff_t>(last.offset + last.bytes));
+      const auto copy = truncate(begin, {});
+      EXPECT_EQ(static_cast<bool>(copy), static_cast<bool>(decode(begin))) << last.type;
+      if (copy) EXPECT_EQ(*copy, begin);
+      ++streams;
+    }
+  }
+  EXPECT_GT(streams, 1000);
+}
+
 TEST(Spec_8_9_TruncatePromise, HoldsForDamagedStreamsAsFarAsTheyDecode) {
   std::mt19937 random(42);
   int checked = 0;
@@ -192,6 +237,7 @@ TEST(Spec_8_9_TruncatePromise, HoldsForEveryFrame) {
         const auto cut = truncate(stream, options);
         auto whole = FrameDecoder::open(stream, options);
         if (!cut || !whole) continue;
+        EXPECT_LE(cut->size(), stream.size());
         auto left = FrameDecoder::open(*cut, options);
         ASSERT_TRUE(left) << to_string(left.error());
         ASSERT_EQ(left->frames().size(), frames->size());

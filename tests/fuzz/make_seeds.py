@@ -245,12 +245,16 @@ def scene(program):
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode frames render truncate hevc npy ply scan obj glb image cameras colmap splats igc part plan".split()}
+            "decode frames render truncate export part_decoder html hevc npy ply scan obj glb image cameras colmap splats igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
         if name.startswith("frames-"):
             made["frames"][name] = stream
+        made["html"][name] = stream
         made["truncate"][name] = b"\x03\x01" + stream
+        made["part_decoder"][name] = b"\x03\x01" + stream
+        made["part_decoder"][name + "-region"] = b"\x40\x05" + stream
+        made["export"][name] = bytes([len(made["export"]) % 6, 1]) + stream  # one format after the other
         if hevc(stream):
             made["hevc"][name] = hevc(stream)
     made["npy"]["int32"] = npy("<i4", (2, 3), bytes(24))

@@ -217,6 +217,30 @@ TEST(GaussianRenderer, DepthIsThatOfTheSplatWithWhichHalfIsCovered) {
   EXPECT_EQ(GaussianRenderer(g, settings).render(camera).depth[middle], INFINITY);
 }
 
+/// Is a grey splat shown that is so far before the eye, in a scene of which the rest, of this
+/// radius, lies behind the eye and is not to be seen?
+bool is_drawn(double depth, float radius) {
+  Gaussians g;
+  add_ball(g, {0, 0, 0}, 10, 0.8f);
+  add_ball(g, {0, 0, -2 * radius}, -10, 1);
+  Camera camera;
+  camera.width = camera.height = 9;
+  camera.fx = camera.fy = 20;
+  camera.cx = camera.cy = 4.5;
+  camera.translation = {0, 0, depth};
+  return GaussianRenderer(g).render(camera).coverage[4 * 9 + 4] > 0;
+}
+
+TEST(Spec_E_6, PointsNearerThanTheLesserOfAFifthAndAFiftiethOfTheRadiusAreLeftOut) {
+  for (const auto& [radius, nearest] :
+       {std::pair{100.0f, 0.2}, {10.5f, 0.2}, {5.0f, 0.1}, {1.0f, 0.02}}) {
+    EXPECT_TRUE(is_drawn(1.01 * nearest, radius)) << radius;
+    EXPECT_FALSE(is_drawn(0.99 * nearest, radius)) << radius;
+  }
+  EXPECT_TRUE(is_drawn(0.202, 0));  // one place
+  EXPECT_FALSE(is_drawn(0.198, 0));
+}
+
 TEST(GaussianRenderer, NothingIsTheBackground) {
   RenderSettings settings;
   settings.background = {9, 8, 7};

@@ -84,5 +84,40 @@ TEST_F(CliHtmlTest, WrongOptionsAndDamagedFilesAreRefusedAndLeaveNothing) {
   }
 }
 
+TEST_F(CliHtmlTest, AFileThatNoPageHoldsIsRefusedBeforeItIsRead) {
+  if (!has_page()) GTEST_SKIP() << kWithoutPage;
+  ASSERT_EQ(shell("truncate -s 268435457 big.slf").code, 0);  // sparse
+  expect_failure(slf("html big.slf -o y.html"), 5, "big.slf",
+                 "its 268,435,457 bytes are more than the 268,435,456 that one page holds");
+  expect_failure(slf("html - -o y.html <big.slf"), 5, "standard input", "268435456 bytes");
+  EXPECT_FALSE(exists("y.html"));
+}
+
+TEST_F(CliHtmlTest, APosterThatIsTooLargeIsRefusedByItsHeader) {
+  if (!has_page()) GTEST_SKIP() << kWithoutPage;
+  write("wide.ppm", "P6\n4097 1\n255\n" + std::string(3 * 4097, 'x'));
+  expect_failure(slf("html x.slf -o y.html --poster wide.ppm"), 5, "wide.ppm",
+                 "4,097 x 1 pixels, more than the 4,096 a side that a poster may have");
+  write("most.ppm", "P6\n4096 1\n255\n" + std::string(3 * 4096, 'x'));
+  EXPECT_EQ(slf("html x.slf -o most.html --poster most.ppm").code, 0);
+  ASSERT_EQ(shell("cp die/images/*0.png long.png && truncate -s 8388609 long.png").code, 0);
+  expect_failure(slf("html x.slf -o y.html --poster long.png"), 5, "long.png",
+                 "larger than the 8,388,608 bytes that a poster may have");
+  EXPECT_FALSE(exists("y.html"));
+}
+
+TEST_F(CliHtmlTest, ATitleFromTheFileIsCutToALine) {
+  if (!has_page()) GTEST_SKIP() << kWithoutPage;
+  std::string title;
+  while (title.size() < 3000) title += "\u00e9";
+  ASSERT_EQ(
+      slf("encode die -o t.slf --effort 1 --grid-bits 5 --quiet --metadata 'title=" + title + "'")
+          .code,
+      0);
+  ASSERT_EQ(slf("html t.slf -o t.html --no-poster --quiet").code, 0);
+  EXPECT_NE(read("t.html").find("<title>" + title.substr(0, 256) + "\u2026</title>"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace slf::cli_html_test

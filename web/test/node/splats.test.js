@@ -57,6 +57,11 @@ test('means of splats that are on their way are widened, the whole file is as it
   assert.equal(packField(field, 2, false).spreads[0], 4);
 });
 
+test('nothing is drawn nearer than the lesser of 0.2 and a fiftieth of the radius: spec E.6', () => {
+  const nearest = (side) => packField(fieldOf([[0, 0, 0], [2 * side, 0, 0]], FLAT), 2).nearest;
+  assert.deepEqual([nearest(100), nearest(5), nearest(0)], [0.2, 0.1, 0.2]);
+});
+
 /** Places all around, and the order that any sort has. */
 function crowd(points, eye, forward, nearest) {
   const places = Float32Array.from({ length: 4 * points }, (_, i) => Math.round(40 * Math.sin(i * i + 1)));
