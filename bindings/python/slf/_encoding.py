@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import whole, whole_array, wrong
+from ._arguments import colours8, whole, whole_array, wrong
 from ._errors import ArgumentError, Error
 from ._types import Capture, Encoded, Vector
 
@@ -47,7 +47,7 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None
     whole(threads, 'threads')
     try:
         if isinstance(capture, Capture):
-            data, report = _slf.encode_capture(_in_bytes(capture), split, options, threads, progress)
+            data, report = _slf.encode_capture(in_bytes(capture), split, options, threads, progress)
         else:
             data, report = _slf.encode_path(os.fspath(capture), split, options, threads, progress)
     except ArgumentError as error:
@@ -105,9 +105,9 @@ def pack(positions: npt.ArrayLike, components: Optional[npt.ArrayLike] = None, *
                      whole(threads, 'threads'))
 
 
-def _in_bytes(capture: Capture) -> Capture:
-    """With the colours and the images that the encoder takes."""
+def in_bytes(capture: Capture) -> Capture:
+    """With the colours and the images that the library takes."""
     colours = capture.colours
     return dataclasses.replace(
         capture, images=[whole_array(image, 'images', np.uint8) for image in capture.images],
-        colours=None if colours is None else whole_array(colours, 'colours', np.uint8))
+        colours=None if colours is None else colours8(colours, 'colours'))
