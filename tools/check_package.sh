@@ -57,6 +57,9 @@ for page in slf slf-encode slf-export; do
     [[ ! -s $page.warnings ]] || { cat "$page.warnings"; fail "man page $page"; }
   fi
 done
+for section in DESCRIPTION 'EXIT STATUS' EXAMPLES; do
+  grep -q "^\.SH $section" slf-export.1 || fail "slf-export.1 has no $section"
+done
 grep -q 'target\\-psnr' slf-encode.1 || fail "slf-encode.1 lacks an option"
 completed=$(bash -c 'source "$1"; COMP_WORDS=(slf export --for); COMP_CWORD=2; _slf; echo "${COMPREPLY[@]}"' \
   bash "$root/usr/share/bash-completion/completions/slf")
