@@ -60,9 +60,6 @@ class CoefficientModels {
     if (!vector_.empty()) vector_[group].predict_from(reference);
   }
 
-  /// Leaves memory to what follows: it codes no more.
-  void drop() { vector_.clear(); }
-
   /// Codes rows order[begin .. end) of a layer of a group; see VectorCoefficients::code.
   template <class Coder>
   bool code(Coder& coder, const CoefficientRows& rows, std::size_t group, std::size_t begin,

@@ -23,7 +23,7 @@ namespace {
 
 /// Spec 8.8.1 of one row pair.
 SLF_MULTIVERSION
-void inverse_rows(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
+void inverse_pair(const Merge& m, std::int32_t* __restrict low, std::int32_t* __restrict high,
                   std::size_t lanes) {
   for (std::size_t j = 0; j < lanes; ++j) inverse_merge(m, low[j], high[j], low[j], high[j]);
 }
@@ -226,7 +226,7 @@ class LevelQuantiser {
       }
       node.predict(*level_, n, own, values, means, reference_lanes(begin));
       for (const Merge& m : own) code_row(m.right, begin, lanes, node.coefficients(m.right), tried);
-      for (const Merge& m : own) inverse_rows(m, values.row(m.left), values.row(m.right), lanes);
+      for (const Merge& m : own) inverse_pair(m, values.row(m.left), values.row(m.right), lanes);
       node.correct(values);
     }
   }

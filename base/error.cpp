@@ -34,7 +34,11 @@ const char* to_string(Errc code) {
 }
 
 std::string where(const Error& error) {
-  std::string text = error.element;
+  std::string text;
+  if (const FormatVersions& versions = error.versions; versions.read != 0)
+    text = "format " + std::to_string(versions.major) + "." + std::to_string(versions.minor) +
+           ", where " + std::to_string(versions.read) + ".x is read: ";
+  text += error.element;
   if (*error.unit != 0) text += std::string(" in the ") + error.unit + " unit";
   if (has_place(error)) text += ", bit " + std::to_string(error.bit_offset);
   return text;

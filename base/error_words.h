@@ -13,7 +13,7 @@ inline std::string in_words(const Error& error) {
   const char* cause = "damaged";
   if (error.code == Errc::kTruncated) cause = "truncated";
   if (error.code == Errc::kLimitExceeded) cause = "larger than the decoder's limits";
-  if (error.code == Errc::kUnsupported) cause = "not supported by this build of slf";
+  if (error.code == Errc::kUnsupported) cause = "not supported by this slf";
   if (error.code == Errc::kCancelled) cause = "cancelled";
   return std::string(cause) + " (" + where(error) + ")";
 }

@@ -30,7 +30,11 @@ Result<std::uint64_t> read_length(std::span<const std::uint8_t> stream, std::siz
 /// Spec 7.1.2: two bytes, before anything that another major version may have otherwise.
 Result<Done> check_version(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kVersionBytes) return Error{Errc::kTruncated, "sps_version_major"};
-  if (bytes[0] != kVersionMajor) return Error{Errc::kUnsupported, "sps_version_major"};
+  if (bytes[0] != kVersionMajor) {
+    Error other{Errc::kUnsupported, "sps_version_major"};
+    other.versions = {bytes[0], bytes[1], kVersionMajor};
+    return other;
+  }
   return Done{};
 }
 

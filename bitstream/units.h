@@ -101,7 +101,7 @@ template <class AnyUnit>
 Error in_unit(const AnyUnit& unit, Error error) {
   if (*error.unit != 0) return error;
   return {error.code, error.element, 8 * unit.payload_offset + error.bit_offset,
-          unit_name(unit.type)};
+          unit_name(unit.type), error.versions};
 }
 template <class AnyUnit, class T>
 Result<T> in_unit(const AnyUnit& unit, Result<T> result) {

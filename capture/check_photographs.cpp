@@ -28,7 +28,7 @@ bool fits_turned(const ImageHeader& header, const Camera& camera) {
          static_cast<int>(header.size.width) == camera.height;
 }
 
-Result<ImageHeader, InputError> header_of(const std::filesystem::path& file) {
+Result<ImageHeader, InputError> header_of_photograph(const std::filesystem::path& file) {
   std::error_code error;  // a pipe would be waited for
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     return InputError{Errc::kInvalidInput, file.string() + ": is not a regular file"};
@@ -122,7 +122,7 @@ Result<Done, InputError> check_photographs(Capture& capture) {
   for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
     const Camera& camera = capture.cameras[i];
     const auto& file = capture.image_files[i];
-    SLF_TRY(const ImageHeader header, header_of(file));
+    SLF_TRY(const ImageHeader header, header_of_photograph(file));
     if (!fits(header, camera)) {
       if (!fits_turned(header, camera)) return other_size_than(camera, file, header);
       orientation[i] = header.orientation;
@@ -133,7 +133,7 @@ Result<Done, InputError> check_photographs(Capture& capture) {
     }
     coloured.add(header.other_colour, file);
     if (capture.mask_files.empty() || capture.mask_files[i].empty()) continue;
-    SLF_TRY(const ImageHeader mask, header_of(capture.mask_files[i]));
+    SLF_TRY(const ImageHeader mask, header_of_photograph(capture.mask_files[i]));
     if (!fits(mask, camera)) return other_size_than(camera, capture.mask_files[i], mask);
   }
   if (turned) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "capture/keep_marked.h"
 #include "capture/quantile.h"
 
 namespace slf {
@@ -34,21 +35,12 @@ class Inside {
   Vec3 low_{}, high_{};
 };
 
-template <class T>
-void keep(const std::vector<bool>& kept, std::vector<T>& values) {
-  if (values.empty()) return;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i]) values[next++] = values[i];
-  values.resize(next);
-}
-
 void crop_points(PointCloud& cloud, const Inside& inside) {
   std::vector<bool> kept;
   for (const auto& p : cloud.positions) kept.push_back(inside(to_double(p)));
-  keep(kept, cloud.positions);
-  keep(kept, cloud.normals);
-  keep(kept, cloud.colours);
+  keep_marked(cloud.positions, kept);
+  keep_marked(cloud.normals, kept);
+  keep_marked(cloud.colours, kept);
 }
 
 void crop_triangles(Mesh& mesh, const Inside& inside) {

@@ -34,7 +34,7 @@ std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
   return ~crc;
 }
 
-std::uint32_t big_endian(std::span<const std::uint8_t> four) {
+std::uint32_t checksum_in(std::span<const std::uint8_t> four) {
   return std::uint32_t{four[0]} << 24 | std::uint32_t{four[1]} << 16 | std::uint32_t{four[2]} << 8 |
          four[3];
 }
@@ -101,7 +101,7 @@ Result<E57File, InputError> E57File::open(const std::filesystem::path& file) {
   const std::size_t payload = page - kChecksum;
   for (std::size_t p = 0; p < bytes.size() / page; ++p) {
     const auto whole = std::span(bytes).subspan(p * page, page);
-    if (big_endian(whole.last(kChecksum)) != crc_of(whole.first(payload)))
+    if (checksum_in(whole.last(kChecksum)) != crc_of(whole.first(payload)))
       return e57.invalid("checksum of page " + std::to_string(p) + ": the file is damaged");
     std::copy_n(whole.begin(), payload, bytes.begin() + static_cast<std::ptrdiff_t>(p * payload));
   }

@@ -25,7 +25,7 @@ constexpr std::uint64_t kMostRows = std::uint64_t{1} << 32;
 
 /// A number as XML has it; what stands in its place where there is none.
 template <class T>
-std::optional<T> number_in(std::string_view text, T otherwise) {
+std::optional<T> xml_number(std::string_view text, T otherwise) {
   const std::size_t first = text.find_first_not_of(" \t\r\n+");
   if (first == text.npos) return otherwise;
   text = text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
@@ -38,14 +38,14 @@ std::optional<T> number_in(std::string_view text, T otherwise) {
 template <class T>
 std::optional<T> attribute_of(const XmlElement& element, const char* name, T otherwise) {
   const std::string* text = element.attribute(name);
-  return text == nullptr ? std::optional(otherwise) : number_in(*text, otherwise);
+  return text == nullptr ? std::optional(otherwise) : xml_number(*text, otherwise);
 }
 
 /// The number in a child; `otherwise` where there is no such child.
 double child_number(const XmlElement& element, const char* name, double otherwise) {
   const XmlElement* child = element.child(name);
   if (child == nullptr) return otherwise;
-  return number_in(child->text, 0.0).value_or(std::numeric_limits<double>::quiet_NaN());
+  return xml_number(child->text, 0.0).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::optional<E57Column> column_of(const XmlElement& field) {

@@ -8,7 +8,8 @@ namespace slf {
 
 namespace {
 
-constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 25, kMostCorners = std::uint64_t{3} << 24;
+constexpr std::uint64_t kMostDracoVertices = std::uint64_t{1} << 25,
+                        kMostCorners = std::uint64_t{3} << 24;
 
 /// Elements of the accessor that a member names.
 Result<std::uint64_t, InputError> count_at(const GlbData& data, const JsonView& object,
@@ -28,7 +29,7 @@ Result<std::optional<DracoMesh>, InputError> draco_mesh_of(const GlbData& data,
   if (!draco) return Found{};
   DracoRequest request;
   SLF_TRY(const JsonView attributes, primitive.at("attributes"));
-  SLF_TRY(request.max_points, count_at(data, attributes, "POSITION", kMostPoints));
+  SLF_TRY(request.max_points, count_at(data, attributes, "POSITION", kMostDracoVertices));
   SLF_TRY(const auto corners, count_at(data, primitive, "indices", kMostCorners));
   request.max_faces = corners / 3;
   SLF_TRY(const JsonView ids, draco->at("attributes"));

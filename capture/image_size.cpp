@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t kPngHeader = 8 + 4 + 4 + 8;  // signature, length, "IHDR", width and height
 
-std::uint32_t big_endian(Bytes bytes, std::size_t at, int count) {
+std::uint32_t big_endian_at(Bytes bytes, std::size_t at, int count) {
   std::uint32_t value = 0;
   for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
   return value;
@@ -51,7 +51,7 @@ bool is_jpeg(Bytes file) {
 std::optional<ImageSize> png_size(Bytes start) {
   if (start.size() < kPngHeader || !is_png(start)) return std::nullopt;
   if (std::memcmp(start.data() + 12, "IHDR", 4) != 0) return std::nullopt;
-  return ImageSize{big_endian(start, 16, 4), big_endian(start, 20, 4)};
+  return ImageSize{big_endian_at(start, 16, 4), big_endian_at(start, 20, 4)};
 }
 
 std::optional<ImageSize> jpeg_size(Bytes start) {
@@ -69,11 +69,11 @@ std::optional<ImageSize> jpeg_size(Bytes start) {
       continue;
     }
     if (marker == 0xD9 || marker == 0xDA) return std::nullopt;  // the data begins without a frame
-    const std::uint32_t length = big_endian(start, at + 2, 2);
+    const std::uint32_t length = big_endian_at(start, at + 2, 2);
     if (length < 2) return std::nullopt;
     if (is_start_of_frame(marker)) {
       if (at + 9 > start.size()) return std::nullopt;
-      return ImageSize{big_endian(start, at + 7, 2), big_endian(start, at + 5, 2)};
+      return ImageSize{big_endian_at(start, at + 7, 2), big_endian_at(start, at + 5, 2)};
     }
     at += 2 + std::size_t{length};
   }

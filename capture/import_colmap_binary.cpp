@@ -87,7 +87,7 @@ class Cursor {
   bool ok_ = true;
 };
 
-Result<std::vector<ColmapCamera>, InputError> read_cameras(Cursor in) {
+Result<std::vector<ColmapCamera>, InputError> read_binary_cameras(Cursor in) {
   SLF_TRY(const auto count, in.count(kMinCamera));
   std::vector<ColmapCamera> cameras;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -107,7 +107,7 @@ Result<std::vector<ColmapCamera>, InputError> read_cameras(Cursor in) {
   return cameras;
 }
 
-Result<std::vector<ColmapImage>, InputError> read_images(Cursor in) {
+Result<std::vector<ColmapImage>, InputError> read_binary_images(Cursor in) {
   SLF_TRY(const auto count, in.count(kMinImage));
   std::vector<ColmapImage> images;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -125,7 +125,7 @@ Result<std::vector<ColmapImage>, InputError> read_images(Cursor in) {
   return images;
 }
 
-Result<PointCloud, InputError> read_points(Cursor in) {
+Result<PointCloud, InputError> read_binary_points(Cursor in) {
   SLF_TRY(const auto count, in.count(kMinPoint));
   PointCloud cloud;
   std::vector<Vec3> positions;
@@ -155,16 +155,16 @@ Result<Import, InputError> import_colmap_binary(const fs::path& directory) {
   ColmapModel model;
   const auto name = [&](const char* file) { return (directory / file).string(); };
   SLF_TRY(const auto cameras, read_file(directory / "cameras.bin"));
-  SLF_TRY(model.cameras, read_cameras(Cursor(cameras, name("cameras.bin"))));
+  SLF_TRY(model.cameras, read_binary_cameras(Cursor(cameras, name("cameras.bin"))));
   SLF_TRY(const auto images, read_file(directory / "images.bin"));
-  SLF_TRY(model.images, read_images(Cursor(images, name("images.bin"))));
+  SLF_TRY(model.images, read_binary_images(Cursor(images, name("images.bin"))));
   SLF_CHECK(read_colmap_points(directory, ".bin", model));
   return import_of(std::move(model), directory, ".bin");
 }
 
 Result<PointCloud, InputError> read_colmap_points_binary(const fs::path& file) {
   SLF_TRY(const auto bytes, read_file(file));
-  return read_points(Cursor(bytes, file.string()));
+  return read_binary_points(Cursor(bytes, file.string()));
 }
 
 }  // namespace slf

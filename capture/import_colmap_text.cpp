@@ -108,7 +108,7 @@ class Lines {
 };
 
 // CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]
-Result<std::vector<ColmapCamera>, InputError> read_cameras(Lines in) {
+Result<std::vector<ColmapCamera>, InputError> read_text_cameras(Lines in) {
   std::vector<ColmapCamera> cameras;
   while (in.next_entry()) {
     ColmapCamera camera;
@@ -129,7 +129,7 @@ Result<std::vector<ColmapCamera>, InputError> read_cameras(Lines in) {
 
 // IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of features, which may be empty or, in
 // files that other programs write, not there.
-Result<std::vector<ColmapImage>, InputError> read_images(Lines in) {
+Result<std::vector<ColmapImage>, InputError> read_text_images(Lines in) {
   std::vector<ColmapImage> images;
   for (bool more = in.next_entry(); more;) {
     ColmapImage image;
@@ -155,7 +155,7 @@ Result<std::vector<ColmapImage>, InputError> read_images(Lines in) {
 }
 
 // POINT3D_ID X Y Z R G B ERROR TRACK[]
-Result<PointCloud, InputError> read_points(Lines in) {
+Result<PointCloud, InputError> read_text_points(Lines in) {
   PointCloud cloud;
   std::vector<Vec3> positions;
   while (in.next_entry()) {
@@ -181,7 +181,7 @@ Result<PointCloud, InputError> read_points(Lines in) {
 std::size_t colmap_num_images_text(const fs::path& directory) {
   const auto bytes = read_file(directory / "images.txt");
   if (!bytes) return 0;
-  const auto images = read_images(Lines(*bytes, ""));
+  const auto images = read_text_images(Lines(*bytes, ""));
   return images ? images->size() : 0;
 }
 
@@ -189,16 +189,16 @@ Result<Import, InputError> import_colmap_text(const fs::path& directory) {
   ColmapModel model;
   const auto name = [&](const char* file) { return (directory / file).string(); };
   SLF_TRY(const auto cameras, read_file(directory / "cameras.txt"));
-  SLF_TRY(model.cameras, read_cameras(Lines(cameras, name("cameras.txt"))));
+  SLF_TRY(model.cameras, read_text_cameras(Lines(cameras, name("cameras.txt"))));
   SLF_TRY(const auto images, read_file(directory / "images.txt"));
-  SLF_TRY(model.images, read_images(Lines(images, name("images.txt"))));
+  SLF_TRY(model.images, read_text_images(Lines(images, name("images.txt"))));
   SLF_CHECK(read_colmap_points(directory, ".txt", model));
   return import_of(std::move(model), directory, ".txt");
 }
 
 Result<PointCloud, InputError> read_colmap_points_text(const fs::path& file) {
   SLF_TRY(const auto bytes, read_file(file));
-  return read_points(Lines(bytes, file.string()));
+  return read_text_points(Lines(bytes, file.string()));
 }
 
 }  // namespace slf

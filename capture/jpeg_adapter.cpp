@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "capture/image_formats.h"
+#include "capture/jpeg_errors.h"
 
 namespace slf {
 
@@ -24,25 +25,12 @@ constexpr std::uint64_t kMaxPixelsPerByte = 4096;
 // it has.
 constexpr int kMaxScans = 200;
 
-struct Errors {
-  jpeg_error_mgr base;  // first: libjpeg hands back a pointer to it
-  std::jmp_buf jump;
-  char text[JMSG_LENGTH_MAX] = "";
-  bool damaged = false;  // a warning that means missing pixels
-};
-
-void on_error(j_common_ptr info) {
-  auto* errors = reinterpret_cast<Errors*>(info->err);
-  info->err->format_message(info, errors->text);
-  std::longjmp(errors->jump, 1);
-}
-
 // libjpeg fills what is missing with grey and warns; that is no photograph.
 void on_message(j_common_ptr info, int level) {
   if (level >= 0) return;  // trace
   const int code = info->err->msg_code;
   if (code != JWRN_JPEG_EOF && code != JWRN_HIT_MARKER && code != JWRN_HUFF_BAD_CODE) return;
-  auto* errors = reinterpret_cast<Errors*>(info->err);
+  auto* errors = reinterpret_cast<JpegErrors*>(info->err);
   if (!errors->damaged) info->err->format_message(info, errors->text);
   errors->damaged = true;
 }
@@ -50,28 +38,28 @@ void on_message(j_common_ptr info, int level) {
 // Called now and then while scans are read.
 void on_progress(j_common_ptr info) {
   if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMaxScans) return;
-  auto* errors = reinterpret_cast<Errors*>(info->err);
+  auto* errors = reinterpret_cast<JpegErrors*>(info->err);
   std::snprintf(errors->text, sizeof errors->text, "more than %d scans", kMaxScans);
   std::longjmp(errors->jump, 1);
 }
 
-struct Reader {
-  Reader() {
+struct JpegReader {
+  JpegReader() {
     std::memset(&info, 0, sizeof info);
     info.err = jpeg_std_error(&errors.base);
-    errors.base.error_exit = on_error;
+    errors.base.error_exit = on_jpeg_error;
     errors.base.emit_message = on_message;
   }
-  ~Reader() { jpeg_destroy_decompress(&info); }  // harmless before create
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&info); }  // harmless before create
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
 
   jpeg_decompress_struct info;
-  Errors errors;
+  JpegErrors errors;
   jpeg_progress_mgr progress{};
 };
 
-bool read_header(Reader& reader, Bytes file) {
+bool read_jpeg_header(JpegReader& reader, Bytes file) {
   if (setjmp(reader.errors.jump) != 0) return false;
   jpeg_create_decompress(&reader.info);
   jpeg_mem_src(&reader.info, file.data(), file.size());
@@ -82,7 +70,7 @@ bool read_header(Reader& reader, Bytes file) {
 }
 
 /// The size of the output is known then.
-bool prepare(Reader& reader, int reduction) {
+bool prepare(JpegReader& reader, int reduction) {
   if (setjmp(reader.errors.jump) != 0) return false;
   reader.info.out_color_space = JCS_RGB;
   reader.info.dct_method = JDCT_ISLOW;  // the accurate one, the same on every machine
@@ -92,7 +80,7 @@ bool prepare(Reader& reader, int reduction) {
   return true;
 }
 
-bool read_rows(Reader& reader, std::uint8_t* data, std::size_t stride) {
+bool read_jpeg_rows(JpegReader& reader, std::uint8_t* data, std::size_t stride) {
   if (setjmp(reader.errors.jump) != 0) return false;
   jpeg_start_decompress(&reader.info);
   while (reader.info.output_scanline < reader.info.output_height) {
@@ -110,9 +98,9 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int r
   const auto invalid = [&](const std::string& cause) {
     return InputError{Errc::kInvalidInput, name + ": " + cause};
   };
-  Reader reader;
+  JpegReader reader;
   const auto damaged = [&] { return invalid(std::string("damaged JPEG: ") + reader.errors.text); };
-  if (!read_header(reader, file)) return damaged();
+  if (!read_jpeg_header(reader, file)) return damaged();
 
   size = {reader.info.image_width, reader.info.image_height};
   if (const auto problem = image_size_problem(size)) return invalid(*problem);
@@ -129,7 +117,7 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int r
   image.channels = 3;
   const std::size_t stride = std::size_t{3} * reader.info.output_width;
   image.data.resize(stride * reader.info.output_height);
-  if (!read_rows(reader, image.data.data(), stride) || reader.errors.damaged) return damaged();
+  if (!read_jpeg_rows(reader, image.data.data(), stride) || reader.errors.damaged) return damaged();
   return image;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "capture/jpeg_errors.h"
 #include "slf/jpeg.h"
 
 namespace slf {
@@ -16,38 +17,26 @@ namespace {
 
 constexpr int kMostPixels = 16384;  // per side
 
-struct Errors {
-  jpeg_error_mgr base;  // first: libjpeg hands back a pointer to it
-  std::jmp_buf jump;
-  char text[JMSG_LENGTH_MAX] = "";
-};
-
-void on_error(j_common_ptr info) {
-  auto* errors = reinterpret_cast<Errors*>(info->err);
-  info->err->format_message(info, errors->text);
-  std::longjmp(errors->jump, 1);
-}
-
-struct Writer {
-  Writer() {
+struct JpegWriter {
+  JpegWriter() {
     std::memset(&info, 0, sizeof info);
     info.err = jpeg_std_error(&errors.base);
-    errors.base.error_exit = on_error;
+    errors.base.error_exit = on_jpeg_error;
   }
-  ~Writer() {
+  ~JpegWriter() {
     jpeg_destroy_compress(&info);  // harmless before create
     std::free(data);
   }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  JpegWriter(const JpegWriter&) = delete;
+  JpegWriter& operator=(const JpegWriter&) = delete;
 
   jpeg_compress_struct info;
-  Errors errors;
+  JpegErrors errors;
   unsigned char* data = nullptr;  // libjpeg's malloc
   unsigned long size = 0;
 };
 
-bool write_rows(Writer& writer, const Image& image, int quality) {
+bool write_rows(JpegWriter& writer, const Image& image, int quality) {
   if (setjmp(writer.errors.jump) != 0) return false;
   jpeg_create_compress(&writer.info);
   jpeg_mem_dest(&writer.info, &writer.data, &writer.size);
@@ -80,7 +69,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_jpeg(const Image& image, in
     return InputError{Errc::kInvalidArgument, "image is not RGB of 1 to 16384 pixels a side"};
   if (quality < 1 || quality > 100)
     return InputError{Errc::kInvalidArgument, "JPEG quality is not 1 to 100"};
-  Writer writer;
+  JpegWriter writer;
   if (!write_rows(writer, image, quality))
     return InputError{Errc::kUnwritable, std::string("JPEG: ") + writer.errors.text};
   return std::vector<std::uint8_t>(writer.data, writer.data + writer.size);

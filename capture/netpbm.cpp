@@ -49,7 +49,7 @@ struct NetpbmHeader {
   std::uint32_t largest = 0;
 };
 
-std::optional<NetpbmHeader> header_of(NetpbmReader& reader) {
+std::optional<NetpbmHeader> netpbm_header(NetpbmReader& reader) {
   const auto width = reader.number(), height = reader.number(), largest = reader.number();
   if (!width || !height || !largest || *largest == 0) return std::nullopt;
   return NetpbmHeader{{*width, *height}, *largest};
@@ -66,7 +66,7 @@ bool is_netpbm(Bytes file) {
 std::optional<ImageSize> netpbm_size(Bytes start) {
   if (!is_netpbm(start)) return std::nullopt;
   NetpbmReader reader(start);
-  const auto header = header_of(reader);
+  const auto header = netpbm_header(reader);
   if (!header) return std::nullopt;
   return header->size;
 }
@@ -76,7 +76,7 @@ Result<Image, InputError> decode_netpbm(const std::string& name, Bytes file) {
     return InputError{Errc::kInvalidInput, name + ": " + cause};
   };
   NetpbmReader reader(file);
-  const auto header = header_of(reader);
+  const auto header = netpbm_header(reader);
   if (!header) return invalid("PPM without a sound header");
   if (const auto problem = image_size_problem(header->size)) return invalid(*problem);
   const bool text = file[1] == '2' || file[1] == '3', grey = file[1] == '2' || file[1] == '5';

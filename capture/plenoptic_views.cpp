@@ -14,7 +14,7 @@ namespace slf {
 
 namespace {
 
-std::optional<double> number_of(std::string_view word) {
+std::optional<double> number_in_word(std::string_view word) {
   double value = 0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
@@ -39,7 +39,7 @@ std::vector<Vec3> views_of_comments(const std::vector<std::string>& comments) {
     Vec3 view{};
     bool whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto value = number_of(words[words.size() - 3 + k]);
+      const auto value = number_in_word(words[words.size() - 3 + k]);
       whole = whole && value;
       if (value) view[k] = *value;
     }

@@ -28,7 +28,7 @@ void put_coordinate(std::vector<std::uint8_t>& out, PlyType type, double value) 
   }
 }
 
-std::string header_of(const PlenopticCloud& cloud) {
+std::string header_of_cloud(const PlenopticCloud& cloud) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (std::size_t v = 0; v < cloud.view_positions.size(); ++v) {
     header += "comment view " + std::to_string(v);
@@ -55,7 +55,7 @@ Result<Done, InputError> write_plenoptic(const std::filesystem::path& file,
   if (!columns || columns->views != cloud.views || columns->own_colour != cloud.own_colour ||
       cloud.colours.size() != cloud.num_points() * 3 * cloud.num_colours())
     return InputError{Errc::kInvalidArgument, "properties are not those of the cloud's views"};
-  const std::string header = header_of(cloud);
+  const std::string header = header_of_cloud(cloud);
   const std::size_t row_bytes =
       static_cast<std::size_t>(vertex.min_row_bytes(PlyFormat::kLittleEndian));
   std::vector<std::uint8_t> out;

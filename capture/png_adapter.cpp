@@ -25,7 +25,7 @@ struct Source {
   std::size_t left = 0;
 };
 
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+[[noreturn]] void on_png_error(png_structp png, png_const_charp message) {
   auto* messages = static_cast<Messages*>(png_get_error_ptr(png));
   std::strncpy(messages->text, message, sizeof messages->text - 1);
   png_longjmp(png, 1);
@@ -52,33 +52,35 @@ void on_write(png_structp png, png_bytep from, std::size_t size) {
   if (!grown) png_error(png, "out of memory");
 }
 
-struct Reader {
-  Reader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &messages, on_error, on_warning)) {
+struct PngReader {
+  PngReader()
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &messages, on_png_error, on_warning)) {
     if (png != nullptr) info = png_create_info_struct(png);
   }
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   Messages messages;
   png_structp png = nullptr;
   png_infop info = nullptr;
 };
 
-struct Writer {
-  Writer() : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &messages, on_error, on_warning)) {
+struct PngWriter {
+  PngWriter()
+      : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &messages, on_png_error, on_warning)) {
     if (png != nullptr) info = png_create_info_struct(png);
   }
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
 
   Messages messages;
   png_structp png = nullptr;
   png_infop info = nullptr;
 };
 
-bool read_header(Reader& reader, Source& source) {
+bool read_png_header(PngReader& reader, Source& source) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_user_limits(reader.png, kMaxImageSide, kMaxImageSide);
   png_set_chunk_malloc_max(reader.png, 16u << 20);
@@ -88,7 +90,7 @@ bool read_header(Reader& reader, Source& source) {
 }
 
 // Everything becomes 8-bit RGB or RGBA.
-bool set_conversions(Reader& reader) {
+bool set_conversions(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_expand(reader.png);    // palette to RGB, grey to 8 bits, tRNS to alpha
   png_set_scale_16(reader.png);  // rounded, not cut
@@ -98,14 +100,14 @@ bool set_conversions(Reader& reader) {
   return true;
 }
 
-bool read_rows(Reader& reader, png_bytepp rows) {
+bool read_png_rows(PngReader& reader, png_bytepp rows) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_read_image(reader.png, rows);
   png_read_end(reader.png, nullptr);
   return true;
 }
 
-bool write_all(Writer& writer, const Image& image, png_bytepp rows,
+bool write_png(PngWriter& writer, const Image& image, png_bytepp rows,
                std::vector<std::uint8_t>& out) {
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   png_set_write_fn(writer.png, &out, on_write, nullptr);
@@ -133,11 +135,11 @@ Result<Image, InputError> decode_png(const std::string& name, Bytes file) {
   const auto invalid = [&](const std::string& cause) {
     return InputError{Errc::kInvalidInput, name + ": " + cause};
   };
-  Reader reader;
+  PngReader reader;
   if (reader.info == nullptr) return invalid("libpng cannot be started");
   Source source{file.data(), file.size()};
   const auto damaged = [&] { return invalid(std::string("damaged PNG: ") + reader.messages.text); };
-  if (!read_header(reader, source)) return damaged();
+  if (!read_png_header(reader, source)) return damaged();
 
   const ImageSize size{png_get_image_width(reader.png, reader.info),
                        png_get_image_height(reader.png, reader.info)};
@@ -158,17 +160,17 @@ Result<Image, InputError> decode_png(const std::string& name, Bytes file) {
     return invalid("PNG of an unexpected layout");
   image.data.resize(stride * size.height);
   auto rows = row_pointers(image.data.data(), image);
-  if (!read_rows(reader, rows.data())) return damaged();
+  if (!read_png_rows(reader, rows.data())) return damaged();
   return image;
 }
 
 Result<std::vector<std::uint8_t>, InputError> encode_png(const std::string& name,
                                                          const Image& image) {
-  Writer writer;
+  PngWriter writer;
   std::vector<std::uint8_t> out;
   // libpng takes rows to write without const, and does not change them.
   auto rows = row_pointers(const_cast<std::uint8_t*>(image.data.data()), image);
-  if (writer.info == nullptr || !write_all(writer, image, rows.data(), out))
+  if (writer.info == nullptr || !write_png(writer, image, rows.data(), out))
     return InputError{Errc::kUnwritable, name + ": libpng: " + writer.messages.text};
   return out;
 }

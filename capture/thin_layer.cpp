@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "capture/keep_marked.h"
 #include "geometry/morton.h"
 
 namespace slf {
@@ -60,15 +61,6 @@ std::vector<float> distances_to_middle(const PointCloud& cloud, const VoxelCloud
   return distance;
 }
 
-template <class T>
-void keep(std::vector<T>& values, const std::vector<bool>& kept) {
-  if (values.empty()) return;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i]) values[count++] = values[i];
-  values.resize(count);
-}
-
 }  // namespace
 
 void thin_layer(const PointCloud& cloud, VoxelCloud& voxels) {
@@ -94,9 +86,9 @@ void thin_layer(const PointCloud& cloud, VoxelCloud& voxels) {
       if (better) kept[i] = false;
     }
   }
-  keep(voxels.positions, kept);
-  keep(voxels.normals, kept);
-  keep(voxels.colours, kept);
+  keep_marked(voxels.positions, kept);
+  keep_marked(voxels.normals, kept);
+  keep_marked(voxels.colours, kept);
   voxels.merged = cloud.positions.size() - voxels.positions.size();
 }
 

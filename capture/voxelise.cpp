@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxBits = 21;
 
-InputError invalid(const std::string& cause) {
+InputError invalid_cloud(const std::string& cause) {
   return {Errc::kInvalidInput, "point cloud: " + cause};
 }
 
@@ -25,7 +25,7 @@ Result<Box, InputError> bounding_box(const PointCloud& cloud) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = cloud.positions[i][k];
       if (!std::isfinite(x))
-        return invalid("point " + std::to_string(i) + " has a coordinate that is not finite");
+        return invalid_cloud("point " + std::to_string(i) + " has a coordinate that is not finite");
       box.min[k] = i == 0 ? x : std::min(box.min[k], x);
       box.max[k] = i == 0 ? x : std::max(box.max[k], x);
     }
@@ -41,13 +41,13 @@ Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bit
   Grid grid;
   grid.origin = box.min;
   const double extent = box.largest_extent();
-  const InputError one_voxel = invalid("all points lie in one voxel");
+  const InputError one_voxel = invalid_cloud("all points lie in one voxel");
   if (voxel_size > 0) {
     grid.step = voxel_size;
     const double last = cell_of(extent, 0, voxel_size);
     if (!(last < double(1 << kMaxBits)))
-      return invalid("a voxel size of " + shortest(voxel_size) + " needs more than " +
-                     std::to_string(kMaxBits) + " bits for an extent of " + shortest(extent));
+      return invalid_cloud("a voxel size of " + shortest(voxel_size) + " needs more than " +
+                           std::to_string(kMaxBits) + " bits for an extent of " + shortest(extent));
     if (points > 1 && last == 0) return one_voxel;
     while (last >= double(1 << grid.bits)) ++grid.bits;
     return grid;
@@ -119,8 +119,8 @@ Result<Grid, InputError> grid_of(const PointCloud& cloud, int bits, double voxel
   if (!(voxel_size >= 0) || !std::isfinite(voxel_size))
     return argument("voxel size: finite and not negative");
   if (voxel_size == 0 && (bits < 1 || bits > kMaxBits)) return argument("grid bits: 1 .. 21");
-  if (count == 0) return invalid("no points");
-  if (count > UINT32_MAX) return invalid("more than 2^32 - 1 points");
+  if (count == 0) return invalid_cloud("no points");
+  if (count > UINT32_MAX) return invalid_cloud("more than 2^32 - 1 points");
   if ((!cloud.normals.empty() && cloud.normals.size() != count) ||
       (!cloud.colours.empty() && cloud.colours.size() != count))
     return argument("point cloud: as many normals and colours as positions are needed");

@@ -27,7 +27,7 @@ Case apart(const std::string& id, const char* purpose) {
   return c;
 }
 
-void add_normals(LightField& f) {
+void add_five_bit_normals(LightField& f) {
   f.normals.bits = 5;
   for (std::size_t p = 0; p < f.num_points(); ++p)
     f.normals.octahedral.push_back(
@@ -40,7 +40,7 @@ void add_whole(std::vector<Case>& cases) {
   all.groups = {1, 2};
   all.regions = {kCorner};
   all.parameters.index = true;
-  add_normals(all.field);
+  add_five_bit_normals(all.field);
   cases.push_back(all);
   Case independent = apart("apart-independent", "the independent coder");
   independent.parameters.coefficients = CoefficientCoder::kIndependent;

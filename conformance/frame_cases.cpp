@@ -38,7 +38,7 @@ void add_motions(std::vector<Case>& cases) {
       {"7.13", "8.12.1"});
 }
 
-void add_groups(std::vector<Case>& cases) {
+void add_groups_of_frames(std::vector<Case>& cases) {
   FrameWriter groups(frame_parameters(2));
   groups.add(still());
   groups.add(frame_field(turned), turn());
@@ -207,7 +207,7 @@ void add_transform(std::vector<Case>& cases) {
 std::vector<Case> frame_cases() {
   std::vector<Case> cases;
   add_motions(cases);
-  add_groups(cases);
+  add_groups_of_frames(cases);
   add_kinds(cases);
   add_modes(cases);
   add_partial(cases);

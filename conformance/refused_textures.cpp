@@ -51,7 +51,7 @@ void edit_textures(UnitList& units,
   unit.payload = out.take();
 }
 
-void add_headers(std::vector<RefusedCase>& cases, const Bytes& base) {
+void add_texture_headers(std::vector<RefusedCase>& cases, const Bytes& base) {
   const auto add = [&](const char* id, const char* purpose, const char* clause,
                        const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});
@@ -166,7 +166,7 @@ void add_hevc(std::vector<RefusedCase>& cases, const Bytes& base) {
 std::vector<RefusedCase> refused_textures() {
   std::vector<RefusedCase> cases;
   const Bytes base = texture_stream(4);
-  add_headers(cases, base);
+  add_texture_headers(cases, base);
   add_hevc(cases, base);
   return cases;
 }

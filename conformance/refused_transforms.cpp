@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kFunctions = 8;
 
 /// A transform each of two groups of four functions.
-Bytes transformed() {
+Bytes transformed_stream() {
   CodingParameters parameters = with_steps(kFunctions, 100);
   parameters.group = {0, 0, 0, 0, 1, 1, 1, 1};
   parameters.transform = TransformMode::kFunctions;
@@ -28,7 +28,7 @@ Bytes transformed() {
 }
 
 void add_transforms(std::vector<RefusedCase>& cases) {
-  const Bytes base = transformed();
+  const Bytes base = transformed_stream();
   const auto add = [&](const char* id, const char* purpose, const char* clause,
                        const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});
@@ -90,7 +90,7 @@ Bytes matrix_of(std::uint8_t fractional_bits, std::int32_t entry) {
 }
 
 void add_matrices(std::vector<RefusedCase>& cases) {
-  const Bytes base = transformed();
+  const Bytes base = transformed_stream();
   const auto add = [&](const char* id, const char* purpose, const char* clause,
                        const UnitEdit& edit) {
     cases.push_back({id, purpose, {clause}, edited(base, edit)});

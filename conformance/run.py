@@ -5,13 +5,15 @@
     run.py --decoder "slf decode {in} --dump {out} {options}" [--info "slf info {in}"]
 
 The decoder gets a stream {in}, a directory {out} and {options} ("--levels N", "--groups N", "--layers N", "--frame N", "--region=X0,Y0,Z0,X1,Y1,Z1",
-"--planes" or nothing) and leaves positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy
-(int32 [P, K, 3]), where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
+"--planes" or nothing; a region is in units of the world, put on the grid as spec 6.1 puts points) and leaves
+positions.npy (int32 [P, 3]), components.npy (int32 [P, R, 3]), with --planes planes.npy (int32 [P, K, 3]),
+where the stream has normals, octahedral.npy (uint16 [P, 2]) and, but for --without-header, light_field.json in
 {out}: an object with points, partial and the keys and values of "header" in meaning.json, others beside them; numbers to 1e-6 of
 themselves. It must exit with 0 on streams/, and with another code,
 not by a signal and not after the time limit, on refused/ and, for the frame that it is given, on refused_frames/. Of a stream of several
-frames "--frame N" asks for the one at place N, from 0 on, and for whatever else the options say of it; without it for the first. With --messages the names of the refused syntax
-element and of its unit must be in what it prints. With --radiance "CMD {in} {out} {point} {x} {y} {z}" a command that prints, as the last three
+frames "--frame N" asks for the one at place N, from 0 on, and for whatever else the options say of it; without it for the first.
+With --messages the names of the refused syntax element and of its unit must be in what it prints.
+With --radiance "CMD {in} {out} {point} {x} {y} {z}" a command that prints, as the last three
 numbers, R, G, B of a point towards (x, y, z), from the stream or from what the decoder left in {out}: within 1/16 (spec 6.7).
 Needs Python 3 alone. Exit code: 0 all passed, 1 some failed, 2 usage.
 """

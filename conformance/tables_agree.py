@@ -3,7 +3,8 @@
 """Numbers that the text, the text decoder and the code share are the same in all of them. tables_agree.py
 
 Compares, as text: the elements of the syntax tables of clause 7 and their descriptors with bitstream/parameter_sets.h and
-slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9; first weights; names of errors of annex F.
+slice_headers.h, transform_header.h, codec/frame_header.h; unit types; table A-1; sizes of tables 8-3 and 8-6 and of those of 8.7.2; limits of clause 9;
+first weights; names of errors of annex F.
 Needs Python 3 alone. Exit code: 0 all agree, 1 not.
 """
 import math
@@ -92,6 +93,29 @@ def check_slices():
     agree("elements of 7.13", text, visited(headers, "frame_unit", "frame_") + visited(headers, "frame_motion", "frame_"))
 
 
+def check_semantics():
+    """Clause 7: a row of a syntax table has one element at most, and its clause, or one before, says what it means."""
+    said = set()
+    for clause in re.split(r"^###+ ", section("## 7 Syntax", "## 8 Decoding"), flags=re.M):
+        coded, in_syntax, prose = [], False, []
+        for line in clause.splitlines():
+            cells = [cell.strip() for cell in line.split(" | ")]
+            if not line.startswith("|"):
+                prose.append(line)
+                in_syntax = False
+            elif re.match(r"\| \w+\( \) \| descriptor \|", line):
+                in_syntax = True
+            elif not in_syntax:
+                said |= set(re.findall(r"\b[a-z0-9]+_\w+", cells[0]))
+            elif len(cells) > 1 and re.search(r"\w\(\w+\)", cells[1]):
+                names = re.findall(r"\b[a-z0-9]+_\w+", re.sub(r"^\|(?: |&emsp;)*", "", cells[0]))
+                agree("elements of a row of clause 7", 1, len(names))
+                coded += names
+        if "\n| element | says | values |\n" not in clause:
+            said |= set(re.findall(r"\b[a-z0-9]+_\w+", "\n".join(prose)))
+        agree("elements of clause 7 without a meaning", "none", ", ".join(name for name in coded if name not in said) or "none")
+
+
 def check_units():
     """7.1."""
     numbers, names = [re.findall(r"[^| ]+", row) for row in re.findall(
@@ -163,15 +187,19 @@ def check_limits():
     agree("limits of 9", {"SlicePoints": points, "Slices": slices, "Cells": cells, "BasePoints": weight}, shifts)
     rows = re.findall(r"^\| (?:rows|values|bytes|points a second) .*\| 2\^(\d+) \| 2\^(\d+) \|", section("Table 9-1", "## Annex A"), re.M)
     levels = [[f"1u << {power}" for power in level] for level in zip(*rows)]
+    defaults = [1 << int(re.search(rf"{name} = std::uint64_t\{{1\}} << (\d+);", code("include/slf/limits.h"))[1])
+                for name in ("max_values_per_byte", "kFreeValues")]
+    told = re.search(r"at most ([\d,]+) values a byte beyond the first ([\d,]+)", (ROOT / "SECURITY.md").read_text(encoding="utf-8"))
+    agree("limits of SECURITY.md", [int(number.replace(",", "")) for number in told.groups()], defaults)
     agree("table 9-1", levels, [re.findall(r"1u << \d+", line) for line in re.findall(r"^    \{1u.*\}", code("bitstream/level.h"), re.M)])
     agree("table 9-1 of the text decoder", [[power.replace("1u", "1") for power in level] for level in levels],
           [re.findall(r"1 << \d+", level) for level in re.search(r"LEVELS = .*?\* 4, \((.*?)\), \((.*?)\)\)", DECODER).groups()])
     version = re.search(r"Version \*\*(\d+)\.(\d+)\*\*", SPEC).groups()
     agree("version", version, re.search(r"kVersionMajor = (\d+), kVersionMinor = (\d+)", sets).groups())
-    major = re.search(r"\| if \(unit_type = 1\) sps_version_major, sps_version_minor \|[^|]*\| (\d+); 0 ", SPEC).group(1)
+    major = re.search(r"^\| sps_version_major \|[^|]*\| (\d+); another is unsupported", SPEC, re.M).group(1)
     agree("major version", major, version[0])
     agree("major version of the text decoder", major, re.search(r'== (\d+), "sps_version_major", Unsupported', DECODER).group(1))
-    agree("bytes of an extension", int(re.search(r"\| the bytes that are left \| 2\^(\d+) bytes", SPEC)[1]),
+    agree("bytes of an extension", int(re.search(r"^\| sps_extension \|[^|]*\| 2\^(\d+) bytes", SPEC, re.M)[1]),
           int(re.search(r"kMostExtensionBytes = 1 << (\d+)", code("bitstream/parameter_sets.cpp"))[1]))
     first = re.search(r"the\s+weights\s+of\s+the\s+N\s+contexts\s+are ⌊(\d+) / N⌋,\s+the\s+others\s+0\.", SPEC).group(1)
     agree("first weights of 8.3.5", first, re.search(r"Mixer\(\[(\d+) // n\] \* n \+ \[0\]", DECODER).group(1))
@@ -209,7 +237,7 @@ def check_errors():
     agree("names of errors", sorted(named), sorted(name for name in named if re.search(rf"\b{name}\b", text)))
 
 
-for check in (check_sequence, check_slices, check_units, check_tables, check_contexts, check_limits, check_errors, check_words):
+for check in (check_sequence, check_slices, check_semantics, check_units, check_tables, check_contexts, check_limits, check_errors, check_words):
     check()
 for problem in PROBLEMS:
     print(problem, file=sys.stderr)

@@ -114,6 +114,8 @@ std::string reason_of(const ChosenStep& step) {
       return "not chosen: there are too few photographs to hold some out";
     case ChosenStep::kTooFewPixels:
       return "not chosen: too little of the held-out photographs shows the points they are of";
+    case ChosenStep::kSplats:
+      return "not chosen: the usual step of splats";
   }
   return "";
 }

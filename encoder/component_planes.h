@@ -11,7 +11,7 @@
 
 namespace slf {
 
-inline constexpr double kMostStep = (1 << 27) - 1;  ///< range of sps_plane_step
+inline constexpr double kMostStep = CodingParameters::kMostStep;
 
 /// Turns R, G, B coefficients [P][K][3] into the channels of `transform`, in place.
 void to_coded_channels(std::span<float> coefficients, ColourTransform transform, int threads);

@@ -71,10 +71,6 @@ Result<Done, InputError> resolve_step(Job& job) {
   return Done{};
 }
 
-}  // namespace
-
-namespace {
-
 /// What a person may want to know of the points that are coded.
 void warn_of_points(Job& job) {
   Encoded& encoded = job.encoded;

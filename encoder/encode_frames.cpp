@@ -96,7 +96,8 @@ class SharedGrid {
 };
 
 /// The points of a frame on the grid of all, which is given from the world's origin.
-VoxelCloud on_grid(const LoadedFrame& frame, const Grid& grid, const EncoderSettings& settings) {
+VoxelCloud frame_on_grid(const LoadedFrame& frame, const Grid& grid,
+                         const EncoderSettings& settings) {
   const Capture& capture = frame.capture;
   PointCloud cloud = capture.cloud;
   if (cloud.normals.empty() && (!frame.cameras.empty() || settings.normal_bits > 0)) {
@@ -151,7 +152,7 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
 Result<Done, InputError> choose_for_all(const Sequence& sequence, const EncoderSettings& own,
                                         bool chooses, std::optional<ChosenForAll>& chosen) {
   SLF_TRY(const LoadedFrame frame, sequence.load(sequence.chooser));
-  const VoxelCloud cloud = on_grid(frame, sequence.grid, own);
+  const VoxelCloud cloud = frame_on_grid(frame, sequence.grid, own);
   SLF_CHECK(light_field_of(frame, cloud, own, chooses, chosen, sequence.progress));
   return Done{};
 }
@@ -178,7 +179,7 @@ Result<Done, InputError> Sequence::code(double q, std::size_t first, std::size_t
     if (empty) {
       field = chosen->empty;
     } else {
-      const VoxelCloud cloud = on_grid(frame, grid, own);
+      const VoxelCloud cloud = frame_on_grid(frame, grid, own);
       SLF_TRY(field, light_field_of(frame, cloud, own, chooses, chosen, progress));
     }
     if (empty || (!frames.hold_over_groups && f % static_cast<std::size_t>(frames.group) == 0))

@@ -45,9 +45,9 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
 }
 
 /// What a decoder draws of the splats.
-Result<TrialFile, InputError> coded(const Gaussians& splats, const Capture& capture,
-                                    std::span<const int> held_out,
-                                    const EncoderSettings& settings) {
+Result<TrialFile, InputError> coded_splats(const Gaussians& splats, const Capture& capture,
+                                           std::span<const int> held_out,
+                                           const EncoderSettings& settings) {
   SLF_TRY(const EncodedGaussians file, encode_gaussians(splats, settings));
   SLF_TRY(const Gaussians shown, decoded_gaussians(file.stream, settings.threads));
   const GaussianRenderer renderer(shown, {.background = {0, 0, 0}, .threads = 1});
@@ -64,7 +64,7 @@ Result<TrialFile, InputError> tried(const SplatJob& job, int iterations) {
       train_gaussians(job.capture, job.fitted,
                       training_of(job.settings, job.start, iterations, job.cache), job.progress));
   if (splats.size() == 0) return TrialFile{};
-  return coded(splats, job.capture, job.held_out, job.settings);
+  return coded_splats(splats, job.capture, job.held_out, job.settings);
 }
 
 }  // namespace
@@ -126,7 +126,10 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   if (progress) progress("code", 0);
   coding.target_bytes = 0;
   coding.target_psnr = 0;
-  if (coding.q == kAutomaticQ) coding.q = kGaussianQ;
+  if (coding.q == kAutomaticQ) {
+    coding.q = kGaussianQ;
+    if (!has_target(settings)) out.step.origin = ChosenStep::kSplats;
+  }
   const auto code = [&](double q) -> Result<Done, InputError> {
     EncoderSettings with = coding;
     with.q = q;

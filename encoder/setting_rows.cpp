@@ -20,6 +20,13 @@ void exclude(SettingTable& rows, const std::vector<std::string>& names) {
         row.info.excludes.push_back(name);
 }
 
+void count_for_splats(SettingTable& rows, SettingInfo::Splats splats,
+                      std::initializer_list<std::string_view> names) {
+  for (SettingRow& row : rows)
+    if (std::find(names.begin(), names.end(), row.info.name) != names.end())
+      row.info.splats = splats;
+}
+
 const SettingScope kTextures = {"--coefficients texture", [](const EncoderSettings& s) {
                                   return s.coefficients == CoefficientCoder::kTexture;
                                 }};
@@ -103,8 +110,8 @@ void add_coding(SettingTable& rows) {
                          "Find the Q that gives a file of 99 to 100 % of so many bytes"),
        number_or_nothing(
            "target-bitrate", SLF_AT(target_bitrate), 1, 1e12,
-           "Of frames in time: find the Q for which all of them together have 97 to 100 % of so "
-           "many bits a second at --rate; they are coded some five times"),
+           "Find the Q for which all frames together have 97 to 100 % of so many bits a second at "
+           "--rate; they are coded some five times"),
        number_or_nothing(
            "target-psnr", SLF_AT(target_psnr), 1, 100,
            "Find the Q that gives the input images' PSNR, up to 0.05 dB more: of pictures, or "
@@ -139,7 +146,7 @@ void add_coding(SettingTable& rows) {
        on_or_off("predict", SLF_AT(predict),
                  "Predict finer levels from coarser ones where that pays; paper: off"),
        on_or_off("reference-contexts", SLF_AT(reference_contexts),
-                 "Of frames: contexts by the frame before; off: readers of format 1.0 read them")});
+                 "Contexts of a frame by the frame before; off: readers of format 1.0 read them")});
 }
 
 void add_layers_and_slices(SettingTable& rows) {
@@ -207,6 +214,13 @@ SettingTable all_rows() {
   exclude(rows, {"quality-loss", "target-psnr"});
   exclude(rows, {"functions", "scales"});
   exclude(rows, {"penalise-dc", "free-dc"});
+  count_for_splats(rows, SettingInfo::kTrainedSplats,
+                   {"preset", "surface", "surface-seconds", "surface-memory", "photograph-pixels",
+                    "match-exposure", "refine-cameras", "check-cameras"});
+  count_for_splats(
+      rows, SettingInfo::kAnySplats,
+      {"effort", "grid-bits", "voxel-size", "quality", "target-bytes", "target-psnr", "klt",
+       "predict", "rdo", "quality-layers", "base-levels", "slice-points", "slice-start"});
   return rows;
 }
 

@@ -132,6 +132,16 @@ Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
   return Done{};
 }
 
+Outcome refuse_what_splats_lack(const Given& given, const EncoderSettings& settings,
+                                const SettingTable& table) {
+  if (settings.surface != Surface::kSplats) return Done{};
+  SLF_CHECK(refuse(given, "preset", "paper", "a surface, not --surface splats"));
+  for (const SettingRow& row : table)
+    if (given.has(row.info.name) && row.info.splats == SettingInfo::kNotSplats)
+      return invalid_argument("--" + row.info.name + " is for a surface, not --surface splats");
+  return Done{};
+}
+
 bool is_of_paper(const SettingRow& row) {
   const SettingScope* scope = row.scope;
   return scope == &kPaperFit || scope == &kSplines || row.info.name == "order";
@@ -257,6 +267,7 @@ Result<EncoderSettings, InputError> settings_from(const GivenSettings& all,
     if (const std::string* value = given.find(row.info.name); value != nullptr && row.apply)
       row.apply(settings, *value);
   SLF_CHECK(choose_scales(given, settings.fit.basis));
+  SLF_CHECK(refuse_what_splats_lack(given, settings, table));
   SLF_CHECK(refuse_idle(given, settings, table));
   // More slices than one need a base, whatever the preset has.
   if (given.has("slice-points") && !given.has("base-levels")) settings.base_levels = kAutomaticBase;

@@ -13,8 +13,8 @@
 namespace slf {
 namespace {
 
-constexpr int kReach = 2;  // pixels to each side of what is averaged
-constexpr float kWindow = (2 * kReach + 1) * (2 * kReach + 1);
+constexpr int kReachPixels = 2;  // pixels to each side of what is averaged
+constexpr float kWindow = (2 * kReachPixels + 1) * (2 * kReachPixels + 1);
 constexpr float kLeast = 1;      // grey level: less is no change, without any noise
 constexpr float kMostNoise = 8;  // standard deviation: more is no noise
 // Standard errors of a mean of noise that are no change: 1 pixel of 16,000 by chance.
@@ -41,7 +41,8 @@ struct Plane {
   static void average(const float* from, float* to, int length, int step, int lines, int next) {
     for (int line = 0; line < lines; ++line, from += next, to += next)
       for (int i = 0; i < length; ++i) {
-        const int low = std::max(0, i - kReach), high = std::min(length - 1, i + kReach);
+        const int low = std::max(0, i - kReachPixels),
+                  high = std::min(length - 1, i + kReachPixels);
         float sum = 0;
         for (int j = low; j <= high; ++j) sum += from[std::ptrdiff_t{j} * step];
         to[std::ptrdiff_t{i} * step] = sum / float(high - low + 1);

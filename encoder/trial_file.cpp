@@ -18,8 +18,8 @@ constexpr double kDoubling = 0.5;  // dB that twice the bytes have to gain: docs
 constexpr double kTrialTolerance = 0.03;  // of a target in bytes
 
 /// With the step, or with one whose bytes are the target's, as nearly as a trial has to know.
-Result<std::vector<std::uint8_t>, InputError> coded(const LightField& field,
-                                                    EncoderSettings settings) {
+Result<std::vector<std::uint8_t>, InputError> coded_field(const LightField& field,
+                                                          EncoderSettings settings) {
   if (settings.target_bytes == 0) return pack(field, coding_parameters(field, settings));
   std::vector<std::uint8_t> stream;
   const auto log_bytes = [&](double q) -> Result<double, InputError> {
@@ -75,7 +75,7 @@ Result<TrialFile, InputError> try_surface(const Capture& capture, std::span<cons
   trial.q = std::max(step.q / 2, kPlainQ);
   fit.held_out.reset();
   const LightField field = quantise_grid(cloud, std::move(fit), capture.origin, capture.up, trial);
-  SLF_TRY(const auto stream, coded(field, trial));
+  SLF_TRY(const auto stream, coded_field(field, trial));
   DecodeOptions options;
   options.threads = trial.threads;
   options.limits = DecodeLimits::none();

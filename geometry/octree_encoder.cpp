@@ -25,7 +25,7 @@ std::vector<std::uint8_t> occupancies(std::span<const std::uint64_t> morton, std
 }
 
 /// The distinct codes without their lower 3 * below bits.
-std::vector<std::uint64_t> cells_of(std::span<const std::uint64_t> morton, int below) {
+std::vector<std::uint64_t> distinct_cells(std::span<const std::uint64_t> morton, int below) {
   std::vector<std::uint64_t> cells;
   for (const std::uint64_t code : morton)
     if (cells.empty() || cells.back() != code >> (3 * below)) cells.push_back(code >> (3 * below));
@@ -46,7 +46,7 @@ OctreeEncoder::OctreeEncoder(std::span<const std::uint64_t> morton, int depth,
     : morton_(morton),
       depth_(depth),
       level_(level),
-      nodes_(octree_level(cells_of(morton, depth - level), level)),
+      nodes_(octree_level(distinct_cells(morton, depth - level), level)),
       model_(std::move(states)) {}
 
 SLF_MULTIVERSION_ALL

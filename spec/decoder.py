@@ -194,6 +194,9 @@ def unit_at(data, position):
 def split_frames(data):
     """7.13: the frame unit, None of a light field that does not move, and the bytes of every frame."""
     position, before = 0, None
+    if len(data) <= len(SIGNATURE):         # no unit; whoever reads them says so
+        yield None, data
+        return
     while position < len(data):
         intra, at = data[position:position + 8] == SIGNATURE, position
         if before:                          # not even the beginning of a frame?
@@ -439,7 +442,7 @@ def header_of(sequence, shift):
         header["basis"] = {"id": "harmonics", "degree": e["sps_degree"]}
     header["directions"] = ("world", "reflected")[e["sps_directions_idc"]]
     if e["sps_directions_idc"] == 1:
-        header["normal_cell"] = 1 << e["sps_normal_cell_log2"]
+        header["normal_cell"] = 1 << max(e["sps_normal_cell_log2"] - shift, 0)      # 6.6
     header["colour"] = {"transform": ("none", "opponent")[e["sps_colour_idc"]]}
     header["transfer"] = ("display", "linear")[e["sps_transfer_idc"]]
     header["gamma_range"] = [e["sps_gamma_min"] / 127, e["sps_gamma_max"] / 127]
@@ -619,7 +622,8 @@ def check_index(sequence, payload, following):
     for i in range(count):
         unit_type, size = reader.u(8, "index_unit_type"), reader.ue("index_unit_bytes")
         named = unit_type in (GEOMETRY, NORMALS, COEFFICIENTS, DIGEST, REFINEMENT)
-        numbers = sequence.unit_kind(unit_type, reader, "index_") if named else None
+        numbers = sequence.unit_kind(unit_type, reader, "index_") if named else (0,)
+        require((numbers[0] or 0) < 1 << 16, "index_slice_id")
         if i < len(following):
             require(unit_type == following[i][0], "index_unit_type")
             require(size == following[i][2], "index_unit_bytes")

@@ -93,9 +93,10 @@ class FrameLoader {
 
 void add_frames(CLI::App& verb, FrameOptions& options) {
   const char* group = "Frames in time";
-  verb.add_option("--frames", options.range,
-                  "Of a directory of frames (frame_0001/ and on, or NAME_0001.ply and on), or of a "
-                  "pattern of their names (NAME_%04d.ply), those with these numbers")
+  verb.add_option(
+          "--frames", options.range,
+          "Numbers of the frames to encode, of a directory (frame_0001/ and on, or NAME_0001.ply "
+          "and on) or of a pattern of their names (NAME_%04d.ply)")
       ->type_name("A:B")
       ->group(group);
   verb.add_option("--group", options.group,

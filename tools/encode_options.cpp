@@ -80,6 +80,8 @@ bool is_written_by_encoder(const std::string& key) {
                                "cameras_dropped",
                                "cameras_gain_corrected",
                                "picture_pull",
+                               "exposure",
+                               "poses",
                                "quality_loss_held_out"};
   if (key.starts_with("surface_") || key.starts_with("refine_") || key.starts_with("plenoptic"))
     return true;

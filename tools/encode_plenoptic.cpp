@@ -47,7 +47,7 @@ struct Run {
   double load = 0;
 };
 
-nlohmann::ordered_json report_json(const Run& run) {
+nlohmann::ordered_json plenoptic_json(const Run& run) {
   const PlenopticEncoded& e = run.encoded;
   const PlenopticBits bits = plenoptic_bits(run.info, e.stream.size());
   return {{"bytes", e.stream.size()},
@@ -69,7 +69,7 @@ nlohmann::ordered_json report_json(const Run& run) {
           {"settings", settings_json(run.info)}};
 }
 
-std::string report_text(const Run& run) {
+std::string plenoptic_text(const Run& run) {
   const PlenopticEncoded& e = run.encoded;
   const PlenopticBits bits = plenoptic_bits(run.info, e.stream.size());
   std::string out = text("taken         %s\n", run.cloud.taken.c_str());
@@ -171,8 +171,8 @@ Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOpt
   line.clear();
   SLF_CHECK(save(given.output, run.encoded.stream.data(), run.encoded.stream.size()));
   SLF_TRY(run.info, from(given.output, read_info(run.encoded.stream, DecodeLimits::none())));
-  if (given.common.json) return print(report_json(run));
-  if (!given.common.quiet) std::fputs(report_text(run).c_str(), stderr);
+  if (given.common.json) return print(plenoptic_json(run));
+  if (!given.common.quiet) std::fputs(plenoptic_text(run).c_str(), stderr);
   return Done{};
 }
 

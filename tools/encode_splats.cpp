@@ -2,12 +2,12 @@
 #include "tools/encode_splats.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 
 #include "slf/crop_gaussians.h"
 #include "slf/encode_gaussians.h"
+#include "slf/settings.h"
 #include "tools/output.h"
 #include "tools/splat_input.h"
 #include "tools/text.h"
@@ -19,10 +19,6 @@ constexpr std::uint64_t kMostInput = std::uint64_t{1} << 32;
 
 /// What splats have no use for. A setting that changes nothing would be a promise not kept.
 Outcome check_given(const EncodeOptions& given) {
-  constexpr std::array kTaken = {"quality",     "grid-bits",    "voxel-size", "target-bytes",
-                                 "target-psnr", "klt",          "predict",    "rdo",
-                                 "base-levels", "slice-points", "slices",     "quality-layers",
-                                 "effort"};
   const auto refused = [&](const std::string& option) {
     return Failure{kUsage, "encode: --" + option + " is for photographs and clouds, and " +
                                given.capture + " holds splats"};
@@ -30,8 +26,12 @@ Outcome check_given(const EncodeOptions& given) {
   if (!given.points.empty()) return refused("points");
   if (!given.images.empty()) return refused("images");
   if (!given.split.empty()) return refused("split");
-  for (const auto& [name, value] : given.given)
-    if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return refused(name);
+  const auto& settings = encoder_settings();
+  for (const auto& pair : given.given)
+    if (std::any_of(settings.begin(), settings.end(), [&](const SettingInfo& setting) {
+          return setting.name == pair.first && setting.splats != SettingInfo::kAnySplats;
+        }))
+      return refused(pair.first);
   return Done{};
 }
 

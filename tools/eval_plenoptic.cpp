@@ -46,8 +46,9 @@ std::string yuv_line(const std::string& name, double y, double u, double v) {
               psnr_column(v).c_str());
 }
 
-std::string report_text(const std::string& file, const PlenopticBits& bits,
-                        const PlenopticQuality& quality, const std::vector<ViewGroup>& groups) {
+std::string plenoptic_quality_text(const std::string& file, const PlenopticBits& bits,
+                                   const PlenopticQuality& quality,
+                                   const std::vector<ViewGroup>& groups) {
   std::string out = text("%s: %s points, %zu views\n", file.c_str(),
                          grouped(quality.points).c_str(), quality.views.size());
   out += text("bits per point %.3f: geometry %.3f, colour %.3f\n", bits.file, bits.geometry,
@@ -92,7 +93,8 @@ Outcome eval_plenoptic_file(const PlenopticEval& given) {
   }
   if (groups[1].views.empty()) groups.pop_back();
   const PlenopticBits bits = plenoptic_bits(info, decoded.bytes);
-  if (!given.common.json) return print(report_text(input_name(given.input), bits, quality, groups));
+  if (!given.common.json)
+    return print(plenoptic_quality_text(input_name(given.input), bits, quality, groups));
   nlohmann::ordered_json json = {
       {"bytes", decoded.bytes},
       {"points", quality.points},

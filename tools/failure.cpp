@@ -21,7 +21,7 @@ const char* cause_of(Errc code) {
     case Errc::kReserved:
       return "damaged, or from a newer version: a reserved value is in use";
     case Errc::kUnsupported:
-      return "not supported by this build of slf";
+      return "not supported by this slf";
     case Errc::kLimitExceeded:
       return "larger than the decoder's limits";
     case Errc::kInvalidArgument:

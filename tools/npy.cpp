@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "elements are copied a
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
 
-InputError invalid(std::string cause) { return {Errc::kInvalidInput, std::move(cause)}; }
+InputError invalid_array(std::string cause) { return {Errc::kInvalidInput, std::move(cause)}; }
 
 /// The text after "'key':" in the header's dictionary, blanks skipped; empty if there is none.
 /// @param quoted  the key with its quotes
@@ -31,19 +31,19 @@ std::string_view value_of(std::string_view header, std::string_view quoted) {
 Result<Done, InputError> parse_type(std::string_view header, NpyArray& array) {
   const std::string_view descr = value_of(header, "'descr'");
   if (descr.size() < 5 || descr[0] != '\'' || descr[4] != '\'')
-    return invalid("not an array of plain numbers");
+    return invalid_array("not an array of plain numbers");
   const std::string type(descr.substr(1, 3));
   array.kind = type[1];
   array.size = type[2] - '0';
   const bool known = (type[1] == 'i' || type[1] == 'u') &&
                      (array.size == 1 || array.size == 2 || array.size == 4 || array.size == 8);
   const bool real = type[1] == 'f' && (array.size == 4 || array.size == 8);
-  if (!known && !real) return invalid("elements of type " + type + " are not read");
+  if (!known && !real) return invalid_array("elements of type " + type + " are not read");
   if (type[0] != '<' && type[0] != '|')
-    return invalid("elements of type " + type + " are not little endian");
+    return invalid_array("elements of type " + type + " are not little endian");
   const std::string_view order = value_of(header, "'fortran_order'");
   if (order.substr(0, 5) != "False")
-    return invalid("not in C order (save numpy.ascontiguousarray)");
+    return invalid_array("not in C order (save numpy.ascontiguousarray)");
   return Done{};
 }
 
@@ -51,7 +51,7 @@ Result<Done, InputError> parse_shape(std::string_view header, NpyArray& array) {
   std::string_view shape = value_of(header, "'shape'");
   const std::size_t close = shape.find(')');
   if (shape.empty() || shape[0] != '(' || close == std::string_view::npos)
-    return invalid("the header has no shape");
+    return invalid_array("the header has no shape");
   shape = shape.substr(1, close - 1);
   while (true) {
     while (!shape.empty() && (shape[0] == ' ' || shape[0] == ',')) shape.remove_prefix(1);
@@ -59,7 +59,7 @@ Result<Done, InputError> parse_shape(std::string_view header, NpyArray& array) {
     std::size_t extent = 0;
     const auto [end, error] = std::from_chars(shape.data(), shape.data() + shape.size(), extent);
     if (error != std::errc() || array.shape.size() == 8)
-      return invalid("the header's shape is not readable");
+      return invalid_array("the header's shape is not readable");
     array.shape.push_back(extent);
     shape.remove_prefix(static_cast<std::size_t>(end - shape.data()));
   }
@@ -90,7 +90,7 @@ Result<std::vector<std::int32_t>, InputError> converted(const NpyArray& array) {
     // NOLINTNEXTLINE(bugprone-signed-char-misuse): an int8 keeps its sign.
     value = static_cast<std::int32_t>(element);
     if (static_cast<T>(value) != element || (value < 0) != (element < T{0}))
-      return invalid("a value does not fit 32 bits");
+      return invalid_array("a value does not fit 32 bits");
   }
   return out;
 }
@@ -119,30 +119,30 @@ std::size_t NpyArray::count() const {
 
 Result<NpyArray, InputError> parse_npy(std::vector<std::uint8_t> file) {
   if (file.size() < 10 || std::memcmp(file.data(), kMagic.data(), kMagic.size()) != 0)
-    return invalid("not a .npy file");
+    return invalid_array("not a .npy file");
   const int version = file[6];
   if (version != 1 && version != 2)
-    return invalid("version " + std::to_string(version) + " of .npy is not read");
+    return invalid_array("version " + std::to_string(version) + " of .npy is not read");
   std::size_t header = 10, length = file[8] | std::size_t{file[9]} << 8;
   if (version == 2) {
-    if (file.size() < 12) return invalid("truncated .npy header");
+    if (file.size() < 12) return invalid_array("truncated .npy header");
     header = 12;
     length |= std::size_t{file[10]} << 16 | std::size_t{file[11]} << 24;
   }
-  if (length > file.size() - header) return invalid("truncated .npy header");
+  if (length > file.size() - header) return invalid_array("truncated .npy header");
   const std::string_view text(reinterpret_cast<const char*>(file.data()) + header, length);
   NpyArray array;
   SLF_CHECK(parse_type(text, array));
   SLF_CHECK(parse_shape(text, array));
   array.first = header + length;
   if (!fills(array, file.size() - array.first))
-    return invalid("the .npy shape does not agree with the bytes present");
+    return invalid_array("the .npy shape does not agree with the bytes present");
   array.bytes = std::move(file);
   return array;
 }
 
 Result<std::vector<std::int32_t>, InputError> int32_values(const NpyArray& array) {
-  if (array.kind == 'f') return invalid("integers are needed, the array holds floats");
+  if (array.kind == 'f') return invalid_array("integers are needed, the array holds floats");
   const bool is_signed = array.kind == 'i';
   switch (array.size) {
     case 1:

@@ -109,9 +109,10 @@ void add_part(CLI::App& verb, PartOptions& options) {
 }
 
 void add_frame(CLI::App& verb, PartOptions& options) {
-  verb.add_option("--frame", options.frame,
-                  "Of a light field that moves, the frame to decode: 0 is the first. Those before "
-                  "it in its group are decoded, too")
+  verb.add_option(
+          "--frame", options.frame,
+          "Frame to decode of a light field that moves: 0 is the first. Those before it in its "
+          "group are decoded, too")
       ->type_name("N")
       ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
 }

@@ -27,13 +27,14 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
           ->type_name("NAME");
   auto* pair = verb.add_flag("--pair", o.pair, "Photograph and rendering side by side");
   auto* sheet = verb.add_flag("--sheet", o.sheet, "All views of the orbit in one image");
-  auto* azimuth = verb.add_option("--azimuth", o.azimuth, "Of the orbit's first view, degrees")
-                      ->capture_default_str()
-                      ->check(range(-360, 360));
-  auto* elevation =
-      verb.add_option("--elevation", o.elevation, "Of the orbit, degrees above the horizon")
+  auto* azimuth =
+      verb.add_option("--azimuth", o.azimuth, "Azimuth of the orbit's first view, degrees")
           ->capture_default_str()
-          ->check(range(-90, 90));
+          ->check(range(-360, 360));
+  auto* elevation = verb.add_option("--elevation", o.elevation,
+                                    "Elevation of the orbit, degrees above the horizon")
+                        ->capture_default_str()
+                        ->check(range(-90, 90));
   auto* fov = verb.add_option("--fov", o.fov, "Field of view of the orbit's cameras, degrees")
                   ->capture_default_str()
                   ->check(range(1, 170));
@@ -119,7 +120,7 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
       ->capture_default_str();
   verb.add_flag("--transparent", o.transparent, "No background: coverage becomes alpha");
   verb.add_flag("--diffuse-only", o.diffuse_only, "Mean colours, without what depends on the view");
-  verb.add_option("--radius", o.radius, "Of a surfel, voxels; 0: from the points' spacing")
+  verb.add_option("--radius", o.radius, "Radius of a surfel, voxels; 0: from the points' spacing")
       ->capture_default_str()
       ->check(range(0, 1000));
   add_part(verb, o.part);

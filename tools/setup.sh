@@ -22,7 +22,8 @@ if [[ "${1:-}" == web || "${1:-}" == lab ]]; then
 fi
 if [[ "${1:-}" == lab ]]; then
   packages+=(clang-tidy libclang-rt-dev libgtest-dev libgmock-dev libx265-dev libaom-dev snakemake python3-scipy python3-matplotlib
-    pybind11-dev python3-venv mypy doxygen dpkg-dev man-db file shared-mime-info libglib2.0-bin lintian  # bindings/python/, packages, reference, man pages, file types
+    pybind11-dev python3-venv mypy  # bindings/python/
+    doxygen dpkg-dev man-db file shared-mime-info libglib2.0-bin lintian  # packages, reference, man pages, file types
     locales  # tests/tools/locale_test.py
     chromium)  # web/test/browser
 fi

@@ -25,7 +25,7 @@ struct DecodeVerbOptions {
   CommonOptions common;
 };
 
-nlohmann::ordered_json report_json(const DecodedFile& decoded, std::uint64_t peak) {
+nlohmann::ordered_json decoded_json(const DecodedFile& decoded, std::uint64_t peak) {
   return {{"bytes", decoded.bytes},
           {"points", decoded.field.num_points()},
           {"functions", decoded.field.header.num_functions},
@@ -68,7 +68,7 @@ Outcome run_decode(const DecodeVerbOptions& given) {
   if (!given.output.empty()) SLF_CHECK(require_cloud_grid(decoded.field, given.input));
   if (!given.output.empty()) SLF_CHECK(save_cloud(given, decoded));
   if (!given.dump.empty()) SLF_CHECK(dump(decoded.field, given.planes, given.dump));
-  if (given.common.json) return print(report_json(decoded, peak));
+  if (given.common.json) return print(decoded_json(decoded, peak));
   if (!given.common.quiet)
     std::fprintf(stderr, "%s points, %d functions%s, decoded in %.3f s\n",
                  grouped(decoded.field.num_points()).c_str(), decoded.field.header.num_functions,

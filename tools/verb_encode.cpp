@@ -211,6 +211,17 @@ struct AllOptions {
   FrameOptions frames;
 };
 
+/// A file of splats is coded at once.
+Outcome check_scene_options(const AllOptions& o) {
+  const bool given = o.scene.in_parts() || !o.scene.work.empty();
+  if (!given || !is_splat_file(o.encode.capture)) return Done{};
+  return Failure{
+      kUsage,
+      "encode: --memory, --work, --log, --plan, --part and --dry-run are for photographs and "
+      "clouds, and " +
+          o.encode.capture + " holds splats"};
+}
+
 /// By what the capture is.
 Outcome encode_any(const AllOptions& o) {
   if (is_frame_input(o.encode, o.frames)) return encode_frame_list(o.encode, o.frames);
@@ -222,6 +233,7 @@ Outcome encode_any(const AllOptions& o) {
   if (o.plenoptic.given() && o.plenoptic.as != "colour")
     return Failure{kUsage, "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
                                o.encode.capture + " has no views"};
+  SLF_CHECK(check_scene_options(o));
   return o.scene.in_parts() ? encode_scene(o.encode, o.scene) : run_encode(o.encode, o.scene);
 }
 

@@ -46,8 +46,8 @@ std::string metadata_value(const Metadata& metadata, const std::string& key) {
   return {};
 }
 
-Outcome report(const EvalOptions& given, const Subject& subject,
-               const std::vector<Measured>& measured, double seconds) {
+Outcome report_measured(const EvalOptions& given, const Subject& subject,
+                        const std::vector<Measured>& measured, double seconds) {
   const bool images = given.settings.images;
   if (given.common.json) return print(eval_json(subject, measured, images, seconds));
   return print(eval_text(input_name(given.input), subject, measured, images));
@@ -171,7 +171,7 @@ Outcome eval_splats(const EvalOptions& given, const Capture& capture, const Spla
   };
   Stopwatch watch;
   SLF_TRY(const auto measured, measure(given, capture, splats.subject.metadata, judge, {}));
-  SLF_CHECK(report(given, splats.subject, measured, watch.lap()));
+  SLF_CHECK(report_measured(given, splats.subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
 
@@ -218,7 +218,7 @@ Outcome run_eval(const EvalOptions& given) {
   SLF_TRY(const auto measured,
           measure(given, capture, subject.metadata, judge_of(maps, capture),
                   unquantised_maps ? judge_of(*unquantised_maps, capture) : Judge{}));
-  SLF_CHECK(report(given, subject, measured, watch.lap()));
+  SLF_CHECK(report_measured(given, subject, measured, watch.lap()));
   return check_floors(given, measured);
 }
 
@@ -263,8 +263,7 @@ void add_eval(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 1000));
   verb->add_option("--frame", o->frame,
-                   "Of a file of several frames the one to measure, from 0 on, against its own "
-                   "capture and by its own bytes")
+                   "Frame to measure of a file of several, from 0 on, by its own capture and bytes")
       ->type_name("N")
       ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
   verb->add_flag("--estimate-normals", o->estimate_normals,

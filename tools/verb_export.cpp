@@ -51,7 +51,7 @@ std::optional<SplatFormat> format_of(const ExportOptions& given) {
   return found->second == SplatFormat::kSpz ? spz_of(given.spz_version) : found->second;
 }
 
-SplatSettings settings_of(const ExportOptions& given, SplatFormat format) {
+SplatSettings splat_settings(const ExportOptions& given, SplatFormat format) {
   SplatSettings settings = given.splats;
   settings.threads = given.common.threads;
   if (given.axes == "world") settings.axes = SplatAxes::kWorld;
@@ -66,8 +66,8 @@ nlohmann::ordered_json decibels(double psnr) {
   return std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nlohmann::ordered_json(nullptr);
 }
 
-Outcome report(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
-               const SplatLoss& loss, bool partial) {
+Outcome report_splats(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
+                      const SplatLoss& loss, bool partial) {
   const double each = static_cast<double>(bytes) / static_cast<double>(splats.size());
   if (given.common.json)
     return print(
@@ -162,11 +162,11 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
     return convert_splats(given, {std::move(gaussians), "slf"}, format);
   }
   const ViewMaps maps(decoded.field, given.common.threads);
-  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, settings_of(given, format))));
+  SLF_TRY(const SplatCloud splats, from(name, make_splats(maps, splat_settings(given, format))));
   SLF_TRY(const auto bytes, from(name, splat_file(splats, format, given.common.threads)));
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
   if (given.common.quiet && !given.common.json) return Done{};
-  return report(
+  return report_splats(
       given, splats, bytes.size(),
       splat_loss(maps, as_stored(splats, format, given.common.threads), given.common.threads),
       decoded.field.partial);
@@ -219,7 +219,7 @@ void add_export(CLI::App& program, Run& run) {
                    "fields, 3 of splats")
       ->type_name("")
       ->check(whole_range(2, 4));
-  verb->add_option("--degree", o->splats.degree, "Of the harmonics")
+  verb->add_option("--degree", o->splats.degree, "Degree of the harmonics")
       ->capture_default_str()
       ->check(whole_range(0, 3));
   auto* size =

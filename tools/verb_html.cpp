@@ -229,7 +229,7 @@ void add_html(CLI::App& program, Run& run) {
   verb->add_option("-o,--output", o->output, "The page (HTML); - is standard output")
       ->required()
       ->type_name("FILE");
-  verb->add_option("--title", o->title, "Of the page; default: the file's own, else its name")
+  verb->add_option("--title", o->title, "Title of the page; default: the file's own, else its name")
       ->type_name("TEXT");
   auto* camera =
       verb->add_option(
@@ -238,10 +238,10 @@ void add_html(CLI::App& program, Run& run) {
               "Default: the file's own view, else one of an orbit")
           ->type_name("FILE[:WHICH]");
   for (auto* option :
-       {verb->add_option("--azimuth", o->azimuth, "Of the first view, degrees")
+       {verb->add_option("--azimuth", o->azimuth, "Azimuth of the first view, degrees")
             ->check(range(-360, 360)),
         verb->add_option("--elevation", o->elevation,
-                         "Of the first view, degrees above the horizon")
+                         "Elevation of the first view, degrees above the horizon")
             ->check(range(-90, 90)),
         verb->add_option("--fov", o->fov, "Field of view, degrees")->check(range(1, 170))})
     option->capture_default_str()->excludes(camera);
@@ -249,7 +249,7 @@ void add_html(CLI::App& program, Run& run) {
                    "Degrees a second until somebody takes hold; 0: still")
       ->capture_default_str()
       ->check(range(-90, 90));
-  verb->add_option("--speed", o->speed, "Of a light field that moves; 1: as the file has it")
+  verb->add_option("--speed", o->speed, "Speed of a light field that moves; 1: as the file has it")
       ->capture_default_str()
       ->check(range(1.0 / 16, 16));
   verb->add_flag("--no-loop", o->no_loop, "What moves plays once");

@@ -37,8 +37,8 @@ nlohmann::ordered_json settings_json(const IgcSettings& s, int grid_bits) {
   return json;
 }
 
-nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& input,
-                                   const IgcSettings& settings) {
+nlohmann::ordered_json igc_json(const IgcEncoded& e, const CaptureInput& input,
+                                const IgcSettings& settings) {
   nlohmann::ordered_json json;
   json["bytes"] = e.stream.size();
   json["grid"] = density_json(e.grid, e.density);
@@ -60,7 +60,7 @@ nlohmann::ordered_json report_json(const IgcEncoded& e, const CaptureInput& inpu
   return json;
 }
 
-std::string report_text(const IgcEncoded& e, const CaptureInput& input) {
+std::string igc_text(const IgcEncoded& e, const CaptureInput& input) {
   std::string out = surface_text(e.surface) + density_text(e.grid, e.density);
   out +=
       text("points        %s (%s merged)\n", grouped(e.points).c_str(), grouped(e.merged).c_str());
@@ -89,8 +89,8 @@ Outcome run_igc(const IgcOptions& given) {
                                                                      settings, line.callback())));
   line.clear();
   SLF_CHECK(save(options.output, encoded.stream.data(), encoded.stream.size()));
-  if (options.common.json) return print(report_json(encoded, input, settings));
-  if (!options.common.quiet) std::fputs(report_text(encoded, input).c_str(), stderr);
+  if (options.common.json) return print(igc_json(encoded, input, settings));
+  if (!options.common.quiet) std::fputs(igc_text(encoded, input).c_str(), stderr);
   return Done{};
 }
 

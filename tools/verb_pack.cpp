@@ -105,7 +105,7 @@ Outcome read_steps(const PackOptions& given, std::size_t functions, CodingParame
   for (std::size_t k = 0; k < functions; ++k)
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int32_t step = values[one ? k : 3 * k + c];
-      if (step < 1 || step >= 1 << 27)
+      if (step < 1 || step > CodingParameters::kMostStep)
         return invalid(given.steps, "a step is not in the range 1 to 2^27 - 1");
       parameters.step[k][c] = static_cast<std::uint32_t>(step);
     }
@@ -171,7 +171,7 @@ Failure refused(const PackOptions& given, const InputError& error) {
   return {kUsage, (levels ? "pack: --levels: " : "pack: ") + cause};
 }
 
-nlohmann::ordered_json report_json(const LightField& field, std::uint64_t bytes, double seconds) {
+nlohmann::ordered_json packed_json(const LightField& field, std::uint64_t bytes, double seconds) {
   return {{"bytes", bytes},
           {"points", field.num_points()},
           {"functions", field.header.num_functions},
@@ -198,7 +198,7 @@ Outcome run_pack(const PackOptions& given) {
   const double seconds = watch.lap();
   if (!packed) return refused(given, packed.error());
   SLF_CHECK(save(given.output, packed->data(), packed->size()));
-  if (given.common.json) return print(report_json(field, packed->size(), seconds));
+  if (given.common.json) return print(packed_json(field, packed->size(), seconds));
   if (!given.common.quiet)
     std::fprintf(stderr, "%s points, %d functions: %s bytes, %.3f bits per point, %.3f s\n",
                  grouped(field.num_points()).c_str(), field.header.num_functions,
@@ -234,7 +234,7 @@ void add_pack(CLI::App& program, Run& run) {
               "--step", o->step,
               "Quantiser step of every plane, component units; 1 is lossless up to rounding")
           ->capture_default_str()
-          ->check(whole_range(1, (1 << 27) - 1));
+          ->check(whole_range(1, CodingParameters::kMostStep));
   verb->add_option("--steps", o->steps,
                    "Steps of each function, .npy [K] or [K,3], each 1 to 2^27 - 1")
       ->type_name("FILE")

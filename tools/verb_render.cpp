@@ -78,8 +78,8 @@ Rendered render_views(const RenderOptions& given, const RenderScene& scene,
   return out;
 }
 
-Outcome report(const RenderOptions& given, const std::vector<View>& views, const Rendered& rendered,
-               double prepare, bool partial) {
+Outcome report_views(const RenderOptions& given, const std::vector<View>& views,
+                     const Rendered& rendered, double prepare, bool partial) {
   auto list = nlohmann::ordered_json::array();
   const std::string frame = given.part.source ? text(", frame %d", given.part.frame) : "";
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -153,7 +153,7 @@ Outcome run_render(RenderOptions& given) {
     for (std::size_t i = 0; i < views.size(); ++i)
       SLF_CHECK(keep(given, views[i].file, rendered.images[i]));
   }
-  return report(given, views, rendered, scene->prepare(), scene->partial());
+  return report_views(given, views, rendered, scene->prepare(), scene->partial());
 }
 
 /// A film without a choice of frames or of an orbit. Splats stand still, and a part of the bytes is

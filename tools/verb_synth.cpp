@@ -57,7 +57,7 @@ Outcome run_plenoptic(const SynthOptions& given) {
 }
 
 /// What a progress function does besides drawing: it leaves when it was interrupted.
-Progress interruptible(const std::filesystem::path& directory, ProgressLine& line) {
+Progress leaving_if_interrupted(const std::filesystem::path& directory, ProgressLine& line) {
   return [directory, draw = line.callback()](const char* stage, double fraction) {
     leave_if_interrupted(directory);
     if (draw) draw(stage, fraction);
@@ -85,8 +85,8 @@ Outcome run_moving(const SynthOptions& given, synth::MovingSettings settings) {
   settings.camera_turn = given.camera_turn;
   ProgressLine line(given.common.quiet);
   const DeferInterrupts defer;
-  return from(given.output,
-              synth::synthesise_moving(settings, given.output, interruptible(given.output, line)));
+  return from(given.output, synth::synthesise_moving(settings, given.output,
+                                                     leaving_if_interrupted(given.output, line)));
 }
 
 Outcome run_synth(const SynthOptions& given) {
@@ -129,8 +129,8 @@ Outcome run_synth(const SynthOptions& given) {
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);
   const DeferInterrupts defer;
-  return from(given.output,
-              synth::synthesise(settings, given.output, interruptible(given.output, line)));
+  return from(given.output, synth::synthesise(settings, given.output,
+                                              leaving_if_interrupted(given.output, line)));
 }
 
 void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
@@ -148,7 +148,7 @@ void add_disturbances(CLI::App& verb, synth::DisturbSettings& d) {
       ->capture_default_str()
       ->check(range(0, 20));
   verb.add_option("--seed", d.seed,
-                  "Of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
+                  "Seed of --noise, --hull, --exposure-drift, --plenoptic and the terrace")
       ->capture_default_str()
       ->check(whole_range(0, 0xffffffff));
 }
@@ -158,7 +158,7 @@ void add_motions(CLI::App& verb, SynthOptions& o) {
                   "Frames of a scene that moves: captures DIR/frame_0001 or clouds "
                   "DIR/frame_0001.ply and so on (8)")
       ->check(whole_range(1, 9999));
-  verb.add_option("--bits", o.bits, "Of the grid of clouds that move (8)")
+  verb.add_option("--bits", o.bits, "Bits of the grid of clouds that move (8)")
       ->check(whole_range(5, 12));
   verb.add_option("--camera-turn", o.camera_turn,
                   "Degrees that all cameras of a capture that moves go on by in a frame (0: they "

@@ -88,8 +88,8 @@ void add_truncate(CLI::App& program, Run& run) {
           "Keep only slices that meet a box: X0,Y0,Z0,X1,Y1,Z1, two corners in world units");
   verb->add_option(
           "--frames", o->part.frames,
-          "Of a file of several frames those to keep, A and B included. Where A is predicted, "
-          "the frames of its group before it are kept, too: it needs them")
+          "Frames to keep of a file of several, A and B included. Where A is predicted, the frames "
+          "of its group before it are kept, too: it needs them")
       ->type_name("A:B");
   add_limits(*verb, o->limits);
   add_quiet(*verb, o->common);

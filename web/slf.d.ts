@@ -194,7 +194,10 @@ export interface SlfParts {
 
 export class SlfDecoder {
   private constructor();
-  /** NETWORK where it cannot be loaded, POLICY where the page forbids WebAssembly. wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors. */
+  /**
+   * NETWORK where it cannot be loaded, POLICY where the page forbids WebAssembly.
+   * wasm: default slf.wasm beside this module, or slf_scalar.wasm where there are no 128-bit vectors.
+   */
   static create(options?: SlfParts): Promise<SlfDecoder>;
   /** May be posted to workers. */
   readonly module: WebAssembly.Module;

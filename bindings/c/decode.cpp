@@ -7,7 +7,7 @@
 #include "bindings/c/handles.h"
 #include "bindings/c/options.h"
 #include "bindings/c/sized.h"
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 
 namespace slf::capi {
 namespace {
@@ -42,15 +42,15 @@ slf_code check_memory(const slf_options& options, const slf_estimate& estimate, 
   return fail(error, SLF_LIMIT_EXCEEDED, "max_memory_bytes");
 }
 
-/// The parts of a stream that were asked for, read one behind the other.
-struct Parts {
-  explicit Parts(const Allocator& allocator) : block(allocator) {}
+/// The pieces of a stream that were asked for, read one behind the other.
+struct Pieces {
+  explicit Pieces(const Allocator& allocator) : block(allocator) {}
   Block block;
-  std::vector<StreamPart> parts;
+  std::vector<StreamPiece> pieces;
 };
 
-slf_code read_parts(const slf_stream& stream, std::span<const ByteRange> ranges, Parts& to,
-                    slf_error* error) {
+slf_code read_pieces(const slf_stream& stream, std::span<const ByteRange> ranges, Pieces& to,
+                     slf_error* error) {
   std::uint64_t bytes = 0;
   for (const ByteRange& range : ranges) {
     if (range.offset > stream.size || range.bytes > stream.size - range.offset)
@@ -61,11 +61,11 @@ slf_code read_parts(const slf_stream& stream, std::span<const ByteRange> ranges,
     return fail(error, SLF_OUT_OF_MEMORY, "memory");
   std::span<std::uint8_t> rest = to.block.bytes();
   for (const ByteRange& range : ranges) {
-    const auto part = rest.first(static_cast<std::size_t>(range.bytes));
-    if (stream.reader.read_at(stream.reader.user, range.offset, part.data(), part.size()) != 0)
+    const auto piece = rest.first(static_cast<std::size_t>(range.bytes));
+    if (stream.reader.read_at(stream.reader.user, range.offset, piece.data(), piece.size()) != 0)
       return fail(error, SLF_READ_FAILED, "read_at");
-    to.parts.push_back({range.offset, part});
-    rest = rest.subspan(part.size());
+    to.pieces.push_back({range.offset, piece});
+    rest = rest.subspan(piece.size());
   }
   return SLF_OK;
 }
@@ -96,10 +96,10 @@ slf_code decode_into(const slf_stream& stream, const DecodeOptions& options, con
     if (const slf_code code = read_whole(stream, block, error); code != SLF_OK) return code;
     return keep(decode(std::as_const(block).bytes(), options));
   }
-  Parts read(stream.allocator);
-  if (const slf_code code = read_parts(stream, plan.ranges, read, error); code != SLF_OK)
+  Pieces read(stream.allocator);
+  if (const slf_code code = read_pieces(stream, plan.ranges, read, error); code != SLF_OK)
     return code;
-  return keep(decode_parts(stream.head, plan, read.parts, options));
+  return keep(decode_pieces(stream.head, plan, read.pieces, options));
 }
 
 slf_code decode_stream(const slf_stream& stream, const slf_options& given, slf_field** out,

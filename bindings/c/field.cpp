@@ -20,7 +20,7 @@ struct Rows {
   std::size_t stride;
 };
 
-slf_code check(const slf_field* field, const Rows& rows, std::size_t row, slf_error* error) {
+slf_code check_rows(const slf_field* field, const Rows& rows, std::size_t row, slf_error* error) {
   if (field == nullptr) return invalid(error, "field");
   const std::uint64_t points = field->field.num_points();
   if (rows.first > points || rows.count > points - rows.first) return invalid(error, "first");
@@ -45,10 +45,6 @@ void copy_rows(const Rows& rows, const Value* source, std::size_t width) {
   if (bytes == 0) return;
   each_row(rows, bytes,
            [&](std::size_t p, char* to) { std::memcpy(to, source + p * width, bytes); });
-}
-
-const FunctionWeights& weights_of(const slf_field& field) {
-  return field.weights.get([&] { return FunctionWeights(field.field, field.threads); });
 }
 
 const std::vector<std::array<float, 3>>& mirror_normals_of(const slf_field& field) {
@@ -101,7 +97,7 @@ slf_shape shape_of(const slf_field& field) {
 template <class Source>
 slf_code read_discs(const slf_field* field, const Rows& rows, std::size_t width, slf_error* error,
                     const Source& source) {
-  if (const slf_code code = check(field, rows, width * sizeof(float), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, width * sizeof(float), error); code != SLF_OK)
     return code;
   if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
   return guarded(error, [&] {
@@ -114,7 +110,7 @@ slf_code read_discs(const slf_field* field, const Rows& rows, std::size_t width,
 template <class Source>
 slf_code read_splats(const slf_field* field, const Rows& rows, std::size_t width, const char* name,
                      slf_error* error, const Source& source) {
-  if (const slf_code code = check(field, rows, width * sizeof(float), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, width * sizeof(float), error); code != SLF_OK)
     return code;
   if (!field->has_splats()) return invalid(error, name);
   if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
@@ -141,7 +137,7 @@ slf_code slf_get_shape(const slf_field* field, slf_shape* shape, slf_error* erro
 slf_code slf_read_positions(const slf_field* field, uint64_t first, uint64_t count, uint32_t* to,
                             size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
-  if (const slf_code code = check(field, rows, sizeof(slf::Voxel), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, sizeof(slf::Voxel), error); code != SLF_OK)
     return code;
   if (count > 0) copy_rows(rows, field->field.positions.data()->data(), 3);
   return SLF_OK;
@@ -152,7 +148,7 @@ slf_code slf_read_components(const slf_field* field, uint64_t first, uint64_t co
   const Rows rows{first, count, to, stride};
   const std::size_t width =
       field != nullptr ? static_cast<std::size_t>(field->field.num_planes()) : 0;
-  if (const slf_code code = check(field, rows, width * sizeof(int32_t), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, width * sizeof(int32_t), error); code != SLF_OK)
     return code;
   copy_rows(rows, field->field.components.data(), width);
   return SLF_OK;
@@ -161,7 +157,7 @@ slf_code slf_read_components(const slf_field* field, uint64_t first, uint64_t co
 slf_code slf_read_octahedral(const slf_field* field, uint64_t first, uint64_t count, uint16_t* to,
                              size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
-  if (const slf_code code = check(field, rows, 2 * sizeof(uint16_t), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, 2 * sizeof(uint16_t), error); code != SLF_OK)
     return code;
   if (field->field.normals.bits == 0) return invalid(error, "octahedral");
   if (count > 0) copy_rows(rows, field->field.normals.octahedral.data()->data(), 2);
@@ -172,10 +168,10 @@ slf_code slf_read_weights(const slf_field* field, uint64_t first, uint64_t count
                           size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
   const std::size_t row = field != nullptr ? num_weights(*field) * 3 * sizeof(float) : 0;
-  if (const slf_code code = check(field, rows, row, error); code != SLF_OK) return code;
+  if (const slf_code code = check_rows(field, rows, row, error); code != SLF_OK) return code;
   if (row == 0) return invalid(error, "weights");
   return guarded(error, [&] {
-    const slf::FunctionWeights& weights = weights_of(*field);
+    const slf::FunctionWeights& weights = field->function_weights();
     std::vector<float> values(row / sizeof(float));
     each_row(rows, row, [&](std::size_t p, char* place) {
       weights.weights(p, values.data());
@@ -188,7 +184,7 @@ slf_code slf_read_weights(const slf_field* field, uint64_t first, uint64_t count
 slf_code slf_read_mean_colours(const slf_field* field, uint64_t first, uint64_t count, uint8_t* to,
                                size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
-  if (const slf_code code = check(field, rows, 3, error); code != SLF_OK) return code;
+  if (const slf_code code = check_rows(field, rows, 3, error); code != SLF_OK) return code;
   if (!field->has_basis()) return invalid(error, "mean_colours");
   return guarded(error, [&] {
     const auto means = slf::mean_colours(field->field, field->threads);
@@ -203,7 +199,7 @@ slf_code slf_read_mean_colours(const slf_field* field, uint64_t first, uint64_t 
 slf_code slf_read_mirror_normals(const slf_field* field, uint64_t first, uint64_t count, float* to,
                                  size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
-  if (const slf_code code = check(field, rows, 3 * sizeof(float), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, 3 * sizeof(float), error); code != SLF_OK)
     return code;
   if (!is_reflected(*field)) return invalid(error, "mirror_normals");
   return guarded(error, [&] {
@@ -223,7 +219,7 @@ slf_code slf_read_disc_normals(const slf_field* field, uint64_t first, uint64_t 
 slf_code slf_read_disc_centres(const slf_field* field, uint64_t first, uint64_t count, float* to,
                                size_t stride, slf_error* error) {
   const Rows rows{first, count, to, stride};
-  if (const slf_code code = check(field, rows, 3 * sizeof(float), error); code != SLF_OK)
+  if (const slf_code code = check_rows(field, rows, 3 * sizeof(float), error); code != SLF_OK)
     return code;
   if (!field->field.header.grid.fits_floats()) return invalid(error, "grid");
   return guarded(error, [&] {

@@ -15,7 +15,7 @@ bool has(const slf_frames& frames, std::size_t place) {
   return place < frames.reader.frames().size();
 }
 
-slf_code check(slf_error* error, const Result<Done>& result) {
+slf_code result_code(slf_error* error, const Result<Done>& result) {
   return result ? slf_code{SLF_OK} : fail(error, result.error());
 }
 
@@ -63,13 +63,13 @@ slf_code slf_frames_push(slf_frames* frames, const void* bytes, size_t size, slf
   if (frames == nullptr) return invalid(error, "frames");
   if (bytes == nullptr && size > 0) return invalid(error, "bytes");
   return guarded(error, [&] {
-    return check(error, frames->reader.push({static_cast<const std::uint8_t*>(bytes), size}));
+    return result_code(error, frames->reader.push({static_cast<const std::uint8_t*>(bytes), size}));
   });
 }
 
 slf_code slf_frames_finish(slf_frames* frames, slf_error* error) {
   if (frames == nullptr) return invalid(error, "frames");
-  return guarded(error, [&] { return check(error, frames->reader.finish()); });
+  return guarded(error, [&] { return result_code(error, frames->reader.finish()); });
 }
 
 size_t slf_frames_count(const slf_frames* frames) {

@@ -65,4 +65,7 @@ struct slf_field {
 
   bool has_basis() const { return field.header.has_basis && field.header.num_functions > 0; }
   bool has_splats() const { return slf::has_gaussians(field.header); }
+  const slf::FunctionWeights& function_weights() const {
+    return weights.get([this] { return slf::FunctionWeights(field, threads); });
+  }
 };

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::uint32_t kMostSide = 1024;
 
-const FunctionWeights& weights_of(const slf_field& field) {
-  return field.weights.get([&] { return FunctionWeights(field.field, field.threads); });
-}
-
 /// The direction at unit length; (1, 0, 0) for what has none.
 Vec3 unit(const float* v) {
   const Vec3 d{double{v[0]}, double{v[1]}, double{v[2]}};
@@ -57,8 +53,8 @@ void fill_cube(const FunctionWeights& functions, std::uint32_t side, float* to) 
     }
 }
 
-slf_code check(const slf_field* field, const void* from, const void* to, std::uint64_t count,
-               slf_error* error) {
+slf_code check_directions(const slf_field* field, const void* from, const void* to,
+                          std::uint64_t count, slf_error* error) {
   if (field == nullptr) return invalid(error, "field");
   if (!field->has_basis()) return invalid(error, "functions");
   if (count > 0 && from == nullptr) return invalid(error, "directions");
@@ -82,10 +78,11 @@ using namespace slf::capi;
 
 slf_code slf_read_functions(const slf_field* field, uint64_t count, const float* directions,
                             float* to, size_t stride, slf_error* error) {
-  if (const slf_code code = check(field, directions, to, count, error); code != SLF_OK) return code;
+  if (const slf_code code = check_directions(field, directions, to, count, error); code != SLF_OK)
+    return code;
   if (!are_directions(directions, count)) return invalid(error, "directions");
   return guarded(error, [&] {
-    const slf::FunctionWeights& functions = weights_of(*field);
+    const slf::FunctionWeights& functions = field->function_weights();
     const std::size_t bytes = functions.size() * sizeof(float);
     if (stride != 0 && stride < bytes) return invalid(error, "stride");
     std::vector<float> row(functions.stride());
@@ -100,10 +97,10 @@ slf_code slf_read_functions(const slf_field* field, uint64_t count, const float*
 
 slf_code slf_read_function_cube(const slf_field* field, uint32_t side, float* to, size_t capacity,
                                 slf_error* error) {
-  if (const slf_code code = check(field, to, to, 1, error); code != SLF_OK) return code;
+  if (const slf_code code = check_directions(field, to, to, 1, error); code != SLF_OK) return code;
   if (side < 2 || side > kMostSide) return invalid(error, "side");
   return guarded(error, [&] {
-    const slf::FunctionWeights& functions = weights_of(*field);
+    const slf::FunctionWeights& functions = field->function_weights();
     const std::uint64_t floats = (functions.size() + 3) / 4 * 24 * std::uint64_t{side} * side;
     if (floats > capacity) return invalid(error, "capacity");
     fill_cube(functions, side, to);
@@ -127,14 +124,15 @@ slf_code slf_local_direction(const slf_field* field, uint64_t p, const float* wo
 
 slf_code slf_read_radiance(const slf_field* field, uint64_t count, const uint32_t* points,
                            const float* directions, float* to, slf_error* error) {
-  if (const slf_code code = check(field, directions, to, count, error); code != SLF_OK) return code;
+  if (const slf_code code = check_directions(field, directions, to, count, error); code != SLF_OK)
+    return code;
   if (count > 0 && points == nullptr) return invalid(error, "points");
   const bool known = std::all_of(points, points + count,
                                  [&](uint32_t p) { return p < field->field.num_points(); });
   if (!known) return invalid(error, "points");
   if (!are_directions(directions, count)) return invalid(error, "directions");
   return guarded(error, [&] {
-    const slf::FunctionWeights& source = weights_of(*field);
+    const slf::FunctionWeights& source = field->function_weights();
     std::vector<float> row(source.stride()), weights(3 * source.size());
     for (std::uint64_t i = 0; i < count; ++i) {
       source.functions(to_frame_of(*field, points[i], directions + 3 * i), row.data());

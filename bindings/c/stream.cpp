@@ -8,7 +8,7 @@
 #include "bindings/c/options.h"
 #include "bindings/c/sized.h"
 #include "bitstream/parameter_sets.h"
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 
 namespace slf::capi {
 namespace {

@@ -15,7 +15,7 @@
 namespace slf {
 namespace {
 
-/// Codes of the base in the grid's frame, so that splits and levels are those of the whole tree.
+/// Codes of the base on the grid's axes, so that splits and levels are those of the whole tree.
 std::vector<std::uint64_t> grid_codes(const BaseState& base, const StreamHeader& stream) {
   std::vector<std::uint64_t> codes = base.cells;
   for (auto& code : codes) code <<= stream.lowest_split(base.level);
@@ -23,8 +23,9 @@ std::vector<std::uint64_t> grid_codes(const BaseState& base, const StreamHeader&
 }
 
 /// The values of the rows that join nodes of `level`.
-Result<BaseValues> decode_components(const PartUnits& units, const Request& request,
-                                     const BaseState& base, int level, int threads, bool means) {
+Result<BaseValues> decode_level_components(const PartUnits& units, const Request& request,
+                                           const BaseState& base, int level, int threads,
+                                           bool means) {
   const auto codes = grid_codes(base, request.stream);
   const RahtTop top = build_raht_top(codes, request.stream.lowest_split(level), base.weights());
   SLF_CHECK(check_values(request, top.tree.size()));
@@ -114,7 +115,7 @@ Result<BaseValues> decode_base_components(const PartUnits& units, const Request&
   if (!request.stream.has_base() || request.planes() == 0) return BaseValues{};
   const bool apart = request.stream.apart();
   SLF_TRY(BaseValues left,
-          decode_components(units, request, base, request.stream.base_levels(), 1, apart));
+          decode_level_components(units, request, base, request.stream.base_levels(), 1, apart));
   if (apart) return BaseValues{{}, {}, std::move(left.values), {}, nullptr};
   return left;
 }
@@ -123,7 +124,7 @@ Result<Done> give_out_base(const PartUnits& units, const Request& request, int t
                            const BaseState& base, LightField& field) {
   if (base.is_known(request.stream) && request.planes() > 0) {
     SLF_TRY(BaseValues given,
-            decode_components(units, request, base, request.levels, threads, true));
+            decode_level_components(units, request, base, request.levels, threads, true));
     field.components = std::move(given.values);
   }
   field.positions = node_voxels(base.cells, base.level, request);

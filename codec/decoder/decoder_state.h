@@ -28,7 +28,7 @@ namespace slf {
 
 /// The rows whose components are decoded: nodes of the kept levels.
 struct ComponentRows {
-  std::span<const std::uint64_t> codes;  ///< of all points (base: cells), in the grid's frame
+  std::span<const std::uint64_t> codes;  ///< of all points (base: cells), on the grid's axes
   const RahtTree& tree;
   std::span<const std::uint32_t> first;  ///< [rows + 1] first code of each
   int start = 0;                         ///< level where coding starts: 0, or that of the cells

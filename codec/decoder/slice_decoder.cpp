@@ -192,8 +192,8 @@ Result<Done> interpolate_nodes(const SliceToDecode& slice, std::vector<std::uint
   return Done{};
 }
 
-Result<Done> decode_components(const SliceToDecode& slice, SliceGeometry geometry,
-                               std::span<std::int32_t> components, int threads) {
+Result<Done> decode_slice_components(const SliceToDecode& slice, SliceGeometry geometry,
+                                     std::span<std::int32_t> components, int threads) {
   if (slice.request.planes() == 0 || geometry.codes.empty()) return Done{};
   if (geometry.top.tree.size() == 0)
     return interpolate_nodes(slice, std::move(geometry.codes), geometry.level, components, threads);
@@ -274,7 +274,7 @@ Result<SliceGeometry> decode_slice_geometry(const SliceToDecode& slice, Occupanc
 Result<Done> decode_slice_values(const SliceToDecode& slice, SliceGeometry geometry,
                                  const SliceOutput& output, int threads) {
   SLF_CHECK(decode_normals(slice, geometry, output.normals));
-  SLF_CHECK(decode_components(slice, std::move(geometry), output.components, threads));
+  SLF_CHECK(decode_slice_components(slice, std::move(geometry), output.components, threads));
   if (output.positions.empty()) return Done{};
   SLF_CHECK(check_digest(slice, output));
   add_means(slice, output);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 
 namespace slf {
 namespace {
@@ -42,14 +42,14 @@ Result<std::vector<std::uint8_t>> read_ranges(const StreamSource& source, const 
   return bytes;
 }
 
-std::vector<StreamPart> parts_of(const ReadPlan& plan, std::span<const std::uint8_t> bytes) {
-  std::vector<StreamPart> parts;
+std::vector<StreamPiece> pieces_of(const ReadPlan& plan, std::span<const std::uint8_t> bytes) {
+  std::vector<StreamPiece> pieces;
   for (const ByteRange& range : plan.ranges) {
     const auto size = static_cast<std::size_t>(range.bytes);
-    parts.push_back({range.offset, bytes.first(size)});
+    pieces.push_back({range.offset, bytes.first(size)});
     bytes = bytes.subspan(size);
   }
-  return parts;
+  return pieces;
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ Result<std::optional<LightField>> decode_part(const StreamSource& source,
   if (head.size() + plan.bytes() > options.limits.max_memory)
     return Error{Errc::kLimitExceeded, "max_memory"};
   SLF_TRY(const std::vector<std::uint8_t> bytes, read_ranges(source, plan));
-  SLF_TRY(LightField field, decode_parts(head, plan, parts_of(plan, bytes), options));
+  SLF_TRY(LightField field, decode_pieces(head, plan, pieces_of(plan, bytes), options));
   return std::optional(std::move(field));
 }
 

@@ -80,7 +80,7 @@ void add_point(const std::vector<View>& views, std::vector<SharedPoint>& shared)
 }
 
 /// Points of one pair.
-ExposurePair summary(std::span<const SharedPoint> points) {
+ExposurePair pair_of(std::span<const SharedPoint> points) {
   ExposurePair pair{points.front().a, points.front().b, {}, 0};
   double wide = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -105,7 +105,7 @@ std::vector<ExposurePair> exposure_pairs(const Observations& seen) {
   for (std::size_t begin = 0, end = 0; begin < shared.size(); begin = end) {
     while (end < shared.size() && !(shared[begin] < shared[end])) ++end;
     if (end - begin >= kLeastShared)
-      pairs.push_back(summary(std::span(shared).subspan(begin, end - begin)));
+      pairs.push_back(pair_of(std::span(shared).subspan(begin, end - begin)));
   }
   return pairs;
 }

@@ -23,7 +23,7 @@ using Which = std::function<bool(std::size_t view)>;
 
 bool all(std::size_t) { return true; }
 
-double psnr(const std::vector<PictureError>& errors, const Which& of) {
+double psnr_of_views(const std::vector<PictureError>& errors, const Which& of) {
   PictureError sum;
   for (std::size_t v = 0; v < errors.size(); ++v)
     if (of(v)) sum += errors[v];
@@ -48,7 +48,7 @@ std::vector<Vec3> towards(const std::vector<Vec3>& eyes, const SurfelCloud& clou
 /// What it starts from knows them, so this errs to the safe side.
 void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, const Which& held_out,
                  PictureFit& fit) {
-  fit.held_out_before = psnr(system.errors(colours), held_out);
+  fit.held_out_before = psnr_of_views(system.errors(colours), held_out);
   fit.held_out_after = fit.held_out_before;
   fit.pull = 0;
   const auto kept = [&](std::size_t v) { return !held_out(v); };
@@ -56,7 +56,7 @@ void choose_pull(PictureSystem& system, const PictureSystem::Vector& colours, co
     system.set_pull(pull);
     auto tried = colours;
     system.improve(kept, kTriedSteps, tried, nullptr);
-    const double gained = psnr(system.errors(tried), held_out);
+    const double gained = psnr_of_views(system.errors(tried), held_out);
     if (!(gained > fit.held_out_before)) continue;
     fit.held_out_after = gained;
     fit.pull = pull;
@@ -98,7 +98,7 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
         system, colours, [&](std::size_t v) { return fold[v] == 0; }, fit);
     done = 2;
   }
-  fit.psnr_before = fit.psnr_after = psnr(system.errors(colours), all);
+  fit.psnr_before = fit.psnr_after = psnr_of_views(system.errors(colours), all);
   PictureSystem::Vector z(colours.size());
   for (int round = 0; fit.pull > 0 && round < s.rounds; ++round) {
     if (round > 0) {
@@ -109,7 +109,7 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
     system.improve(all, s.steps, colours, &z);
   }
   if (fit.pull > 0) {
-    fit.psnr_after = psnr(system.errors(colours), all);
+    fit.psnr_after = psnr_of_views(system.errors(colours), all);
     system.add(z, coefficients);
   }
   if (!hold_out) return fit;

@@ -106,7 +106,7 @@ class Search {
   int trials_ = 0;
 };
 
-double psnr(double mean_squared_error) {
+double psnr_of_mean(double mean_squared_error) {
   return 10 * std::log10(255.0 * 255.0 / std::max(mean_squared_error, 1e-9));
 }
 
@@ -167,8 +167,8 @@ Result<ChosenFit, InputError> choose_fit(const PointwiseObservations& observatio
     found.try_structure(found.best().directions, comparable_bspline(settings.basis));
   chosen.settings = found.best();
   chosen.outcome = ChosenFit::kSearched;
-  chosen.psnr_given = psnr(found.given_error());
-  chosen.psnr_chosen = psnr(found.error());
+  chosen.psnr_given = psnr_of_mean(found.given_error());
+  chosen.psnr_chosen = psnr_of_mean(found.error());
   return chosen;
 }
 

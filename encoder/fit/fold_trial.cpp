@@ -15,7 +15,7 @@ namespace {
 
 /// The observations that `kept` tells to keep: a camera's index is its argument.
 template <class Kept>
-void append(const SeenPoint& from, const Kept& kept, Observations& to) {
+void append_kept(const SeenPoint& from, const Kept& kept, Observations& to) {
   for (std::size_t j = 0; j < from.count(); ++j) {
     if (!kept(from.camera[j])) continue;
     to.direction.push_back(from.direction[j]);
@@ -43,7 +43,7 @@ FoldSample sample_blocks(const PointwiseObservations& seen, std::span<const Voxe
     sample.positions.push_back(positions[p]);
     sample.points.position.push_back(points.position[p]);
     sample.points.normal.push_back(points.normal[p]);
-    append(
+    append_kept(
         seen.of(p, room), [](std::uint16_t) { return true; }, sample.seen);
   }
   return sample;
@@ -55,7 +55,7 @@ Observations of_fold(const Observations& seen, const CameraFolds& folds, int fol
   const PointwiseObservations all(seen);
   SeenRoom room;
   for (std::size_t p = 0; p < all.points(); ++p)
-    append(
+    append_kept(
         all.of(p, room), [&](std::uint16_t c) { return (folds.of_camera[c] == fold) != others; },
         part);
   set_gamma_range(part);

@@ -16,7 +16,8 @@ constexpr std::size_t kSystemPointsPerRange = 256;
 constexpr std::size_t kRaysPerRange = 1 << 15;
 
 /// [K] of functions of mean square 1.
-std::vector<double> penalties(const DirectionRows& rows, const PictureFitSettings& settings) {
+std::vector<double> picture_penalties(const DirectionRows& rows,
+                                      const PictureFitSettings& settings) {
   std::vector<double> penalty;
   for (const int fineness : rows.fineness())
     penalty.push_back(fineness == 0 ? settings.mean_penalty
@@ -61,7 +62,7 @@ PictureSystem::PictureSystem(const Grid& grid, std::span<const Voxel> positions,
       gamma_range_(gamma_range),
       threads_(settings.threads),
       rows_(settings.basis),
-      penalty_(penalties(rows_, settings.pictures)),
+      penalty_(picture_penalties(rows_, settings.pictures)),
       kernel_(settings.basis, rows_, penalty_),
       normals_(mirror_normals(settings.directions, positions, settings.normal_cell_log2,
                               settings.threads)),

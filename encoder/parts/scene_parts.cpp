@@ -158,7 +158,8 @@ Result<SceneParts, InputError> read_part(const PartStream& part) {
   parts.name = part.name;
   if (const auto read = PartReader(part, parts).read(); !read) {
     const bool other = std::string_view(read.error().element) == "part_plan";
-    return wrong(part.name, other ? "not a part of a scene" : in_words(read.error()));
+    if (other) return wrong(part.name, "not a part of a scene");
+    return InputError{read.error().code, part.name + ": " + in_words(read.error())};
   }
   return parts;
 }

@@ -21,7 +21,7 @@ constexpr double kSide = 4;           // spacings: of the cubes that are kept wh
 using Pixel = std::array<double, 2>;
 
 /// Whether any point is drawn there.
-bool covered(const DepthBuffer& buffer, const Camera& camera, const Pixel& at) {
+bool covered_in_picture(const DepthBuffer& buffer, const Camera& camera, const Pixel& at) {
   if (!(at[0] >= 0 && at[0] < camera.width && at[1] >= 0 && at[1] < camera.height)) return false;
   return buffer.hides(at, 1e30, 1);
 }
@@ -30,7 +30,8 @@ bool inside_outline(const DepthBuffer& buffer, const Camera& camera, const Pixel
                     double pixels) {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
-      if (!covered(buffer, camera, {at[0] + pixels * x, at[1] + pixels * y})) return false;
+      if (!covered_in_picture(buffer, camera, {at[0] + pixels * x, at[1] + pixels * y}))
+        return false;
   return true;
 }
 
@@ -51,9 +52,9 @@ View look(const Camera& camera, const SurfacePoints& before, const SurfacePoints
     if (!(cosine >= double(kLeastCosine))) continue;
     double z = 0;
     const auto at = camera.project({position[0], position[1], position[2]}, &z);
-    if (!at || !covered(was, camera, *at) || was.hides(*at, z, cosine)) continue;
+    if (!at || !covered_in_picture(was, camera, *at) || was.hides(*at, z, cosine)) continue;
     view.seen.push_back(std::uint32_t(p));
-    if (covered(is, camera, *at)) continue;
+    if (covered_in_picture(is, camera, *at)) continue;
     if (inside_outline(was, camera, *at, kOutline * std::max(2.0, spacing * focal / z)))
       view.torn.push_back(std::uint32_t(p));
   }

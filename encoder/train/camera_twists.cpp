@@ -10,7 +10,8 @@
 namespace slf {
 namespace {
 
-constexpr double kMeanDecay = 0.9, kSquareDecay = 0.99;  // a view is drawn some thirty times in all
+constexpr double kMeanTwistDecay = 0.9,
+                 kSquareTwistDecay = 0.99;  // a view is drawn some thirty times in all
 
 /// R, t of a rigid motion of the world.
 struct Motion {
@@ -98,11 +99,11 @@ void CameraTwists::step(std::size_t view, double rate, const TrainedSurfels& sur
   for (std::size_t k = 0; k < 6; ++k) {
     const double g = gradient[k] * unit_[k];  // by pixels
     double &mean = mean_[view][k], &square = square_[view][k];
-    mean = kMeanDecay * mean + (1 - kMeanDecay) * g;
-    square = kSquareDecay * square + (1 - kSquareDecay) * g * g;
-    const double scale = std::sqrt(square / (1 - std::pow(kSquareDecay, steps)));
+    mean = kMeanTwistDecay * mean + (1 - kMeanTwistDecay) * g;
+    square = kSquareTwistDecay * square + (1 - kSquareTwistDecay) * g * g;
+    const double scale = std::sqrt(square / (1 - std::pow(kSquareTwistDecay, steps)));
     if (scale > 0)
-      twists_[view][k] -= rate * unit_[k] * mean / (1 - std::pow(kMeanDecay, steps)) / scale;
+      twists_[view][k] -= rate * unit_[k] * mean / (1 - std::pow(kMeanTwistDecay, steps)) / scale;
   }
 }
 

@@ -112,8 +112,8 @@ class Comparison {
         b_(buffers) {
     b_.drawn.resize(width_ * height_);
     b_.photograph.resize(width_ * height_);
-    for (auto& plane : b_.moments) frame(plane);
-    for (auto& plane : b_.gradients) frame(plane);
+    for (auto& plane : b_.moments) add_border(plane);
+    for (auto& plane : b_.gradients) add_border(plane);
   }
 
   /// Lumas, and moments along rows.
@@ -165,7 +165,7 @@ class Comparison {
   }
 
  private:
-  void frame(std::vector<float>& plane) const {
+  void add_border(std::vector<float>& plane) const {
     plane.resize(width_ * (height_ + 2 * kReach));
     std::fill_n(plane.begin(), kReach * width_, 0.0f);
     std::fill_n(plane.end() - std::ptrdiff_t(kReach * width_), kReach * width_, 0.0f);

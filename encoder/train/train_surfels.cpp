@@ -119,8 +119,8 @@ void pull_opacities(float weight, const TrainedSurfels& surfels,
 }
 
 /// Bytes of a training that decide what comes out of it.
-TrainingDigest digest_of(std::span<const TrainingView> views, const TrainSettings& settings,
-                         const TrainedSurfels& surfels) {
+TrainingDigest digest_of_training(std::span<const TrainingView> views,
+                                  const TrainSettings& settings, const TrainedSurfels& surfels) {
   Sha256 hash;
   const auto add = [&](const auto* values, std::size_t count) {
     hash.update({reinterpret_cast<const std::uint8_t*>(values), count * sizeof *values});
@@ -262,7 +262,7 @@ Result<Done, InputError> train_surfels(std::span<const TrainingView> views,
                                        const TrainSettings& settings, TrainedSurfels& surfels) {
   std::optional<TrainingCheckpoint> checkpoint;
   if (!settings.work.empty() && settings.seconds == 0 && settings.twists == nullptr)
-    checkpoint.emplace(settings.work, digest_of(views, settings, surfels));
+    checkpoint.emplace(settings.work, digest_of_training(views, settings, surfels));
   Training training(views, settings, surfels);
   if (checkpoint && settings.resume)
     if (auto state = checkpoint->read(settings.iterations)) training.go_on_from(*std::move(state));

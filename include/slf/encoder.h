@@ -56,13 +56,15 @@ inline constexpr std::uint32_t kMostSlicePoints = 1u << 22;
 /// How given integers become bytes. Same integers and parameters give the same bytes everywhere;
 /// with a transform, which is found in floating point, from one binary.
 struct CodingParameters {
+  static constexpr std::int32_t kMostStep = (1 << 27) - 1;  ///< range of sps_plane_step
+
   GeometryCoder geometry = GeometryCoder::kOctree;
   CoefficientCoder coefficients = CoefficientCoder::kVector;
   /// [K] 0 .. 15, group 0 holds function 0, or attributes, which have no transform if they are in
   /// groups before those of functions; empty: all 0
   std::vector<int> group;
-  std::vector<std::array<std::uint32_t, 3>>
-      step;  ///< [K][3] >= 1, integer component units; empty: all 1. With kTexture that of a sample
+  std::vector<std::array<std::uint32_t, 3>> step;  ///< [K][3] 1 .. kMostStep, component units;
+                                                   ///< empty: all 1. With kTexture that of a sample
   /// Not with kTexture. What a transform codes has the steps of its first function: function 0, or
   /// the first outside group 0
   TransformMode transform = TransformMode::kNone;
@@ -192,6 +194,7 @@ struct ChosenStep {
     kNoPictures,     ///< nothing is fitted to pictures
     kTooFewCameras,  ///< to hold some out
     kTooFewPixels,   ///< that held-out cameras see whole of the sample
+    kSplats,         ///< splats have a step of their own
   };
   Origin origin = kGiven;
   double loss = 0;                      ///< kChosen: dB of the held-out pictures that q costs

@@ -31,6 +31,11 @@ enum class Errc : std::uint8_t {
 /// The spelling of the code, as conformance manifests have it ("kOutOfRange").
 const char* to_string(Errc code);
 
+/// The version of a stream that is refused for it, and the major version that is read.
+struct FormatVersions {
+  std::uint8_t major = 0, minor = 0, read = 0;
+};
+
 /// An error of a bitstream, by the names of the specification (clause 7, annex F). They always
 /// point at literals, so an Error copies freely and never allocates.
 struct Error {
@@ -39,7 +44,8 @@ struct Error {
   /// From the first byte of the stream: of the element, or of what holds it (annex F). 0 where no
   /// place of the stream is to blame. What reads a part of a stream counts from that part.
   std::uint64_t bit_offset = 0;
-  const char* unit = "";  ///< type of the unit it is in: "sequence", "geometry"; "": in none
+  const char* unit = "";         ///< type of the unit it is in: "sequence", "geometry"; "": in none
+  FormatVersions versions = {};  ///< of kUnsupported sps_version_major; else zeros
 };
 
 /// An error of anything else a person hands in: a file, a capture, a setting.
@@ -53,7 +59,8 @@ inline bool has_place(const Error& error) {
   return *error.unit != 0 || error.code <= Errc::kUnsupported;
 }
 
-/// "sps_step in the sequence unit, bit 237"; "max_points" where there is no place.
+/// "sps_step in the sequence unit, bit 237"; "max_points" where there is no place; "format 0.4,
+/// where 1.x is read: sps_version_major in the sequence unit, bit 72".
 std::string where(const Error& error);
 
 /// "kOutOfRange: sps_step in the sequence unit, bit 237"

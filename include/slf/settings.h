@@ -24,6 +24,12 @@ struct SettingInfo {
     kFlag,    ///< "on" or "off"
     kText,    ///< anything
   };
+  /// What splats have of it. Elsewhere it is refused.
+  enum Splats : std::uint8_t {
+    kNotSplats,
+    kTrainedSplats,  ///< those that photographs train
+    kAnySplats,      ///< those that are given, too
+  };
   std::string name;  ///< "delta", the program's --delta
   Kind kind = kText;
   double low = 0, high = 0;
@@ -32,6 +38,7 @@ struct SettingInfo {
   std::string help;     ///< a sentence without a full stop, with the unit
   std::string group;    ///< what it belongs to
   std::vector<std::string> excludes;  ///< names of settings that may not be given beside it
+  Splats splats = kNotSplats;
 };
 
 /// All of them, in the order in which a person reads them. "preset" and "effort" come first: what
@@ -47,7 +54,8 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// The preset's settings with everything that is given in its place. What only one fit or basis has
 /// chooses it, where neither is given.
 /// @errors kInvalidArgument, with "--name" in the message: no such setting, given twice, a value
-///         outside its range, one that excludes another, one that the fit or basis does not have.
+///         outside its range, one that excludes another, one that the fit or basis, or splats, do
+///         not have.
 /// Thread-safe.
 Result<EncoderSettings, InputError> settings_from(const GivenSettings& given);
 

@@ -16,11 +16,11 @@ namespace {
 constexpr double kMargin = 1.03;  // around what is framed
 
 /// Right-handed world axes with `up` third.
-struct UpFrame {
+struct UpAxes {
   Vec3 first, second, up;
 };
 
-UpFrame up_frame(UpAxis axis) {
+UpAxes up_axes(UpAxis axis) {
   switch (axis) {
     case UpAxis::kPlusX:
       return {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
@@ -71,9 +71,9 @@ std::optional<Camera> named_view(const Metadata& metadata, UpAxis up, int width,
   const Vec3 back = combine(1, eye, -1, target, 0, eye);
   const double distance = std::sqrt(dot(back, back));
   if (!(distance > 0) || !std::isfinite(distance)) return {};
-  const UpFrame frame = up_frame(up);
-  const double turn = std::atan2(dot(back, frame.second), dot(back, frame.first));
-  const double elevation = std::asin(std::clamp(dot(back, frame.up) / distance, -1.0, 1.0));
+  const UpAxes axes = up_axes(up);
+  const double turn = std::atan2(dot(back, axes.second), dot(back, axes.first));
+  const double elevation = std::asin(std::clamp(dot(back, axes.up) / distance, -1.0, 1.0));
   const double radius = distance * std::sin((*numbers)[6] * std::numbers::pi / 360) / kMargin;
   Camera camera = orbit_camera({target, radius}, up,
                                {turn / (2 * std::numbers::pi), elevation * 180 / std::numbers::pi,
@@ -83,16 +83,16 @@ std::optional<Camera> named_view(const Metadata& metadata, UpAxis up, int width,
 }
 
 Camera orbit_camera(const FramedBall& ball, UpAxis up, const OrbitView& view) {
-  const UpFrame frame = up_frame(up);
+  const UpAxes axes = up_axes(up);
   const double azimuth = 2 * std::numbers::pi * view.turn;
   const double elevation = view.elevation_degrees * std::numbers::pi / 180;
   const double half_fov = std::clamp(view.fov_degrees, 1.0, 170.0) * std::numbers::pi / 360;
   const double ca = std::cos(azimuth), sa = std::sin(azimuth);
   const double ce = std::cos(elevation), se = std::sin(elevation);
   // Down is the elevation's derivative, so that it is defined straight above and below as well.
-  const Vec3 right = combine(-sa, frame.first, ca, frame.second, 0, frame.up);
-  const Vec3 down = combine(se * ca, frame.first, se * sa, frame.second, -ce, frame.up);
-  const Vec3 forward = combine(-ce * ca, frame.first, -ce * sa, frame.second, -se, frame.up);
+  const Vec3 right = combine(-sa, axes.first, ca, axes.second, 0, axes.up);
+  const Vec3 down = combine(se * ca, axes.first, se * sa, axes.second, -ce, axes.up);
+  const Vec3 forward = combine(-ce * ca, axes.first, -ce * sa, axes.second, -se, axes.up);
 
   const double distance = kMargin * ball.radius / std::sin(half_fov);
   Camera camera;

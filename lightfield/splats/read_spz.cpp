@@ -142,8 +142,9 @@ Result<std::vector<std::uint8_t>, InputError> gunzipped(const std::string& name,
 
 /// The same of version 4: a list of the bytes that each attribute takes, packed and not; then
 /// these.
-Result<std::vector<std::uint8_t>, InputError> unpacked(const std::string& name,
-                                                       const SpzHeader& header, FileBytes file) {
+Result<std::vector<std::uint8_t>, InputError> unpacked_streams(const std::string& name,
+                                                               const SpzHeader& header,
+                                                               FileBytes file) {
   constexpr std::size_t kLongHeader = 32, kEntry = 16;
   const auto fail = [&](const std::string& cause) {
     return InputError{Errc::kInvalidInput, name + ": SPZ 4: " + cause};
@@ -202,7 +203,8 @@ Result<GaussianFile, InputError> read_spz(const std::string& name, FileBytes byt
         name + ": SPZ: version " + std::to_string(header.version) + " packed as another is"};
   const std::uint64_t whole = kSpzHeader + std::uint64_t{header.splats} * header.splat_bytes();
   if (whole / kMostDeflateRatio > bytes.size()) return short_of(name, header);
-  SLF_TRY(const auto raw, plain ? unpacked(name, header, bytes) : gunzipped(name, header, bytes));
+  SLF_TRY(const auto raw,
+          plain ? unpacked_streams(name, header, bytes) : gunzipped(name, header, bytes));
   const SpzPlaces places = places_of(header);
   GaussianCollector collector(header.degree, UpAxis::kPlusY, header.splats);
   const std::size_t rest = header.harmonics();

@@ -51,7 +51,7 @@ TEST_P(CoefficientNeighboursTest, ScaleIsTheCoefficientOfAUnitDifference) {
   }
 }
 
-TEST_P(CoefficientNeighboursTest, OfTheKeptLevelsAreThoseOfTheWholeTree) {
+TEST_P(CoefficientNeighboursTest, KeptLevelsHaveThoseOfTheWholeTree) {
   const auto morton_codes = test::codes(GetParam().voxels);
   const RahtTree tree = build_raht_tree(morton_codes);
   const auto whole = find_coefficient_neighbours(tree, morton_codes, one_row_a_point(tree.size()));

@@ -67,11 +67,11 @@ void expect_all_failures_survived(const Bytes& stream, int threads, long step = 
   EXPECT_GT(allocations, 50);
 }
 
-TEST(AllocationFailure, OfADecodeIsBadAllocOrAnError) {
+TEST(AllocationFailure, InADecodeIsBadAllocOrAnError) {
   expect_all_failures_survived(*pack(small_field(), small_parameters()), 1);
 }
 
-TEST(AllocationFailure, OfADecodeOfAPartialStream) {
+TEST(AllocationFailure, InADecodeOfAPartialStream) {
   const Bytes whole = *pack(small_field(), small_parameters());
   const auto info = *read_info(whole);
   const auto& middle = info.units[info.units.size() * 2 / 3];
@@ -79,14 +79,14 @@ TEST(AllocationFailure, OfADecodeOfAPartialStream) {
       Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(middle.offset)), 1);
 }
 
-TEST(AllocationFailure, OfADecodeOfACutStream) {
+TEST(AllocationFailure, InADecodeOfACutStream) {
   DecodeOptions options;
   options.levels = 2;
   options.groups = 1;
   expect_all_failures_survived(*truncate(*pack(small_field(), small_parameters()), options), 1);
 }
 
-TEST(AllocationFailure, OfADecodeWithDraco) {
+TEST(AllocationFailure, InADecodeWithDraco) {
   LightField field = conformance::field(conformance::sphere(3), 3, 1, 300);
   CodingParameters parameters = conformance::with_steps(1, 8);
   parameters.geometry = GeometryCoder::kDraco;
@@ -100,7 +100,7 @@ TEST(AllocationFailure, OnTwoThreadsIsSeenOnTheCallingOne) {
   expect_all_failures_survived(*pack(small_field(), small_parameters()), 2, 7);
 }
 
-TEST(AllocationFailure, OfAnEncodeIsBadAllocOrAnError) {
+TEST(AllocationFailure, InAnEncodeIsBadAllocOrAnError) {
   const LightField field = small_field();
   const CodingParameters parameters = small_parameters();
   const Bytes whole = *pack(field, parameters);
@@ -111,7 +111,7 @@ TEST(AllocationFailure, OfAnEncodeIsBadAllocOrAnError) {
   EXPECT_GT(allocations, 100);
 }
 
-TEST(AllocationFailure, OfReadingHeadersAndOfACut) {
+TEST(AllocationFailure, InReadingHeadersAndInACut) {
   const Bytes whole = *pack(small_field(), small_parameters());
   DecodeOptions options;
   options.levels = 2;

@@ -191,10 +191,11 @@ def seeking(place):
     for line in (place.store.get('seeking', make) or '').splitlines()[1:]:
         path, numbers = line.rsplit(':', 1)
         n = [float(word) for word in numbers.split()]
-        rows.append([pathlib.Path(path.split(',')[0]).stem.split('_')[0], f'{n[0]:,.0f}', f'{n[1]:,.0f}', f'{n[2]:.0f}', f'{n[3]:.0f}', f'{n[4]:.1f}', f'{n[5]:.0f}'])
-    return ['Files of 32 frames in two groups of 16 (`tests/bench/bench_seek`, one thread): what a reader needs from nothing to a frame of the first group, mean '
-            'and worst over its frames, and how many frames are not shown where the largest unit of a frame is missing. Frames of the second group are never '
-            'among them.', '',
+        rows.append([pathlib.Path(path.split(',')[0]).stem.split('_')[0], f'{n[0]:,.0f}', f'{n[1]:,.0f}',
+                     f'{n[2]:.0f}', f'{n[3]:.0f}', f'{n[4]:.1f}', f'{n[5]:.0f}'])
+    return ['Files of 32 frames in two groups of 16 (`tests/bench/bench_seek`, one thread): what a reader needs from nothing to a frame of the '
+            'first group, mean and worst over its frames, and how many frames are not shown where the largest unit of a frame is '
+            'missing. Frames of the second group are never among them.', '',
             *table(['sequence', 'mean, bytes', 'worst, bytes', 'mean, ms', 'worst, ms', 'frames lost, mean', 'worst'], rows)]
 
 

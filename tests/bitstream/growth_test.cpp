@@ -8,7 +8,7 @@
 #include "bitstream/unchecked_headers.h"
 #include "bitstream/units.h"
 #include "codec/encoder/assemble.h"
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 #include "conformance/edit_units.h"
 #include "slf/decoder.h"
 #include "slf/syntax_listing.h"

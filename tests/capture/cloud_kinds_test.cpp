@@ -89,7 +89,7 @@ TEST(CloudColours, HaveTheRangeThatTheyUse) {
               AllOf(HasSubstr("vertex 2, property red is out of range"), HasSubstr("0 to 255")));
 }
 
-TEST(CloudColours, OfTwelveBitsInSixteenAreWarnedOf) {
+TEST(CloudColours, TwelveBitsInSixteenAreWarnedOf) {
   const std::string rows = "0 0 0 0 1 1\n1 0 0 4080 0 0\n";
   const Read twelve = read(2, three("ushort", kRgb), rows);
   EXPECT_THAT(twelve.warnings, ElementsAre(AllOf(HasSubstr("above 4080"),
@@ -118,7 +118,7 @@ TEST(CloudPoints, ThatAreNotFiniteAreLeftOutAndCounted) {
   EXPECT_THAT(normals.warnings, ElementsAre(HasSubstr("1 normals have length 0 or are not")));
 }
 
-TEST(CloudColours, OfDirectionsAndOfSplatsAreNamed) {
+TEST(CloudColours, ColoursOfDirectionsAndOfSplatsAreNamed) {
   std::string properties, row = "0 0 0";
   for (int view = 0; view < 3; ++view)
     for (const char* c : {"red_", "green_", "blue_"}) {
@@ -227,7 +227,7 @@ TEST(CloudNormals, AreTurnedToWhatSeesThem) {
   EXPECT_GT(right, outwards.size() * 99 / 100);
 }
 
-TEST(CloudNormals, OfASheetWithTwoSidesAreLeftAsTheyAre) {
+TEST(CloudNormals, NormalsOfASheetWithTwoSidesAreLeftAsTheyAre) {
   PointCloud sheet;
   for (const float z : {-0.03f, 0.03f})
     for (int y = 0; y < 60; ++y)

@@ -37,7 +37,7 @@ TEST(ColmapFolder, ImagesHaveLinesOfFeaturesOrNone) {
   EXPECT_THAT(message_of(damaged), AllOf(HasSubstr("images.txt, line 2"), HasSubstr("POINT3D_ID")));
 }
 
-TEST(ColmapFolder, OfSeveralModelsTheLargestIsTaken) {
+TEST(ColmapFolder, TheLargestOfSeveralModelsIsTaken) {
   const TemporaryDirectory directory;
   write_colmap_text(directory.path(), kCamerasTxt, "5 0.5 0.1 -0.7 0.5 0.1 -0.2 3 7 a.png\n\n");
   fs::create_directories(directory / "other");

@@ -170,7 +170,7 @@ TEST(OpenMvg, WhatIsNotReadIsNamedWithItsPlace) {
 }
 
 // A lens of Metashape has k3: what k1 and k2 miss of it is below what is seen, or refused.
-TEST(RadialTerms, OfHigherOrderAreExpressedOrRefused) {
+TEST(RadialTerms, TermsOfHigherOrderAreExpressedOrRefused) {
   Camera camera;
   camera.width = 6000;
   camera.height = 4000;

@@ -188,7 +188,7 @@ double worst_cosine(const std::vector<std::array<float, 3>>& normals,
   return worst;
 }
 
-TEST(Normals, OfASpherePointOutwardsFromAnyDistanceOfTheCameras) {
+TEST(Normals, NormalsOfASpherePointOutwardsFromAnyDistanceOfTheCameras) {
   const auto cloud = cloud_of(sphere_points(4000));
   // The neighbourhood of 16 points spans 0.06 rad; its plane is off by far less than that: 0.998.
   EXPECT_GT(worst_cosine(estimate_normals(cloud, {}), cloud.positions), 0.998);
@@ -201,7 +201,7 @@ TEST(Normals, OfASpherePointOutwardsFromAnyDistanceOfTheCameras) {
   }
 }
 
-TEST(Normals, OfARoomPointInwardsToTheCamerasInIt) {
+TEST(Normals, NormalsOfARoomPointInwardsToTheCamerasInIt) {
   const auto cloud = cloud_of(sphere_points(4000));
   auto inwards = cloud.positions;
   for (auto& p : inwards)
@@ -224,7 +224,7 @@ TEST(Normals, AreTheSameForAnyThreadCountAndForDegenerateClouds) {
       EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1, 1e-6);
 }
 
-TEST(Normals, OfACloudBeyondFloatsAreOrientedWithoutConversionsThatOverflow) {
+TEST(Normals, NormalsBeyondFloatsAreOrientedWithoutConversionsThatOverflow) {
   std::vector<std::array<float, 3>> positions;
   for (int i = 0; i < 100; ++i)
     positions.push_back({3e38f * static_cast<float>(std::cos(i)),

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bitstream/units.h"
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 #include "slf/syntax_listing.h"
 
 namespace slf::error_place_test {
@@ -124,18 +124,18 @@ TEST(Spec_F_Places, AreTheSameForEveryReader) {
   EXPECT_GT(compared, 100);
 }
 
-/// Decodes from the head of a stream and the parts that are asked for.
-Result<LightField> decode_from_parts(const Bytes& stream, const DecodeOptions& options) {
+/// Decodes from the head of a stream and the pieces that are asked for.
+Result<LightField> decode_from_pieces(const Bytes& stream, const DecodeOptions& options) {
   SLF_TRY(const auto head, find_head(stream, stream.size(), DecodeLimits{}.max_memory));
   const auto begin = std::span(stream).first(static_cast<std::size_t>(head->bytes));
   SLF_TRY(const ReadPlan plan, plan_read(begin, stream.size(), options));
   if (plan.whole) return decode(stream, options);
-  std::vector<StreamPart> parts;
+  std::vector<StreamPiece> pieces;
   for (const ByteRange& range : plan.ranges)
-    parts.push_back(
+    pieces.push_back(
         {range.offset, std::span(stream).subspan(static_cast<std::size_t>(range.offset),
                                                  static_cast<std::size_t>(range.bytes))});
-  return decode_parts(begin, plan, parts, options);
+  return decode_pieces(begin, plan, pieces, options);
 }
 
 TEST(Spec_F_Places, AreTheSameWhereAPartIsRead) {
@@ -145,7 +145,7 @@ TEST(Spec_F_Places, AreTheSameWhereAPartIsRead) {
     if (!split_units(stream) || !read_info(stream)) continue;
     DecodeOptions options;
     options.groups = 1;
-    const auto whole = decode(stream, options), part = decode_from_parts(stream, options);
+    const auto whole = decode(stream, options), part = decode_from_pieces(stream, options);
     if (whole || part) continue;
     EXPECT_EQ(to_string(part.error()), to_string(whole.error())) << id;
     ++compared;

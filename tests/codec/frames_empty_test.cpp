@@ -169,7 +169,7 @@ TEST(Spec_7_13_EmptyFrames, NormalsAndThoseWithoutFunctionsAreEmptyToo) {
   }
 }
 
-TEST(Spec_7_13_EmptyFrames, OfAnotherHeaderAreRefused) {
+TEST(Spec_7_13_EmptyFrames, EmptyFramesWithAnotherHeaderAreRefused) {
   FrameEncoder encoder(frame_parameters(8));
   ASSERT_TRUE(encoder.add(frame_of(Moves::kTurn, 0), 0));
   LightField other = make_field({}, kFrameBits - 1, kFrameFunctions);

@@ -170,7 +170,7 @@ TEST(Spec_7_13_Frames, OneThatDoesNotMoveIsOne) {
   EXPECT_EQ(beyond.error().code, Errc::kInvalidArgument);
 }
 
-TEST(Spec_8_12_Frames, OfOnePoint) {
+TEST(Spec_8_12_Frames, FramesMayHaveOnePoint) {
   std::vector<LightField> fields;
   for (const Voxel& v : {Voxel{5, 5, 5}, Voxel{5, 5, 6}, Voxel{63, 0, 63}})
     fields.push_back(make_field({v}, kFrameBits, 2));
@@ -203,7 +203,7 @@ TEST(Spec_8_12_Frames, WithNormalsDigestsAndTransforms) {
   }
 }
 
-TEST(Spec_8_12_Frames, OfGeometryAlone) {
+TEST(Spec_8_12_Frames, FramesMayHaveGeometryAlone) {
   const auto fields = fields_of(Moves::kBend, 3, 0);
   const Bytes stream = joined(coded_frames(fields, frame_parameters(1, 0)));
   FrameDecoder decoder = opened(stream);
@@ -287,7 +287,7 @@ TEST_F(FrameRefusals, NameLayersAndCodersThatFramesDoNotHave) {
   EXPECT_THAT(message(p, field_, field_), testing::HasSubstr("coders"));
 }
 
-TEST_F(FrameRefusals, OfTwoPointsInOneVoxelLeaveTheStreamAsItWas) {
+TEST_F(FrameRefusals, TwoPointsInOneVoxelLeaveTheStreamAsItWas) {
   LightField twice = field_;
   twice.positions[1] = twice.positions[0];
   EXPECT_THAT(message(parameters_, field_, twice), testing::HasSubstr("positions"));

@@ -28,7 +28,7 @@ class TruncatedFrames : public testing::TestWithParam<Moves> {
   Bytes stream_ = joined(coded_frames(fields_of(GetParam(), 6), frame_parameters(12), 3));
 };
 
-TEST_P(TruncatedFrames, OfFewerLevelsAndGroupsAreThoseAskedFor) {
+TEST_P(TruncatedFrames, LevelsAndGroupsAreThoseAskedFor) {
   for (const int levels : {0, 1, 2, 3, 4, 6})
     for (const int groups : {0, 1, 2}) {
       DecodeOptions options;

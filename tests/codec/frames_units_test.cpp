@@ -139,14 +139,14 @@ Bytes with_lattice(const std::array<std::int32_t, 3>& size, const Bytes& vectors
       vectors);
 }
 
-TEST(Spec_7_13_Lattice, OfMoreThanItsMostPointsIsRefused) {
+TEST(Spec_7_13_Lattice, MoreThanItsMostPointsAreRefused) {
   expect_error(with_lattice({1 << 18, 0, 0}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
                "frame");
   expect_error(with_lattice({63, 63, 64}, {}), Errc::kOutOfRange, "frame_lattice_size_minus1",
                "frame");
 }
 
-TEST(Spec_7_13_Lattice, OfMostPointsAndFewBytesIsSoonDone) {
+TEST(Spec_7_13_Lattice, ItsMostPointsInFewBytesAreSoonDone) {
   const auto begin = std::chrono::steady_clock::now();
   for (const int log2 : {3, 8})
     for (const Bytes& vectors : {Bytes{}, Bytes{1, 2, 3, 4, 5}, Bytes(12, 0xFF), Bytes(12, 0)})

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What hostile files cost: a refusal at most 16 MiB beyond a program that does nothing, whatever they
-claim; others stay within the limits they are given. Judges exit codes and memory; user time is shown.
+"""What hostile files cost: a refusal of a file below 1 kB at most 16 MiB and 50 ms beyond a program that does
+nothing, whatever they claim; others stay within the limits they are given. Judges exit codes, memory and time.
+Time is that of the processor, so that others on the machine do not count, the best of three where one was too long.
 
     tests/codec/hostile_test.py SLF HOSTILE_STREAMS
 """
@@ -17,18 +18,19 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MEBIBYTE = 1 << 20
 MOST_BEYOND = 16 * MEBIBYTE
+MOST_SECONDS_BEYOND = 0.05
 REFUSALS = {2, 4, 5, 6}  # --max-bytes and the like; invalid, limit, unsupported
 LIMIT = 5
 
 
 def run(command):
-    """Exit code, peak of the resident set in bytes, user seconds, what was said."""
+    """Exit code, peak of the resident set in bytes, seconds of the processor, what was said."""
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(command, stdout=said, stderr=said, stdin=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         said.seek(0)
-        return process.returncode, usage.ru_maxrss * 1024, usage.ru_utime, said.read()
+        return process.returncode, usage.ru_maxrss * 1024, usage.ru_utime + usage.ru_stime, said.read()
 
 
 class Judge:
@@ -36,8 +38,9 @@ class Judge:
 
     def __init__(self, program):
         self.program = program
-        self.base = run([program, "--version"])[1]
-        self.wrong, self.worst_bytes, self.worst_seconds, self.count = [], 0, 0.0, 0
+        nothing = [run([program, "--version"]) for _ in range(3)]
+        self.base, self.base_seconds = nothing[0][1], min(seconds for _, _, seconds, _ in nothing)
+        self.wrong, self.worst_bytes, self.worst_seconds, self.worst_small, self.count = [], 0, 0.0, 0.0, 0
         self.count_drawn = 0
 
     def check(self, good, what):
@@ -51,14 +54,19 @@ class Judge:
         with tempfile.TemporaryDirectory() as scratch:
             for verb in (["decode", file, "--dump", scratch + "/dump"],
                          ["render", file, "-o", scratch + "/out.png", "--size", "64x64"]):
-                code, peak, seconds, said = run([self.program, *verb, "-j", "1"])
-                beyond = peak - self.base
+                command = [self.program, *verb, "-j", "1"]
+                code, peak, seconds, said = run(command)
+                beyond, small = peak - self.base, pathlib.Path(file).stat().st_size < 1024
+                seconds -= self.base_seconds
+                for _ in range(2 if small and seconds > MOST_SECONDS_BEYOND else 0):
+                    seconds = min(seconds, run(command)[2] - self.base_seconds)
                 self.count += 1
                 self.worst_bytes = max(self.worst_bytes, beyond)
                 self.worst_seconds = max(self.worst_seconds, seconds)
+                self.worst_small = max(self.worst_small, seconds if small else 0)
                 self.check(code in REFUSALS, f"{verb[0]} {file}: exit code {code}")
                 self.check(said.count(b"\n") <= 2, f"{verb[0]} {file}: more than a line")
-                small = pathlib.Path(file).stat().st_size < 1024
+                self.check(not small or seconds <= MOST_SECONDS_BEYOND, f"{verb[0]} {file}: {1000 * seconds:.0f} ms")
                 self.check(not small or beyond <= MOST_BEYOND,
                            f"{verb[0]} {file}: {beyond / MEBIBYTE:.1f} MiB")
                 self.check(not os.listdir(scratch), f"{verb[0]} {file}: left {os.listdir(scratch)}")
@@ -132,8 +140,8 @@ def main():
             judge.draws_no_nonsense(str(file))
         judge.reads_in_proportion(made)
         judge.check(30 < judge.count_drawn < 100, f"{judge.count_drawn} pictures and files of far grids")
-    print(f"{judge.count} refusals: at most {judge.worst_bytes / MEBIBYTE:.1f} MiB and {judge.worst_seconds:.2f} s "
-          f"of user time; {len(judge.wrong)} wrong")
+    print(f"{judge.count} refusals: at most {judge.worst_bytes / MEBIBYTE:.1f} MiB and {judge.worst_seconds:.2f} s, "
+          f"{1000 * judge.worst_small:.0f} ms below 1 kB; {len(judge.wrong)} wrong")
     return 1 if judge.wrong or judge.count < 100 else 0
 
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Among the streams are transforms over several groups, which all are needed where function 0 is
 /// one of theirs.
-TEST(Spec_8_9_MeansOnly, OfEveryStreamAreThoseOfAllOfIt) {
+TEST(Spec_8_9_MeansOnly, MeansOfEveryStreamAreThoseOfAllOfIt) {
   int compared = 0, fewer = 0;
   const auto streams = std::filesystem::path(SLF_CONFORMANCE) / "streams";
   for (const auto& folder : std::filesystem::directory_iterator(streams)) {

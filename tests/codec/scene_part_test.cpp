@@ -34,7 +34,7 @@ const VoxelBox kCorner{{0, 0, 0}, {22, 40, 63}};
 
 class ScenePart : public testing::TestWithParam<SliceStart> {};
 
-TEST_P(ScenePart, OfFewerLevelsHasTheMeansOfNodes) {
+TEST_P(ScenePart, FewerLevelsHaveTheMeansOfNodes) {
   CodingParameters p = parameters_of({3, 1500, GetParam()}, 1, 1);
   const LightField field = test::make_field(test::sphere_cloud(kBits), kBits, 1);
   const auto stream = packed(field, p);

@@ -52,7 +52,7 @@ TEST(Spec_7_1_Layout, HasTheRowsOfTheTable) {
   EXPECT_EQ(words(slots_of(layout, Owner::kEnd)), "end");
 }
 
-TEST(Spec_7_1_Layout, OfACutHasNeitherWhatWasLeftOutNorDigests) {
+TEST(Spec_7_1_Layout, ACutHasNeitherWhatWasLeftOutNorDigests) {
   SequenceParameterSet set = two_groups();
   set.sps_cut_flag = set.sps_cut_groups = set.sps_cut_layers = 1;
   set.sps_cut_levels = 4;

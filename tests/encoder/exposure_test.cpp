@@ -153,7 +153,7 @@ TEST_F(ExposureTest, ARenderingOfAnotherExposureIsJudgedByItsPattern) {
   EXPECT_NEAR(matched, locked, 1);
 }
 
-TEST(ExposureGains, OfPairsThatAgreeAreExactAndOneThatDoesNotIsLeftOut) {
+TEST(ExposureGains, GainsOfPairsThatAgreeAreExactAndOneThatDoesNotIsLeftOut) {
   const std::vector<double> logs = {0.2, -0.1, 0.05, -0.25, 0.1, 0.15, -0.15};
   std::vector<ExposurePair> pairs;
   for (std::uint32_t a = 0; a < 7; ++a)

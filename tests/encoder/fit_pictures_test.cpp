@@ -211,7 +211,7 @@ TEST(PictureFit, PointsThatNoPictureShowsStayWhatTheyAre) {
   EXPECT_EQ(coefficients[coefficients.size() - 12], 125);
 }
 
-TEST(DirectionKernel, OfHarmonicsIsASumOverTheirRows) {
+TEST(DirectionKernel, KernelOfHarmonicsIsASumOverTheirRows) {
   const Basis basis{BasisId::kHarmonics, 2, 0, 0, 10};
   const DirectionRows rows(basis);
   std::vector<double> penalty;
@@ -238,7 +238,7 @@ TEST(DirectionKernel, OfHarmonicsIsASumOverTheirRows) {
   }
 }
 
-TEST(DirectionRows, OfManyDirectionsAreThoseOfEach) {
+TEST(DirectionRows, RowsOfManyDirectionsAreThoseOfEach) {
   constexpr std::size_t kCount = 11, kStride = 16;
   for (const Basis& basis : {Basis{BasisId::kHarmonics, 2, 0, 0, 10}, Basis{}}) {
     const DirectionRows rows(basis);

@@ -141,7 +141,7 @@ TEST(Spec_6_8_Shape, EigenvectorsAreARotationWhateverTheMatrix) {
   }
 }
 
-TEST(EncodeGaussians, OfOneQualityAreSmallerWhereItIsCoarser) {
+TEST(EncodeGaussians, FilesOfACoarserQualityAreSmaller) {
   const Gaussians given = some_splats(2000, 2);
   EncoderSettings settings;
   std::size_t before = SIZE_MAX;
@@ -215,7 +215,7 @@ TEST(EncodeGaussians, MeetThePsnrOfPicturesFromAround) {
   EXPECT_FALSE(encode_gaussians(given, settings)) << "two targets";
 }
 
-TEST(SplatPictures, OfTheSameSplatsAreTheSame) {
+TEST(SplatPictures, PicturesOfTheSameSplatsAreTheSame) {
   const Gaussians given = some_splats(50, 1);
   EXPECT_EQ(SplatPictures(given, 2).psnr_of(given), 100);
   EXPECT_EQ(SplatPictures({}, 1).psnr_of({}), 100) << "nothing, and nothing";

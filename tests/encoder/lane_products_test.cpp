@@ -36,7 +36,7 @@ TEST(LaneProducts, AreTheSumsOfProductsAddedToWhatWasThere) {
     }
 }
 
-TEST(LaneProducts, OfAMatrixWithItselfHaveTheirLowerTriangle) {
+TEST(LaneProducts, ProductsOfAMatrixWithItselfHaveTheirLowerTriangle) {
   for (const std::size_t count : {std::size_t{1}, std::size_t{5}, std::size_t{600}}) {
     constexpr std::size_t kWidth = 48;
     const auto a = random_values(count * kWidth);
@@ -52,7 +52,7 @@ TEST(LaneProducts, OfAMatrixWithItselfHaveTheirLowerTriangle) {
   }
 }
 
-TEST(LaneProducts, OfRowsReadTheirFirstElementsAlone) {
+TEST(LaneProducts, ProductsOfRowsReadTheirFirstElementsAlone) {
   constexpr std::size_t kCount = 11, kWidth = 16, kUsed = 13;  // not whole groups of rows
   const auto rows = random_values(kCount * kWidth);
   std::vector<Lanes<float>> x(kUsed), y(kCount);

@@ -105,7 +105,7 @@ TEST_F(RefineGeometryTest, ThreadsDoNotChangeTheResult) {
   EXPECT_EQ(one->cloud.normals, three->cloud.normals);
 }
 
-TEST_F(RefineGeometryTest, OfMendedPointsNoneFallIntoOneVoxel) {
+TEST_F(RefineGeometryTest, NoMendedPointsFallIntoOneVoxel) {
   const auto refined = refine_geometry(disturbed(), traced_->cameras, {.grid_bits = 6});
   ASSERT_TRUE(refined);
   ASSERT_GT(refined->voxel_size, 0);

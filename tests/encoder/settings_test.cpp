@@ -105,6 +105,25 @@ TEST(Settings, MistakesNameTheSetting) {
   EXPECT_EQ(error_of({{"fit", "hierarchical"}, {"beta", "1"}}), "--beta is for --fit paper");
 }
 
+TEST(Settings, WhatSplatsDoNotHaveIsRefusedWithThem) {
+  int refused = 0;
+  for (const SettingInfo& info : encoder_settings()) {
+    if (info.splats != SettingInfo::kNotSplats || info.kind == SettingInfo::kText) continue;
+    std::string value = info.words.empty() ? "" : info.words.back();
+    if (value.empty())
+      value = info.kind == SettingInfo::kFlag ? "on"
+              : info.kind == SettingInfo::kPair
+                  ? "3,3"
+                  : std::to_string(static_cast<int>(std::ceil(info.low)));
+    EXPECT_EQ(error_of({{"surface", "splats"}, {info.name, value}}),
+              "--" + info.name + " is for a surface, not --surface splats");
+    ++refused;
+  }
+  EXPECT_GE(refused, 40);
+  EXPECT_EQ(error_of({{"surface", "splats"}, {"effort", "3"}, {"klt", "joint"}, {"quality", "9"}}),
+            "accepted");
+}
+
 const SettingScope kOnOctrees = {"--geometry octree", [](const EncoderSettings& s) {
                                    return s.geometry == GeometryCoder::kOctree;
                                  }};

@@ -29,7 +29,7 @@ TEST(Ssim, IsOneForEqualImages) {
   EXPECT_NEAR(mean(s), 1, 1e-12);
 }
 
-TEST(Ssim, OfTwoFlatImagesIsTheLuminanceTermAlone) {
+TEST(Ssim, TwoFlatImagesHaveTheLuminanceTermAlone) {
   const std::vector<float> a(kPixels, 100), b(kPixels, 120);
   const double c1 = 0.01 * 255 * 0.01 * 255;
   const SsimSum s = ssim(a, b, std::vector<std::uint8_t>(kPixels, 1), kSize, kSize);
@@ -60,7 +60,7 @@ TEST(Ssim, WhatLiesOutsideTheMaskDoesNotCount) {
   EXPECT_LT(mean(after), 1);
 }
 
-TEST(Ssim, OfAnEmptyMaskIsNothing) {
+TEST(Ssim, AnEmptyMaskHasNone) {
   const auto a = texture();
   EXPECT_EQ(ssim(a, a, std::vector<std::uint8_t>(kPixels, 0), kSize, kSize).count, 0u);
 }
@@ -94,7 +94,7 @@ TEST_F(MultiScale, IsThatOfOneScaleWhereTheNextIsSmallerThanTheWindow) {
   EXPECT_NEAR(*of(a, b, 20), mean(one), 1e-12);
 }
 
-TEST_F(MultiScale, OfABrighterFlatImageIsTheLuminanceOfTheLastScale) {
+TEST_F(MultiScale, ABrighterFlatImageHasTheLuminanceOfTheLastScale) {
   const int size = 176;  // its fifth scale is as large as the window
   const std::vector<float> a(size * size, 100), b(size * size, 120);
   const double c1 = 0.01 * 255 * 0.01 * 255;
@@ -129,7 +129,7 @@ TEST_F(MultiScale, WhatLiesOutsideTheMaskDoesNotCount) {
   EXPECT_LT(*before, 1);
 }
 
-TEST_F(MultiScale, OfAnEmptyMaskIsNothing) {
+TEST_F(MultiScale, AnEmptyMaskHasNone) {
   const auto a = noise(30, 1);
   EXPECT_FALSE(ms_ssim(a, a, std::vector<std::uint8_t>(900, 0), 30, 30));
 }

@@ -125,7 +125,7 @@ TEST_F(StillPointsTest, KeepTheirViewMapsUnderNoise) {
   EXPECT_EQ(fields[1].positions, fields[0].positions);
 }
 
-TEST_F(StillPointsTest, OfWhatChangesAreFittedAnew) {
+TEST_F(StillPointsTest, PointsOfWhatChangesAreFittedAnew) {
   coded({frame(1), frame(101, 60)});
   EXPECT_LT(held_[1], 0.6);
   // Little by little: no step of two is a change, five of them are.
@@ -135,7 +135,7 @@ TEST_F(StillPointsTest, OfWhatChangesAreFittedAnew) {
   EXPECT_LT(*std::min_element(held_.begin() + 1, held_.end()), 0.6);
 }
 
-TEST_F(StillPointsTest, OfCamerasThatMoveNoneAreHeld) {
+TEST_F(StillPointsTest, CamerasThatMoveHoldNoPoint) {
   LoadedFrame moved_on = frame(101);
   for (Camera& camera : moved_on.capture.cameras) camera.translation[0] += 1e-3;
   coded({frame(1), moved_on});

@@ -240,7 +240,7 @@ TEST_F(TrainGeometryTest, WherePhotographsShowNothingPointsStay) {
 }
 
 /// Distances of a plane z = 3.3 at the nodes of two by two blocks.
-TEST(ZeroCrossings, OfAPlaneAreOneLayerOfNodesAndFaceOutwards) {
+TEST(ZeroCrossings, APlaneHasOneLayerOfNodesThatFaceOutwards) {
   DistanceBlocks all;
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 2; ++x) {

@@ -151,7 +151,7 @@ TEST(TrainGradientsTest, SpreadInDepthIsThatOfDifferences) {
 
 /// Discs reach beyond the picture: a Gaussian ends in a step of 1/255 of its opacity, as 3DGS has
 /// it, which differences see where pixels come over it, and gradients do not.
-TEST(TrainGradientsTest, OfGaussiansAreThoseOfDifferences) {
+TEST(TrainGradientsTest, GradientsOfGaussiansAreThoseOfDifferences) {
   EXPECT_LT(mismatch(Surfel::kColour, Surfel::kSize, 0, 1, true), 0.01);
   EXPECT_LT(mismatch(Surfel::kOpacity, Surfel::kColour, 0, 1, true), 0.02);
   EXPECT_LT(mismatch(Surfel::kLogRadius, Surfel::kOpacity, 0, 1, true), 0.03);
@@ -235,7 +235,7 @@ TEST(TrainGradientsTest, AnOpaqueSurfelHidesWhatIsBehind) {
   EXPECT_NEAR(depths.depth[middle], 4, 0.1);
 }
 
-TEST(PictureLoss, OfABoxHasTheGradientOfTheWholePictureInIt) {
+TEST(PictureLoss, ABoxHasTheGradientOfTheWholePictureInIt) {
   const Scene s = scene(12);
   const SurfelTiles tiles = tile_surfels(s.surfels, s.view.camera, 1);
   DrawnSurfels drawn;

@@ -40,7 +40,7 @@ Motion lattice_of(int log2, const std::array<std::int32_t, 3>& first,
   return m;
 }
 
-TEST(Spec_8_12_1_Motion, OfNothingIsZero) {
+TEST(Spec_8_12_1_Motion, MotionOfNothingIsZero) {
   for (const auto& place : some_places(0, 2 << kBits))
     EXPECT_EQ(Motion().at(place, kBits), Displacement{});
 }

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Clouds, ReferenceCellsTest,
                          testing::ValuesIn(test::clouds_of_every_shape()),
                          [](const auto& cloud) { return cloud.param.name; });
 
-TEST(Spec_8_12_2_ReferenceCells, OfNoFrameAreNone) { EXPECT_EQ(ReferenceCells().levels(), -1); }
+TEST(Spec_8_12_2_ReferenceCells, NoFrameHasNone) { EXPECT_EQ(ReferenceCells().levels(), -1); }
 
 }  // namespace
 }  // namespace slf::reference_cells_test

@@ -44,7 +44,7 @@ TEST_P(SliceCellsTest, AreTheRunsOfPointsThatShareACode) {
   }
 }
 
-TEST_P(SliceCellsTest, OfCoarserRowsCountAllTheirPoints) {
+TEST_P(SliceCellsTest, CoarserRowsCountAllTheirPoints) {
   const auto points = test::codes(GetParam().voxels);
   const int bits = GetParam().bits;
   if (bits < 2) GTEST_SKIP() << "one level";

@@ -25,7 +25,7 @@ double angle_degrees(const std::array<std::int64_t, 3>& n, const std::array<doub
   return std::acos(std::min(1.0, std::abs(dot) / std::sqrt(nn * ee))) * 180 / std::numbers::pi;
 }
 
-TEST(Spec_6_6_SurfaceNormals, OfAxisPlanesAreExact) {
+TEST(Spec_6_6_SurfaceNormals, NormalsOfAxisPlanesAreExact) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<Voxel> voxels;
     for (std::int32_t a = 0; a < 20; ++a)
@@ -44,7 +44,7 @@ TEST(Spec_6_6_SurfaceNormals, OfAxisPlanesAreExact) {
   }
 }
 
-TEST(Spec_6_6_SurfaceNormals, OfASphereAreRadialWithinAFewDegrees) {
+TEST(Spec_6_6_SurfaceNormals, NormalsOfASphereAreRadialWithinAFewDegrees) {
   const auto voxels = test::sphere_cloud(7);
   const auto normals = surface_normals(voxels, 0, 1);
   double sum = 0;
@@ -124,7 +124,7 @@ TEST(Spec_6_6_SurfaceNormals, AreThoseOfTheDefinitionWordForWord) {
 }
 
 /// Voxels of a tilted plane come in steps, which a fitted plane follows and the mean evens out.
-TEST(Spec_6_6_SurfaceNormals, OfATiltedPlaneHaveLittleOfTheGrid) {
+TEST(Spec_6_6_SurfaceNormals, NormalsOfATiltedPlaneHaveLittleOfTheGrid) {
   const std::array<double, 3> tilted = {0.1, 0.03, 1};
   std::vector<Voxel> voxels;
   for (std::int32_t x = 0; x < 64; ++x)
@@ -161,7 +161,7 @@ std::vector<Voxel> on_finer_grid(const std::vector<Voxel>& voxels) {
   return test::sorted_distinct(finer);
 }
 
-TEST(Spec_6_6_SurfaceNormals, OfCellsAreThoseOfTheGridThatTheCellsAre) {
+TEST(Spec_6_6_SurfaceNormals, NormalsOfCellsAreThoseOfTheGridThatTheCellsAre) {
   const auto voxels = test::sphere_cloud(6);
   std::vector<Voxel> twice;
   for (const Voxel& v : voxels) twice.push_back({2 * v[0], 2 * v[1], 2 * v[2]});

@@ -1,24 +1,32 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """No file above 300 lines, no function above 60: long ones hold more than one thing. Every file names its licence.
-No comment begins with "Of": it says first what it is about.
+No comment, no help text and no name of a test begins with "Of": it says first what it is about. No line has more than 160 characters, of code or of prose.
 
     house_limits_test.py ROOT
 
-The line of the licence does not count. Lines of a function go from its name, or what stands before it, to its last brace. A function within a function counts with it.
+The line of the licence does not count. Lines of a function go from its name, or what stands before it, to its last brace.
+A function within a function counts with it.
 """
 import ast
 import pathlib
 import re
 import sys
 
-FILE_LINES, FUNCTION_LINES = 300, 60
-NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made'}
+FILE_LINES, FUNCTION_LINES, LINE_CHARACTERS = 300, 60, 160
+NOT_OURS = {'.git', 'node_modules', '__pycache__', 'made', 'dist'}
 CPP, PYTHON = {'.cpp', '.h', '.c'}, {'.py'}
-OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css'}  # lines of files alone
-LICENCE = re.compile(r'\A(?:#![^\n]*\n)?(?://|#|/\*) SPDX-License-Identifier: Apache-2\.0\b')
+OTHERS = {'.sh', '.js', '.mjs', '.ts', '.jsx', '.cmake', '.css', '.html'}  # lines of files alone
+PROSE = {'.md'}
+LICENCE = re.compile(r'\A(?:#![^\n]*\n|<!doctype html>\n)?(?://|#|/\*|<!--) SPDX-License-Identifier: Apache-2\.0\b')
 
 OF = re.compile(r'^[ \t]*(?:///?<?|#|\*|""")[ \t]*Of\b[^\n]*', re.M)
+OF_LITERAL = re.compile(r'[^"\s]\s*("Of [^\n]*)')  # but not where it goes on with the literal before
+OF_TEST = re.compile(r'\bTEST\w*\(\s*\w+,\s*(Of[A-Z]\w*)')
+SAYS_HELP = re.compile(r'(?:encoder|tools)/.*\.(?:cpp|h)$')
+
+# Lines of any length: markup, dated pages that nobody edits, the page of figures, which a program writes.
+ANY_WIDTH = re.compile(r'.*\.(?:html|css)$|docs/(?:decisions|experiments)/|docs/figures\.md$')
 
 # Why a file may be longer.
 FILES = {
@@ -99,7 +107,7 @@ def files(root):
             continue
         if path.is_dir():
             yield from files(path)
-        elif path.suffix in CPP | PYTHON | OTHERS or path.name == 'CMakeLists.txt':
+        elif path.suffix in CPP | PYTHON | OTHERS | PROSE or path.name == 'CMakeLists.txt':
             yield path
 
 
@@ -109,17 +117,41 @@ def functions_of(file, text):
     return list(python_functions(text)) if file.suffix in PYTHON else []
 
 
+def genitives(name, text):
+    """Place and text of every comment, name of a test, and literal of what prints help, that begins with "Of"."""
+    found = [('a comment', comment.start(), comment[0].strip()) for comment in OF.finditer(text)]
+    found += [('a test', test.start(1), test[1]) for test in OF_TEST.finditer(text)]
+    if SAYS_HELP.match(name):
+        found += [('a text', literal.start(1), literal[1]) for literal in OF_LITERAL.finditer(text)]
+    for kind, at, said in found:
+        yield f'{name}:{text.count(chr(10), 0, at) + 1}: {kind} begins with "Of": {said[:60]}'
+
+
+def wide_lines(file, name, text):
+    """Place of every line that is too wide; in prose not of tables, code and pictures, which are one line."""
+    if ANY_WIDTH.match(name):
+        return
+    if file.suffix in PROSE:
+        text = re.sub(r'^(```|~~~)(?s:.*?)^\1|^ *\|[^\n]*|^!\[[^\n]*|^ {4}(?! *[*-] )\S[^\n]*', blank, text, flags=re.M)
+    for at, line in enumerate(text.split('\n'), 1):
+        if len(line.rstrip()) > LINE_CHARACTERS:
+            yield f'{name}:{at}: {len(line)} characters'
+
+
 def findings(root, counts):
     """What is too long: by whom it is excused, and a line that says it."""
     for file in files(root):
         name, text = file.relative_to(root).as_posix(), file.read_text(encoding='utf-8')
+        for said in wide_lines(file, name, text):
+            yield name, {}, said
+        if file.suffix in PROSE:
+            continue
         if not LICENCE.match(text):
             yield name, {}, f'{name}: does not begin with its licence, as others do (SPDX-License-Identifier)'
         if text.count('\n') - 1 > FILE_LINES:
             yield name, FILES, f'{name}: {text.count(chr(10)) - 1} lines'
-        for comment in OF.finditer(text):
-            line = text.count('\n', 0, comment.start()) + 1
-            yield name, {}, f'{name}:{line}: a comment begins with "Of": {comment[0].strip()[:60]}'
+        for said in genitives(name, text):
+            yield name, {}, said
         functions = functions_of(file, text)
         counts[file.suffix] = counts.get(file.suffix, 0) + len(functions)
         for function, lines in functions:

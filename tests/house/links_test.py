@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Relative links of every Markdown file lead to a file and a heading; pages that source files name are there.
+"""Relative links of every Markdown file lead to a file and a heading; files and pages that texts and sources name are there.
 
     links_test.py ROOT
 
 Headings have the anchors that GitHub gives them. A source file names a page as docs/NAME.md or docs/decisions/NNN.
+A page names a file of the tree in backticks, as `codec/decoder/decode.cpp`; pages that carry a date name those of their day.
 """
 import pathlib
 import re
@@ -14,6 +15,9 @@ import urllib.parse
 
 SOURCES = {'.cpp', '.h', '.c', '.py', '.js', '.mjs', '.ts', '.sh', '.txt', '.json', '.css', '.html', '.yml'}
 NOT_OURS = {'.git', 'node_modules', '__pycache__'}
+DATED = re.compile(r'docs/(?:decisions|experiments)/|CHANGELOG\.md$')
+BUILT = re.compile(r'(?:^|/)(?:build|dist|made)/')  # by a program: a fresh tree has none
+NAMED_FILE = re.compile(r'(?<!`)`((?:[\w.-]+/)+[\w.-]+\.(?:cpp|h|c|py|sh|js|mjs|ts|jsx|html|css|md|txt|json|cmake|map|yml))`(?!`)')
 
 
 def files_of(root):
@@ -65,6 +69,17 @@ def missing_pages(file, root):
             yield f'{file.relative_to(root)}: no decision {number}'
 
 
+def missing_files(file, root):
+    """Paths in backticks that begin with a folder of the tree, or of the page's own, and lead to no file."""
+    name = file.relative_to(root)
+    if DATED.match(name.as_posix()):
+        return
+    for path in NAMED_FILE.findall(file.read_text(encoding='utf-8')):
+        places = [place for place in (root, root / 'include', file.parent) if (place / path.split('/')[0]).is_dir()]
+        if places and not BUILT.search(path) and not any((place / path).exists() for place in places):
+            yield f'{name}: {path} is not there'
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
     wrong, links = [], 0
@@ -72,6 +87,7 @@ def main():
         if file.suffix == '.md':
             links += 1
             wrong += broken_links(file, root)
+            wrong += missing_files(file, root)
         elif file.suffix in SOURCES and file.resolve() != pathlib.Path(__file__).resolve():
             wrong += missing_pages(file, root)
     print('\n'.join(sorted(wrong)) or f'{links} pages, no broken link')

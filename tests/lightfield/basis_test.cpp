@@ -42,7 +42,7 @@ TEST(WaveletTaps, AreHaarForOrderOneAndChuiWangForOrderTwo) {
     EXPECT_NEAR(wavelet_taps(3)[n], quadratic[n] / 480, 1e-15) << n;
 }
 
-TEST(WaveletValue, OfOrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
+TEST(WaveletValue, OrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
   EXPECT_EQ(wavelet_value(1, 0, 0.3), 1);
   EXPECT_EQ(wavelet_value(1, 1, 0.49), 1);
   EXPECT_EQ(wavelet_value(1, 1, 0.5), -1);
@@ -52,7 +52,7 @@ TEST(WaveletValue, OfOrderOneIsTheHaarFunctionOfItsScaleAndOffset) {
   EXPECT_EQ(wavelet_value(1, 6, 0.49), 0);
 }
 
-TEST(WaveletValue, OfOrderTwoHasItsTapsAtTheNodesAndWrapsAround) {
+TEST(WaveletValue, OrderTwoHasItsTapsAtTheNodesAndWrapsAround) {
   // Scale 2, offset 0: psi(4x), N_2(8x - n) peaks at 8x = n + 1.
   EXPECT_NEAR(wavelet_value(2, 4, 1.0 / 8), 1.0 / 12, 1e-15);
   EXPECT_NEAR(wavelet_value(2, 4, 3.0 / 8), 10.0 / 12, 1e-15);
@@ -154,8 +154,8 @@ double largest_correlation_within_a_scale(int order) {
   return largest;
 }
 
-TEST(Gram, CorrelationsWithinAScaleAreThoseOfThePrototype) {
-  // Independent figures: research/prototype.md section 3.
+TEST(Gram, CorrelationsWithinAScaleAreThoseOfASecondProgram) {
+  // It was written before this one, from the definition of the basis alone.
   EXPECT_NEAR(largest_correlation_within_a_scale(1), 0, 1e-12);
   EXPECT_NEAR(largest_correlation_within_a_scale(2), 0.385, 5e-4);
   EXPECT_NEAR(largest_correlation_within_a_scale(3), 0.557, 5e-4);
@@ -166,7 +166,7 @@ TEST(BasisNorms, SpanTheFactorThatUniformStepsIgnore) {
   const std::vector<double> norms = basis_norms(Basis{});
   ASSERT_EQ(norms.size(), 128u);
   EXPECT_DOUBLE_EQ(norms[0], 1);
-  // Smallest squared norm 1.95e-3 (prototype.md section 3), 1 : 0.044.
+  // Smallest squared norm 1.95e-3 by the same program, 1 : 0.044.
   EXPECT_NEAR(*std::min_element(norms.begin(), norms.end()), 0.044, 5e-4);
   // w_1 of order 2 is a triangle wave between -1 and 1: mean square 1/3.
   EXPECT_NEAR(norms[1], std::sqrt(1.0 / 3), 1e-14);

@@ -42,7 +42,7 @@ TEST(FramedBall, KeepsAPartThatIsNotFew) {
   EXPECT_GT(framed_ball(kGrid, voxels).radius, 2000);
 }
 
-TEST(FramedBall, OfSplatsATenthMayBeSky) {
+TEST(FramedBall, ATenthOfSplatsMayBeSky) {
   std::vector<std::array<float, 3>> splats;
   for (const Voxel& v : cube(10)) splats.push_back({float(v[0]), float(v[1]), float(v[2])});
   const double object = framed_ball(splats).radius;

@@ -19,7 +19,7 @@ LightField triangle_in_gamma() {
   return field;
 }
 
-TEST(Radiance, OfATriangleWaveIsHandComputable) {
+TEST(Radiance, ATriangleWaveIsHandComputable) {
   const ViewMaps maps(triangle_in_gamma(), 1);
   EXPECT_NEAR(maps.radiance(0, 0.3f, 0.0f)[0], 20, 1e-4);
   EXPECT_NEAR(maps.radiance(0, -2.0f, 0.5f)[0], 100, 1e-4);
@@ -49,7 +49,7 @@ TEST(Radiance, IsClampedToDisplayRangeAndTheMeanIsTheDc) {
   EXPECT_EQ(maps.mean(0), (std::array<float, 3>{250, 50, 0}));
 }
 
-TEST(ViewMaps, OfAFieldWithoutABasisOrWithOtherComponentsAreRefused) {
+TEST(ViewMaps, AFieldWithoutABasisOrWithOtherComponentsIsRefused) {
   const LightField sound = triangle_in_gamma();
   ASSERT_TRUE(ViewMaps::of(sound, 1));
   LightField without = sound, other_basis = sound, cut = sound;

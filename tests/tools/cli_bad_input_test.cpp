@@ -117,7 +117,7 @@ TEST_F(BadCaptureTest, WhatIsSmallIsNotSaidToBeZero) {
                  "a voxel size of 1e-09");
 }
 
-TEST_F(BadCaptureTest, OfJsonTheCauseIsSaid) {
+TEST_F(BadCaptureTest, WrongJsonSaysItsCause) {
   std::string text = cameras().dump();
   text.replace(text.find("\"t\":[") + 5, 0, "NaN,");
   write("tiny/cameras.json", text);
@@ -212,10 +212,16 @@ TEST_F(BadStreamTest, TruncatedCorruptedForeignAndEmpty) {
   expect_refused("", 4, "");
 }
 
-TEST_F(BadStreamTest, NewerMajorVersion) {
-  std::string newer = good_;
-  newer[kSignature.size() + 1] = 9;  // sps_version_major, looked at before the checksum
-  expect_refused(newer, 6, "sps_version_major");
+TEST_F(BadStreamTest, AnotherMajorVersionIsSaidWithBothNumbers) {
+  for (const int major : {0, 9}) {
+    std::string other = good_;
+    other[kSignature.size() + 1] = static_cast<char>(major);  // looked at before the checksum
+    other[kSignature.size() + 2] = 4;
+    const std::string said = "format " + std::to_string(major) + ".4, where 1.x is read";
+    expect_refused(other, 6, said);
+    write("other.slf", other);
+    expect_failure(slf("merge other.slf -o whole.slf"), 6, "other.slf", said);
+  }
 }
 
 TEST_F(CliTest, MissingStream) {

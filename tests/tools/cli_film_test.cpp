@@ -86,7 +86,7 @@ Avi read_avi(const std::string& file) {
   return avi;
 }
 
-TEST_F(CliFilmTest, OfFramesHasTheirPicturesAndTheirRate) {
+TEST_F(CliFilmTest, FilmOfFramesHasTheirPicturesAndTheirRate) {
   ASSERT_EQ(slf("render x.slf --frames 0:2 --size 62x45 -o v.avi --quiet").code, 0);
   ASSERT_EQ(slf("render x.slf --frames 0:2 --size 62x45 -o v%d.jpg --quiet").code, 0);
   ASSERT_EQ(slf("render x.slf --frames 0:2 --size 62x45 -o v%d.png --quiet").code, 0);
@@ -126,7 +126,7 @@ TEST_F(CliFilmTest, WithoutAChoiceHasAllFrames) {
   EXPECT_EQ(read_avi(read("one.avi")).pictures.size(), 1u);
 }
 
-TEST_F(CliFilmTest, OfAnOrbitHasAllViews) {
+TEST_F(CliFilmTest, FilmOfAnOrbitHasAllViews) {
   ASSERT_EQ(slf("render x.slf --orbit 4 --size 32x32 -o v.AVI --quiet").code, 0);
   ASSERT_EQ(slf("render x.slf --orbit 4 --size 32x32 -o v%d.jpg --quiet").code, 0);
   const Avi avi = read_avi(read("v.AVI"));

@@ -78,7 +78,7 @@ TEST_F(LimitsTest, AreNamedWithWhatTheFileTakes) {
   EXPECT_FALSE(exists("out.slf"));
 }
 
-TEST_F(LimitsTest, OfMemoryAreWholeNumbersOfBytes) {
+TEST_F(LimitsTest, MemoryIsAWholeNumberOfBytes) {
   for (const char* wrong : {"none", "-1", "-5", "-1M", "0", "1.5M", "8E", "99999999999T", "1KB"})
     expect_failure(slf("decode good.slf -o out.ply --max-memory=" + std::string(wrong)), 2, wrong,
                    "--max-memory");

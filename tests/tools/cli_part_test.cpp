@@ -99,7 +99,7 @@ TEST_F(PartTest, IsWhatIsDecodedOfTheWhole) {
 }
 
 /// What is not read is not seen to be damaged.
-TEST_F(PartTest, OfARegionNothingOfOtherSlicesIsRead) {
+TEST_F(PartTest, ARegionReadsNothingOfOtherSlices) {
   const int last = static_cast<int>(info_.num_slices) - 1;
   const std::string region = region_of_first() + " -o out.ply";
   damage("far.slf", "coefficients", last);
@@ -121,7 +121,7 @@ TEST_F(PartTest, OfARegionNothingOfOtherSlicesIsRead) {
   EXPECT_FALSE(exists("out.ply"));
 }
 
-TEST_F(PartTest, OfGroupsNothingOfOthersIsRead) {
+TEST_F(PartTest, GroupsReadNothingOfOthers) {
   damage("fine.slf", "coefficients", 0, info_.num_groups - 1);
   EXPECT_EQ(slf("decode fine.slf --groups 1 --dump d").code, 0);
   EXPECT_EQ(slf("export fine.slf --groups 1 -o out.spz").code, 0);
@@ -146,7 +146,7 @@ TEST_F(PartTest, MemoryHasToHoldWhatIsRead) {
   expect_failure(slf("decode long.slf --levels 3" + less), 5, "long.slf", "bytes of --max-memory");
 }
 
-TEST_F(PartTest, OfFilesThatAreNotWholeIsSaidSoOnce) {
+TEST_F(PartTest, FilesThatAreNotWholeSaySoOnce) {
   ASSERT_EQ(slf("truncate good.slf --levels 3 -o cut.slf").code, 0);
   const std::string part = " --region 0,0,0,7,7,7 --levels 2 -o out.ply";
   const Ran ran = slf("decode cut.slf" + part);

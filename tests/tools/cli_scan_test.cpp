@@ -64,7 +64,7 @@ TEST_F(ScanTest, ComesThroughPdalWithItsColoursAndItsSystem) {
   EXPECT_EQ(of_scan, decoded("y.slf"));
 }
 
-TEST_F(ScanTest, OfEightBitsInSixteenIsNotBlack) {
+TEST_F(ScanTest, EightBitsInSixteenAreNotBlack) {
   stand_in();
   write("scan.ply", plane_ply(200, "ushort"));
   write("eight.ply", plane_ply(200, "uchar"));
@@ -92,7 +92,7 @@ TEST_F(ScanTest, WhosePointsAreDamagedIsNamedItself) {
   EXPECT_EQ(ran.err.find("/dev/fd"), std::string::npos) << ran.err;
 }
 
-TEST_F(ScanTest, OfAPdalThatCannotBeStartedDoesNotAskForItsPackage) {
+TEST_F(ScanTest, APdalThatCannotBeStartedDoesNotAskForItsPackage) {
   write("scan.laz", "LASF");
   std::filesystem::create_directory(path("bin"));
   write("bin/pdal", "#!/no/such/shell");

@@ -62,7 +62,8 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWithTwo) {
   contradiction("--fit hierarchical --environment-radius 1", "--environment-radius", "2 to 1e");
   expect_failure(slf("encode a -o b --preset best"), 2, "--preset", "default|paper");
   expect_failure(slf("encode a -o b --metadata nothing"), 2, "--metadata", "KEY=VALUE");
-  for (const char* key : {"q=99", "split=all", "grid_bits=3", "surface_start=x"})
+  for (const char* key :
+       {"q=99", "split=all", "grid_bits=3", "surface_start=x", "exposure=x", "poses=x"})
     expect_failure(slf(std::string("encode a -o b --metadata ") + key), 2, "--metadata",
                    "the encoder writes this key itself");
   expect_failure(slf("encode a -o b --metadata k=1 k=2"), 2, "--metadata", "twice");

@@ -25,9 +25,8 @@ endif()
 
 configure_package_config_file(tools/cmake/slfConfig.cmake.in ${PROJECT_BINARY_DIR}/slfConfig.cmake
                               INSTALL_DESTINATION ${SLF_CMAKE_DIR})
-# Before 1.0 every minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
-                                 COMPATIBILITY SameMinorVersion)
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slfConfig.cmake ${PROJECT_BINARY_DIR}/slfConfigVersion.cmake
         DESTINATION ${SLF_CMAKE_DIR} COMPONENT dev)
 include(tools/cmake/slf_pkg_config.cmake)

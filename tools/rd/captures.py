@@ -105,7 +105,8 @@ def describe(directory, points):
     splits = cameras.get("splits") if cameras else None
     names = [camera["image"] for camera in cameras["cameras"]] if cameras else []
     held_out = (splits or {}).get("evaluation") or names[3::4]
-    return {"directory": str(pathlib.Path(directory).resolve()), "points": points, "hash": content_hash(directory, points and os.path.relpath(points, directory)),
+    return {"directory": str(pathlib.Path(directory).resolve()), "points": points,
+            "hash": content_hash(directory, points and os.path.relpath(points, directory)),
             "splits": sorted(splits) if splits else None, "held_out": held_out}
 
 

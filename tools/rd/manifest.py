@@ -112,7 +112,7 @@ def _check_rates(located, codecs):
         if codec not in codecs:
             raise rates.refuse(f'rates of "{codec}", which is not among the codecs {", ".join(codecs)}', codec)
         _check_type(values, list, f"rates of {codec}")
-        name, limits = opt.RATES[codec]
+        name, limits = opt.rate(codec)
 
         def check(item):
             problem = limits.problem(item.value) if not isinstance(item.value, (dict, list)) else "a number is expected"

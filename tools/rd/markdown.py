@@ -21,7 +21,8 @@ def write(directory, out, plan, rows, figures, judged):
     directory = pathlib.Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     failed = sum(r["status"] != "ok" for r in rows)
-    parts = ["# A run of the experiments, as it came out\n\n", "Written by `tools/rd/rd.py --markdown`; what it means is in [decision 031](../decisions/031-paper-experiments.md).\n\n",
+    parts = ["# A run of the experiments, as it came out\n\n",
+             "Written by `tools/rd/rd.py --markdown`; what it means is in [decision 031](../decisions/031-paper-experiments.md).\n\n",
              f"Program {plan['slf']['version']}, commit {plan['slf']['commit'] or 'unknown'}; {report.machine()}; {len(plan['jobs'])} encodes, "
              f"{failed} rows without a result. One thread each, two at a time.\n\n", report.STAND_INS + "\n\n", "## The paper's findings\n\n",
              verdict_table(judged)]

@@ -53,9 +53,9 @@ class Either:
         return None if None in problems else " or ".join(problems)
 
 
-# The rate knob of each codec: option of the program and its range. A step is always given: with the
-# program's own choice, --quality auto and --quality-loss, a job would have no rate of its own.
-RATES = {"raht": ("quality", Number(0.05, 4096)), "tmc": ("texture-qp", Number(0, 51, whole=True)),
+# The rate knob of each codec: option of the program, and its range where that is not the program's own. A step is always
+# given: with the program's own choice, --quality auto and --quality-loss, a job would have no rate of its own.
+RATES = {"raht": ("quality", None), "tmc": ("texture-qp", None),
          "tmc3": ("qp", Number(4, 51, whole=True)), "igc-hevc": ("qp", Number(0, 51, whole=True)),
          "igc-hevc-intra": ("qp", Number(0, 51, whole=True)), "igc-av1": ("qp", Number(0, 63, whole=True))}
 
@@ -76,7 +76,7 @@ OWN = {
     "av1-speed": (Number(0, 8, whole=True), ("igc-av1",)),  # --speed as well, of another scale
 }
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build" / "bin" / "slf"
-_options = {}
+_options, _rates = {}, {}
 
 
 def load(slf):
@@ -85,6 +85,7 @@ def load(slf):
     _options.clear()
     _options.update({row["name"]: (_range(row), _codecs(row)) for row in table
                      if row["name"] not in NOT_OPTIONS and row["kind"] not in ("text", "pair")}, **OWN)
+    _rates.update({row["name"]: Number(row["low"], row["high"], whole=row["kind"] == "whole") for row in table if "low" in row})
 
 
 def options():
@@ -92,6 +93,13 @@ def options():
     if not _options:
         load(os.environ.get("SLF_PROGRAM", PROGRAM))
     return _options
+
+
+def rate(codec):
+    """Name and range of the rate knob of a codec."""
+    options()
+    name, limits = RATES[codec]
+    return name, limits or _rates[name]
 
 
 def _range(row):

@@ -12,7 +12,8 @@ import tables
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #1c2126; background: #fff; max-width: 1180px; margin: 2em auto; padding: 0 1em }
 h1 { font-size: 1.6em; margin-bottom: .2em } h2 { font-size: 1.15em; margin-top: 2em; border-bottom: 1px solid #d5dae0; padding-bottom: .2em }
-table { border-collapse: collapse; font-size: 13px; margin: .6em 0 } th, td { border: 1px solid #d5dae0; padding: .25em .5em; text-align: left; vertical-align: top }
+table { border-collapse: collapse; font-size: 13px; margin: .6em 0 }
+th, td { border: 1px solid #d5dae0; padding: .25em .5em; text-align: left; vertical-align: top }
 th { background: #f2f4f7 } td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
 img { max-width: 100%; display: block; margin: .6em 0 } .scroll { overflow-x: auto } .note { color: #57606a }
 .agrees { color: #11703a; font-weight: 600 } .contradicts { color: #a3261b; font-weight: 600 } .undecided, .printed { color: #7a5a00; font-weight: 600 }

@@ -11,8 +11,8 @@ BD_NOTE = ("Negative rate: fewer bytes than IGC at equal PSNR, first of points, 
            "those of its own geometry unit (an .igc file's is a whole stream, some 60 bytes more). Where curves do not overlap there is "
            "no figure but a reason.")
 ABLATION_NOTE = ("BD-rate (PCHIP, percent) against the first variant of the same capture, cameras and codec; negative: fewer bytes at equal "
-                 "point PSNR, or at equal PSNR of rendered images. Bytes and dB are those at the middle rate (the lower of two). Seconds are means over the rates, one thread; × first: "
-                 "their ratio to the first variant's.")
+                 "point PSNR, or at equal PSNR of rendered images. Bytes and dB are those at the middle rate (the lower of two). "
+                 "Seconds are means over the rates, one thread; × first: their ratio to the first variant's.")
 
 
 def _measured(rows, cameras, measure=size, quality=psnr):

@@ -33,13 +33,13 @@ struct Kept {
   std::array<float, 3> position, normal;
 };
 
-struct Lattice {
+struct RayLattice {
   Vec3 low;
   double step;
 };
 
 /// Voxels of one row of rays along an axis that the seed keeps.
-void keep_row(const Scene& scene, const Lattice& lattice, std::size_t axis, std::size_t columns,
+void keep_row(const Scene& scene, const RayLattice& lattice, std::size_t axis, std::size_t columns,
               std::size_t row, std::uint32_t seed, std::vector<Kept>& kept) {
   const std::size_t across = (axis + 1) % 3, up = (axis + 2) % 3;
   std::vector<SurfacePoint> found;
@@ -73,7 +73,7 @@ void keep_row(const Scene& scene, const Lattice& lattice, std::size_t axis, std:
 
 /// In the order of their voxels, each once.
 std::vector<Kept> keep_voxels(const Scene& scene, double cells, std::uint32_t seed, int threads,
-                              Lattice& lattice) {
+                              RayLattice& lattice) {
   const Scene::Bounds bounds = scene.bounds();
   const Vec3 extent = bounds.high - bounds.low;
   lattice = {bounds.low, std::max({extent[0], extent[1], extent[2]}) / cells};
@@ -182,7 +182,7 @@ Result<Done, InputError> synthesise_plenoptic(const PlenopticScene& settings,
   if (settings.views < 2 || settings.views > int{kMostViews})
     return InputError{Errc::kInvalidArgument, "views: 2 to 254"};
   double cells = kFullCells;
-  Lattice lattice{};
+  RayLattice lattice{};
   if (settings.points > 0) {  // the count grows with the square of the lattice
     const auto few = keep_voxels(*scene, 255, settings.seed, settings.threads, lattice);
     cells = 255 * std::sqrt(settings.points / static_cast<double>(few.size()));

@@ -21,9 +21,9 @@ void append(PointCloud& all, const PointCloud& piece) {
   add(all.colours, piece.colours);
 }
 
-Result<Done, InputError> write_points(const Terrace& terrace, const SynthSettings& settings,
-                                      const std::filesystem::path& directory,
-                                      const Progress& progress) {
+Result<Done, InputError> write_terrace_points(const Terrace& terrace, const SynthSettings& settings,
+                                              const std::filesystem::path& directory,
+                                              const Progress& progress) {
   const int points = settings.points > 0 ? settings.points : kPoints;
   const double step = terrace_step(terrace, points, settings.threads);
   const bool disturbed = settings.disturb.any();
@@ -51,7 +51,7 @@ Result<Done, InputError> synthesise_terrace(const SynthSettings& settings,
                          settings.width, settings.height);
   return write_capture(directory, settings.scene, settings.force,
                        [&]() -> Result<Done, InputError> {
-                         SLF_CHECK(write_points(terrace, settings, directory, progress));
+                         SLF_CHECK(write_terrace_points(terrace, settings, directory, progress));
                          SLF_CHECK(write_images(terrace, views, {settings.supersampling},
                                                 settings.threads, directory, progress));
                          return write_cameras(directory, settings.scene, views);

@@ -67,7 +67,7 @@ void stones(Finish& f, const Solid& solid, const FaceCoordinates& at, double foo
 }
 
 /// Panes in painted wood in front of a dark room with curtains.
-void window(Finish& f, const Solid& solid, const SurfacePoint& point) {
+void finish_window(Finish& f, const Solid& solid, const SurfacePoint& point) {
   const double u = point.position[0], z = point.position[2];
   const double across = (u - solid.low[0]) / (solid.high[0] - solid.low[0]);
   const double up = (z - solid.low[2]) / (solid.high[2] - solid.low[2]);
@@ -220,7 +220,7 @@ Finish finish(const Solid& solid, const SurfacePoint& point, double footprint) {
       stones(f, solid, at, footprint, point);
       break;
     case Surface::kWindow:
-      window(f, solid, point);
+      finish_window(f, solid, point);
       break;
     case Surface::kDoor:
       door(f, solid, point);

@@ -57,13 +57,14 @@ const packed = withLength(execFileSync('xz', ['--format=raw', '--lzma1=preset=9e
 const style = (await transform(await text('viewer.css'), { loader: 'css', minify: true })).code;
 const start = Buffer.from(begin).toString();
 const policy =
-  "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; connect-src blob: data:";
+  "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; " +
+  "style-src 'unsafe-inline'; img-src data: blob:; connect-src blob: data:";
 
 const replace = (html, from, to) => {
   if (!html.includes(from)) throw new Error(`viewer.html has no ${from}`);
   return html.replace(from, () => to);
 };
-let html = (await text('viewer.html')).replace(/\n\s+/g, '\n');
+let html = (await text('viewer.html')).replace(/<!--.*?-->\n/gs, '').replace(/\n\s+/g, '\n');
 html = replace(
   html,
   '<title>Surface light field</title>',

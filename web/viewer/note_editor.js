@@ -11,7 +11,8 @@ const STYLE = `.note-editor { position: absolute; right: var(--edge); top: 1.4re
 .note-editor h2 { font: 400 1.1rem/1.25 var(--serif); }
 .note-editor label { display: grid; gap: 0.15rem; font-size: 0.8125rem; }
 .note-editor label.tick { display: flex; align-items: center; gap: 0.5rem; }
-.note-editor input:not([type=checkbox]), .note-editor textarea { font: inherit; color: inherit; background: none; border: 1px solid var(--line); border-radius: 0.4rem; padding: 0.35rem; }
+.note-editor input:not([type=checkbox]), .note-editor textarea { font: inherit; color: inherit; background: none;
+  border: 1px solid var(--line); border-radius: 0.4rem; padding: 0.35rem; }
 .note-editor [hidden] { display: none; }
 .note-editor [aria-pressed=true] { background: var(--accent); color: var(--paper); }`;
 
@@ -83,7 +84,10 @@ export class NoteEditor {
   get root() {
     const { annotations, tracks } = this.viewer.guide.notes;
     const given = (from) => Object.fromEntries(Object.entries(from).filter(([, value]) => value !== null && value !== '' && value !== false));
-    return { version: 1, annotations: annotations.map((each) => ({ ...given(each), title: each.title })), tracks: tracks.map((track) => ({ ...given(track), stops: track.stops.map(given) })) };
+    return {
+      version: 1, annotations: annotations.map((each) => ({ ...given(each), title: each.title })),
+      tracks: tracks.map((track) => ({ ...given(track), stops: track.stops.map(given) })),
+    };
   }
 
   get selected() {

@@ -19,7 +19,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::size_t kLengthBytes = 4;
+constexpr std::size_t kUnitLengthBytes = 4;
 constexpr unsigned kLag = 48;  // pictures looked ahead; the most that libaom takes
 
 const Error kDamaged{Errc::kOutOfRange, "av1_temporal_unit", 0};
@@ -115,7 +115,7 @@ std::size_t take_packets(aom_codec_ctx_t* codec, std::vector<std::uint8_t>& stre
   while (const aom_codec_cx_pkt_t* packet = aom_codec_get_cx_data(codec, &iterator)) {
     if (packet->kind != AOM_CODEC_CX_FRAME_PKT) continue;
     const auto size = static_cast<std::uint32_t>(packet->data.frame.sz);
-    for (int byte = 0; byte < static_cast<int>(kLengthBytes); ++byte)
+    for (int byte = 0; byte < static_cast<int>(kUnitLengthBytes); ++byte)
       stream.push_back(static_cast<std::uint8_t>(size >> 8 * byte));
     const auto* data = static_cast<const std::uint8_t*>(packet->data.frame.buf);
     stream.insert(stream.end(), data, data + size);
@@ -183,10 +183,10 @@ Result<std::vector<Bytes>> split_av1(Bytes stream, const VideoFormat& expected) 
   std::vector<Bytes> units;
   UnitChecks checks;
   while (!stream.empty()) {
-    if (stream.size() < kLengthBytes) return Error{Errc::kTruncated, "av1_length", 0};
+    if (stream.size() < kUnitLengthBytes) return Error{Errc::kTruncated, "av1_length", 0};
     std::uint32_t size = 0;
-    for (std::size_t i = 0; i < kLengthBytes; ++i) size |= std::uint32_t{stream[i]} << 8 * i;
-    stream = stream.subspan(kLengthBytes);
+    for (std::size_t i = 0; i < kUnitLengthBytes; ++i) size |= std::uint32_t{stream[i]} << 8 * i;
+    stream = stream.subspan(kUnitLengthBytes);
     if (size == 0) return Error{Errc::kOutOfRange, "av1_length", 0};
     if (size > stream.size()) return Error{Errc::kTruncated, "av1_temporal_unit", 0};
     SLF_CHECK(check_unit(stream.first(size), expected, checks));

@@ -11,7 +11,9 @@ import { newPage, psnr, rendered, settled, skip, slf, web } from './support.mjs'
 const here = framesUnderTest();
 const axe = join(web, 'node_modules/axe-core/axe.min.js');
 
-test('<slf-viewer>: play, pause, frame, duration, loop, speed and their events', { skip: skip || (!existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)') }, async () => {
+const unmade = !existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)';
+
+test('<slf-viewer>: play, pause, frame, duration, loop, speed and their events', { skip: skip || unmade }, async () => {
   mkdirSync(join(here.dir, 'pages'), { recursive: true });
   writeFileSync(join(here.dir, 'pages/one.html'), `<!doctype html><html lang="en"><meta charset="utf-8"><title>Tube</title>
 <style>slf-viewer { height: 300px }</style><main><h1>Tube</h1><slf-viewer id="a" src="/files/tube.slf" paused loop="0"></slf-viewer></main>

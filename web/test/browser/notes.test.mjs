@@ -24,7 +24,10 @@ async function pageWith(change = (notes) => notes, options) {
       { at: at(-1), title: 'Back' },
       { at: centre, title: '<img src=x onerror="window.bad = true">', text: '<script>window.bad = true</script>' },
     ],
-    tracks: [{ name: 'Tour', stops: [{ view: { azimuth: 90 }, seconds: 0.2, pause: 0.1 }, { view: { azimuth: 180, zoom: 3 }, seconds: 0.2, pause: 0, annotation: 1 }] }],
+    tracks: [{
+      name: 'Tour',
+      stops: [{ view: { azimuth: 90 }, seconds: 0.2, pause: 0.1 }, { view: { azimuth: 180, zoom: 3 }, seconds: 0.2, pause: 0, annotation: 1 }],
+    }],
   };
   writeFileSync(join(here.can.dir, 'notes.json'), JSON.stringify(change(notes)));
   await page.goto(`${here.server.page}?src=/files/can.slf&azimuth=0&elevation=0&notes=/files/notes.json`);
@@ -36,7 +39,8 @@ const marks = (page) => page.waitForFunction(() => document.querySelectorAll('.m
 test('marks are where their points are, faint where these are behind, and open by click and key', { skip }, async () => {
   const page = await pageWith();
   await marks(page);
-  const seen = await page.evaluate(() => [...document.querySelectorAll('.mark-of-note')].map((m) => ({ behind: m.classList.contains('behind'), left: parseFloat(m.style.left) })));
+  const seen = await page.evaluate(() => [...document.querySelectorAll('.mark-of-note')]
+    .map((m) => ({ behind: m.classList.contains('behind'), left: parseFloat(m.style.left) })));
   assert.deepEqual(seen.map((m) => m.behind), [false, true, true]);
   for (const { left } of seen) assert.ok(Math.abs(left - 240) < 30, `${left}`); // the middle of 480 pixels
   await page.click('.mark-of-note');

@@ -225,7 +225,8 @@ test('buttons show what a device has, and its code is fetched there alone', { sk
 });
 
 test('<slf-viewer> and the page of slf html go into a room and come out', { skip }, async (t) => {
-  writeFileSync(join(can.dir, 'element.html'), `<!doctype html><body data-state="ready"><slf-viewer id="a" src="/files/can.slf" loading="eager" levels="6"></slf-viewer>
+  writeFileSync(join(can.dir, 'element.html'), `<!doctype html><body data-state="ready">
+<slf-viewer id="a" src="/files/can.slf" loading="eager" levels="6"></slf-viewer>
 <script type="module" src="/some/path/web/viewer/slf_viewer.js"></script>`);
   const page = await pageWithHeadset(`${server.url}/files/element.html`);
   await page.waitForFunction(() => document.getElementById('a').state === 'ready');

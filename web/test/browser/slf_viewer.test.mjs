@@ -243,7 +243,8 @@ test('axe finds nothing on the page, in its settings, and in viewers of a page',
 });
 
 test("a page's policy without unsafe-eval and unsafe-inline is enough; without wasm-unsafe-eval it is said", { skip }, async () => {
-  const strict = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; worker-src 'self'";
+  const strict = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
+    "img-src 'self' blob: data:; connect-src 'self'; worker-src 'self'";
   for (const [policy, end] of [[strict, 'ready'], [strict.replace("'wasm-unsafe-eval'", ''), 'failed policy']]) {
     const page = await newPage(here.chrome), said = [];
     await page.route(/\.html/, async (route) => {

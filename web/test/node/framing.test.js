@@ -32,7 +32,8 @@ test("a file's own view is where its metadata says, or nowhere", () => {
   assert.equal(pose.distance, 5);
   assert.ok(Math.abs(pose.azimuth + 90) < 1e-9 && Math.abs(pose.elevation) < 1e-9);
   assert.equal(pose.fov, 40);
-  for (const view of ['', '1 2 3', '0 0 0 0 0 0 40', '0 -5 1 0 0 1 0.5', '0 -5 1 0 0 1 171', 'NaN -5 1 0 0 1 40', '0  -5 1 0 0 1 40', '1e300 0 0 -1e300 0 0 40'])
+  for (const view of ['', '1 2 3', '0 0 0 0 0 0 40', '0 -5 1 0 0 1 0.5', '0 -5 1 0 0 1 171', 'NaN -5 1 0 0 1 40', '0  -5 1 0 0 1 40',
+    '1e300 0 0 -1e300 0 0 40'])
     assert.equal(namedPose(field, { view }), null, view);
   assert.equal(namedPose(field, {}), null);
   assert.equal(namedPose(field, undefined), null);

@@ -242,7 +242,8 @@ test('what stops the decoder is told, and ends the jump', { skip }, async () => 
 test('frames ahead are a few, however long the file is', async () => {
   let asked = 0;
   const list = Array.from({ length: 500 }, (_, place) => ({ place, number: place, time: place / 30, predicted: false, lost: false }));
-  const source = { list, ended: true, groupOf: (place) => place, decode: async () => (++asked, { packed: { places: new Float32Array(8) }, info: {}, seconds: 0 }) };
+  const source = { list, ended: true, groupOf: (place) => place,
+    decode: async () => (++asked, { packed: { places: new Float32Array(8) }, info: {}, seconds: 0 }) };
   const motion = new LightFieldMotion(source, () => {}, () => {});
   motion.play();
   for (let i = 0; i < 50; ++i) await turn();

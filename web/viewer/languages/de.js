@@ -34,7 +34,8 @@ export default {
   'Mean colour only': 'Nur mittlere Farbe',
   'Mouse and touch': 'Maus und Finger',
   'Movement': 'Bewegung',
-  'Objects under the light they were photographed in, to be turned by hand.': 'Gegenstände in dem Licht, in dem sie fotografiert wurden, zum Drehen mit der Hand.',
+  'Objects under the light they were photographed in, to be turned by hand.':
+    'Gegenstände in dem Licht, in dem sie fotografiert wurden, zum Drehen mit der Hand.',
   'Open a file': 'Datei öffnen',
   'Open another file': 'Andere Datei öffnen',
   'Open…': 'Öffnen …',
@@ -56,7 +57,8 @@ export default {
   'Show it coarser': 'Gröber zeigen',
   'Slate': 'Schiefer',
   'Space': 'Leertaste',
-  'Surface light field: drag or use the arrow keys to turn it, press H for help': 'Oberflächen-Lichtfeld: zum Drehen ziehen oder Pfeiltasten drücken, H für Hilfe',
+  'Surface light field: drag or use the arrow keys to turn it, press H for help':
+    'Oberflächen-Lichtfeld: zum Drehen ziehen oder Pfeiltasten drücken, H für Hilfe',
   'Surface light fields': 'Oberflächen-Lichtfelder',
   'This page draws with WebGL and needs JavaScript.': 'Diese Seite zeichnet mit WebGL und braucht JavaScript.',
   'Turn by itself': 'Von selbst drehen',

@@ -56,7 +56,8 @@ export default {
   'Show it coarser': 'Mostrar con menos detalle',
   'Slate': 'Pizarra',
   'Space': 'Espacio',
-  'Surface light field: drag or use the arrow keys to turn it, press H for help': 'Campo de luz de superficie: arrastre o use las flechas para girarlo, H para ayuda',
+  'Surface light field: drag or use the arrow keys to turn it, press H for help':
+    'Campo de luz de superficie: arrastre o use las flechas para girarlo, H para ayuda',
   'Surface light fields': 'Campos de luz de superficie',
   'This page draws with WebGL and needs JavaScript.': 'Esta página dibuja con WebGL y necesita JavaScript.',
   'Turn by itself': 'Girar solo',

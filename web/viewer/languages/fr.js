@@ -56,7 +56,8 @@ export default {
   'Show it coarser': 'Afficher plus grossièrement',
   'Slate': 'Ardoise',
   'Space': 'Espace',
-  'Surface light field: drag or use the arrow keys to turn it, press H for help': 'Champ de lumière de surface : glissez ou utilisez les flèches pour le tourner, H pour l’aide',
+  'Surface light field: drag or use the arrow keys to turn it, press H for help':
+    'Champ de lumière de surface : glissez ou utilisez les flèches pour le tourner, H pour l’aide',
   'Surface light fields': 'Champs de lumière de surface',
   'This page draws with WebGL and needs JavaScript.': 'Cette page dessine avec WebGL et nécessite JavaScript.',
   'Turn by itself': 'Tourner tout seul',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams of which not all is there: what their index says of the rest, and decoding of parts.
+// Streams of which not all is there: what their index says of the rest, and decoding of pieces.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ByteRange {
 };
 
 /// The bytes of such a run.
-struct StreamPart {
+struct StreamPiece {
   std::uint64_t offset = 0;
   std::span<const std::uint8_t> bytes;
 };
@@ -64,9 +64,9 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
                            const DecodeOptions& options);
 
 /// Decodes what was chosen: as decode() of the whole stream with the same options.
-/// @param parts  [plan.ranges]
-/// @errors those of decode; kOutOfRange index_unit_bytes where a part is not what the index says.
-Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPlan& plan,
-                                std::span<const StreamPart> parts, const DecodeOptions& options);
+/// @param pieces  [plan.ranges]
+/// @errors those of decode; kOutOfRange index_unit_bytes where a piece is not what the index says.
+Result<LightField> decode_pieces(std::span<const std::uint8_t> head, const ReadPlan& plan,
+                                 std::span<const StreamPiece> pieces, const DecodeOptions& options);
 
 }  // namespace slf

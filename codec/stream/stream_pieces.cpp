@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/stream/stream_parts.h"
+#include "codec/stream/stream_pieces.h"
 
 #include <algorithm>
 
@@ -24,21 +24,21 @@ Error cut_short(const IndexEntry& entry, std::uint64_t offset) {
   return of_unit(entry.type, offset, Errc::kTruncated, "unit_payload");
 }
 
-/// The unit that the index lists, in the part where it lies.
+/// The unit that the index lists, in the piece where it lies.
 /// @param disagrees  the error where it is another
-Result<Unit> take_unit(const ReadPlan::Wanted& wanted, std::span<const StreamPart> parts,
+Result<Unit> take_unit(const ReadPlan::Wanted& wanted, std::span<const StreamPiece> pieces,
                        const SequenceParameterSet& set, const Error& disagrees) {
   const auto after = std::upper_bound(
-      parts.begin(), parts.end(), wanted.offset,
-      [](std::uint64_t offset, const StreamPart& part) { return offset < part.offset; });
-  if (after == parts.begin()) return disagrees;
-  const StreamPart& part = *std::prev(after);
-  const std::uint64_t at = wanted.offset - part.offset;
-  if (at >= part.bytes.size()) return cut_short(wanted.entry, wanted.offset);
+      pieces.begin(), pieces.end(), wanted.offset,
+      [](std::uint64_t offset, const StreamPiece& piece) { return offset < piece.offset; });
+  if (after == pieces.begin()) return disagrees;
+  const StreamPiece& piece = *std::prev(after);
+  const std::uint64_t at = wanted.offset - piece.offset;
+  if (at >= piece.bytes.size()) return cut_short(wanted.entry, wanted.offset);
   SLF_TRY(Unit unit,
-          counted_from(8 * part.offset, read_unit(part.bytes, static_cast<std::size_t>(at))));
-  unit.offset += part.offset;
-  unit.payload_offset += part.offset;
+          counted_from(8 * piece.offset, read_unit(piece.bytes, static_cast<std::size_t>(at))));
+  unit.offset += piece.offset;
+  unit.payload_offset += piece.offset;
   if (unit.type != wanted.entry.type || unit.bytes != wanted.entry.bytes) return disagrees;
   SLF_TRY(const SliceUnitHeader ids, read_ids(unit, set));
   if (!same_ids(ids, wanted.entry.ids)) return disagrees;
@@ -139,8 +139,9 @@ Result<ReadPlan> plan_read(std::span<const std::uint8_t> head, std::uint64_t str
   return plan;
 }
 
-Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPlan& plan,
-                                std::span<const StreamPart> parts, const DecodeOptions& options) {
+Result<LightField> decode_pieces(std::span<const std::uint8_t> head, const ReadPlan& plan,
+                                 std::span<const StreamPiece> pieces,
+                                 const DecodeOptions& options) {
   SLF_TRY(Units units, split_units(head, 0, options.limits.max_memory));
   const Unit* lists = units.first(UnitType::kIndex);
   Error disagrees{Errc::kOutOfRange, "index_unit_bytes"};
@@ -148,7 +149,7 @@ Result<LightField> decode_parts(std::span<const std::uint8_t> head, const ReadPl
   // An index lists what follows it, which is not all there.
   std::erase_if(units.units, [](const Unit& unit) { return unit.type == UnitType::kIndex; });
   for (const ReadPlan::Wanted& wanted : plan.units) {
-    SLF_TRY(const Unit unit, take_unit(wanted, parts, plan.set, disagrees));
+    SLF_TRY(const Unit unit, take_unit(wanted, pieces, plan.set, disagrees));
     units.units.push_back(unit);
   }
   units.complete = false;
