@@ -8,6 +8,7 @@
 #include "slf/jpeg.h"
 #include "slf/render.h"
 #include "tools/camera_file.h"
+#include "tools/notes_input.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/page_template.h"
@@ -23,9 +24,10 @@ constexpr int kPosterPixels = 480, kPosterQuality = 75;
 constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
 struct HtmlOptions {
-  std::string input, output, title, camera, poster, background;
+  std::string input, output, title, camera, poster, background, notes;
   bool own_view = false;  ///< no view was asked for: the file's own, if it has one
   double azimuth = 30, elevation = 20, fov = 30, autorotate = 0, speed = 1;
+  double metres_per_unit = 0;  ///< 0: what the file says
   bool no_poster = false, no_loop = false, paused = false;
   LimitOptions limits;
   CommonOptions common;
@@ -161,7 +163,7 @@ std::string night_source(const std::string& poster) {
 }
 
 nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string& title,
-                                    const std::optional<Camera>& camera) {
+                                    const std::optional<Camera>& camera, const std::string& notes) {
   nlohmann::ordered_json options{{"title", title},
                                  {"azimuth", given.azimuth},
                                  {"elevation", given.elevation},
@@ -172,6 +174,8 @@ nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string&
   if (given.speed != 1) options["speed"] = given.speed;
   if (given.no_loop) options["loop"] = false;
   if (given.paused) options["paused"] = true;
+  if (given.metres_per_unit > 0) options["metres"] = given.metres_per_unit;
+  if (!notes.empty()) options["notes"] = nlohmann::ordered_json::parse(notes);
   return options;
 }
 
@@ -180,6 +184,10 @@ Outcome run_html(const HtmlOptions& given) {
   std::optional<Camera> camera;
   if (!given.camera.empty()) {
     SLF_TRY(camera, read_camera(given.camera));
+  }
+  std::string notes;
+  if (!given.notes.empty()) {
+    SLF_TRY(notes, read_notes(given.notes));
   }
   const std::string name = input_name(given.input);
   SLF_TRY(const StreamFile input, read_stream(given.input, given.limits, given.common));
@@ -203,7 +211,7 @@ Outcome run_html(const HtmlOptions& given) {
       page_template(), {{"title", escaped_html(title)},
                         {"poster", poster.day.empty() ? "data:," : poster.day},
                         {"night", night_source(poster.night)},
-                        {"options", script_json(page_options(given, title, camera))},
+                        {"options", script_json(page_options(given, title, camera, notes))},
                         {"file", file}});
   SLF_CHECK(save(given.output, page));
   if (given.common.json)
@@ -215,6 +223,17 @@ Outcome run_html(const HtmlOptions& given) {
     std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
                  grouped(page.size()).c_str(), grouped(file.size()).c_str());
   return Done{};
+}
+
+void add_notes(CLI::App& verb, HtmlOptions& o) {
+  verb.add_option("--notes", o.notes,
+                  "Points with text and guided tours (JSON, docs/notes.md), checked; default: "
+                  "those of the file's metadata")
+      ->type_name("FILE");
+  verb.add_option("--metres-per-unit", o.metres_per_unit,
+                  "Metres in a unit of the world, by which the page measures; default: the file's")
+      ->type_name("")
+      ->check(range(1e-12, 1e12));
 }
 
 }  // namespace
@@ -257,6 +276,7 @@ void add_html(CLI::App& program, Run& run) {
   verb->add_option("--background", o->background,
                    "RRGGBB; default: light by day and dark by night, as the reader's device has it")
       ->type_name("RRGGBB");
+  add_notes(*verb, *o);
   verb->add_option("--poster", o->poster,
                    "PNG, JPEG or PPM that shows until the file is decoded; default: the first view")
       ->type_name("FILE");
