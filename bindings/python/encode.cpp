@@ -41,8 +41,9 @@ std::string what_is_wrong(const std::string& name, const std::string& value) {
 }
 
 py::tuple encode_capture(const Capture& capture, const std::string& split, const py::dict& options,
-                         int threads, const py::object& progress) {
-  const EncoderSettings settings = settings_of(options, threads);
+                         const Metadata& metadata, int threads, const py::object& progress) {
+  EncoderSettings settings = settings_of(options, threads);
+  settings.metadata = metadata;
   Reporter reporter(progress);
   const Progress report = reporter.progress();
   Encoded encoded;
@@ -60,7 +61,7 @@ py::tuple encode_capture(const Capture& capture, const std::string& split, const
 }
 
 py::tuple encode_path(const std::string& path, const std::string& split, const py::dict& options,
-                      int threads, const py::object& progress) {
+                      const Metadata& metadata, int threads, const py::object& progress) {
   Capture capture;
   const auto refused = [&](const char* what) {
     return failure_of(InputError{Errc::kInvalidInput, path + what});
@@ -75,7 +76,7 @@ py::tuple encode_path(const std::string& path, const std::string& split, const p
     const py::gil_scoped_release no_gil;
     capture = value_of(load_capture(path, {.points = {}, .points_needed = false}));
   }
-  return encode_capture(capture, split, options, threads, progress);
+  return encode_capture(capture, split, options, metadata, threads, progress);
 }
 
 py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& components, int bits,
@@ -115,15 +116,15 @@ void add_encoding(py::module_& m) {
   m.def("settings", &settings_table);
   m.def("wrong_value", &what_is_wrong, py::arg("name"), py::arg("value"));
   m.def("encode_path", &encode_path, py::arg("path"), py::arg("split"), py::arg("options"),
-        py::arg("threads"), py::arg("progress"));
+        py::arg("metadata"), py::arg("threads"), py::arg("progress"));
   m.def(
       "encode_capture",
-      [](const py::object& capture, const std::string& split, const py::dict& options, int threads,
-         const py::object& progress) {
-        return encode_capture(capture_of(capture), split, options, threads, progress);
+      [](const py::object& capture, const std::string& split, const py::dict& options,
+         const Metadata& metadata, int threads, const py::object& progress) {
+        return encode_capture(capture_of(capture), split, options, metadata, threads, progress);
       },
-      py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("threads"),
-      py::arg("progress"));
+      py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("metadata"),
+      py::arg("threads"), py::arg("progress"));
   m.def("pack", &pack_arrays, py::arg("positions"), py::arg("components"), py::arg("bits"),
         py::arg("origin"), py::arg("step"), py::arg("steps"), py::arg("groups"),
         py::arg("metadata"), py::arg("threads"));

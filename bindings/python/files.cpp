@@ -10,6 +10,7 @@
 #include "reporter.h"
 #include "slf/gaussian_files.h"
 #include "slf/jpeg.h"
+#include "slf/notes.h"
 #include "slf/render.h"
 #include "slf/splats.h"
 #include "slf/truncate.h"
@@ -110,6 +111,13 @@ void add_files(py::module_& m) {
       py::arg("source"), py::arg("levels"), py::arg("groups"), py::arg("layers"),
       py::arg("max_bytes"), py::arg("region"), py::arg("threads"), py::arg("max_memory"),
       py::arg("format"), py::arg("degree"), py::arg("size"), py::arg("axes"));
+  m.def(
+      "checked_notes",
+      [](const std::string& file, const std::string& json) {
+        return value_of(
+            checked_notes(file, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()}));
+      },
+      py::arg("file"), py::arg("json"));
   m.def("jpeg", &jpeg_of, py::arg("picture"), py::arg("quality"));
   m.def("named_view", &view_of, py::arg("metadata"), py::arg("up"), py::arg("width"),
         py::arg("height"));

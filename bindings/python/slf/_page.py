@@ -16,6 +16,7 @@ from . import _slf
 from ._arguments import colour, wrong
 from ._errors import make
 from ._field import LightField, read, _bytes
+from ._notes import Notes, notes_text
 from ._types import Camera, Info, Source
 
 _PIXELS, _QUALITY = 480, 75  #: of the poster
@@ -27,14 +28,16 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
          azimuth: Optional[float] = None, elevation: Optional[float] = None,
          fov: Optional[float] = None, autorotate: float = 0, speed: float = 1, loop: bool = True,
          paused: bool = False, background: Optional[Tuple[int, int, int]] = None,
-         poster: bool = True, threads: int = 0, max_memory: int = 0) -> str:
+         poster: bool = True, notes: Optional[Notes] = None, metres_per_unit: float = 0, threads: int = 0, max_memory: int = 0) -> str:
     """A page that asks nobody for anything: write it to a file that ends in .html.
 
     title: default is the file's own, else its name. The first view is the camera, else azimuth,
     elevation and fov of an orbit (degrees; 30, 20, 30), else the file's own view, else that orbit.
     autorotate: degrees a second, -90 to 90. speed (1/16 to 16), loop, paused: of a light field that
     moves. background: R, G, B; None is light by day and dark by night. poster: a picture that shows
-    until the file is decoded.
+    until the file is decoded. notes: points with text and guided tours (docs/notes.md), a file or a
+    dict; None is the file's own. metres_per_unit: of the world, by which the page measures; 0 is the
+    file's own.
     Raises what read() raises; UnsupportedError of a package without the viewer (web/build.sh).
     """
     template = pathlib.Path(__file__).with_name('one_file.html')
@@ -43,7 +46,8 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
                    '', '', 0)
     orbit = _orbit(azimuth, elevation, fov)
     chosen = camera is not None or (azimuth, elevation, fov) != (None, None, None)
-    for name, value, low, high in [('autorotate', autorotate, -90, 90), ('speed', speed, 1 / 16, 16)]:
+    for name, value, low, high in [('autorotate', autorotate, -90, 90), ('speed', speed, 1 / 16, 16),
+                                   ('metres_per_unit', metres_per_unit, 0, 1e12)]:
         _number(value, name, low, high)
     back = None if background is None else colour(background, 'background')
     data = _bytes(source)
@@ -62,6 +66,10 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
         options['view'] = _view(camera)
     options.update({key: value for key, value, usual in
                     [('speed', speed, 1), ('loop', bool(loop), True), ('paused', bool(paused), False)] if value != usual})
+    if metres_per_unit:
+        options['metres'] = metres_per_unit
+    if notes is not None:
+        options['notes'] = json.loads(notes_text(notes))
     pictures = _posters(field, camera, orbit, back) if poster else ('', '')
     night = f'<source media="(prefers-color-scheme: dark)" srcset="{pictures[1]}">' if pictures[1] else ''
     values = {'title': markup.escape(name), 'poster': pictures[0] or 'data:,', 'night': night,

@@ -103,6 +103,21 @@ class PageTest(unittest.TestCase):
             with self.assertRaises(slf.ArgumentError):
                 self.page(data, **wrong)
 
+    def test_notes_and_metres_are_in_the_file_and_on_the_page(self):
+        notes = {'version': 1, 'annotations': [{'at': [0, 0, 1], 'title': 'Rim'}]}
+        data = slf.encode(disc(), q=2, grid_bits=6, notes=notes, metres_per_unit=0.01).data
+        header = slf.info(data)
+        self.assertEqual(json.loads(dict(header.metadata)['notes']), notes)
+        self.assertEqual(header.metres_per_unit, 0.01)
+        options = json.loads(self.page(data, poster=False, notes=notes, metres_per_unit=2).split('|')[2])
+        self.assertEqual((options['notes'], options['metres']), (notes, 2))
+        notes['annotations'][0]['title'] = '<b>Rim</b>'
+        for call in (lambda: self.page(data, notes=notes), lambda: slf.encode(disc(), notes=notes)):
+            with self.assertRaisesRegex(slf.InputError, r'notes: annotations\[0\]\.title: has markup'):
+                call()
+        with self.assertRaises(OSError):
+            self.page(data, notes='nowhere.json')
+
     def test_a_package_without_the_viewer_says_so(self):
         with unittest.mock.patch.object(_page, '__file__', '/nowhere/_page.py'):
             with self.assertRaisesRegex(slf.UnsupportedError, 'one_file.html'):
