@@ -58,6 +58,7 @@ class GaussianEncoder {
   Result<double, InputError> code(double q, EncodedGaussians& out) const {
     SLF_TRY(LightField field, light_field_of(splats_, grid_step(q), settings_.threads));
     for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
+    field.header.metres_per_unit = settings_.metres_per_unit;
     CodingParameters parameters =
         gaussian_parameters(field, {q, kOpacityShare * q, kShapeShare * q}, settings_);
     parameters.metadata = {{"quality", std::to_string(q)}};

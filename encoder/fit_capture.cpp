@@ -200,6 +200,7 @@ LightFieldHeader header_on_grid(const Grid& grid, const CaptureFit& fit, const V
   header.colour = settings.colour;
   header.transfer = settings.observe.transfer;
   header.up = up;
+  header.metres_per_unit = settings.metres_per_unit;
   header.gamma_min_q7 = fit.gamma_min_q7;
   header.gamma_max_q7 = fit.gamma_max_q7;
   if (header.directions == Directions::kReflected)

@@ -64,6 +64,8 @@ void add_geometry(SettingTable& rows) {
                  "resolve, or the cloud's own spacing"),
        number_or_nothing("voxel-size", SLF_AT(voxel_size), 1e-12, 1e12,
                          "Voxel edge in world units, in place of --grid-bits"),
+       number_or_nothing("metres-per-unit", SLF_AT(metres_per_unit), 1e-12, 1e12,
+                         "Metres in a unit of the world, kept in the file: viewers measure by it"),
        choice(
            "densify", SLF_AT(densify.mode),
            Words<Densify>{{"on", Densify::kOn}, {"off", Densify::kOff}, {"auto", Densify::kAuto}},
@@ -217,10 +219,10 @@ SettingTable all_rows() {
   count_for_splats(rows, SettingInfo::kTrainedSplats,
                    {"preset", "surface", "surface-seconds", "surface-memory", "photograph-pixels",
                     "match-exposure", "refine-cameras", "check-cameras"});
-  count_for_splats(
-      rows, SettingInfo::kAnySplats,
-      {"effort", "grid-bits", "voxel-size", "quality", "target-bytes", "target-psnr", "klt",
-       "predict", "rdo", "quality-layers", "base-levels", "slice-points", "slice-start"});
+  count_for_splats(rows, SettingInfo::kAnySplats,
+                   {"effort", "grid-bits", "voxel-size", "metres-per-unit", "quality",
+                    "target-bytes", "target-psnr", "klt", "predict", "rdo", "quality-layers",
+                    "base-levels", "slice-points", "slice-start"});
   return rows;
 }
 

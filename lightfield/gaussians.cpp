@@ -92,4 +92,14 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
   return out;
 }
 
+void keep_degree(Gaussians& gaussians, int degree) {
+  const std::size_t from = 3 * gaussians.num_harmonics();
+  gaussians.degree = std::min(gaussians.degree, degree);
+  const std::size_t to = 3 * gaussians.num_harmonics();
+  for (std::size_t p = 0; to < from && p < gaussians.size(); ++p)
+    std::copy_n(gaussians.harmonics.begin() + static_cast<std::ptrdiff_t>(p * from), to,
+                gaussians.harmonics.begin() + static_cast<std::ptrdiff_t>(p * to));
+  gaussians.harmonics.resize(gaussians.size() * to);
+}
+
 }  // namespace slf

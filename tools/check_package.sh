@@ -38,6 +38,18 @@ in_root=(dpkg --root="$root" --force-not-root --force-script-chrootless --force-
 libdir=$(dirname "$(find "$root" -name 'libslf_decoder.a')")
 export LD_LIBRARY_PATH=$libdir
 
+say "multiarch"
+triplet=$(sed -n 's/^CMAKE_INSTALL_LIBDIR:PATH=lib\/\(.*-.*\)/\1/p' "$build/CMakeCache.txt")
+for package in "${packages[@]}"; do
+  wanted=same
+  [[ ${package##*/} == lib* ]] || wanted=foreign
+  [[ -n $triplet || $wanted == foreign ]] || continue  # built for one place for all architectures
+  [[ $(dpkg-deb -f "$package" Multi-Arch) == "$wanted" ]] || fail "${package##*/} is not Multi-Arch: $wanted"
+  [[ $wanted == foreign ]] || ! dpkg-deb -c "$package" | grep -v "lib/$triplet/" | grep -E '\.(so|a|pc|cmake)' ||
+    fail "${package##*/} has libraries outside of lib/$triplet"
+done
+[[ -z $triplet || -e $libdir/libslf_c.so && $libdir == */usr/lib/$triplet ]] || fail "libraries are in $libdir"
+
 say "the program"
 slf=$root/usr/bin/slf
 cd "$work"
@@ -56,6 +68,9 @@ for page in slf slf-encode slf-export; do
     MANROFFSEQ='' MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z "$page.1" 2>"$page.warnings" >/dev/null
     [[ ! -s $page.warnings ]] || { cat "$page.warnings"; fail "man page $page"; }
   fi
+done
+for section in DESCRIPTION 'EXIT STATUS' EXAMPLES; do
+  grep -q "^\.SH $section" slf-export.1 || fail "slf-export.1 has no $section"
 done
 grep -q 'target\\-psnr' slf-encode.1 || fail "slf-encode.1 lacks an option"
 completed=$(bash -c 'source "$1"; COMP_WORDS=(slf export --for); COMP_CWORD=2; _slf; echo "${COMPREPLY[@]}"' \

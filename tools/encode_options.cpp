@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <array>
 
+#include "slf/notes.h"
 #include "tools/choices.h"
+#include "tools/notes_input.h"
 #include "tools/setting_options.h"
 
 namespace slf::tools {
 namespace {
+
+/// Metadata are 2^20 bytes at most (spec 7.8), and other keys are among them.
+constexpr std::size_t kMostNotesOfFile = std::size_t{1} << 19;
 
 void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   verb.add_option("CAPTURE", o.capture,
@@ -54,6 +59,10 @@ void add_common_options(CLI::App& verb, EncodeOptions& o) {
   verb.add_option("--metadata", o.metadata, "KEY=VALUE to store in the file; may be repeated")
       ->type_name("KEY=VALUE")
       ->expected(1, -1);
+  verb.add_option("--notes", o.notes,
+                  "Points with text and guided tours (JSON, docs/notes.md), checked and kept as "
+                  "metadata: viewers show them")
+      ->type_name("FILE");
   add_threads(verb, o.common);
   add_quiet(verb, o.common);
   add_json(verb, o.common);
@@ -100,6 +109,9 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
       return Failure{kUsage,
                      std::string(given.verb) + ": --metadata " + pair + " is not KEY=VALUE"};
     const std::string key = pair.substr(0, equals);
+    if (key == kNotesKey)
+      return Failure{kUsage, std::string(given.verb) +
+                                 ": --metadata notes: --notes FILE checks and keeps them"};
     if (is_written_by_encoder(key))
       return Failure{kUsage, std::string(given.verb) + ": --metadata " + key +
                                  ": the encoder writes this key itself"};
@@ -108,6 +120,13 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
         return Failure{kUsage, std::string(given.verb) + ": --metadata " + key + " is given twice"};
     metadata.emplace_back(key, pair.substr(equals + 1));
   }
+  if (given.notes.empty()) return Done{};
+  SLF_TRY(std::string notes, read_notes(given.notes));
+  if (notes.size() > kMostNotesOfFile)
+    return Failure{kUsage, std::string(given.verb) + ": --notes " + given.notes + " is more than " +
+                               std::to_string(kMostNotesOfFile) +
+                               " bytes: slf html takes them, or the viewer beside the file"};
+  metadata.emplace_back(kNotesKey, std::move(notes));
   return Done{};
 }
 
@@ -124,7 +143,7 @@ void add_igc_options(CLI::App& verb, EncodeOptions& o) {
   add_settings(verb, o.given, [](const SettingInfo& setting) {
     return setting.group != "Coding" && !setting.group.starts_with("Texture") &&
            setting.name != "check-cameras" && setting.name != "match-exposure" &&
-           setting.name != "refine-cameras";
+           setting.name != "refine-cameras" && setting.name != "metres-per-unit";
   });
   add_common_options(verb, o);
 }

@@ -19,6 +19,7 @@ struct EncodeOptions {
   UpAxis up = UpAxis::kPlusZ;
   GivenSettings given;
   std::vector<std::string> metadata;  ///< key=value
+  std::string notes;
   CommonOptions common;
 };
 

@@ -72,6 +72,7 @@ class SceneRun {
     if (!given_.split.empty()) name = "split";
     if (given_.up_given) name = "up";
     if (!given_.metadata.empty()) name = "metadata";
+    if (!given_.notes.empty()) name = "notes";
     if (!given_.crs.empty()) name = "crs";
     if (name.empty()) return Done{};
     return Failure{kUsage, "encode: --" + name + " is in the plan: give it to slf plan"};

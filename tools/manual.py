@@ -4,12 +4,15 @@
 
     manual.py PROGRAM DIRECTORY
 
-Writes slf.1, slf-VERB.1 for every verb, and slf.bash. The same bytes for the same program.
+Writes slf.1, slf-VERB.1 for every verb, and slf.bash. The same bytes for the same program. A verb without texts in
+manual_texts.py is an error.
 """
 import pathlib
 import re
 import subprocess
 import sys
+
+import manual_texts
 
 INDENT = 34  # column of descriptions
 
@@ -43,16 +46,48 @@ def roff(text):
     return re.sub(r'^([.\'])', r'\\&\1', text, flags=re.M)
 
 
-def page(name, version, help_text, others):
+def heading(group):
+    """A heading in words, and what the help says of the group: Views (default: ...)."""
+    words, _, remark = group.partition(' (')
+    remark = remark.removesuffix(')')
+    words = {'Positionals': 'Arguments', 'Subcommands': 'Commands'}.get(words, words)
+    return words.upper(), f'{remark[0].upper()}{remark[1:]}.' if remark and not remark.startswith('docs/') else ''
+
+
+def exit_codes(help_text):
+    """[(number, meaning)] and what is said after them, of the program's own help."""
+    text = ' '.join(help_text[help_text.index('Exit codes:'):].split())
+    listed, _, after = text.removeprefix('Exit codes: ').partition('. ')
+    return re.findall(r'(\d+) (\D+?)(?:, |$)', listed), after
+
+
+def paragraphs(text):
+    return '\n.PP\n'.join(roff(part) for part in text.split('\n\n'))
+
+
+def page(name, version, help_text, codes, others):
     summary, usage, groups, rest = parse(help_text)
+    verb = name.removeprefix('slf-')
     out = [f'.TH {name.upper()} 1 "" "slf {version}" "User Commands"', '.SH NAME',
-           f'{roff(name)} \\- {roff(summary.rstrip("."))}', '.SH SYNOPSIS', f'.B {roff(usage)}']
+           f'{roff(name)} \\- {roff(summary.rstrip("."))}', '.SH SYNOPSIS', f'.B {roff(usage)}',
+           '.SH DESCRIPTION', paragraphs(manual_texts.DESCRIPTIONS[verb])]
+    before = ''
     for group, entries in groups:
-        out.append(f'.SH {roff(group.upper())}')
+        words, remark = heading(group)
+        out += [f'.SH {roff(words)}'] if words != before else ['.PP'] if remark else []
+        out += [roff(remark)] if remark else []
+        before = words
         for names, description in entries:
             out += ['.TP', f'.B {roff(names)}', roff(description)]
-    if rest:
-        out += ['.SH NOTES', roff(rest.replace('\n\n', '\n.PP\n')).replace('\n\\&.PP\n', '\n.PP\n')]
+    notes = rest.partition('Exit codes:')[0].strip()
+    if notes:
+        out += ['.SH NOTES', paragraphs(notes)]
+    out.append('.SH EXIT STATUS')
+    for number, meaning in codes[0]:
+        out += ['.TP', f'.B {number}', roff(meaning)]
+    out += ['.PP', roff(codes[1]), '.SH EXAMPLES']
+    for command, what in manual_texts.EXAMPLES[verb]:
+        out += ['.TP', roff(what), '.EX', roff(command), '.EE']
     out += ['.SH SEE ALSO', ',\n'.join(f'.BR {roff(other)} (1)' for other in others if other != name)]
     return '\n'.join(out) + '\n'
 
@@ -120,11 +155,12 @@ def main():
     verbs = [names for group, entries in parse(top)[2] if group == 'Subcommands'
              for names, _ in entries]
     helps = {verb: said(program, verb, '--help') for verb in verbs}
+    codes = exit_codes(top)
     pages = ['slf'] + [f'slf-{verb}' for verb in verbs]
-    (directory / 'slf.1').write_text(page('slf', version, top, pages), encoding='utf-8')
+    (directory / 'slf.1').write_text(page('slf', version, top, codes, pages), encoding='utf-8')
     for verb in verbs:
         (directory / f'slf-{verb}.1').write_text(
-            page(f'slf-{verb}', version, helps[verb], pages), encoding='utf-8')
+            page(f'slf-{verb}', version, helps[verb], codes, pages), encoding='utf-8')
     (directory / 'slf.bash').write_text(completion(verbs, helps), encoding='utf-8')
 
 

@@ -114,23 +114,12 @@ Outcome export_points(const ExportOptions& given) {
   return Done{};
 }
 
-/// Harmonics up to a degree alone.
-void cut_degree(Gaussians& splats, int degree) {
-  const std::size_t from = 3 * splats.num_harmonics();
-  splats.degree = std::min(splats.degree, degree);
-  const std::size_t to = 3 * splats.num_harmonics();
-  for (std::size_t p = 0; to < from && p < splats.size(); ++p)
-    std::copy_n(splats.harmonics.begin() + static_cast<std::ptrdiff_t>(p * from), to,
-                splats.harmonics.begin() + static_cast<std::ptrdiff_t>(p * to));
-  splats.harmonics.resize(splats.size() * to);
-}
-
 /// Splats in another format. Their turns are any, which SPZ 3 holds better.
 Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatFormat format) {
   if (given.mean || given.axes != "auto")
     return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
                                " holds splats"};
-  if (given.degree_given) cut_degree(file.gaussians, given.splats.degree);
+  if (given.degree_given) keep_degree(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
   const int degree = file.gaussians.degree;

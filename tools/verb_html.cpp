@@ -10,6 +10,7 @@
 #include "tools/camera_file.h"
 #include "tools/given_poster.h"
 #include "tools/html_page.h"
+#include "tools/notes_input.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/page_template.h"
@@ -27,9 +28,10 @@ constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 28;
 constexpr const char *kPaper = "f3f1ec", *kSlate = "191a1d";
 
 struct HtmlOptions {
-  std::string input, output, title, camera, poster, background;
+  std::string input, output, title, camera, poster, background, notes;
   bool own_view = false;  ///< no view was asked for: the file's own, if it has one
   double azimuth = 30, elevation = 20, fov = 30, autorotate = 0, speed = 1;
+  double metres_per_unit = 0;  ///< 0: what the file says
   bool no_poster = false, no_loop = false, paused = false;
   LimitOptions limits;
   CommonOptions common;
@@ -121,7 +123,7 @@ Result<Posters, Failure> rendered_posters(const HtmlOptions& given, const LightF
 }
 
 nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string& title,
-                                    const std::optional<Camera>& camera) {
+                                    const std::optional<Camera>& camera, const std::string& notes) {
   nlohmann::ordered_json options{{"title", title},
                                  {"azimuth", given.azimuth},
                                  {"elevation", given.elevation},
@@ -132,6 +134,8 @@ nlohmann::ordered_json page_options(const HtmlOptions& given, const std::string&
   if (given.speed != 1) options["speed"] = given.speed;
   if (given.no_loop) options["loop"] = false;
   if (given.paused) options["paused"] = true;
+  if (given.metres_per_unit > 0) options["metres"] = given.metres_per_unit;
+  if (!notes.empty()) options["notes"] = nlohmann::ordered_json::parse(notes);
   return options;
 }
 
@@ -152,6 +156,10 @@ Outcome run_html(const HtmlOptions& given) {
   if (!given.camera.empty()) {
     SLF_TRY(camera, read_camera(given.camera));
   }
+  std::string notes;
+  if (!given.notes.empty()) {
+    SLF_TRY(notes, read_notes(given.notes));
+  }
   const std::string name = input_name(given.input);
   LimitOptions limits = given.limits;
   limits.limits.max_stream_bytes = kMostFileBytes;
@@ -171,8 +179,8 @@ Outcome run_html(const HtmlOptions& given) {
     SLF_TRY(poster, rendered_posters(given, field, camera));
   }
   const std::string title = title_of(given, input.info.metadata);
-  const std::string page =
-      html_page(page_template(), title, poster, page_options(given, title, camera), stream);
+  const std::string page = html_page(page_template(), title, poster,
+                                     page_options(given, title, camera, notes), stream);
   SLF_CHECK(save(given.output, page));
   if (given.common.json)
     return print(nlohmann::ordered_json{{"bytes", page.size()},
@@ -183,6 +191,17 @@ Outcome run_html(const HtmlOptions& given) {
     std::fprintf(stderr, "%s: %s bytes, %s of them the file\n", output_name(given.output).c_str(),
                  grouped(page.size()).c_str(), grouped(base64_size(stream.size())).c_str());
   return Done{};
+}
+
+void add_notes(CLI::App& verb, HtmlOptions& o) {
+  verb.add_option("--notes", o.notes,
+                  "Points with text and guided tours (JSON, docs/notes.md), checked; default: "
+                  "those of the file's metadata")
+      ->type_name("FILE");
+  verb.add_option("--metres-per-unit", o.metres_per_unit,
+                  "Metres in a unit of the world, by which the page measures; default: the file's")
+      ->type_name("")
+      ->check(range(1e-12, 1e12));
 }
 
 }  // namespace
@@ -225,6 +244,7 @@ void add_html(CLI::App& program, Run& run) {
   verb->add_option("--background", o->background,
                    "RRGGBB; default: light by day and dark by night, as the reader's device has it")
       ->type_name("RRGGBB");
+  add_notes(*verb, *o);
   verb->add_option("--poster", o->poster,
                    "PNG, JPEG or PPM that shows until the file is decoded; default: the first view")
       ->type_name("FILE");

@@ -20,7 +20,7 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # What compiling the package takes of the tree.
 FOLDERS = ('attributes', 'base', 'bindings', 'bitstream', 'capture', 'codec', 'encoder', 'entropy', 'geometry', 'include',
-           'lightfield', 'tools/cmake')
+           'lightfield', 'tools/cmake', 'web/dist')
 FILES = ('CMakeLists.txt', 'LICENSE', 'README.md', 'CHANGELOG.md', 'pyproject.toml')
 TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
 

@@ -29,4 +29,6 @@ PYBIND11_MODULE(_slf, m) {
   slf::python::add_frames(m);
   slf::python::add_rendering(m);
   slf::python::add_encoding(m);
+  slf::python::add_files(m);
+  slf::python::add_evaluation(m);
 }

@@ -24,5 +24,7 @@ void add_decoding(pybind11::module_& m);
 void add_frames(pybind11::module_& m);
 void add_rendering(pybind11::module_& m);
 void add_encoding(pybind11::module_& m);
+void add_files(pybind11::module_& m);
+void add_evaluation(pybind11::module_& m);
 
 }  // namespace slf::python

@@ -192,6 +192,7 @@ LightField scene_header(const ScenePlan& plan, const EncoderSettings& settings) 
   header.colour = settings.colour;
   header.transfer = settings.observe.transfer;
   header.up = plan.up;
+  header.metres_per_unit = settings.metres_per_unit;
   header.gamma_min_q7 = plan.gamma_min_q7;
   header.gamma_max_q7 = plan.gamma_max_q7;
   if (header.directions == Directions::kReflected)

@@ -123,8 +123,9 @@ inline constexpr double kPlainQ = 16;
 
 struct EncoderSettings {
   Preset preset = Preset::kDefault;
-  int grid_bits = 0;      ///< 1 .. 21; 0: the density that the photographs resolve
-  double voxel_size = 0;  ///< > 0: instead of grid_bits
+  int grid_bits = 0;           ///< 1 .. 21; 0: the density that the photographs resolve
+  double voxel_size = 0;       ///< > 0: instead of grid_bits
+  double metres_per_unit = 0;  ///< > 0: of the capture's world, for the header; 0: not known
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
   Surface surface = Surface::kAuto;         ///< kGiven without cameras
   /// > 0: training ends after about so long, with steps as small as at its end; files then differ

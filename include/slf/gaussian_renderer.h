@@ -31,7 +31,8 @@ class GaussianRenderer {
   /// with which half of the pixel is covered, +inf where less is. Colours are display values,
   /// clamped to 0 .. 255.
   /// O(splats + pixels that they cover).
-  Rendering render(const Camera& camera) const;
+  /// @param ended  as of Renderer::render
+  Rendering render(const Camera& camera, const std::atomic<bool>* ended = nullptr) const;
 
   /// As Renderer::orbit: about most of the centres, without a few that are far away.
   Camera orbit(double turn, double elevation_degrees, int width, int height,

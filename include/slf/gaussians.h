@@ -37,7 +37,11 @@ inline constexpr double kLogitBound = 32, kShapeBound = 64;
 bool has_gaussians(const LightFieldHeader& header);
 
 /// A splat for every point, in point order.
-/// @errors kInvalidInput: has_gaussians() is not true, or coordinates beyond 1e15. O(P K). The same for any thread count.
+/// @errors kInvalidInput: has_gaussians() is not true, or coordinates beyond 1e15. O(P K). The same
+/// for any thread count.
 Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads = 0);
+
+/// Leaves out harmonics above a degree, 0 or more. O(P).
+void keep_degree(Gaussians& gaussians, int degree);
 
 }  // namespace slf

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,7 +46,9 @@ class Renderer {
   /// Grid::fits_floats() it draws the background alone.
   Renderer(const ViewMaps& maps, const RenderSettings& settings = {});
   /// O(points + pixels).
-  Rendering render(const Camera& camera) const;
+  /// @param ended  or none: where it is set meanwhile, work ends within some rows of the picture,
+  ///               and the picture is not to be used
+  Rendering render(const Camera& camera, const std::atomic<bool>* ended = nullptr) const;
 
   /// A camera on a circle around the cloud, looking at its centre. turn: 0 .. 1; elevation in
   /// degrees above the plane across the up axis; the whole cloud fits into the image.

@@ -5,6 +5,7 @@
 #include "lightfield/render/gaussian_cloud.h"
 #include "lightfield/render/gaussian_tiles.h"
 #include "lightfield/render/orbit_camera.h"
+#include "lightfield/render/render_splats.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -19,14 +20,14 @@ GaussianRenderer::GaussianRenderer(const Gaussians& gaussians, const RenderSetti
       settings_(settings),
       cloud_(std::make_shared<const GaussianCloud>(gaussian_cloud(gaussians, settings.threads))) {}
 
-Rendering GaussianRenderer::render(const Camera& camera) const {
+Rendering GaussianRenderer::render(const Camera& camera, const std::atomic<bool>* ended) const {
   const auto splats =
       project_gaussians(gaussians_, *cloud_, camera, settings_.view_dependent, settings_.threads);
   const GaussianTiles tiles = bin_gaussians(splats, camera.width, camera.height, settings_.threads);
   Rendering out = empty_rendering(camera);
   parallel_ranges(tiles.size(), kTilesPerRange, settings_.threads,
                   [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin; i < end; ++i)
+                    for (std::size_t i = begin; i < end && !is_ended(ended); ++i)
                       blend_tile(splats, tiles, i, settings_.background, out);
                   });
   return out;

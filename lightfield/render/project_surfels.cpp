@@ -7,11 +7,13 @@
 
 namespace slf {
 
-std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads) {
+std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads,
+                                   const std::atomic<bool>* ended) {
   constexpr std::size_t kGrain = 4096;
   std::vector<Splat> splats(cloud.size());
   std::vector<std::size_t> counts((cloud.size() + kGrain - 1) / kGrain);
   parallel_ranges(cloud.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    if (is_ended(ended)) return;
     std::size_t next = begin;
     for (std::size_t p = begin; p < end; ++p) {
       const auto& n = cloud.normals[p];

@@ -63,8 +63,8 @@ Renderer::Renderer(const ViewMaps& maps, const RenderSettings& settings)
                              settings.threads)
               : SurfelCloud{})) {}
 
-Rendering Renderer::render(const Camera& camera) const {
-  const auto splats = project_surfels(*surfels_, camera, settings_.threads);
+Rendering Renderer::render(const Camera& camera, const std::atomic<bool>* ended) const {
+  const auto splats = project_surfels(*surfels_, camera, settings_.threads, ended);
   const Vec3 eye = camera.centre();
   const ColourSource colours = [&](std::span<const std::uint32_t> points,
                                    std::span<std::array<float, 3>> out) {
@@ -72,10 +72,12 @@ Rendering Renderer::render(const Camera& camera) const {
     for (std::size_t i = 0; i < points.size(); ++i) out[i] = maps_.mean(points[i]);
   };
   Rendering out = empty_rendering(camera);
-  rasterise(splats, camera.width, camera.height, settings_.threads, colours,
-            [&](std::size_t first_pixel, const SplatImage& rows) {
-              compose(rows, first_pixel, settings_, maps_.header().transfer, out);
-            });
+  rasterise(
+      splats, camera.width, camera.height, settings_.threads, colours,
+      [&](std::size_t first_pixel, const SplatImage& rows) {
+        compose(rows, first_pixel, settings_, maps_.header().transfer, out);
+      },
+      ended);
   return out;
 }
 

@@ -125,12 +125,14 @@ namespace {
 /// Colours [splats] of those that are in a list; the fourth is 0 and makes a sum one instruction.
 std::vector<std::array<float, 4>> colours_of(const std::vector<Splat>& splats,
                                              const std::vector<std::vector<std::uint32_t>>& shown,
-                                             int threads, const ColourSource& source) {
+                                             int threads, const ColourSource& source,
+                                             const std::atomic<bool>* ended) {
   std::vector<std::uint8_t> in_list(splats.size(), 0);
   for (const auto& list : shown)
     for (const std::uint32_t i : list) in_list[i] = 1;
   std::vector<std::array<float, 4>> colours(splats.size());
   parallel_ranges(splats.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+    if (is_ended(ended)) return;
     std::vector<std::uint32_t> points;
     for (std::size_t i = begin; i < end; ++i)
       if (in_list[i]) points.push_back(splats[i].point);
@@ -187,20 +189,21 @@ void take_rows(const SplatBand& band, BandSums& sums, SplatImage& rows) {
 }  // namespace
 
 void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
-               const ColourSource& source, const RowSink& sink) {
+               const ColourSource& source, const RowSink& sink, const std::atomic<bool>* ended) {
   const auto bins = bin_splats(splats, height);
   std::vector<std::vector<std::uint32_t>> shown(bins.size());
   std::vector<SplatBand> bands;
   bands.reserve(bins.size());
   for (std::size_t i = 0; i < bins.size(); ++i) bands.emplace_back(width, height, i);
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) shown[i] = bands[i].find_shown(splats, bins[i]);
+    for (std::size_t i = begin; i < end && !is_ended(ended); ++i)
+      shown[i] = bands[i].find_shown(splats, bins[i]);
   });
-  const auto colours = colours_of(splats, shown, threads, source);
+  const auto colours = colours_of(splats, shown, threads, source, ended);
   ScratchPool pool;
   parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     auto scratch = pool.take();
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !is_ended(ended); ++i) {
       bands[i].blend(splats, shown[i], colours, scratch->sums);
       bands[i].cover(splats, shown[i], bins[i], scratch->sums);
       take_rows(bands[i], scratch->sums, scratch->rows);

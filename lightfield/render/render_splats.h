@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -60,9 +61,14 @@ using ColourSource =
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
                      const ColourSource& source);
 
+/// Was the work given up? `ended` may be none.
+inline bool is_ended(const std::atomic<bool>* ended) { return ended != nullptr && ended->load(); }
+
 /// The same with rows as they are done, in any order.
+/// @param ended  or none: where it is set, bands that are not begun stay away
 void rasterise(const std::vector<Splat>& splats, int width, int height, int threads,
-               const ColourSource& source, const RowSink& sink);
+               const ColourSource& source, const RowSink& sink,
+               const std::atomic<bool>* ended = nullptr);
 
 /// The same with one colour at a time.
 SplatImage rasterise(const std::vector<Splat>& splats, int width, int height, int threads,

@@ -30,6 +30,8 @@ SurfelCloud surfel_cloud(const Grid& grid, std::span<const Voxel> positions,
                          const CodedNormals& coded, double radius_voxels, int threads);
 
 /// Splats of all discs that the camera can see, in point order.
-std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads);
+/// @param ended  or none: where it is set, some are missing
+std::vector<Splat> project_surfels(const SurfelCloud& cloud, const Camera& camera, int threads,
+                                   const std::atomic<bool>* ended = nullptr);
 
 }  // namespace slf

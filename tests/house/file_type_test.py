@@ -50,6 +50,10 @@ def main():
             asked += 1
             wrong += [f'file: {f} is {t}' for f, t in zip(sound, by_magic(root, sound)) if t != TYPE]
             wrong += [f'file: {t} for another signature' for t in by_magic(root, [other]) if t == TYPE]
+            both = f"{root / 'tools/desktop/slf.magic'}:/usr/share/misc/magic"  # as after an entry in /etc/magic
+            beside = said('file', '-b', '--mime-type', nameless, root / 'docs/pictures/can.png', MAGIC=both).split()
+            system = pathlib.Path('/usr/share/misc/magic.mgc').exists()  # elsewhere `both` is not its list
+            wrong += [f'file: {beside} beside the entries of the system'] if system and beside != [TYPE, 'image/png'] else []
             line = said('file', '-b', '-m', root / 'tools/desktop/slf.magic', nameless)
             version = '.'.join(map(str, nameless.read_bytes()[9:11]))
             if f'version {version}' not in line:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -71,6 +72,19 @@ TEST(RenderTest, BackgroundIsExactWhereNothingIsAndDepthIsInfinite) {
     EXPECT_EQ(rendering.coverage[pixel(rendering, x, y)], 0);
     EXPECT_EQ(rendering.depth[pixel(rendering, x, y)], std::numeric_limits<float>::infinity());
   }
+}
+
+TEST(RenderTest, APictureThatIsGivenUpEndsAndTheNextIsWhole) {
+  const LightField field = constant_light_field(test::plane(64, 0), {{200, 100, 50}}, 6);
+  const ViewMaps maps(field);
+  const Renderer renderer(maps);
+  const Camera camera = frontal_camera(31.5, 31.5, 200, 40, 1.0);
+  std::atomic<bool> ended = true;
+  const Rendering none = renderer.render(camera, &ended);
+  EXPECT_EQ(none.image.width, 40);
+  EXPECT_EQ(*std::max_element(none.coverage.begin(), none.coverage.end()), 0);
+  ended = false;
+  EXPECT_EQ(renderer.render(camera, &ended).image.data, renderer.render(camera).image.data);
 }
 
 TEST(RenderTest, ASphereHasAnAntialiasedOutlineOfTheRightSize) {

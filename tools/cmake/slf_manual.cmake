@@ -10,7 +10,7 @@ if(TARGET slf_program AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
             ${manual}
     COMMAND sh -c "rm -f *.1.gz && gzip -9nk *.1"  # as Debian has them, the same bytes each time
     WORKING_DIRECTORY ${manual}
-    DEPENDS slf_program ${PROJECT_SOURCE_DIR}/tools/manual.py
+    DEPENDS slf_program ${PROJECT_SOURCE_DIR}/tools/manual.py ${PROJECT_SOURCE_DIR}/tools/manual_texts.py
     COMMENT "Man pages and bash completion" VERBATIM)
   add_custom_target(slf_manual ALL DEPENDS ${manual}/slf.1 ${manual}/slf.bash)
   install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program

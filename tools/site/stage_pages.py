@@ -5,13 +5,16 @@
     stage_pages.py ROOT FOLDER [PROGRAM]
 
 The tree stays as it is, so that relative links hold. A link to a folder leads to its README, or loses its address where there is none.
-reference/program.md has the help of every verb of PROGRAM, gallery/README.md the live pages that tools/site/gallery.sh made.
+reference/python.md and reference/javascript.md have the docstrings and types (reference_pages.py), reference/program.md has the help of every
+verb of PROGRAM, gallery/README.md the live pages that tools/site/gallery.sh made.
 """
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+
+import reference_pages
 
 
 def pages_of(root):
@@ -73,6 +76,8 @@ def main():
     program = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else root / 'build/bin/slf'
     stage_gallery(root / 'build/gallery', folder / 'gallery')
     (folder / 'reference').mkdir()
+    (folder / 'reference/python.md').write_text(reference_pages.python_page(root), encoding='utf-8')
+    (folder / 'reference/javascript.md').write_text(reference_pages.javascript_page(root), encoding='utf-8')
     (folder / 'reference/program.md').write_text(reference_of(program), encoding='utf-8')
 
 

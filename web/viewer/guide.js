@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Notes on the stage: a mark for each annotation where its point is, a card with its text, and tracks that are played.
-import { fetchNotes } from './notes.js';
+import { fetchNotes, parseNotes, readNotes } from './notes.js';
 import { pick } from './pick.js';
 import { blendedPose, fittingPose } from './view.js';
 
@@ -15,12 +15,22 @@ export class Guide {
     this.close();
   }
 
-  /** @param {string|object} source  address, or what readNotes() gave. A fault in notes is said; the object shows. */
-  async open(source) {
+  /** @param {string|object} source  address, or notes as JSON gives them. A fault in notes is said; the object shows. */
+  open(source) {
+    return this.take(() => (typeof source === 'string' ? fetchNotes(source) : readNotes(source)));
+  }
+
+  /** @param {Record<string, string>} metadata  of a file: its own notes, if it has some */
+  async openOwn(metadata = {}) {
+    if (Object.hasOwn(metadata, 'notes')) await this.take(() => parseNotes(metadata.notes));
+  }
+
+  /** @param {() => object|Promise<object>} read  what readNotes() gives, or a fault */
+  async take(read) {
     this.close();
     const { source: file } = this.viewer;
     try {
-      const notes = typeof source === 'string' ? await fetchNotes(source) : source;
+      const notes = await read();
       if (file !== this.viewer.source) return; // another was opened
       this.notes = notes;
     } catch (error) {

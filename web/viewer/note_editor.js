@@ -98,7 +98,8 @@ export class NoteEditor {
   async change(edit, shown = this.viewer.guide.shown) {
     const root = this.root;
     edit(root);
-    await this.viewer.guide.open(readNotes(root));
+    const notes = readNotes(root);
+    await this.viewer.guide.take(() => notes);
     if (root.annotations[shown]) this.viewer.guide.show(shown, false);
     this.fill();
   }

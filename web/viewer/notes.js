@@ -31,7 +31,11 @@ export function readNotes(root) {
 export async function fetchNotes(address) {
   const response = await fetch(address).catch(() => null);
   if (!response?.ok) throw new ViewerError('network', 'The notes cannot be fetched.', String(address));
-  const text = await response.text();
+  return parseNotes(await response.text());
+}
+
+/** Of a JSON's text. @throws {ViewerError} 'damaged' */
+export function parseNotes(text) {
   if (text.length > MOST.bytes) refuse('the file', `is longer than ${MOST.bytes} bytes`);
   let root;
   try {
@@ -49,7 +53,7 @@ function annotation(given, i) {
     at: triple(own(from, 'at'), `${place}.at`),
     title: text(own(from, 'title'), `${place}.title`, MOST.title),
     text: text(own(from, 'text') ?? '', `${place}.text`, MOST.text),
-    view: own(from, 'view') === undefined ? null : view(own(from, 'view'), `${place}.view`),
+    view: (own(from, 'view') ?? null) === null ? null : view(own(from, 'view'), `${place}.view`),
   };
 }
 

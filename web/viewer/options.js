@@ -11,7 +11,7 @@ export const BACKGROUNDS = {
 };
 
 /** What is said of the first file and of no other that is opened after it. */
-export const OF_FIRST_FILE = { title: null, poster: null, notes: null, capture: null, camera: null, view: null };
+export const OF_FIRST_FILE = { title: null, poster: null, notes: null, metres: 0, capture: null, camera: null, view: null };
 
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
@@ -31,6 +31,8 @@ export function readOptions(query, page = {}) {
     title: text('title'),
     poster: text('poster'),
     notes: text('notes'),
+    metres: number('metres', 0, 1e12, 0),
+    scale: text('scale') === null || flag('scale'),
     embed: flag('embed'),
     background: backgroundOf(text('background')),
     exposure: number('exposure', -3, 3, 0),

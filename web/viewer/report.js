@@ -50,6 +50,7 @@ export class Report {
       this.page.writeFacts(this.viewer.facts, this.viewer.stage);
     }
     this.viewer.guide?.lay();
+    this.viewer.ruler?.lay();
     if (!this.page.at('compare').hidden && this.viewer.comparison.shown?.photograph) this.viewer.comparison.lay();
     this.page.frame.dataset.frame = String(Number(this.page.frame.dataset.frame ?? 0) + 1);
   }

@@ -21,6 +21,8 @@ export interface SlfViewerEvents {
   viewchange: CustomEvent<undefined>;
   annotation: CustomEvent<{ index: number; title: string }>;
   noteserror: CustomEvent<ViewerError>;
+  /** Two points of the object and how far they are apart, in units of the world and in metres; null: nobody knows these. */
+  measure: CustomEvent<{ from: number[]; to: number[]; units: number; metres: number | null }>;
   play: CustomEvent<undefined>;
   pause: CustomEvent<undefined>;
   /** The last frame was shown, and there is no loop. */
@@ -63,6 +65,8 @@ export class SlfViewerElement extends HTMLElement {
   speed: number;
   /** An annotation of the notes, by its number from 0. */
   show(annotation: number): void;
+  /** Whether clicks on the object measure it. */
+  measure(on?: boolean): void;
   reset(): void;
   fit(): void;
   /** Degrees a second; 0 stops. */

@@ -8,7 +8,6 @@ import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { missingCard, missingPart } from './missing_part.js';
 import { backgroundOf, memoryOfDevice, readOptions } from './options.js';
-import { placeAt } from './pick.js';
 import { Viewer } from './viewer.js';
 import { addressOf, viewOfAddress, viewParameters } from './view_link.js';
 import { Turns } from './viewer_turns.js';
@@ -118,10 +117,7 @@ export class SlfViewerElement extends HTMLElement {
 
   /** The place of the object under a point of the window (`clientX`, `clientY`); null beside it. */
   pointAt(x, y) {
-    const { stage } = this.viewer ?? {};
-    if (!stage?.field || !this.viewer.controls.pose) return null;
-    const box = stage.canvas.getBoundingClientRect();
-    return placeAt(stage, x - box.left, y - box.top);
+    return this.viewer?.ruler.under(x, y) ?? null;
   }
 
   /** What moves; with a track, by name or number, and where nothing moves, a tour of the notes, or stops the one that plays. */
@@ -182,6 +178,11 @@ export class SlfViewerElement extends HTMLElement {
   /** Opens an annotation of the notes, by its number from 0. */
   show(annotation) {
     if (this.viewer?.guide.marks[annotation]) this.viewer.guide.show(annotation);
+  }
+
+  /** Whether clicks on the object measure it. */
+  measure(on = true) {
+    if (this.viewer?.stage?.field) this.viewer.ruler.toggle(on);
   }
 
   reset() {
@@ -258,8 +259,7 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   #options() {
-    const read = readOptions(this.#query);
-    const { azimuth, elevation, fov, zoom, target } = read;
+    const read = readOptions(this.#query), { azimuth, elevation, fov, zoom, target } = read;
     return { ...read, view: { azimuth, elevation, fov, zoom, target } };
   }
 

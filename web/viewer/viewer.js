@@ -10,6 +10,7 @@ import { Playback } from './playback.js';
 import { backgroundColour, BACKGROUNDS, OF_FIRST_FILE, readOptions } from './options.js';
 import { Report } from './report.js';
 import { Rooms } from './rooms.js';
+import { Ruler } from './ruler.js';
 import { Stage } from './stage.js';
 import { fittingPose, namedPose, poseOfCamera } from './view.js';
 import { Wiring } from './wiring.js';
@@ -30,6 +31,7 @@ export class Viewer {
     this.report = new Report(this);
     this.comparison = new Comparison(this);
     this.guide = new Guide(this);
+    this.ruler = new Ruler(this);
     this.playback = new Playback(this);
     this.rooms = new Rooms(this);
     this.facts = {};
@@ -79,6 +81,7 @@ export class Viewer {
     const own = (this.source = this.loading = { source, name });
     this.comparison.close();
     this.guide.close();
+    this.ruler.toggle(false);
     this.playback.close();
     this.controls.pose = null;
     this.touched = false;
@@ -103,6 +106,7 @@ export class Viewer {
       this.report.say('It is shown.');
       if (Object.entries(part).some(([name, value]) => this.options[name] !== value)) await this.decodeAgain();
       if (this.options.notes) await this.guide.open(this.options.notes);
+      else await this.guide.openOwn(this.facts.info?.metadata);
       if (this.options.capture) await this.comparison.open(this.options.capture);
     } catch (error) {
       if (error.name !== 'AbortError') this.report.fail(error);
@@ -164,6 +168,11 @@ export class Viewer {
   }
 
   // Views
+
+  /** Of a unit of the file's world; 0: nobody knows. */
+  get metres() {
+    return this.options.metres || this.facts.info?.metresPerUnit || 0;
+  }
 
   startPose() {
     const { azimuth, elevation, fov, zoom, target, view } = this.options;

@@ -21,6 +21,7 @@ const KEYS = {
   ']': 'after',
   n: 'note',
   t: 'tour',
+  x: 'measure',
   ',': 'earlier',
   '.': 'later',
 };
@@ -101,6 +102,7 @@ export class Wiring {
       note: () => field && this.viewer.guide.next(),
       'note-close': () => this.viewer.guide.hide(),
       tour: () => field && this.viewer.guide.play(),
+      measure: () => field && this.viewer.ruler.toggle(),
       vr: () => field && this.viewer.rooms.toggle('vr'),
       ar: () => field && this.viewer.rooms.toggle('ar'),
       link: () => field && copyLink(this.viewer),
@@ -128,6 +130,7 @@ export class Wiring {
     if (event.target.matches?.('input, select, dialog *') && event.key !== 'h') return;
     if (event.key === ' ' && event.target.matches?.('button')) return;
     if (event.key === 'Escape' && !this.page.at('note').hidden) return this.viewer.guide.hide();
+    if (event.key === 'Escape' && this.viewer.ruler.on) return this.viewer.ruler.toggle(false);
     if (event.key === 'Escape' && !this.page.at('panel').hidden) return this.viewer.togglePanel();
     const flying = this.viewer.controls?.mode === 'fly' && /^[wasdqe]$/i.test(event.key);
     const key = event.key.toLowerCase(),

@@ -98,11 +98,11 @@ class Room {
 
   /** Metres of a unit of the light field. */
   get scale() {
-    const { metresPerUnit = 0 } = this.viewer.facts.info,
+    const { metres } = this.viewer,
       units = 2 * this.viewer.stage.field.radius,
       [least, most] = TRUE_SIZES,
-      across = metresPerUnit * units;
-    return this.grown * (across >= least && across <= most ? metresPerUnit : ACROSS / units);
+      across = metres * units;
+    return this.grown * (across >= least && across <= most ? metres : ACROSS / units);
   }
 
   stand(frame, eyes) {

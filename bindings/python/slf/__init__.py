@@ -14,20 +14,25 @@ from . import _slf
 from ._encoding import encode, pack, settings
 from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError,
                       UnsupportedError)
+from ._evaluation import eval
 from ._field import LightField, info, read
+from ._files import export, truncate
 from ._frames import Frames, frames
 from ._notebook import Turntable
-from ._types import Camera, Capture, Encoded, Frame, Info
+from ._page import html
+from ._types import (Camera, Capture, Encoded, Evaluation, Frame, Info, PictureQuality,
+                     PointQuality, Quality)
 
-__all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Frame',
-           'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'Turntable',
-           'UnsupportedError', '__version__', 'encode', 'frames', 'info', 'pack', 'read',
-           'settings']
+__all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Evaluation', 'Frame',
+           'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'PictureQuality', 'PointQuality',
+           'Quality', 'Turntable', 'UnsupportedError', '__version__', 'encode', 'eval', 'export', 'frames',
+           'html', 'info', 'pack', 'read', 'settings', 'truncate']
 
 __version__: str = _slf.version()
 
 # Where a user finds them, in messages and in help().
-for _name in ('Camera', 'Capture', 'Encoded', 'Frame', 'Frames', 'Info', 'LightField', 'Turntable', 'encode',
-              'frames', 'info', 'pack', 'read', 'settings'):
+for _name in ('Camera', 'Capture', 'Encoded', 'Evaluation', 'Frame', 'Frames', 'Info', 'LightField', 'PictureQuality',
+              'PointQuality', 'Quality', 'Turntable', 'encode', 'eval', 'export', 'frames', 'html', 'info', 'pack',
+              'read', 'settings', 'truncate'):
     globals()[_name].__module__ = __name__
 del _name

@@ -13,6 +13,7 @@ from . import _errors
 MOST_BYTES = 2**64 - 1  #: of the C interface
 MOST_PIXELS = 16384  #: of a side
 
+_Any = TypeVar('_Any', bound=np.generic)
 _Whole = TypeVar('_Whole', bound='np.integer[Any]')
 
 
@@ -55,3 +56,20 @@ def whole_array(values: npt.ArrayLike, name: str, kind: Type[_Whole]) -> npt.NDA
             limits.min <= array.min() and array.max() <= limits.max)):
         raise wrong(name, f'{name} are whole numbers of {limits.min} to {limits.max}')
     return array.astype(kind, copy=False)
+
+
+def colours8(values: npt.ArrayLike, name: str) -> npt.NDArray[np.uint8]:
+    """R, G, B of 8 bits, [N, 3]: of whole numbers 0 to 255, or of floats 0 to 1. An alpha is left out."""
+    array = np.asarray(values)
+    if array.dtype.kind == 'f':
+        if array.size and not (np.isfinite(array).all() and 0 <= array.min() and array.max() <= 1):
+            raise wrong(name, f'{name} that are floats are 0 to 1; whole numbers are 0 to 255')
+        array = np.rint(255 * array).astype(np.uint8)
+    colours = whole_array(array, name, np.uint8)
+    return np.ascontiguousarray(colours[:, :3]) if colours.ndim == 2 and colours.shape[1] == 4 else colours
+
+
+def fixed(array: npt.NDArray[_Any]) -> npt.NDArray[_Any]:
+    """The array, which is not to be written to any more."""
+    array.flags.writeable = False
+    return array

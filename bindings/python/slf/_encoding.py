@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import whole, whole_array, wrong
+from ._arguments import colours8, whole, whole_array, wrong
 from ._errors import ArgumentError, Error
+from ._notes import Notes, notes_text
 from ._types import Capture, Encoded, Vector
 
 
@@ -28,14 +29,15 @@ def settings() -> Dict[str, Dict[str, Any]]:
 
 
 def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None, split: str = '',
-           threads: int = 0, progress: Optional[Callable[[str, float], object]] = None,
-           **settings: _Value) -> Encoded:
+           notes: Optional[Notes] = None, threads: int = 0,
+           progress: Optional[Callable[[str, float], object]] = None, **settings: _Value) -> Encoded:
     """From photographs and points to a stream.
 
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
     levels, 0.05 to 4096, smaller is better; None is the largest that costs held-out input images
     quality_loss dB of PSNR at most, or 16 where nothing can be held out. split: which images, as
-    `slf encode --split`. settings: all that the program has, by its names with _ for -, as numbers,
+    `slf encode --split`. notes: points with text and guided tours, which viewers show, as a file or a
+    dict (docs/notes.md). settings: all that the program has, by its names with _ for -, as numbers,
     words, True or False, None where it is not given: effort=3, target_bytes=50000,
     surface='trained', grid_bits=9, quality_layers=3. slf.settings() lists them with their ranges.
     progress(stage, fraction 0 to 1): now and then; what it raises ends the encoding, as an interrupt
@@ -45,11 +47,12 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None
     options = dict(_option(name, value) for name, value in {'q': q, **settings}.items()
                    if value is not None)
     whole(threads, 'threads')
+    metadata = [] if notes is None else [('notes', notes_text(notes))]
     try:
         if isinstance(capture, Capture):
-            data, report = _slf.encode_capture(_in_bytes(capture), split, options, threads, progress)
+            data, report = _slf.encode_capture(in_bytes(capture), split, options, metadata, threads, progress)
         else:
-            data, report = _slf.encode_path(os.fspath(capture), split, options, threads, progress)
+            data, report = _slf.encode_path(os.fspath(capture), split, options, metadata, threads, progress)
     except ArgumentError as error:
         raise _of_arguments(error) from None
     report['warnings'] = tuple(report['warnings'])
@@ -105,9 +108,9 @@ def pack(positions: npt.ArrayLike, components: Optional[npt.ArrayLike] = None, *
                      whole(threads, 'threads'))
 
 
-def _in_bytes(capture: Capture) -> Capture:
-    """With the colours and the images that the encoder takes."""
+def in_bytes(capture: Capture) -> Capture:
+    """With the colours and the images that the library takes."""
     colours = capture.colours
     return dataclasses.replace(
         capture, images=[whole_array(image, 'images', np.uint8) for image in capture.images],
-        colours=None if colours is None else whole_array(colours, 'colours', np.uint8))
+        colours=None if colours is None else colours8(colours, 'colours'))

@@ -11,11 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, MOST_PIXELS, colour, pixels, whole, wrong
+from ._arguments import MOST_BYTES, MOST_PIXELS, colour, fixed, pixels, whole, wrong
 from ._errors import ArgumentError, DamagedError, Error, LimitError, UnsupportedError, of_source
 from ._notebook import Turntable, png
 from ._ranges import FileRanges, Ranges, UrlRanges, is_address, ranges_of, whole_of
 from ._types import Box, Camera, Frame, Info, Source, Vector
+from ._view_map import directions_of, display_values, plotted
 
 
 Data = Union[bytes, bytearray, memoryview]
@@ -115,32 +116,32 @@ class LightField:
     @functools.cached_property
     def positions(self) -> npt.NDArray[np.int32]:
         """Voxels, int32 [P, 3], Morton order."""
-        return _fixed(self._field.positions())
+        return fixed(self._field.positions())
 
     @functools.cached_property
     def points(self) -> npt.NDArray[np.float64]:
         """World positions, float64 [P, 3]."""
-        return _fixed(np.asarray(self.origin, np.float64) + np.float64(self.step) * self.positions)
+        return fixed(np.asarray(self.origin, np.float64) + np.float64(self.step) * self.positions)
 
     @functools.cached_property
     def components(self) -> npt.NDArray[np.int32]:
         """The integers of the bit exact decode, int32 [P, R, 3]."""
-        return _fixed(self._field.components())
+        return fixed(self._field.components())
 
     @functools.cached_property
     def normals(self) -> npt.NDArray[np.float32]:
         """Unit normals, float32 [P, 3], of either sign: coded, else estimated; 0 where unknown."""
-        return _fixed(self._field.normals())
+        return fixed(self._field.normals())
 
     @functools.cached_property
     def radii(self) -> npt.NDArray[np.float32]:
         """Radii of the discs that a renderer draws, float32 [P], world units."""
-        return _fixed(self._field.radii())
+        return fixed(self._field.radii())
 
     @functools.cached_property
     def mean_colours(self) -> npt.NDArray[np.uint8]:
         """R, G, B averaged over all directions, uint8 [P, 3]."""
-        return _fixed(self._field.mean_colours())
+        return fixed(self._field.mean_colours())
 
     def radiance(self, points: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float32]:
         """Colours of points along directions, float32 of the broadcast shape [..., 3].
@@ -171,8 +172,8 @@ class LightField:
         """A picture, uint8 [height, width, 3], display values.
 
         size: width and height in place of the camera's. view_dependent False: mean colours. The
-        first call decodes once more, for the renderer, within the max_memory of read(). Raises
-        ValueError, InputError of a field without colours.
+        first call decodes once more, for the renderer, within the max_memory of read(). An interrupt
+        (Ctrl-C) ends the drawing. Raises ValueError, InputError of a field without colours.
         """
         if not all(hasattr(camera, name) for name in ('width', 'height', 'K', 'R', 't')):
             raise TypeError(f'a Camera is needed, as orbit() gives it, not {type(camera).__name__}')
@@ -186,7 +187,6 @@ class LightField:
         turn: 0 to 1; elevation and fov: degrees; size: width, height.
         """
         return Camera(**self._renderer.orbit(turn, elevation, *pixels(size), fov))
-
 
     def turntable(self, steps: int = 24, elevation: float = 20,
                   size: Tuple[int, int] = (400, 400)) -> Turntable:
@@ -202,35 +202,23 @@ class LightField:
         elevation from 1 to -1, each at the middle of its pixel. Raises IndexError.
         """
         height = whole(rows, 'rows', 1, MOST_PIXELS // 2)
-        sine = 1 - (2 * np.arange(height)[:, None] + 1) / height
-        azimuth = np.pi * ((np.arange(2 * height)[None, :] + 0.5) / height - 1)
-        across = np.sqrt(1 - sine**2)
-        directions = np.stack(np.broadcast_arrays(across * np.cos(azimuth),
-                                                  across * np.sin(azimuth), sine), axis=-1)
-        colours = self.radiance(point, directions)
+        colours = self.radiance(point, directions_of(height))
         if self.header.transfer == 'linear':
-            colours = 255 * _display(colours / 255)
+            colours = 255 * display_values(colours / 255)
         return np.clip(np.rint(colours), 0, 255).astype(np.uint8)
+
+    def plot_view_map(self, point: int, rows: int = 64, ax: Any = None) -> Any:
+        """Draws view_map() with matplotlib, axes in degrees; gives the axes.
+
+        ax: axes to draw into; None makes a figure. Raises IndexError; ImportError without matplotlib.
+        """
+        return plotted(self.view_map(point, rows), f'point {point}', ax)
 
     def _repr_png_(self) -> Optional[bytes]:
         """What a notebook shows; nothing where integers have no meaning as colours."""
         if self.header.basis == 'none' or not len(self):
             return None
         return png(self.render(self.orbit(0.1, size=(400, 400))))
-
-
-def _display(linear: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
-    """Display values of linear ones, 0 to 1 (IEC 61966-2-1)."""
-    light = np.clip(linear, 0, 1)
-    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
-
-
-_Any = TypeVar('_Any', bound=np.generic)
-
-
-def _fixed(array: npt.NDArray[_Any]) -> npt.NDArray[_Any]:
-    array.flags.writeable = False
-    return array
 
 
 def _voxels(data: Union[Data, Ranges], region: Box) -> Tuple[int, ...]:
@@ -258,19 +246,33 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError of a file.
     """
     less = any((levels, groups, layers, max_bytes)) or region is not None
-    part: Dict[str, Any] = {
+    part = part_of(levels, groups, layers, max_bytes, threads, max_memory)
+    with _named(source):
+        return with_part(_in_parts(source) if less else _bytes(source), part, region, _decoded)
+
+
+def part_of(levels: int, groups: int, layers: int, max_bytes: int, threads: int,
+            max_memory: int) -> Dict[str, Any]:
+    """Arguments of read() for the extension module, without the region."""
+    return {
         'levels': whole(levels, 'levels', 0, 21), 'groups': whole(groups, 'groups', 0, 16),
         'layers': whole(layers, 'layers', 0, 4),
         'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
         'threads': whole(threads, 'threads'),
         'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES)}
-    with _named(source):
-        data = _in_parts(source) if less else _bytes(source)
-        part['region'] = None if region is None else _voxels(data, region)
-        try:
-            return _decoded(data, part)
-        except ArgumentError as error:
-            raise _of_part(error, data) from None
+
+
+_Made = TypeVar('_Made')
+
+
+def with_part(data: Union[Data, Ranges], part: Dict[str, Any], region: Optional[Box],
+              make: Callable[[Union[Data, Ranges], Dict[str, Any]], _Made]) -> _Made:
+    """What is made of the data and the whole part; errors name the argument."""
+    part = {**part, 'region': None if region is None else _voxels(data, region)}
+    try:
+        return make(data, part)
+    except ArgumentError as error:
+        raise _of_part(error, data) from None
 
 
 def _of_part(error: ArgumentError, data: Union[Data, Ranges]) -> Error:

@@ -108,9 +108,10 @@ class Camera:
 class Capture:
     """Photographs and points in memory; a directory of files needs none of this (encode).
 
-    points [N, 3] world; normals [N, 3] unit, outward, or None; colours uint8 [N, 3] or None;
-    images: uint8 [height, width, 3 or 4] of each camera, display values, alpha 0 off the object.
-    Colours and images of another type of whole numbers are taken where they are 0 to 255.
+    points [N, 3] world; normals [N, 3] unit, outward, or None; colours [N, 3 or 4] or None: whole
+    numbers of 0 to 255, as trimesh has them, or floats of 0 to 1, as open3d has them; an alpha is left
+    out. images: uint8 [height, width, 3 or 4] of each camera, display values, alpha 0 off the object; of
+    another type of whole numbers where they are 0 to 255.
     """
 
     points: npt.ArrayLike
@@ -124,6 +125,47 @@ class Capture:
     def up_index(self) -> int:
         """The number that slf::UpAxis has for it."""
         return ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'].index(self.up)
+
+
+@dataclasses.dataclass(frozen=True)
+class PointQuality:
+    """Colours of points against photographs, of the views within `delta` degrees of the normal."""
+
+    delta: float
+    psnr: float  #: dB, over points, cameras and channels; infinite where nothing differs
+    luma_psnr: float
+    channel_psnr: Tuple[float, float, float]
+    observations: int
+
+
+@dataclasses.dataclass(frozen=True)
+class PictureQuality:
+    """Pictures against photographs, where both show the object."""
+
+    psnr: float  #: dB
+    ssim: float
+    ms_ssim: float
+    psnr_all: float  #: of every pixel
+    coverage: float  #: share of the object's pixels that the pictures cover
+    off_pixels: float  #: how far a picture would have to move to lie on its photograph
+    psnr_each: Tuple[float, ...]  #: of each camera
+
+
+@dataclasses.dataclass(frozen=True)
+class Quality:
+    """What was measured on one set of cameras."""
+
+    cameras: int
+    points: Tuple[PointQuality, ...]  #: for each delta; of splats none
+    image: Optional[PictureQuality]  #: None where pictures were not asked for
+
+
+@dataclasses.dataclass(frozen=True)
+class Evaluation:
+    """What eval() measured."""
+
+    input: Optional[Quality]  #: of the photographs that the file was made from; None: it names none
+    held_out: Optional[Quality]  #: of those that it was not made from
 
 
 @dataclasses.dataclass(frozen=True)

@@ -83,7 +83,7 @@ class ArgumentsTest(unittest.TestCase):
             capture.cameras, capture.images = [self.camera], [image]
             self.refused('images', slf.encode, capture, split='all')
         colours = disc().colours
-        for given in (colours / 255, colours.astype(int) + 200, colours > 100):
+        for given in (colours.astype(float), colours.astype(int) + 200, colours > 100):
             self.refused('colours', slf.encode, dataclasses.replace(disc(), colours=given))
         same = dataclasses.replace(disc(), colours=colours.astype(int).tolist())
         self.assertEqual(slf.encode(same, q=1, grid_bits=7).data, self.encoded.data)

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { readFileSync } from 'node:fs';
-import { readNotes } from '../../viewer/notes.js';
+import { parseNotes, readNotes } from '../../viewer/notes.js';
 import { blendedPose } from '../../viewer/view.js';
 
 const view = { azimuth: 30, zoom: 2, target: [0, 1, 2] };
@@ -56,6 +56,13 @@ for (const [path, value, place] of [
 
 test('what is no object at all is refused', () => {
   for (const root of [null, [], 7, 'x', undefined]) assert.throws(() => readNotes(root), { kind: 'damaged' });
+});
+
+test('what was read may be read again, and a text that is no JSON is refused', () => {
+  const notes = readNotes(sound);
+  assert.deepEqual(readNotes({ version: 1, ...notes }), notes, 'as the editor keeps them');
+  assert.deepEqual(parseNotes(JSON.stringify(sound)), notes);
+  for (const text of ['', '{', '{"version": 1', 'x'.repeat(2 ** 20 + 1)]) assert.throws(() => parseNotes(text), { kind: 'damaged' });
 });
 
 test('names that every object has are no entries', () => {

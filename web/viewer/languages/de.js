@@ -177,4 +177,10 @@ export default {
   'In your room': 'In Ihrem Raum',
   'Look at a surface, then tap.': 'Auf eine Fläche schauen, dann tippen.',
   'The room cannot be shown.': 'Der Raum lässt sich nicht zeigen.',
+  'Measure': 'Messen',
+  'Measure (X)': 'Messen (X)',
+  'measure from point to point': 'von Punkt zu Punkt messen',
+  'Click on two points; Enter takes the middle.': 'Zwei Punkte anklicken; Eingabe nimmt die Mitte.',
+  'There is nothing here.': 'Hier ist nichts.',
+  '{} units': '{} Einheiten',
 };

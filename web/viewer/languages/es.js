@@ -176,4 +176,10 @@ export default {
   'In your room': 'En su habitación',
   'Look at a surface, then tap.': 'Mire una superficie y toque.',
   'The room cannot be shown.': 'No se puede mostrar la habitación.',
+  'Measure': 'Medir',
+  'Measure (X)': 'Medir (X)',
+  'measure from point to point': 'medir de punto a punto',
+  'Click on two points; Enter takes the middle.': 'Haga clic en dos puntos; Intro toma el centro.',
+  'There is nothing here.': 'Aquí no hay nada.',
+  '{} units': '{} unidades',
 };

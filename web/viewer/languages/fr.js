@@ -176,4 +176,10 @@ export default {
   'In your room': 'Dans votre pièce',
   'Look at a surface, then tap.': 'Regardez une surface, puis touchez.',
   'The room cannot be shown.': 'La pièce ne peut pas être montrée.',
+  'Measure': 'Mesurer',
+  'Measure (X)': 'Mesurer (X)',
+  'measure from point to point': 'mesurer d’un point à l’autre',
+  'Click on two points; Enter takes the middle.': 'Cliquez sur deux points ; Entrée prend le milieu.',
+  'There is nothing here.': 'Il n’y a rien ici.',
+  '{} units': '{} unités',
 };

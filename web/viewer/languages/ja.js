@@ -175,4 +175,10 @@ export default {
   'In your room': '部屋に置く',
   'Look at a surface, then tap.': '面に向けてからタップしてください。',
   'The room cannot be shown.': '部屋を表示できません。',
+  'Measure': '測る',
+  'Measure (X)': '測る (X)',
+  'measure from point to point': '点から点まで測る',
+  'Click on two points; Enter takes the middle.': '2点をクリックしてください。Enter は中央の点を取ります。',
+  'There is nothing here.': 'ここには何もありません。',
+  '{} units': '{} 単位',
 };

@@ -175,4 +175,10 @@ export default {
   'In your room': '放在房间里',
   'Look at a surface, then tap.': '对准一个平面，然后轻点。',
   'The room cannot be shown.': '无法显示房间。',
+  'Measure': '测量',
+  'Measure (X)': '测量 (X)',
+  'measure from point to point': '测量两点间的距离',
+  'Click on two points; Enter takes the middle.': '请点击两个点；Enter 键取中间的点。',
+  'There is nothing here.': '这里没有物体。',
+  '{} units': '{} 单位',
 };
