@@ -76,14 +76,19 @@ double pictures_a_second(const PartOptions& part, std::size_t count) {
   return seconds > 0 ? static_cast<double>(count - 1) / seconds : kRate;
 }
 
-nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames) {
+nlohmann::ordered_json frames_json(const std::vector<FrameInfo>& frames,
+                                   const PointsOfFrames& points) {
   auto list = nlohmann::ordered_json::array();
-  for (const FrameInfo& f : frames)
-    list.push_back({{"number", f.number},
-                    {"time", f.time},
-                    {"predicted", f.predicted},
-                    {"offset", f.offset},
-                    {"bytes", f.bytes}});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameInfo& f = frames[i];
+    nlohmann::ordered_json frame = {{"number", f.number},       {"time", f.time},
+                                    {"predicted", f.predicted}, {"reference", nullptr},
+                                    {"offset", f.offset},       {"bytes", f.bytes},
+                                    {"points", nullptr}};
+    if (f.predicted) frame["reference"] = f.number - 1;
+    if (points[i]) frame["points"] = *points[i];
+    list.push_back(std::move(frame));
+  }
   return list;
 }
 
@@ -97,6 +102,20 @@ std::string frames_text(const std::vector<FrameInfo>& frames) {
   return text("  frames        %s in %.3f s, %s of them predicted in %s bytes; the first:\n",
               grouped(frames.size()).c_str(), frames.back().time - frames.front().time,
               grouped(predicted).c_str(), grouped(bytes).c_str());
+}
+
+std::string frame_table_text(const std::vector<FrameInfo>& frames, const PointsOfFrames& points) {
+  if (frames.size() < 2) return {};
+  std::string out =
+      "\nframes\n      number        time  kind       reference        bytes      points\n";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameInfo& f = frames[i];
+    out += text("%12u %11.3f  %-9s %10s %12s %11s\n", f.number, f.time,
+                f.predicted ? "predicted" : "intra",
+                f.predicted ? std::to_string(f.number - 1).c_str() : "-", grouped(f.bytes).c_str(),
+                points[i] ? grouped(*points[i]).c_str() : "-");
+  }
+  return out;
 }
 
 }  // namespace slf::tools

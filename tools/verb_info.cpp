@@ -96,7 +96,8 @@ Outcome check_limits(const StreamFile& file, const DecodeCost& cost, const InfoO
 }
 
 nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
-                                 const std::vector<FrameInfo>& frames, const DecodeCost& cost) {
+                                 const std::vector<FrameInfo>& frames, const PointsOfFrames& points,
+                                 const DecodeCost& cost) {
   nlohmann::ordered_json json;
   json["bytes"] = bytes;
   json["version"] = {info.version_major, info.version_minor};
@@ -105,7 +106,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["complete"] = info.complete;
   json["partial"] = is_partial(info);
   json["decode"] = decode_cost_json(cost, page_memory(info, cost, frames.size()));
-  if (frames.size() > 1) json["frames"] = frames_json(frames);
+  if (frames.size() > 1) json["frames"] = frames_json(frames, points);
   json["points"] = info.num_points;
   json["slices"] = info.num_slices;
   json["slice_start"] = start_name(info.slice_start);
@@ -208,7 +209,8 @@ std::string slices_text(const StreamInfo& info) {
 }
 
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t all_bytes,
-                      const std::vector<FrameInfo>& frames, bool units, const DecodeCost& cost) {
+                      const std::vector<FrameInfo>& frames, const PointsOfFrames& points,
+                      bool units, const DecodeCost& cost) {
   const std::uint64_t bytes = frames.front().bytes;
   std::string out = printable(input_name(file)) + ": " + grouped(all_bytes) +
                     " bytes, .slf version " +
@@ -235,6 +237,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
                 : t.colour ? "with channels"
                            : "channels alike");
   out += "\n" + bytes_by_type_text(info, bytes);
+  out += frame_table_text(frames, points);
   if (info.num_slices > 1) out += slices_text(info);
   if (units) out += units_text(info);
   if (!info.metadata.empty()) out += "\nmetadata\n";
@@ -253,9 +256,13 @@ Outcome run_info(const InfoOptions& given) {
   cost->memory += file.bytes.size();
   cost->memory_most += file.bytes.size();
   SLF_TRY(const auto frames, from(input_name(given.input), list_frames(file.bytes)));
+  PointsOfFrames points;
+  if (frames.size() > 1) {
+    SLF_TRY(points, from(input_name(given.input), list_points(file.bytes, given.asked)));
+  }
   const std::uint64_t bytes = file.bytes.size();
-  if (given.common.json) return print(info_json(file.info, bytes, frames, *cost));
-  return print(info_text(file.info, given.input, bytes, frames, given.units, *cost));
+  if (given.common.json) return print(info_json(file.info, bytes, frames, points, *cost));
+  return print(info_text(file.info, given.input, bytes, frames, points, given.units, *cost));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,12 @@ struct FrameInfo {
 /// or
 ///         times that do not ascend, a predicted frame first. O(frames)
 Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream);
+
+/// Points of each of list_frames(), by the headers of its slices; nothing where these are damaged
+/// or cut off, or those of its group.
+/// @errors those of list_frames; kLimitExceeded: max_memory. O(units)
+Result<std::vector<std::optional<std::uint64_t>>> list_points(std::span<const std::uint8_t> stream,
+                                                              const DecodeLimits& limits = {});
 
 /// Decodes any frame of a stream held in memory. A predicted frame needs those before it, back to
 /// one that is not: in order each frame is decoded once.
@@ -157,7 +164,8 @@ struct EncodedFrames {
 /// coded
 /// Where a frame has no points it is empty (format 1.2); the first that has some chooses.
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
-///         textures), no frame with points; those of load, take, encode() and FrameEncoder
+///         textures), no frame with points;
+///         those of load, take, encode() and FrameEncoder
 /// One frame is in memory at a time, what is left of the one before, and a photograph of every
 /// camera to compare with. The same bytes for any
 /// thread count of one binary.
