@@ -10,6 +10,7 @@
 #include "capture/frame_names.h"
 #include "capture/ply_reader.h"
 #include "slf/capture.h"
+#include "slf/gaussian_files.h"
 
 namespace slf {
 
@@ -30,15 +31,22 @@ struct Candidate {
   FrameKind kind;
 };
 
+bool is_splat_name(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".spz" || extension == ".splat" || extension == ".ksplat" ||
+         extension == ".sog";
+}
+
+/// Splats in other files than PLY are candidates to be refused by name, where nothing else is.
 std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
-                                      const std::optional<FramePattern>& wanted) {
+                                      const std::optional<FramePattern>& wanted, bool splats) {
   std::error_code ignored;
   const bool directory = entry.is_directory(ignored);
   const fs::path& path = entry.path();
   const std::string name = path.filename().string();
   auto pattern = wanted;
   if (!wanted && directory && name.starts_with(kCapturePrefix)) pattern = pattern_of(name, "");
-  if (!wanted && !directory && extension_of(path) == ".ply")
+  if (!wanted && !directory && (splats ? is_splat_name(path) : extension_of(path) == ".ply"))
     pattern = pattern_of(path.stem().string(), path.extension().string());
   if (!pattern) return std::nullopt;
   const auto number = pattern->number_of(name);
@@ -51,11 +59,14 @@ std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
 /// By number, then by name.
 Result<std::vector<Candidate>, InputError> candidates_in(
     const fs::path& directory, const std::optional<FramePattern>& wanted) {
-  std::vector<Candidate> found;
+  std::vector<Candidate> found, splats;
   std::error_code error;
   fs::directory_iterator entry(directory, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (auto candidate = candidate_of(*entry, wanted)) found.push_back(std::move(*candidate));
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (auto candidate = candidate_of(*entry, wanted, false)) found.push_back(*candidate);
+    if (auto candidate = candidate_of(*entry, wanted, true)) splats.push_back(*candidate);
+  }
+  if (found.empty()) found = std::move(splats);
   if (error) return InputError{Errc::kUnreadable, directory.string() + ": " + error.message()};
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.frame.number, a.frame.path) < std::tie(b.frame.number, b.frame.path);
@@ -117,6 +128,10 @@ Result<Done, InputError> check_cloud(const fs::path& file) {
   const std::uint64_t size = fs::file_size(file, error);
   if (error) return InputError{Errc::kUnreadable, file.string() + ": " + error.message()};
   if (size == 0) return bad_frame(file, "the frame is empty");
+  if (is_splat_name(file) || looks_like_gaussians(file))
+    return bad_frame(file,
+                     "Gaussian splats, and frames are photographs or coloured clouds: slf encode "
+                     "of the file alone codes this instant");
   SLF_CHECK(ply_vertices(file));
   return Done{};
 }

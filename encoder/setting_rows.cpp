@@ -221,6 +221,7 @@ SettingTable all_rows() {
       rows, SettingInfo::kAnySplats,
       {"effort", "grid-bits", "voxel-size", "quality", "target-bytes", "target-psnr", "klt",
        "predict", "rdo", "quality-layers", "base-levels", "slice-points", "slice-start"});
+  mark_for_frames(rows);
   return rows;
 }
 

@@ -46,7 +46,8 @@ bool holds_frames(const std::filesystem::path& input);
 /// @errors kUnreadable: the directory, or a file of a frame. kInvalidArgument: a pattern that is
 ///         none of these, a range that ends before it begins. kInvalidInput, names the file:
 ///         no frames; one that is missing between the first and the last; two of one number;
-///         captures and clouds in one directory, or clouds of two names; an empty frame; captures
+///         captures and clouds in one directory, or clouds of two names; an empty frame; Gaussian
+///         splats, which frames do not have; captures
 ///         that have other cameras (names, in any order) or other sizes of images than the first;
 ///         what load_capture or a PLY's header refuses.
 /// O(E log E + F C log C) for E entries of the directory and C cameras. Thread-safe.
