@@ -8,6 +8,7 @@
 
 #include "capture/file_names.h"
 #include "capture/frame_names.h"
+#include "capture/frame_photographs.h"
 #include "capture/ply_reader.h"
 #include "slf/capture.h"
 #include "slf/gaussian_files.h"
@@ -123,6 +124,30 @@ Result<std::vector<FrameInput>, InputError> without_gaps(const std::vector<Candi
   return frames;
 }
 
+/// Frames of a capture whose images are numbered.
+Result<FrameInputs, InputError> frames_of_images(const fs::path& directory,
+                                                 std::optional<FrameRange> range) {
+  SLF_TRY(const auto files, numbered_images(directory));
+  SLF_TRY(const auto found, candidates_in(files.front().directory, files.front().pattern));
+  if (found.empty())
+    return bad_frame(files.front().directory, "no file has a name as " +
+                                                  files.front().pattern.before + "%d" +
+                                                  files.front().pattern.behind);
+  const FrameRange all{found.front().frame.number, found.back().frame.number};
+  FrameInputs inputs{FrameKind::kCaptures, {}};
+  SLF_TRY(inputs.frames, without_gaps(found, files.front().directory, range.value_or(all)));
+  for (FrameInput& frame : inputs.frames) {
+    frame.path = directory;
+    frame.of_all = true;
+    std::error_code ignored;
+    for (const NumberedFile& file : files)
+      if (!fs::is_regular_file(file.file(frame.number), ignored))
+        return bad_frame(file.file(frame.number),
+                         "the photograph is missing of frame " + std::to_string(frame.number));
+  }
+  return inputs;
+}
+
 Result<Done, InputError> check_cloud(const fs::path& file) {
   std::error_code error;
   const std::uint64_t size = fs::file_size(file, error);
@@ -205,10 +230,15 @@ bool is_capture(const fs::path& directory) {
 
 }  // namespace
 
+std::string FrameInput::name() const {
+  return of_all ? FramePattern{kCapturePrefix, "", 4}.name_of(number) : path.filename().string();
+}
+
 bool holds_frames(const fs::path& input) {
   std::error_code ignored;
   if (parse_pattern(input.filename().string())) return !fs::exists(input, ignored);
-  if (!fs::is_directory(input, ignored) || is_capture(input)) return false;
+  if (!fs::is_directory(input, ignored)) return false;
+  if (is_capture(input)) return has_numbered_images(input);
   const auto found = candidates_in(input, std::nullopt);
   return found && !found->empty();
 }
@@ -219,6 +249,7 @@ Result<FrameInputs, InputError> list_frames(const fs::path& input,
     return InputError{Errc::kInvalidArgument, "frames " + std::to_string(range->first) + ":" +
                                                   std::to_string(range->last) +
                                                   ": not a range of 0 .. 999999999"};
+  if (has_numbered_images(input)) return frames_of_images(input, range);
   std::error_code ignored;
   std::optional<FramePattern> pattern;
   fs::path directory = input;

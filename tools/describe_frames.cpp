@@ -32,7 +32,7 @@ nlohmann::ordered_json plan_json(const FrameInputs& inputs, const PlannedFrames&
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     const std::size_t f = plan.part.first + i;
     frames.push_back({{"number", inputs.frames[f].number},
-                      {"input", inputs.frames[f].path.filename().string()},
+                      {"input", inputs.frames[f].name()},
                       {"predicted", bool(predicted[i])},
                       {"points", plan.points[f]},
                       {"cameras", plan.cameras[f]}});

@@ -49,6 +49,7 @@ class FrameLoader {
   Result<CaptureInput, Failure> load_frame(const FrameInput& frame) {
     EncodeOptions options = given_;
     options.capture = frame.path.string();
+    options.frame = frame;
     options.common.quiet = given_.common.quiet || loaded_;
     options.points = file_of_frame(given_.points, frame);
     SLF_TRY(options.images, images_of_frame(given_.images, frame));

@@ -29,7 +29,9 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   options.points_needed = false;
   options.may_be_empty = true;
   options.images = given.images;
-  SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
+  SLF_TRY(Capture capture,
+          from(given.capture, given.input_frame ? load_frame(*given.input_frame, options)
+                                                : load_capture(given.capture, options)));
   warn(capture.warnings, given.common.quiet);
   if (capture.cameras.empty())
     return Failure{kInputInvalid, given.capture + ": has no cameras to compare with"};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slf/evaluate.h"
+#include "slf/frame_inputs.h"
 #include "tools/eval_report.h"
 #include "tools/eval_subject.h"
 #include "tools/options.h"
@@ -16,8 +17,9 @@ namespace slf::tools {
 
 struct EvalOptions {
   std::string input, capture, points, images, split, unquantised, error_maps;
-  std::string range;  ///< A:B of captures in a directory of frames
-  int frame = -1;     ///< of a file of several
+  std::string range;                      ///< A:B of captures in a directory of frames
+  int frame = -1;                         ///< of a file of several
+  std::optional<FrameInput> input_frame;  ///< that the capture is of
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
   std::optional<double> min_psnr, min_image_psnr;

@@ -187,11 +187,11 @@ Result<EvalOptions, Failure> options_of(const EvalOptions& given, const FrameInp
                                         std::size_t place) {
   EvalOptions own = given;
   own.capture = frame.path.string();
+  own.input_frame = frame;
   own.frame = static_cast<int>(place);
   own.points = file_of_frame(given.points, frame);
   SLF_TRY(own.images, images_of_frame(given.images, frame));
-  if (!given.error_maps.empty())
-    own.error_maps = inside(given.error_maps, frame.path.filename().string());
+  if (!given.error_maps.empty()) own.error_maps = inside(given.error_maps, frame.name());
   return own;
 }
 
@@ -218,8 +218,7 @@ Result<std::vector<JudgedFrame>, Failure> judge_all(const EvalOptions& given,
     const LightField field = std::exchange(judged.subject.field, {});
     judged.subject.points = std::max(judged.subject.points, field.num_points());
     judged.subject.field.partial = field.partial;
-    frames.push_back(
-        {inputs.frames[f].number, inputs.frames[f].path.filename().string(), std::move(judged)});
+    frames.push_back({inputs.frames[f].number, inputs.frames[f].name(), std::move(judged)});
   }
   line.clear();
   return frames;

@@ -15,7 +15,7 @@ std::string file_of_frame(const std::string& given, const FrameInput& frame) {
 Result<std::string, Failure> images_of_frame(const std::string& given, const FrameInput& frame) {
   if (given.empty()) return given;
   std::string folder = file_of_frame(given, frame);
-  if (folder == given) folder = inside(given, frame.path.filename().string());
+  if (folder == given && !frame.of_all) folder = inside(given, frame.name());
   std::error_code ignored;
   if (std::filesystem::is_directory(folder, ignored)) return folder;
   return Failure{kInputUnreadable, folder + ": no folder with the photographs of frame " +

@@ -13,7 +13,7 @@ namespace slf::tools {
 std::string file_of_frame(const std::string& given, const FrameInput& frame);
 
 /// --images of one frame: with %d for its number, or within a folder one that is called as the
-/// frame is; empty where nothing is given.
+/// frame is; of a capture of all frames the folder itself. Empty where nothing is given.
 /// @errors kInputUnreadable: no such folder
 Result<std::string, Failure> images_of_frame(const std::string& given, const FrameInput& frame);
 

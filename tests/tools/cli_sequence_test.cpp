@@ -172,6 +172,61 @@ TEST_F(SequenceTest, CloudsOutOfOrderTwiceAndWithoutColoursAreNamed) {
   EXPECT_FALSE(exists("x.slf"));
 }
 
+/// The captures of `take` as one in `one`, with images and clouds by frame.
+class OneCaptureTest : public SequenceTest {
+ protected:
+  void SetUp() override {
+    SequenceTest::SetUp();
+    draw("2");
+    std::string json = read("take/frame_0001/cameras.json");
+    const auto cameras = parsed(json)["cameras"];
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const auto image = cameras[i]["image"].get<std::string>();
+      const std::string folder = "cam_" + std::to_string(i);
+      fs::create_directories(path("one/" + folder));
+      for (const char* number : {"1", "2"})
+        fs::copy_file(path(std::string("take/frame_000") + number + "/" + image),
+                      path("one/" + folder + "/000" + number + ".png"));
+      for (std::size_t at = json.find(image); at != std::string::npos; at = json.find(image))
+        json.replace(at, image.size(), folder + "/%04d.png");
+    }
+    fs::create_directories(path("one/points"));
+    for (const char* number : {"1", "2"})
+      fs::copy_file(path(std::string("take/frame_000") + number + "/points.ply"),
+                    path(std::string("one/points/") + number + ".ply"));
+    json.insert(json.find('{') + 1, "\"points\": \"points/%d.ply\", ");
+    write("one/cameras.json", json);
+  }
+};
+
+TEST_F(OneCaptureTest, WithImagesByFrameIsWhatADirectoryOfCapturesIs) {
+  for (const char* input : {"take", "one"}) {
+    const Ran ran =
+        slf(std::string("encode ") + input + " --effort 1 --quiet -o " + input + ".slf");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+  }
+  EXPECT_EQ(read("take.slf"), read("one.slf"));
+  const auto of_take = parsed(slf("eval take.slf take --json --quiet").out),
+             of_one = parsed(slf("eval one.slf one --json --quiet").out);
+  ASSERT_EQ(of_one["frames"].size(), 2u);
+  EXPECT_EQ(of_one["frames"][1]["input"], of_take["frames"][1]["input"]);
+  EXPECT_EQ(of_one["frames"][1]["number"], 2);
+}
+
+TEST_F(OneCaptureTest, AMissingPhotographAndAnImageWithoutANumberAreNamed) {
+  fs::remove(path("one/cam_1/0002.png"));
+  expect_failure(slf("encode one -o x.slf --quiet"), 4, "cam_1/0002.png",
+                 "the photograph is missing of frame 2");
+  EXPECT_EQ(slf("encode one -o x.slf --quiet --effort 1 --frames 1:1").code, 0);
+  std::string json = read("one/cameras.json");
+  const std::string image = "cam_0/%04d.png";
+  for (std::size_t at = json.find(image); at != std::string::npos; at = json.find(image))
+    json.replace(at, image.size(), "cam_0/0001.png");
+  write("one/cameras.json", json);
+  expect_failure(slf("encode one -o y.slf --quiet"), 4, "cameras.json", "cam_0/0001.png");
+  EXPECT_FALSE(exists("y.slf"));
+}
+
 TEST_F(SequenceTest, ExportWritesEachFrame) {
   for (int f = 0; f < 3; ++f)
     cloud("c_" + std::to_string(f) + ".ply", 200 + f, static_cast<float>(f));
