@@ -8,8 +8,10 @@
 
 #include "capture/file_names.h"
 #include "capture/frame_names.h"
+#include "capture/frame_photographs.h"
 #include "capture/ply_reader.h"
 #include "slf/capture.h"
+#include "slf/gaussian_files.h"
 
 namespace slf {
 
@@ -30,15 +32,22 @@ struct Candidate {
   FrameKind kind;
 };
 
+bool is_splat_name(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".spz" || extension == ".splat" || extension == ".ksplat" ||
+         extension == ".sog";
+}
+
+/// Splats in other files than PLY are candidates to be refused by name, where nothing else is.
 std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
-                                      const std::optional<FramePattern>& wanted) {
+                                      const std::optional<FramePattern>& wanted, bool splats) {
   std::error_code ignored;
   const bool directory = entry.is_directory(ignored);
   const fs::path& path = entry.path();
   const std::string name = path.filename().string();
   auto pattern = wanted;
   if (!wanted && directory && name.starts_with(kCapturePrefix)) pattern = pattern_of(name, "");
-  if (!wanted && !directory && extension_of(path) == ".ply")
+  if (!wanted && !directory && (splats ? is_splat_name(path) : extension_of(path) == ".ply"))
     pattern = pattern_of(path.stem().string(), path.extension().string());
   if (!pattern) return std::nullopt;
   const auto number = pattern->number_of(name);
@@ -51,11 +60,14 @@ std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
 /// By number, then by name.
 Result<std::vector<Candidate>, InputError> candidates_in(
     const fs::path& directory, const std::optional<FramePattern>& wanted) {
-  std::vector<Candidate> found;
+  std::vector<Candidate> found, splats;
   std::error_code error;
   fs::directory_iterator entry(directory, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (auto candidate = candidate_of(*entry, wanted)) found.push_back(std::move(*candidate));
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (auto candidate = candidate_of(*entry, wanted, false)) found.push_back(*candidate);
+    if (auto candidate = candidate_of(*entry, wanted, true)) splats.push_back(*candidate);
+  }
+  if (found.empty()) found = std::move(splats);
   if (error) return InputError{Errc::kUnreadable, directory.string() + ": " + error.message()};
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.frame.number, a.frame.path) < std::tie(b.frame.number, b.frame.path);
@@ -112,11 +124,39 @@ Result<std::vector<FrameInput>, InputError> without_gaps(const std::vector<Candi
   return frames;
 }
 
+/// Frames of a capture whose images are numbered.
+Result<FrameInputs, InputError> frames_of_images(const fs::path& directory,
+                                                 std::optional<FrameRange> range) {
+  SLF_TRY(const auto files, numbered_images(directory));
+  SLF_TRY(const auto found, candidates_in(files.front().directory, files.front().pattern));
+  if (found.empty())
+    return bad_frame(files.front().directory, "no file has a name as " +
+                                                  files.front().pattern.before + "%d" +
+                                                  files.front().pattern.behind);
+  const FrameRange all{found.front().frame.number, found.back().frame.number};
+  FrameInputs inputs{FrameKind::kCaptures, {}};
+  SLF_TRY(inputs.frames, without_gaps(found, files.front().directory, range.value_or(all)));
+  for (FrameInput& frame : inputs.frames) {
+    frame.path = directory;
+    frame.of_all = true;
+    std::error_code ignored;
+    for (const NumberedFile& file : files)
+      if (!fs::is_regular_file(file.file(frame.number), ignored))
+        return bad_frame(file.file(frame.number),
+                         "the photograph is missing of frame " + std::to_string(frame.number));
+  }
+  return inputs;
+}
+
 Result<Done, InputError> check_cloud(const fs::path& file) {
   std::error_code error;
   const std::uint64_t size = fs::file_size(file, error);
   if (error) return InputError{Errc::kUnreadable, file.string() + ": " + error.message()};
   if (size == 0) return bad_frame(file, "the frame is empty");
+  if (is_splat_name(file) || looks_like_gaussians(file))
+    return bad_frame(file,
+                     "Gaussian splats, and frames are photographs or coloured clouds: slf encode "
+                     "of the file alone codes this instant");
   SLF_CHECK(ply_vertices(file));
   return Done{};
 }
@@ -190,10 +230,15 @@ bool is_capture(const fs::path& directory) {
 
 }  // namespace
 
+std::string FrameInput::name() const {
+  return of_all ? FramePattern{kCapturePrefix, "", 4}.name_of(number) : path.filename().string();
+}
+
 bool holds_frames(const fs::path& input) {
   std::error_code ignored;
   if (parse_pattern(input.filename().string())) return !fs::exists(input, ignored);
-  if (!fs::is_directory(input, ignored) || is_capture(input)) return false;
+  if (!fs::is_directory(input, ignored)) return false;
+  if (is_capture(input)) return has_numbered_images(input);
   const auto found = candidates_in(input, std::nullopt);
   return found && !found->empty();
 }
@@ -204,6 +249,7 @@ Result<FrameInputs, InputError> list_frames(const fs::path& input,
     return InputError{Errc::kInvalidArgument, "frames " + std::to_string(range->first) + ":" +
                                                   std::to_string(range->last) +
                                                   ": not a range of 0 .. 999999999"};
+  if (has_numbered_images(input)) return frames_of_images(input, range);
   std::error_code ignored;
   std::optional<FramePattern> pattern;
   fs::path directory = input;

@@ -87,6 +87,10 @@ Result<Import, InputError> import_cameras_json(const std::filesystem::path& file
   Import import;
   import.capture.root = file.parent_path();
   import.cloud_file = import.capture.root / "points.ply";
+  if (const auto points = json.find("points")) {
+    SLF_TRY(const auto name, points->string());
+    SLF_TRY(import.cloud_file, path_inside(import.capture.root, name, file.string() + ": points"));
+  }
   std::map<std::string, int> camera_of;
   bool has_masks = false;
   for (std::size_t i = 0; i < items.size(); ++i) {

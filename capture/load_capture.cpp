@@ -6,6 +6,7 @@
 #include "capture/crop.h"
 #include "capture/file_names.h"
 #include "capture/foreign_captures.h"
+#include "capture/frame_photographs.h"
 #include "capture/importer.h"
 #include "capture/json.h"
 #include "capture/json_numbers.h"
@@ -16,6 +17,7 @@
 #include "capture/ply_reader.h"
 #include "capture/read_scan.h"
 #include "capture/wkt.h"
+#include "slf/frame_inputs.h"
 
 namespace slf {
 
@@ -221,11 +223,14 @@ bool may_lack_points(const CaptureOptions& options, const Import& import) {
 }
 
 // Photographs are in the capture, or in a folder that was named.
-Result<Done, InputError> resolve_files(const fs::path& folder, Import& import) {
+Result<Done, InputError> resolve_files(const fs::path& folder, std::optional<std::uint32_t> frame,
+                                       Import& import) {
   auto& capture = import.capture;
   for (std::size_t i = 0; i < import.images.size(); ++i) {
     SLF_TRY(auto image, photograph_file(capture.root, import.images[i], folder,
-                                        capture.cameras[i].name, import.labels[i]));
+                                        frame ? at_frame(capture.cameras[i].name, *frame)
+                                              : capture.cameras[i].name,
+                                        import.labels[i]));
     capture.image_files.push_back(std::move(image));
     if (import.masks.empty()) continue;
     fs::path mask;
@@ -237,9 +242,8 @@ Result<Done, InputError> resolve_files(const fs::path& folder, Import& import) {
   return Done{};
 }
 
-}  // namespace
-
-Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOptions& options) {
+Result<Capture, InputError> load_any(const fs::path& given, const CaptureOptions& options,
+                                     std::optional<std::uint32_t> frame) {
   std::error_code error;
   fs::path path = fs::absolute(given, error).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();  // "name/"
@@ -253,7 +257,8 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   if (import.capture.cameras.empty() && !lone_cloud)
     return InputError{Errc::kInvalidInput, path.string() + ": the capture has no cameras"};
   SLF_CHECK(check_cameras(import));
-  SLF_CHECK(resolve_files(options.images, import));
+  if (frame) SLF_CHECK(take_frame(*frame, import));
+  SLF_CHECK(resolve_files(options.images, frame, import));
   if (options.check_images) SLF_CHECK(check_photographs(import.capture));
   if (options.cloud && may_lack_points(options, import)) {
     if (options.crop)
@@ -276,6 +281,16 @@ Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOpt
   const UpAxis usual = import.cloud_name.empty() ? UpAxis::kPlusZ : UpAxis::kUnknown;
   import.capture.up = import.up ? *import.up : up_of(import.capture.cameras, usual);
   return std::move(import.capture);
+}
+
+}  // namespace
+
+Result<Capture, InputError> load_capture(const fs::path& given, const CaptureOptions& options) {
+  return load_any(given, options, std::nullopt);
+}
+
+Result<Capture, InputError> load_frame(const FrameInput& frame, const CaptureOptions& options) {
+  return load_any(frame.path, options, frame.of_all ? std::optional(frame.number) : std::nullopt);
 }
 
 }  // namespace slf

@@ -35,7 +35,11 @@ Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings&
     return of_frames("target bitrate: bits a second, above 0");
   if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
   if (s.refine_cameras == RefineCameras::kOn) return of_frames("poses are not refined over them");
+  if (s.densify.mode == Densify::kOn) return of_frames("no points are made up");
+  if (s.surface != Surface::kGiven && s.surface != Surface::kAuto)
+    return of_frames("their points are coded as given, not mended or trained");
   if (s.quality_layers > 1) return of_frames("they have one quality layer");
+  if (s.base_levels > 0) return of_frames("they have no base");
   if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
     return of_frames("they are coded by the octree and vector coders");
   if (f.group < 1) return of_frames("a group has one at the least");
@@ -86,7 +90,6 @@ class SharedGrid {
     if (points_ == 0) return of_frames("none has points");
     return choose_grid(box_, points_, bits_, step_);
   }
-  bool has_points() const { return points_ > 0; }
 
  private:
   Box box_;
@@ -213,6 +216,28 @@ FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings) {
   return {begin(part), begin(part + 1) - begin(part)};
 }
 
+Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFrame& load,
+                                              const EncoderSettings& settings,
+                                              const FrameSettings& frame_settings,
+                                              const Progress& progress) {
+  SLF_CHECK(check_settings(settings));
+  SLF_CHECK(check_frames(frames, settings, frame_settings));
+  PlannedFrames plan;
+  SharedGrid shared;
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (progress) progress("load", static_cast<double>(f) / static_cast<double>(frames));
+    SLF_TRY(LoadedFrame frame, load(f));
+    if (auto within = photographs_within(frame.capture, settings.photograph_pixels))
+      frame.capture = *std::move(within);
+    plan.points.push_back(frame.capture.cloud.positions.size());
+    plan.cameras.push_back(frame.cameras.size());
+    SLF_CHECK(shared.add(frame, settings));
+  }
+  SLF_TRY(plan.grid, shared.grid());
+  plan.part = frames_of_part(frames, frame_settings);
+  return plan;
+}
+
 Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFrame& load_whole,
                                                 const EncoderSettings& given,
                                                 const FrameSettings& frame_settings,
@@ -223,20 +248,14 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
       frame.capture = *std::move(within);
     return frame;
   };
-  SLF_CHECK(check_settings(given));
-  SLF_CHECK(check_frames(frames, given, frame_settings));
-  Sequence sequence{frames, load, given, frame_settings, {}, false, 0, progress};
+  SLF_TRY(const PlannedFrames plan, plan_frames(frames, load, given, frame_settings, progress));
+  Sequence sequence{frames, load, given, frame_settings, plan.grid, false, 0, progress};
   sequence.settings.observe.threads = sequence.settings.fit.threads = given.threads;
-  SharedGrid shared;
-  for (std::size_t f = 0; f < frames; ++f) {
-    SLF_TRY(const LoadedFrame frame, load(f));
-    if (!shared.has_points()) sequence.chooser = f;
-    if (!frame.capture.cloud.positions.empty()) sequence.clouds = frame.cameras.empty();
-    SLF_CHECK(shared.add(frame, sequence.settings));
-  }
+  while (plan.points[sequence.chooser] == 0) ++sequence.chooser;
+  for (std::size_t f = 0; f < frames; ++f)
+    if (plan.points[f] > 0) sequence.clouds = plan.cameras[f] == 0;
   if (sequence.clouds) fit_colours_alone(sequence.settings);
-  SLF_TRY(sequence.grid, shared.grid());
-  const auto [first, count] = frames_of_part(frames, frame_settings);
+  const auto [first, count] = plan.part;
   EncodedFrames encoded;
   SLF_CHECK(given.target_bitrate > 0
                 ? code_to_bitrate(sequence, take, encoded)

@@ -223,6 +223,7 @@ SettingTable all_rows() {
                    {"effort", "grid-bits", "voxel-size", "metres-per-unit", "quality",
                     "target-bytes", "target-psnr", "klt", "predict", "rdo", "quality-layers",
                     "base-levels", "slice-points", "slice-start"});
+  mark_for_frames(rows);
   return rows;
 }
 

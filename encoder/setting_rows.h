@@ -50,6 +50,9 @@ using SettingTable = std::vector<SettingRow>;
 
 const SettingTable& setting_rows();
 
+/// Says in each row what frames in time have of it. A row that it does not know is refused of them.
+void mark_for_frames(SettingTable& rows);
+
 /// As settings_from(given), of any table.
 Result<EncoderSettings, InputError> settings_from(const GivenSettings& given,
                                                   const SettingTable& table);

@@ -76,7 +76,8 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   if (const auto& c = given.crop; !c.empty() && !splats)
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   CaptureInput input;
-  SLF_TRY(input.capture, from(given.capture, load_capture(given.capture, options)));
+  SLF_TRY(input.capture, from(given.capture, given.frame ? load_frame(*given.frame, options)
+                                                         : load_capture(given.capture, options)));
   if (given.up_given) input.capture.up = given.up;
   line.clear();
   for (std::string& warning : input.capture.warnings)

@@ -8,7 +8,10 @@
 
 #include "slf/frame_inputs.h"
 #include "slf/frames.h"
+#include "slf/plenoptic.h"
 #include "tools/capture_input.h"
+#include "tools/describe_frames.h"
+#include "tools/frame_places.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
@@ -17,49 +20,6 @@
 namespace slf::tools {
 namespace {
 
-nlohmann::ordered_json frame_json(const EncodedFrame& f, std::uint32_t number) {
-  return {{"number", number}, {"predicted", f.predicted}, {"points", f.points},
-          {"held", f.held},   {"bytes", f.bytes},         {"seconds", f.seconds}};
-}
-
-Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
-                      const EncodedFrames& encoded, std::size_t bytes,
-                      const FrameSettings& settings) {
-  const double rate = settings.rate;
-  const std::size_t first = frames_of_part(inputs.frames.size(), settings).first;
-  std::size_t predicted = 0, points = 0, held = 0;
-  std::uint64_t of_predicted = 0;
-  double seconds = 0;
-  for (const EncodedFrame& f : encoded.frames) {
-    predicted += f.predicted;
-    of_predicted += f.predicted ? f.bytes : 0;
-    seconds += f.seconds;
-    points += f.points;
-    held += f.held;
-  }
-  const std::size_t count = encoded.frames.size();
-  if (given.common.json) {
-    nlohmann::ordered_json json = {{"bytes", bytes}, {"q", encoded.q}, {"rate", rate}};
-    for (std::size_t f = 0; f < count; ++f)
-      json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[first + f].number));
-    return print(json);
-  }
-  if (given.common.quiet) return Done{};
-  std::string out = text("frames        %zu, %zu predicted\n", count, predicted);
-  if (held > 0)
-    out += text("still         %.1f %% of points keep the view map of the frame before\n",
-                1e2 * static_cast<double>(held) / static_cast<double>(points));
-  out += text("quality       Q %.4g\n", encoded.q);
-  out += text("bytes         %s a frame that is not predicted, %s one that is\n",
-              grouped((bytes - of_predicted) / std::max<std::size_t>(count - predicted, 1)).c_str(),
-              grouped(of_predicted / std::max<std::size_t>(predicted, 1)).c_str());
-  out += text("seconds       %.2f, %.2f a frame\n", seconds, seconds / static_cast<double>(count));
-  out += text("file          %s bytes, %.0f kbit/s at %g frames a second\n", grouped(bytes).c_str(),
-              8e-3 * static_cast<double>(bytes) * rate / static_cast<double>(count), rate);
-  std::fputs(out.c_str(), stderr);
-  return Done{};
-}
-
 /// Captures are loaded by the program, with their warnings: the first one's alone, all are alike.
 class FrameLoader {
  public:
@@ -67,10 +27,7 @@ class FrameLoader {
       : given_(given), inputs_(inputs), line_(line) {}
 
   Result<LoadedFrame, InputError> load(std::size_t f) {
-    EncodeOptions options = given_;
-    options.capture = inputs_.frames[f].path.string();
-    options.common.quiet = given_.common.quiet || loaded_;
-    auto input = load_input(options, line_, PointsWanted::kOrNone);
+    auto input = load_frame(inputs_.frames[f]);
     if (!input) {
       failure_ = input.error();
       return InputError{Errc::kInvalidInput, failure_->message};
@@ -78,16 +35,69 @@ class FrameLoader {
     loaded_ = true;
     return LoadedFrame{std::move(input->capture), std::move(input->cameras)};
   }
-  /// Why a frame could not be loaded, with the exit code.
-  const std::optional<Failure>& failure() const { return failure_; }
+  LoadFrame function() {
+    return [this](std::size_t f) { return load(f); };
+  }
+  /// The result of a library call, which may have failed for what could not be loaded.
+  template <class T>
+  Result<T, Failure> from_frames(Result<T, InputError> result) const {
+    if (!result && failure_) return *failure_;
+    return from(given_.capture, std::move(result));
+  }
 
  private:
+  Result<CaptureInput, Failure> load_frame(const FrameInput& frame) {
+    EncodeOptions options = given_;
+    options.capture = frame.path.string();
+    options.frame = frame;
+    options.common.quiet = given_.common.quiet || loaded_;
+    options.points = file_of_frame(given_.points, frame);
+    SLF_TRY(options.images, images_of_frame(given_.images, frame));
+    SLF_TRY(CaptureInput input, load_input(options, line_, PointsWanted::kOrNone));
+    const PointCloud& cloud = input.capture.cloud;
+    if (input.cameras.empty() && !cloud.positions.empty() && cloud.colours.empty())
+      return Failure{kInputInvalid, options.capture +
+                                        ": the frame has no cameras and its points have no "
+                                        "colours"};
+    return input;
+  }
+
   const EncodeOptions& given_;
   const FrameInputs& inputs_;
   ProgressLine& line_;
   bool loaded_ = false;
-  std::optional<Failure> failure_;
+  std::optional<Failure> failure_;  // why a frame could not be loaded, with the exit code
 };
+
+/// Colours of views are not left out without a word.
+Outcome check_one_colour(const FrameInputs& inputs, const FrameOptions& frames) {
+  if (inputs.kind != FrameKind::kClouds || frames.as == "colour") return Done{};
+  for (const FrameInput& frame : inputs.frames)
+    if (const std::size_t views = count_plenoptic_views(frame.path); views > 0)
+      return Failure{kUsage, "encode: " + frame.path.string() + " has colours of " +
+                                 std::to_string(views) +
+                                 " views, and frames one: --as colour takes red, green, blue; "
+                                 "alone, without --frames, it is coded whole"};
+  return Done{};
+}
+
+Result<FrameSettings, Failure> frame_settings(const FrameOptions& frames) {
+  FrameSettings own{frames.group, frames.rate, !frames.refit, frames.part.empty()};
+  SLF_TRY(const ScenePart part, part_of(frames.part));
+  own.part = part.index;
+  own.parts = part.count;
+  return own;
+}
+
+/// What the command line says of the captures is kept as of one of them: slf eval reads it.
+Outcome add_metadata(const EncodeOptions& given, Metadata& metadata) {
+  if (!given.crs.empty()) {
+    SLF_TRY(std::string crs, from(given.crs, read_crs(given.crs)));
+    metadata.emplace(metadata.begin(), "crs", std::move(crs));
+  }
+  if (!given.split.empty()) metadata.emplace(metadata.begin(), "split", given.split);
+  return Done{};
+}
 
 }  // namespace
 
@@ -123,30 +133,35 @@ bool is_frame_input(const EncodeOptions& given, const FrameOptions& frames) {
 Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
-  SLF_TRY(const EncoderSettings settings, resolved(given));
-  SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   std::optional<FrameRange> range;
   if (!frames.range.empty()) {
     SLF_TRY(range, from("--frames", parse_frame_range(frames.range)));
   }
   SLF_TRY(const FrameInputs inputs, from(given.capture, list_frames(given.capture, range)));
-  FrameSettings own{frames.group, frames.rate, !frames.refit, frames.part.empty()};
-  SLF_TRY(const ScenePart part, part_of(frames.part));
-  own.part = part.index;
-  own.parts = part.count;
+  SLF_CHECK(check_frame_options(frames.options, given, inputs.kind));
+  SLF_CHECK(check_one_colour(inputs, frames));
+  SLF_TRY(EncoderSettings settings, resolved(given));
+  SLF_CHECK(add_metadata(given, settings.metadata));
+  SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
+  SLF_TRY(const FrameSettings own, frame_settings(frames));
   ProgressLine line(given.common.quiet);
   FrameLoader loader(given, inputs, line);
+  const std::size_t count = inputs.frames.size();
+  if (frames.dry_run) {
+    SLF_TRY(
+        const PlannedFrames plan,
+        loader.from_frames(plan_frames(count, loader.function(), settings, own, line.callback())));
+    line.clear();
+    return report_plan(given, inputs, plan, own);
+  }
   std::vector<std::uint8_t> stream;
   const auto take = [&](std::size_t, std::span<const std::uint8_t> bytes) {
     stream.insert(stream.end(), bytes.begin(), bytes.end());
     return Result<Done, InputError>(Done{});
   };
-  auto encoded = encode_frames(
-      inputs.frames.size(), [&](std::size_t f) { return loader.load(f); }, settings, own, take,
-      line.callback());
+  auto encoded = encode_frames(count, loader.function(), settings, own, take, line.callback());
   line.clear();
-  if (!encoded && loader.failure()) return *loader.failure();
-  SLF_TRY(const EncodedFrames all, from(given.capture, std::move(encoded)));
+  SLF_TRY(const EncodedFrames all, loader.from_frames(std::move(encoded)));
   warn(all.warnings, given.common.quiet);
   SLF_CHECK(save(given.output, stream.data(), stream.size()));
   return report_frames(given, inputs, all, stream.size(), own);

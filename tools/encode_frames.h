@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/encode_options.h"
+#include "tools/frame_choices.h"
 
 namespace slf::tools {
 
@@ -12,9 +14,12 @@ struct FrameOptions {
   std::string range;  ///< A:B of the numbers in the names
   int group = 16;
   double rate = 30;
-  bool refit = false;  ///< points that stand still, too
-  std::string part;    ///< "i/n", from 1
-  std::string given;   ///< an option that means something for frames alone; or empty
+  bool refit = false;       ///< points that stand still, too
+  std::string part;         ///< "i/n", from 1
+  std::string given;        ///< an option that means something for frames alone; or empty
+  std::string as = "auto";  ///< colours of plenoptic clouds
+  bool dry_run = false;
+  std::vector<GivenOption> options;  ///< all that stand on the command line
 };
 void add_frames(CLI::App& verb, FrameOptions& options);
 

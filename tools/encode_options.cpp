@@ -32,7 +32,8 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
       ->type_name("FILE");
   verb.add_option("--images", o.images,
                   "Folder of the photographs, where they are not where the capture says: by name, "
-                  "with or without folders")
+                  "with or without folders. Of frames a folder of theirs in it, as frame_0001, or "
+                  "DIR/%04d by their numbers")
       ->type_name("DIR");
   verb.add_option("--crop", o.crop,
                   "Only points (of a mesh: faces; splats by their centres) in a box: "

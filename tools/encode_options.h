@@ -2,9 +2,11 @@
 // What slf encode and slf igc are told: an input, an output, and settings in place of a preset's.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slf/frame_inputs.h"
 #include "slf/settings.h"
 #include "tools/failure.h"
 #include "tools/options.h"
@@ -14,7 +16,8 @@ namespace slf::tools {
 struct EncodeOptions {
   const char* verb = "encode";  ///< for messages
   std::string capture, output, points, images, split, crs;
-  std::vector<double> crop;  ///< two corners in world units, or nothing
+  std::optional<FrameInput> frame;  ///< that the capture is of
+  std::vector<double> crop;         ///< two corners in world units, or nothing
   bool up_given = false;
   UpAxis up = UpAxis::kPlusZ;
   GivenSettings given;

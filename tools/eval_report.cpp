@@ -47,21 +47,6 @@ nlohmann::ordered_json gap_json(const Measured& m, bool images) {
   return json;
 }
 
-nlohmann::ordered_json quality_json(const Measured& m, bool images) {
-  nlohmann::ordered_json json = {{"cameras", m.cameras}};
-  for (const PointQuality& p : m.quality.points)
-    json["points"].push_back({{"delta", p.delta_degrees},
-                              {"psnr", p.psnr},
-                              {"luma_psnr", p.luma_psnr},
-                              {"channel_psnr", p.channel_psnr},
-                              {"observations", p.observations}});
-  json["image"] = nullptr;
-  if (images) json["image"] = image_json(m.quality.image);
-  json["gap"] = nullptr;
-  if (m.unquantised) json["gap"] = gap_json(m, images);
-  return json;
-}
-
 std::string image_text(const ImageQuality& image) {
   std::string out =
       text("  images             %s   SSIM %.4f, MS-SSIM %.4f, coverage %.2f %%\n",
@@ -95,6 +80,23 @@ std::string gap_text(const Measured& m, bool images) {
   return out;
 }
 
+}  // namespace
+
+nlohmann::ordered_json quality_json(const Measured& m, bool images) {
+  nlohmann::ordered_json json = {{"cameras", m.cameras}};
+  for (const PointQuality& p : m.quality.points)
+    json["points"].push_back({{"delta", p.delta_degrees},
+                              {"psnr", p.psnr},
+                              {"luma_psnr", p.luma_psnr},
+                              {"channel_psnr", p.channel_psnr},
+                              {"observations", p.observations}});
+  json["image"] = nullptr;
+  if (images) json["image"] = image_json(m.quality.image);
+  json["gap"] = nullptr;
+  if (m.unquantised) json["gap"] = gap_json(m, images);
+  return json;
+}
+
 std::string quality_text(const Measured& m, bool images) {
   std::string out = text("%s, %zu cameras\n", m.name.c_str(), m.cameras);
   for (const PointQuality& p : m.quality.points)
@@ -107,8 +109,6 @@ std::string quality_text(const Measured& m, bool images) {
   if (m.unquantised) out += gap_text(m, images);
   return out;
 }
-
-}  // namespace
 
 nlohmann::ordered_json eval_json(const Subject& subject, const std::vector<Measured>& measured,
                                  bool images, double seconds) {

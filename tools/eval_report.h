@@ -27,10 +27,14 @@ struct Subject {
   Metadata metadata;
   nlohmann::ordered_json bytes_by_type, settings, decode_seconds;
   std::string bytes_text;
-  std::size_t splats = 0;  ///< of a file of splats, which has no field
+  std::size_t points = 0;  ///< where there is no field: of splats, of all frames
 
-  std::size_t num_points() const { return splats > 0 ? splats : field.num_points(); }
+  std::size_t num_points() const { return points > 0 ? points : field.num_points(); }
 };
+
+/// @param images  whether pictures were judged too
+nlohmann::ordered_json quality_json(const Measured& measured, bool images);
+std::string quality_text(const Measured& measured, bool images);
 
 /// @param images  whether pictures were judged too
 nlohmann::ordered_json eval_json(const Subject& subject, const std::vector<Measured>& measured,

@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "slf/frames.h"
 #include "slf/gaussian_renderer.h"
 #include "slf/parallel.h"
 #include "tools/choices.h"
@@ -25,47 +24,75 @@ int threads_of(const CommonOptions& common) {
   return thread_count(common.threads, std::numeric_limits<std::size_t>::max());
 }
 
-/// @param bytes  receives those of the frame
-Result<LightField> frame_of_stream(const StreamFile& stream, int frame,
-                                   const DecodeOptions& options, std::uint64_t& bytes) {
-  SLF_TRY(FrameDecoder decoder, FrameDecoder::open(stream.bytes, options));
-  const auto place = static_cast<std::size_t>(frame);
-  if (place < decoder.frames().size()) bytes = decoder.frames()[place].bytes;
-  return decoder.decode(place);
+nlohmann::ordered_json seconds_json(const CommonOptions& common, const DecodeSeconds& seconds,
+                                    double total) {
+  return {{"threads", threads_of(common)},
+          {"geometry", seconds.geometry},
+          {"coefficients", seconds.coefficients},
+          {"total", total}};
+}
+
+Subject subject_of(const StreamFile& stream, LightField field, std::uint64_t bytes,
+                   nlohmann::ordered_json seconds) {
+  return Subject{std::move(field),
+                 bytes,
+                 stream.info.metadata,
+                 bytes_by_type_json(stream.info),
+                 settings_json(stream.info),
+                 std::move(seconds),
+                 bytes_by_type_text(stream.info, stream.bytes.size())};
+}
+
+/// In place, since the decoder refers to it.
+Outcome open_in(FrameStream& frames, const std::string& input, StreamFile file,
+                const LimitOptions& limits, const CommonOptions& common) {
+  frames.file = std::move(file);
+  DecodeOptions options = decode_options(frames.file.info, {}, limits, common);
+  options.seconds = &frames.seconds;
+  SLF_TRY(frames.decoder, from(input_name(input), FrameDecoder::open(frames.file.bytes, options)));
+  return Done{};
+}
+
+/// Frame given.frame, by its own bytes.
+Result<Subject, Failure> decode_frame_of(FrameStream& frames, const SubjectOptions& given,
+                                         const std::string& input) {
+  const auto place = static_cast<std::size_t>(given.frame);
+  const std::size_t count = frames.decoder->frames().size();
+  if (place >= count)
+    return Failure{kUsage, input_name(input) + ": frame " + std::to_string(place) +
+                               " is asked for, but it has " + std::to_string(count) +
+                               ", from 0 on"};
+  frames.seconds = {};
+  Stopwatch watch;
+  auto field = frames.decoder->decode(place);
+  if (!field)
+    return decode_failure(input, field.error(), frames.file,
+                          decode_options(frames.file.info, {}, given.limits, given.common));
+  return subject_of(frames.file, *std::move(field), frames.decoder->frames()[place].bytes,
+                    seconds_json(given.common, frames.seconds, watch.lap()));
 }
 
 Result<Subject, Failure> decode_slf(const SubjectOptions& given, const std::string& input,
                                     std::vector<std::uint8_t> bytes) {
-  SLF_TRY(const StreamFile stream,
+  SLF_TRY(StreamFile stream,
           open_stream(input, std::move(bytes), given.limits, given.common, UnitList::kKept));
-  const StreamInfo& info = stream.info;
-  if (given.frame < 0 && stream.frames > 1)
+  if (given.frame >= 0) {
+    FrameStream frames;
+    SLF_CHECK(open_in(frames, input, std::move(stream), given.limits, given.common));
+    return decode_frame_of(frames, given, input);
+  }
+  if (stream.frames > 1)
     warn(input_name(input) + ": of " + grouped(stream.frames) +
              " frames the first is measured, against the bytes of all (--frame)",
          given.common.quiet);
-  if (given.frame >= 0 && static_cast<std::size_t>(given.frame) >= stream.frames)
-    return Failure{kUsage, input_name(input) + ": frame " + std::to_string(given.frame) +
-                               " is asked for, but it has " + std::to_string(stream.frames) +
-                               ", from 0 on"};
   DecodeSeconds seconds;
-  DecodeOptions options = decode_options(info, {}, given.limits, given.common);
+  DecodeOptions options = decode_options(stream.info, {}, given.limits, given.common);
   options.seconds = &seconds;
   Stopwatch watch;
-  std::uint64_t bytes_of_subject = stream.bytes.size();
-  auto field = given.frame < 0 ? decode(stream.bytes, options)
-                               : frame_of_stream(stream, given.frame, options, bytes_of_subject);
+  auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(input, field.error(), stream, options);
-  const nlohmann::ordered_json decode_seconds = {{"threads", threads_of(given.common)},
-                                                 {"geometry", seconds.geometry},
-                                                 {"coefficients", seconds.coefficients},
-                                                 {"total", watch.lap()}};
-  return Subject{*std::move(field),
-                 bytes_of_subject,
-                 info.metadata,
-                 bytes_by_type_json(info),
-                 settings_json(info),
-                 decode_seconds,
-                 bytes_by_type_text(info, stream.bytes.size())};
+  return subject_of(stream, *std::move(field), stream.bytes.size(),
+                    seconds_json(given.common, seconds, watch.lap()));
 }
 
 Result<Subject, Failure> decode_igc_file(const SubjectOptions& given, const std::string& input,
@@ -105,11 +132,25 @@ Result<Subject, Failure> decode_igc_file(const SubjectOptions& given, const std:
 
 Result<Subject, Failure> decode_subject(const std::string& input, const Capture& capture,
                                         const SubjectOptions& given) {
+  if (given.frames) {
+    SLF_TRY(Subject subject, decode_frame_of(*given.frames, given, input));
+    SLF_CHECK(require_view_maps(subject.field, input));
+    return subject;
+  }
   SLF_TRY(auto stream, read_input(input, given.limits));
   SLF_TRY(Subject subject, is_igc(stream) ? decode_igc_file(given, input, capture, stream)
                                           : decode_slf(given, input, std::move(stream)));
   SLF_CHECK(require_view_maps(subject.field, input));
   return subject;
+}
+
+Result<std::shared_ptr<FrameStream>, Failure> open_frames(const std::string& input,
+                                                          const LimitOptions& limits,
+                                                          const CommonOptions& common) {
+  SLF_TRY(StreamFile file, read_stream(input, limits, common));
+  auto frames = std::make_shared<FrameStream>();
+  SLF_CHECK(open_in(*frames, input, std::move(file), limits, common));
+  return frames;
 }
 
 DrawPicture pictures_of(Gaussians gaussians) {
@@ -127,7 +168,7 @@ Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
   Stopwatch watch;
   SLF_TRY(GaussianFile file, read_splat_file("eval", input, {}, limits, common));
   SplatSubject out;
-  out.subject.splats = file.gaussians.size();
+  out.subject.points = file.gaussians.size();
   out.subject.decode_seconds = {{"threads", 1}, {"total", watch.lap()}};
   std::error_code ignored;
   out.subject.bytes = std::filesystem::file_size(input, ignored);

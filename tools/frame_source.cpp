@@ -76,12 +76,13 @@ double pictures_a_second(const PartOptions& part, std::size_t count) {
   return seconds > 0 ? static_cast<double>(count - 1) / seconds : kRate;
 }
 
-nlohmann::ordered_json frame_json(const FrameInfo& frame) {
-  return {{"number", frame.number},
-          {"time", frame.time},
-          {"predicted", frame.predicted},
-          {"offset", frame.offset},
-          {"bytes", frame.bytes}};
+nlohmann::ordered_json frame_json(const FrameInfo& f, const std::optional<std::uint64_t>& points) {
+  nlohmann::ordered_json json = {
+      {"number", f.number}, {"time", f.time},   {"predicted", f.predicted}, {"reference", nullptr},
+      {"offset", f.offset}, {"bytes", f.bytes}, {"points", nullptr}};
+  if (f.predicted) json["reference"] = f.number - 1;
+  if (points) json["points"] = *points;
+  return json;
 }
 
 std::string frames_text(const std::vector<FrameInfo>& frames) {
@@ -94,6 +95,20 @@ std::string frames_text(const std::vector<FrameInfo>& frames) {
   return text("  frames        %s in %.3f s, %s of them predicted in %s bytes; the first:\n",
               grouped(frames.size()).c_str(), frames.back().time - frames.front().time,
               grouped(predicted).c_str(), grouped(bytes).c_str());
+}
+
+std::string frame_table_text(const std::vector<FrameInfo>& frames, const PointsOfFrames& points) {
+  if (frames.size() < 2) return {};
+  std::string out =
+      "\nframes\n      number        time  kind       reference        bytes      points\n";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameInfo& f = frames[i];
+    out += text("%12u %11.3f  %-9s %10s %12s %11s\n", f.number, f.time,
+                f.predicted ? "predicted" : "intra",
+                f.predicted ? std::to_string(f.number - 1).c_str() : "-", grouped(f.bytes).c_str(),
+                points[i] ? grouped(*points[i]).c_str() : "-");
+  }
+  return out;
 }
 
 }  // namespace slf::tools

@@ -2,6 +2,7 @@
 // The frames of a .slf file as input of a verb.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,8 +40,15 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
 /// where these do not tell.
 double pictures_a_second(const PartOptions& part, std::size_t count);
 
+/// [F] of each frame; nothing where its headers do not say it.
+using PointsOfFrames = std::vector<std::optional<std::uint64_t>>;
+
 /// The frames of a light field that moves. What else `slf info` tells is about the first.
-nlohmann::ordered_json frame_json(const FrameInfo& frame);
+nlohmann::ordered_json frame_json(const FrameInfo& frame,
+                                  const std::optional<std::uint64_t>& points);
+/// A line.
 std::string frames_text(const std::vector<FrameInfo>& frames);
+/// One for each.
+std::string frame_table_text(const std::vector<FrameInfo>& frames, const PointsOfFrames& points);
 
 }  // namespace slf::tools

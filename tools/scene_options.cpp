@@ -55,7 +55,8 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
       ->type_name("I/N");
   verb.add_flag("--resume", o.resume, "Go on where an earlier run with the same --work was ended");
   verb.add_flag("--dry-run", o.dry_run,
-                "Say points, slices, memory, disk and time that it would take, and stop");
+                "Say points, slices, memory, disk and time that it would take, and stop; of frames "
+                "which there are, their points and their grid");
   for (const char* name :
        {"--memory", "--work", "--log", "--plan", "--part", "--resume", "--dry-run"})
     verb.get_option(name)->group(group);

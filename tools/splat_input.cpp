@@ -13,7 +13,7 @@ Result<GaussianFile, Failure> read_splat_file(const std::string& verb, const std
                                               const PartOptions& part, const LimitOptions& given,
                                               const CommonOptions& common) {
   if (part.levels > 0 || part.groups > 0 || part.layers > 0 || part.max_bytes > 0 ||
-      !part.region.empty())
+      !part.region.empty() || part.frame >= 0)
     return Failure{kUsage, verb + ": " + file + " holds splats, of which no part can be asked for"};
   SLF_TRY(const auto bytes, read_input(file, given));
   const auto folder = std::filesystem::path(file).parent_path();

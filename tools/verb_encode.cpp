@@ -253,8 +253,11 @@ void add_encode(CLI::App& program, Run& run) {
   verb->callback([&run, o, verb] {
     for (const char* option : {"--group", "--rate", "--refit-still"})
       if (verb->count(option) > 0) o->frames.given = option;
+    o->frames.options = given_options(*verb);
     run = [o]() -> Outcome {
       o->frames.part = o->scene.part;
+      o->frames.as = o->plenoptic.as;
+      o->frames.dry_run = o->scene.dry_run;
       if (o->encode.capture != "-") return encode_any(*o);
       SLF_TRY(const SpooledInput input, SpooledInput::read());
       o->encode.capture = input.path();

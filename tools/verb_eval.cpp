@@ -1,225 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // slf eval: quality of a file against its capture, by the one definition of slf/evaluate.h.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <limits>
 #include <memory>
-#include <optional>
-#include <sstream>
-#include <utility>
 
-#include "slf/evaluate.h"
 #include "slf/frame_inputs.h"
-#include "tools/choices.h"
-#include "tools/eval_report.h"
-#include "tools/eval_subject.h"
-#include "tools/measure_file.h"
-#include "tools/options.h"
+#include "tools/eval_capture.h"
 #include "tools/output.h"
 #include "tools/plenoptic_options.h"
-#include "tools/progress.h"
-#include "tools/splat_input.h"
-#include "tools/text.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
 namespace {
 
-struct EvalOptions {
-  std::string input, capture, points, images, split, unquantised, error_maps;
-  int frame = -1;  ///< of a file of several
-  bool split_given = false, no_images = false, estimate_normals = false;
-  EvaluateSettings settings;
-  std::optional<double> min_psnr, min_image_psnr;
-  LimitOptions limits;
-  CommonOptions common;
-
-  SubjectOptions decode() const { return {limits, common, frame, estimate_normals}; }
-};
-
-std::string metadata_value(const Metadata& metadata, const std::string& key) {
-  for (const auto& [name, value] : metadata)
-    if (name == key) return value;
-  return {};
-}
-
-Outcome report_measured(const EvalOptions& given, const Subject& subject,
-                        const std::vector<Measured>& measured, double seconds) {
-  const bool images = given.settings.images;
-  if (given.common.json) return print(eval_json(subject, measured, images, seconds));
-  return print(eval_text(input_name(given.input), subject, measured, images));
-}
-
-/// A frame without points has nothing to measure.
-Outcome report_empty(const EvalOptions& given, const Subject& subject) {
-  if (given.common.json)
-    return print(nlohmann::ordered_json{{"points", 0}, {"bytes", subject.bytes}});
-  return print(input_name(given.input) + ": the frame has no points, nothing is measured\n");
-}
-
-/// The floors of --min-psnr and --min-image-psnr, on the held-out cameras, else on the input.
-Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& measured) {
-  const Measured& judged = measured.back();
-  const auto check = [&](const char* what, double psnr, std::optional<double> floor) -> Outcome {
-    if (!floor || psnr >= *floor) return Done{};
-    return Failure{kQualityFailed,
-                   text("%s: %s PSNR %.2f dB (%s) is below %g dB", input_name(given.input).c_str(),
-                        what, psnr, judged.name.c_str(), *floor)};
-  };
-  if (given.min_psnr) SLF_CHECK(check("point", judged.quality.points[0].psnr, given.min_psnr));
-  return check("image", judged.quality.image.psnr, given.min_image_psnr);
-}
-
-Result<Capture, Failure> read_capture(const EvalOptions& given) {
-  CaptureOptions options;
-  options.points = given.points;
-  options.points_needed = false;
-  options.may_be_empty = true;
-  options.images = given.images;
-  SLF_TRY(Capture capture, from(given.capture, load_capture(given.capture, options)));
-  warn(capture.warnings, given.common.quiet);
-  if (capture.cameras.empty())
-    return Failure{kInputInvalid, given.capture + ": has no cameras to compare with"};
-  return capture;
-}
-
-/// DIR/NUMBER_NAME.png of every camera's error map; the folders of its name become part of the
-/// file's, and its extension is left out.
-std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
-    const std::string& directory, const Capture& capture) {
-  if (directory.empty()) return {};
-  return [directory, &capture](int camera, const Image& map) {
-    const std::string& image = capture.cameras[std::size_t(camera)].name;
-    std::string name = std::filesystem::path(image).replace_extension().string();
-    std::replace(name.begin(), name.end(), '/', '_');
-    return write_png(inside(directory, text("%04d_", camera) + name + ".png"), map);
-  };
-}
-
-/// What a set of cameras says of a file.
-using Judge = std::function<Result<Quality, InputError>(
-    std::span<const int> cameras, const EvaluateSettings& settings, const Progress& progress)>;
-
-Judge judge_of(const ViewMaps& maps, const Capture& capture) {
-  return [&](std::span<const int> cameras, const EvaluateSettings& settings,
-             const Progress& progress) {
-    return evaluate(maps, capture, cameras, settings, progress);
-  };
-}
-
-/// The images that a file was made from: of its split, or the one that is asked for, without those
-/// that the encoder dropped as of something else.
-Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Capture& capture,
-                                           const Metadata& metadata) {
-  const std::string split = given.split_given ? given.split : metadata_value(metadata, "split");
-  SLF_TRY(std::vector<int> input, from(given.capture, split_cameras(capture, split)));
-  if (given.split_given) return input;
-  std::istringstream dropped(metadata_value(metadata, "cameras_dropped"));
-  for (int camera = 0; dropped >> camera;) std::erase(input, camera);
-  return input;
-}
-
-/// @param metadata     of the file
-/// @param unquantised  or none
-Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
-                                               const Metadata& metadata, const Judge& judge,
-                                               const Judge& unquantised) {
-  SLF_TRY(const std::vector<int> input, input_of(given, capture, metadata));
-  SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
-  const std::size_t all = held_out.size();
-  std::erase_if(held_out,
-                [&](int i) { return std::find(input.begin(), input.end(), i) != input.end(); });
-  if (held_out.size() < all)
-    warn(std::to_string(all - held_out.size()) +
-             " evaluation images were input and are not held out",
-         given.common.quiet);
-
-  EvaluateSettings settings = given.settings;
-  settings.threads = given.common.threads;
-  ProgressLine line(given.common.quiet);
-  std::vector<Measured> measured;
-  for (const std::vector<int>* cameras :
-       std::array<const std::vector<int>*, 2>{&input, &held_out}) {
-    if (cameras->empty()) continue;
-    Measured& m = measured.emplace_back();
-    m.name = cameras == &input ? "input" : "held out";
-    m.cameras = cameras->size();
-    settings.error_map = error_map_writer(given.error_maps, capture);
-    SLF_TRY(m.quality, from(given.capture, judge(*cameras, settings, line.callback())));
-    if (!unquantised) continue;
-    settings.error_map = {};
-    SLF_TRY(m.unquantised, from(given.capture, unquantised(*cameras, settings, line.callback())));
-  }
-  if (measured.empty())
-    return Failure{kInputInvalid, given.capture + ": its splits have no images to compare with"};
-  return measured;
-}
-
-/// Splats: pictures alone.
-Outcome eval_splats(const EvalOptions& given, const Capture& capture, const SplatSubject& splats) {
-  if (given.no_images || given.min_psnr || !given.unquantised.empty())
-    return Failure{kUsage,
-                   "eval: --no-images, --min-psnr and --unquantised are for light fields, "
-                   "and " +
-                       given.input + " holds splats"};
-  const Judge judge = [&](std::span<const int> cameras, const EvaluateSettings& settings,
-                          const Progress& progress) {
-    return evaluate_pictures(splats.draw, capture, cameras, settings, progress);
-  };
-  Stopwatch watch;
-  SLF_TRY(const auto measured, measure(given, capture, splats.subject.metadata, judge, {}));
-  SLF_CHECK(report_measured(given, splats.subject, measured, watch.lap()));
-  return check_floors(given, measured);
-}
-
-/// A directory of frames holds a capture for each.
-Outcome check_one_capture(const EvalOptions& given) {
-  if (!holds_frames(given.capture)) return Done{};
-  const auto inputs = list_frames(given.capture);
-  const std::string first = inputs ? inputs->frames.front().path.string() : given.capture + "/...";
-  return Failure{kUsage, "eval: " + given.capture +
-                             " holds frames, of which one is measured at a time: --frame 0 with " +
-                             first + ", and on"};
-}
-
 Outcome run_eval(const EvalOptions& given) {
   if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)
     return eval_plenoptic_file({given.input, given.capture, given.limits, given.common});
-  SLF_CHECK(check_one_capture(given));
-  if (!given.error_maps.empty()) SLF_CHECK(make_directory(given.error_maps));
-  SLF_TRY(Capture capture, read_capture(given));
-  if (is_splat_file(given.input)) {
-    SLF_TRY(const SplatSubject splats, read_splat_subject(given.input, given.limits, given.common));
-    return eval_splats(given, capture, splats);
-  }
-  SLF_TRY(Subject subject, decode_subject(given.input, capture, given.decode()));
-  if (subject.field.num_points() == 0) return report_empty(given, subject);
-  if (capture.cloud.positions.empty()) {
-    warn(given.capture + ": no points: judged on the file's own", given.common.quiet);
-    capture = with_points_of(subject.field, std::move(capture), given.common.threads);
-  }
-  if (has_gaussians(subject.field.header)) {
-    SLF_TRY(Gaussians gaussians,
-            from(input_name(given.input), gaussians_of(subject.field, given.common.threads)));
-    subject.splats = gaussians.size();
-    return eval_splats(given, capture, {std::move(subject), pictures_of(std::move(gaussians))});
-  }
-  const ViewMaps maps(subject.field, given.common.threads);
-  std::optional<Subject> unquantised;
-  std::optional<ViewMaps> unquantised_maps;
-  if (!given.unquantised.empty()) {
-    SLF_TRY(unquantised, decode_subject(given.unquantised, capture, given.decode()));
-    unquantised_maps.emplace(unquantised->field, given.common.threads);
-  }
-  Stopwatch watch;
-  SLF_TRY(const auto measured,
-          measure(given, capture, subject.metadata, judge_of(maps, capture),
-                  unquantised_maps ? judge_of(*unquantised_maps, capture) : Judge{}));
-  SLF_CHECK(report_measured(given, subject, measured, watch.lap()));
-  return check_floors(given, measured);
+  if (!given.range.empty() || holds_frames(given.capture)) return eval_frames(given);
+  return eval_capture(given);
 }
 
 void add_inputs(CLI::App& verb, EvalOptions& o) {
@@ -233,6 +29,17 @@ void add_inputs(CLI::App& verb, EvalOptions& o) {
                 "Give each rendering its photograph's exposure first; points stay as they are");
   verb.add_flag("--align-cameras", o.settings.align_cameras,
                 "Move each picture onto its photograph first, by 4 pixels at most");
+}
+
+void add_frames_to_judge(CLI::App& verb, EvalOptions& o) {
+  verb.add_option("--frame", o.frame,
+                  "Frame to measure of a file of several, from 0 on, by its own capture and bytes")
+      ->type_name("N")
+      ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
+  verb.add_option("--frames", o.range,
+                  "Numbers of the captures that the frames of a file are measured against, of a "
+                  "directory or a pattern as slf encode takes it; default: all")
+      ->type_name("A:B");
 }
 
 }  // namespace
@@ -262,10 +69,7 @@ void add_eval(CLI::App& program, Run& run) {
                    "Hidden if deeper than the depth buffer by more, in point spacings")
       ->capture_default_str()
       ->check(range(0, 1000));
-  verb->add_option("--frame", o->frame,
-                   "Frame to measure of a file of several, from 0 on, by its own capture and bytes")
-      ->type_name("N")
-      ->check(whole_range(0, (std::int64_t{1} << 31) - 1));
+  add_frames_to_judge(*verb, *o);
   verb->add_flag("--estimate-normals", o->estimate_normals,
                  "An .igc file: normals from its points; default: the capture's, as a gift");
   auto* no_images =

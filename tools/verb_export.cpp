@@ -10,6 +10,7 @@
 
 #include "slf/splats.h"
 #include "tools/dump.h"
+#include "tools/frame_source.h"
 #include "tools/options.h"
 #include "tools/output.h"
 #include "tools/splat_input.h"
@@ -240,14 +241,16 @@ void add_export(CLI::App& program, Run& run) {
       ->excludes(axes)
       ->excludes(verb->get_option("--degree"));
   add_part(*verb, o->part);
-  add_frame(*verb, o->part);
+  add_frames_to_show(*verb, o->part);
   add_limits(*verb, o->limits);
   add_threads(*verb, o->common);
   add_quiet(*verb, o->common);
   add_json(*verb, o->common);
   verb->callback([&run, o, verb] {
     o->degree_given = verb->count("--degree") > 0;
-    run = [o] { return run_export(*o); };
+    run = [o] {
+      return for_each_frame("export", o->output, o->part, [&] { return run_export(*o); });
+    };
   });
 }
 

@@ -133,11 +133,12 @@ std::string groups_text(const StreamInfo& info) {
 }
 
 Outcome print_json(const StreamInfo& info, std::uint64_t bytes,
-                   const std::vector<FrameInfo>& frames, const DecodeCost& cost) {
+                   const std::vector<FrameInfo>& frames, const PointsOfFrames& points,
+                   const DecodeCost& cost) {
   std::vector<LongList> lists;
   if (frames.size() > 1)
     lists.push_back(
-        {"frames", frames.size(), [&](std::size_t f) { return frame_json(frames[f]); }});
+        {"frames", frames.size(), [&](std::size_t f) { return frame_json(frames[f], points[f]); }});
   lists.push_back(
       {"slice", info.slices.size(), [&](std::size_t s) { return slice_json(info.slices[s]); }});
   lists.push_back(
@@ -165,7 +166,8 @@ std::string base_text(const StreamInfo& info) {
 }
 
 std::string info_text(const StreamInfo& info, const std::string& file, std::uint64_t all_bytes,
-                      const std::vector<FrameInfo>& frames, bool units, const DecodeCost& cost) {
+                      const std::vector<FrameInfo>& frames, const PointsOfFrames& points,
+                      bool units, const DecodeCost& cost) {
   const std::uint64_t bytes = frames.front().bytes;
   std::string out = printable(input_name(file)) + ": " + grouped(all_bytes) +
                     " bytes, .slf version " +
@@ -192,6 +194,7 @@ std::string info_text(const StreamInfo& info, const std::string& file, std::uint
                 : t.colour ? "with channels"
                            : "channels alike");
   out += "\n" + bytes_by_type_text(info, bytes);
+  out += frame_table_text(frames, points);
   if (info.num_slices > 1) out += slices_text(info);
   if (units) out += units_text(info);
   if (!info.metadata.empty()) out += "\nmetadata\n";
@@ -210,9 +213,13 @@ Outcome run_info(const InfoOptions& given) {
   cost->memory += file.bytes.size();
   cost->memory_most += file.bytes.size();
   SLF_TRY(const auto frames, from(input_name(given.input), list_frames(file.bytes, given.asked)));
+  PointsOfFrames points;
+  if (frames.size() > 1) {
+    SLF_TRY(points, from(input_name(given.input), list_points(file.bytes, given.asked)));
+  }
   const std::uint64_t bytes = file.bytes.size();
-  if (given.common.json) return print_json(file.info, bytes, frames, *cost);
-  return print(info_text(file.info, given.input, bytes, frames, given.units, *cost));
+  if (given.common.json) return print_json(file.info, bytes, frames, points, *cost);
+  return print(info_text(file.info, given.input, bytes, frames, points, given.units, *cost));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,12 @@ struct FrameInfo {
 ///         list and of what is looked at for it. O(frames)
 Result<std::vector<FrameInfo>> list_frames(std::span<const std::uint8_t> stream,
                                            const DecodeLimits& limits = DecodeLimits::none());
+
+/// Points of each of list_frames(), by the headers of its slices; nothing where these are damaged
+/// or cut off, or those of its group.
+/// @errors those of list_frames; kLimitExceeded: max_memory. O(units)
+Result<std::vector<std::optional<std::uint64_t>>> list_points(std::span<const std::uint8_t> stream,
+                                                              const DecodeLimits& limits = {});
 
 /// Decodes any frame of a stream held in memory. A predicted frame needs those before it, back to
 /// one that is not: in order each frame is decoded once.
@@ -136,6 +143,22 @@ using LoadFrame = std::function<Result<LoadedFrame, InputError>(std::size_t)>;
 using TakeFrame =
     std::function<Result<Done, InputError>(std::size_t, std::span<const std::uint8_t>)>;
 
+/// A list of frames before anything is coded.
+struct PlannedFrames {
+  std::vector<std::size_t> points;   ///< [F] as given; those of one voxel are merged
+  std::vector<std::size_t> cameras;  ///< [F] that are input
+  Grid grid;                         ///< of all of them
+  FramesOfPart part;                 ///< those that are to be coded
+};
+
+/// What encode_frames() does first: checks settings, loads each frame and finds the grid.
+/// Photographs are not read, nothing is fitted.
+/// @errors those of encode_frames() but for take's and the coder's
+Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFrame& load,
+                                              const EncoderSettings& settings,
+                                              const FrameSettings& frame_settings,
+                                              const Progress& progress = {});
+
 /// What became of a frame.
 struct EncodedFrame {
   bool predicted = false;
@@ -159,7 +182,8 @@ struct EncodedFrames {
 /// coded
 /// Where a frame has no points it is empty (format 1.2); the first that has some chooses.
 /// @errors kInvalidArgument: settings that frames do not have (a target, quality layers, Draco,
-///         textures), no frame with points; those of load, take, encode() and FrameEncoder
+///         textures, a base, points that are mended, trained or made up), no frame with points;
+///         those of load, take, encode() and FrameEncoder
 /// One frame is in memory at a time, what is left of the one before, and a photograph of every
 /// camera to compare with. The same bytes for any
 /// thread count of one binary.

@@ -30,6 +30,12 @@ struct SettingInfo {
     kTrainedSplats,  ///< those that photographs train
     kAnySplats,      ///< those that are given, too
   };
+  /// What frames in time have of it. Elsewhere it is refused.
+  enum Frames : std::uint8_t {
+    kNotFrames,
+    kFramesOfPhotographs,  ///< those that photographs belong to
+    kAnyFrames,            ///< coloured clouds, too
+  };
   std::string name;  ///< "delta", the program's --delta
   Kind kind = kText;
   double low = 0, high = 0;
@@ -39,6 +45,8 @@ struct SettingInfo {
   std::string group;    ///< what it belongs to
   std::vector<std::string> excludes;  ///< names of settings that may not be given beside it
   Splats splats = kNotSplats;
+  Frames frames = kNotFrames;
+  std::vector<std::string> frame_values = {};  ///< the values that frames have; empty: all
 };
 
 /// All of them, in the order in which a person reads them. "preset" and "effort" come first: what
@@ -58,5 +66,10 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 ///         not have.
 /// Thread-safe.
 Result<EncoderSettings, InputError> settings_from(const GivenSettings& given);
+
+/// Refuses what frames in time do not have, so that nothing is given without effect.
+/// @param photographs  the frames are captures; else coloured clouds
+/// @errors kInvalidArgument, with "--name" in the message and what would do in its place
+Result<Done, InputError> check_frame_settings(const GivenSettings& given, bool photographs);
 
 }  // namespace slf

@@ -124,6 +124,45 @@ TEST(Settings, WhatSplatsDoNotHaveIsRefusedWithThem) {
             "accepted");
 }
 
+/// A value that a setting may have; of words the last.
+std::string some_value(const SettingInfo& info) {
+  if (!info.words.empty()) return info.words.back();
+  if (info.kind == SettingInfo::kFlag) return "on";
+  if (info.kind == SettingInfo::kPair) return "3,3";
+  return info.kind == SettingInfo::kText ? "x" : std::to_string(static_cast<int>(info.high));
+}
+
+TEST(Settings, WhatFramesDoNotHaveIsRefusedWithThemAndWhatWouldDoIsNamed) {
+  int refused = 0, of_photographs = 0, of_any = 0;
+  for (const SettingInfo& info : encoder_settings()) {
+    const bool limited = !info.frame_values.empty();
+    for (const std::string& value : info.frame_values)
+      EXPECT_EQ(wrong_value(info, value), "") << info.name;
+    std::string value = some_value(info);
+    for (const std::string& word : info.words)
+      if (limited && std::count(info.frame_values.begin(), info.frame_values.end(), word) == 0)
+        value = word;
+    if (limited && std::count(info.frame_values.begin(), info.frame_values.end(), value) > 0)
+      value = std::to_string(static_cast<int>(info.high));
+    const auto of_captures = check_frame_settings({{info.name, value}}, true),
+               of_clouds = check_frame_settings({{info.name, value}}, false);
+    if (info.frames == SettingInfo::kNotFrames || limited) {
+      ASSERT_FALSE(of_captures || of_clouds) << info.name;
+      EXPECT_NE(of_captures.error().message.find("--" + info.name), std::string::npos);
+      EXPECT_NE(of_captures.error().message.find(" is not for frames: "), std::string::npos);
+      ++refused;
+    } else {
+      EXPECT_TRUE(of_captures) << info.name;
+      EXPECT_EQ(bool(of_clouds), info.frames == SettingInfo::kAnyFrames) << info.name;
+      ++(info.frames == SettingInfo::kAnyFrames ? of_any : of_photographs);
+    }
+  }
+  EXPECT_GE(refused, 18);
+  EXPECT_GE(of_photographs, 25);
+  EXPECT_GE(of_any, 12);
+  EXPECT_TRUE(check_frame_settings({{"surface", "given"}, {"base-levels", "auto"}}, false));
+}
+
 const SettingScope kOnOctrees = {"--geometry octree", [](const EncoderSettings& s) {
                                    return s.geometry == GeometryCoder::kOctree;
                                  }};

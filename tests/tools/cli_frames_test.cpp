@@ -25,6 +25,23 @@ TEST_F(CliFramesTest, InfoTellsHowMany) {
   EXPECT_EQ(slf("info x.slf --syntax --quiet").code, 0);
 }
 
+TEST_F(CliFramesTest, InfoHasATableOfFrames) {
+  const auto frames = parsed(slf("info x.slf --json").out)["frames"];
+  std::uint64_t bytes = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    EXPECT_EQ(frames[f]["points"], fields_[f].num_points()) << f;
+    const bool predicted = frames[f]["predicted"].get<bool>();
+    EXPECT_EQ(frames[f]["reference"], predicted ? nlohmann::json(f - 1) : nlohmann::json());
+    bytes += frames[f]["bytes"].get<std::uint64_t>();
+  }
+  EXPECT_FALSE(frames[0]["predicted"].get<bool>());
+  EXPECT_TRUE(frames[1]["predicted"].get<bool>());
+  EXPECT_EQ(bytes, read("x.slf").size());
+  const std::string text = slf("info x.slf").out;
+  EXPECT_NE(text.find("reference        bytes      points"), std::string::npos) << text;
+  EXPECT_EQ(text.find("predicted          0"), text.rfind("predicted          0")) << text;
+}
+
 TEST_F(CliFramesTest, DecodeTakesTheFirstOrTheOneAskedFor) {
   for (const std::size_t frame : {0u, 1u, 2u}) {
     const std::string option = frame > 0 ? " --frame " + std::to_string(frame) : "";
