@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kMostPixels = 16384;  // per side
+constexpr int kMostDepth = 64;      // of JSON, as of captures
 
 /// A number at rows[i][j]; NaN, which no check lets through, where there is none.
 double number_at(const Json& rows, std::size_t i, std::size_t j) {
@@ -97,6 +98,22 @@ Result<std::size_t, Failure> chosen_camera(const std::vector<std::string>& image
                                     (images.empty() ? "" : images[0]) + ", or numbered from 0"};
 }
 
+/// Nothing that is nested deeper is kept; null where the file is no JSON.
+Result<Json, Failure> read_json(const std::string& file) {
+  SLF_TRY(const auto bytes, from(file, read_file(file)));
+  bool deep = false;
+  const auto keep = [&](int depth, Json::parse_event_t event, const Json&) {
+    const bool opens =
+        event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start;
+    deep = deep || (opens && depth >= kMostDepth);
+    return depth <= kMostDepth;
+  };
+  Json root = Json::parse(bytes.begin(), bytes.end(), keep, false);
+  if (deep)
+    return Failure{kInputInvalid, file + ": nested deeper than " + std::to_string(kMostDepth)};
+  return root;
+}
+
 }  // namespace
 
 Result<Camera, Failure> read_camera(const std::string& reference) {
@@ -107,8 +124,7 @@ Result<Camera, Failure> read_camera(const std::string& reference) {
     file = reference.substr(0, colon);
     name = reference.substr(colon + 1);
   }
-  SLF_TRY(const auto bytes, from(file, read_file(file)));
-  const Json root = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  SLF_TRY(const Json root, read_json(file));
   if (!root.is_object() || !root.contains("cameras") || !root["cameras"].is_array() ||
       root["cameras"].empty())
     return Failure{kInputInvalid, file + ": is not a cameras.json"};

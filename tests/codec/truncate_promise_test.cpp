@@ -193,7 +193,9 @@ TEST(Spec_8_9_TruncatePromise, WhereNothingIsLeftOutTheStreamIsAsItWas) {
                          stream.begin() + static_cast<std::ptrdiff_t>(last.offset + last.bytes));
       const auto copy = truncate(begin, {});
       EXPECT_EQ(static_cast<bool>(copy), static_cast<bool>(decode(begin))) << last.type;
-      if (copy) EXPECT_EQ(*copy, begin);
+      if (copy) {
+        EXPECT_EQ(*copy, begin);
+      }
       ++streams;
     }
   }

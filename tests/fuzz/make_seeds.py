@@ -5,17 +5,15 @@
     tests/fuzz/make_seeds.py OUT [--slf build/bin/slf]
 
 Streams are conformance streams below 4 kB, and refused ones; the rest is written here, byte by byte.
-With --slf there are .igc files, plans and parts of scenes too.
+With --slf there are files of its encoder, .igc files, plans and parts of scenes too.
 """
 import argparse
 import json
 import pathlib
-import shutil
 import struct
-import subprocess
-import tempfile
 import zlib
 
+from encoded_seeds import igc, light_fields, scene
 from scan_seeds import scans
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -207,41 +205,6 @@ def colmap():
     return {"text": text, "binary": MARK.join([camera, image, point])}
 
 
-def igc(program):
-    """Files of four cameras of 32 x 32 pixels, as fuzz_igc.cpp expects."""
-    with tempfile.TemporaryDirectory() as scratch:
-        out = pathlib.Path(scratch) / "x.igc"
-        subprocess.run([program, "synth", "can", "-o", scratch + "/can", "--size", "32x32", "--points", "200"],
-                       check=True, capture_output=True)
-        made = json.loads((pathlib.Path(scratch) / "can/cameras.json").read_text())
-        made = {"cameras": made["cameras"][:4], "splits": {}}
-        for i, camera in enumerate(made["cameras"]):
-            shutil.copy(pathlib.Path(scratch) / "can" / camera["image"], scratch + f"/can/images/{i}.png")
-            camera["image"] = f"images/{i}.png"
-        (pathlib.Path(scratch) / "can/cameras.json").write_text(json.dumps(made))
-        subprocess.run([program, "igc", scratch + "/can", "-o", str(out), "--split", "all", "--grid-bits", "4"],
-                       check=True, capture_output=True)
-        return out.read_bytes()
-
-
-def scene(program):
-    """A plan, and its two parts: of some 400 coloured points on a saddle."""
-    rows = [b"%d %d %d %d %d 90\n" % (x, y, x * y // 40, 8 * x, 8 * y) for x in range(32) for y in range(32)
-            if (7 * x + 3 * y) % 5 < 2]
-    head = ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(rows) + "".join(f"property float {k}\n" for k in "xyz") +
-            "".join(f"property uchar {k}\n" for k in ("red", "green", "blue")) + "end_header\n")
-    with tempfile.TemporaryDirectory() as scratch:
-        at = pathlib.Path(scratch)
-        (at / "c.ply").write_bytes(head.encode() + b"".join(rows))
-        work = ["--work", scratch + "/work", "--quiet"]
-        subprocess.run([program, "plan", scratch + "/c.ply", "-o", scratch + "/plan", "--grid-bits", "5", *work], check=True)
-        for part in "12":
-            subprocess.run([program, "encode", scratch + "/c.ply", "--plan", scratch + "/plan", "--part", part + "/2",
-                            "-o", scratch + "/" + part, *work], check=True)
-        first, second = (at / "1").read_bytes(), (at / "2").read_bytes()
-        return (at / "plan").read_bytes(), {"first": first, "second": second, "both": MARK.join([first, second])}
-
-
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
@@ -254,7 +217,7 @@ def seeds(program):
         made["truncate"][name] = b"\x03\x01" + stream
         made["part_decoder"][name] = b"\x03\x01" + stream
         made["part_decoder"][name + "-region"] = b"\x40\x05" + stream
-        made["export"][name] = bytes([len(made["export"]) % 6, 1]) + stream  # one format after the other
+        made["export"][name] = bytes([len(made["export"]) % 6, 1]) + stream
         if hevc(stream):
             made["hevc"][name] = hevc(stream)
     made["npy"]["int32"] = npy("<i4", (2, 3), bytes(24))
@@ -278,8 +241,16 @@ def seeds(program):
     made["colmap"] = colmap()
     made["splats"] = splats()
     if program:
+        for name, stream in light_fields(program, splats()["binary.ply"]).items():
+            for target in ("decode", "render", "html"):
+                made[target]["encoded-" + name] = stream
+            for kind in range(6):
+                made["export"][f"encoded-{name}-{kind}"] = bytes([kind, 1 + 4 * (kind % 3)]) + stream
+            for how, lead in (("levels", b"\x03\x00"), ("groups", b"\x00\x01"), ("region", b"\x40\x07"), ("bytes", b"\x80\x50")):
+                made["part_decoder"][f"encoded-{name}-{how}"] = made["truncate"][f"encoded-{name}-{how}"] = lead + stream
         made["igc"]["can"] = igc(program)
-        made["plan"]["saddle"], made["part"] = scene(program)
+        made["plan"]["saddle"], first, second = scene(program)
+        made["part"] = {"first": first, "second": second, "both": MARK.join([first, second])}
     return made
 
 
@@ -289,7 +260,8 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--slf")
     given = parser.parse_args()
-    for target, files in seeds(given.slf).items():
+    program = str(pathlib.Path(given.slf).resolve()) if given.slf else None
+    for target, files in seeds(program).items():
         (given.out / target).mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             (given.out / target / name).write_bytes(content)

@@ -174,37 +174,6 @@ TEST_F(BadCaptureTest, AFullDiskLeavesTheOldFile) {
   EXPECT_TRUE(leftovers().empty());
 }
 
-/// A JSON file that opens so many lists, or objects, and closes none.
-std::string deep(const std::string& opened) {
-  std::string text;
-  for (int i = 0; i < 100000; ++i) text += opened;
-  return text;
-}
-
-TEST_F(CliTest, JsonThatIsNestedTooDeepNamesItsFileAndTheDepth) {
-  for (const std::string& text : {deep("["), deep("{\"a\":"), deep("[{\"a\":[")}) {
-    for (const char* name : {"cameras.json", "transforms.json", "sfm_data.json", "any.json"}) {
-      write(name, text);
-      expect_failure(slf(std::string("encode ") + name + " -o x.slf"), 4, name,
-                     "nested deeper than 64");
-    }
-    write("x.gltf", text);
-    expect_failure(slf("encode x.gltf -o x.slf"), 4, "x.gltf", "nested deeper than 64");
-    expect_failure(slf("export x.gltf -o x.ply"), 4, "x.gltf", "nested deeper than 64");
-    write("meta.json", text);
-    expect_failure(slf("export meta.json -o x.ply"), 4, "meta.json", "nested deeper than 64");
-    write("x.plan", text);
-    expect_failure(slf("encode cameras.json --plan x.plan --part 1/2 -o x.slf"), 4, "x.plan",
-                   "nested deeper than 64");
-  }
-  EXPECT_FALSE(exists("x.slf") || exists("x.ply"));
-}
-
-TEST_F(CliTest, XmlThatIsNestedTooDeepNamesItsFileAndTheDepth) {
-  write("x.xml", deep("<a>"));
-  expect_failure(slf("encode x.xml -o x.slf"), 4, "x.xml", "nested deeper than 32");
-}
-
 TEST_F(CliTest, AnInterruptLeavesNoTemporaryFile) {
   const Ran ran = shell("timeout --preserve-status -s INT 0.4 '" SLF_PROGRAM
                         "' synth can -o big --size 512x512 --points 20000");
@@ -253,6 +222,39 @@ TEST_F(BadStreamTest, AnotherMajorVersionIsSaidWithBothNumbers) {
     write("other.slf", other);
     expect_failure(slf("merge other.slf -o whole.slf"), 6, "other.slf", said);
   }
+}
+
+/// So many lists, or objects, within each other.
+std::string deep(const std::string& opened, const std::string& closed = "") {
+  std::string text, end;
+  for (int i = 0; i < 100000; ++i) {
+    text += opened;
+    end += closed;
+  }
+  return text + end;
+}
+
+TEST_F(BadStreamTest, JsonThatIsNestedTooDeepNamesItsFileAndTheDepth) {
+  constexpr const char* kDeep = "nested deeper than 64";
+  for (const std::string& text : {deep("["), deep("[", "]"), deep("{\"a\":"), deep("[{\"a\":[")}) {
+    for (const char* name : {"cameras.json", "transforms.json", "sfm_data.json", "any.json"}) {
+      write(name, text);
+      expect_failure(slf(std::string("encode ") + name + " -o x.slf"), 4, name, kDeep);
+    }
+    write("x.gltf", text);
+    expect_failure(slf("encode tiny --points x.gltf -o x.slf"), 4, "x.gltf", kDeep);
+    write("x.plan", text);
+    expect_failure(slf("encode tiny --plan x.plan --work w --part 1/2 -o x.slf"), 4, "x.plan",
+                   kDeep);
+    expect_failure(slf("render good.slf --camera any.json -o x.png"), 4, "any.json", kDeep);
+    expect_failure(slf("eval good.slf any.json"), 4, "any.json", kDeep);
+  }
+  EXPECT_FALSE(exists("x.slf") || exists("x.png"));
+}
+
+TEST_F(CliTest, XmlThatIsNestedTooDeepNamesItsFileAndTheDepth) {
+  write("x.xml", deep("<a>"));
+  expect_failure(slf("encode x.xml -o x.slf"), 4, "x.xml", "nested deeper than 32");
 }
 
 TEST_F(CliTest, MissingStream) {
