@@ -47,7 +47,7 @@ class Renderer {
   Renderer(const ViewMaps& maps, const RenderSettings& settings = {});
   /// O(points + pixels).
   /// @param ended  or none: where it is set meanwhile, work ends within some rows of the picture,
-  ///               and the picture is not to be used
+  ///               and the picture is not to be used: its arrays may be empty
   Rendering render(const Camera& camera, const std::atomic<bool>* ended = nullptr) const;
 
   /// A camera on a circle around the cloud, looking at its centre. turn: 0 .. 1; elevation in

@@ -24,7 +24,7 @@ Rendering GaussianRenderer::render(const Camera& camera, const std::atomic<bool>
   const auto splats =
       project_gaussians(gaussians_, *cloud_, camera, settings_.view_dependent, settings_.threads);
   const GaussianTiles tiles = bin_gaussians(splats, camera.width, camera.height, settings_.threads);
-  Rendering out = empty_rendering(camera);
+  Rendering out = empty_rendering(camera, ended);
   parallel_ranges(tiles.size(), kTilesPerRange, settings_.threads,
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t i = begin; i < end && !is_ended(ended); ++i)

@@ -71,7 +71,7 @@ Rendering Renderer::render(const Camera& camera, const std::atomic<bool>* ended)
     if (settings_.view_dependent) return maps_.radiances(eye, points, out);
     for (std::size_t i = 0; i < points.size(); ++i) out[i] = maps_.mean(points[i]);
   };
-  Rendering out = empty_rendering(camera);
+  Rendering out = empty_rendering(camera, ended);
   rasterise(
       splats, camera.width, camera.height, settings_.threads, colours,
       [&](std::size_t first_pixel, const SplatImage& rows) {

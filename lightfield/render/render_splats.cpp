@@ -194,8 +194,9 @@ void rasterise(const std::vector<Splat>& splats, int width, int height, int thre
   std::vector<std::vector<std::uint32_t>> shown(bins.size());
   std::vector<SplatBand> bands;
   bands.reserve(bins.size());
-  for (std::size_t i = 0; i < bins.size(); ++i) bands.emplace_back(width, height, i);
-  parallel_ranges(bins.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+  for (std::size_t i = 0; i < bins.size() && !is_ended(ended); ++i)
+    bands.emplace_back(width, height, i);
+  parallel_ranges(bands.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !is_ended(ended); ++i)
       shown[i] = bands[i].find_shown(splats, bins[i]);
   });

@@ -67,9 +67,9 @@ TEST(Notes, MistakesAreToldByFileAndPlace) {
       {stop(R"("view":{},"annotation":1)"), "notes.json: tracks[0].stops[0].annotation: is no "},
       {stop(R"("view":{},"annotation":0.5)"), "notes.json: tracks[0].stops[0].annotation: is no "},
       {R"({"version":1,"version":1})", "notes.json: "},
-      {R"({"version":1)", "notes.json: not valid JSON at byte "},
+      {R"({"version":1)", "notes.json: version: not valid JSON at byte 13"},
       {"", "notes.json: not valid JSON"},
-      {"{\"version\":1,\"a\":\"\xff\"}", "notes.json: not valid JSON"}};
+      {"{\"version\":1,\"a\":\"\xff\"}", "notes.json: a: not valid JSON at byte 19"}};
   for (const auto& [json, message] : cases)
     EXPECT_EQ(error_of(json).find(message), 0u) << json << "\n" << error_of(json);
 }

@@ -64,7 +64,7 @@ class InterruptTest(unittest.TestCase):
         def interrupt(number, frame):
             raise KeyboardInterrupt
         before = signal.signal(signal.SIGALRM, interrupt)
-        began, seen = time.process_time(), time.monotonic()
+        began = time.process_time()
         try:
             signal.setitimer(signal.ITIMER_REAL, whole / 10)
             with self.assertRaises(KeyboardInterrupt):
@@ -72,8 +72,7 @@ class InterruptTest(unittest.TestCase):
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)
             signal.signal(signal.SIGALRM, before)
-        self.assertLess(time.process_time() - began, 0.7 * whole)
-        self.assertLess(time.monotonic() - seen, whole / 10 + 5)
+        self.assertLess(time.process_time() - began, 0.5 * whole)
         self.assertEqual(field.render(camera, size=(60, 40)).shape, (40, 60, 3))
 
 
