@@ -51,6 +51,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   options.points_needed = wanted != PointsWanted::kOrPhotographs;
   options.may_be_empty = wanted == PointsWanted::kOrNone;
   options.images = given.images;
+  options.world = given.world;
   if (const auto& c = given.crop; !c.empty())
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   CaptureInput input;

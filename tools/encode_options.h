@@ -2,6 +2,7 @@
 // What slf encode and slf igc are told: an input, an output, and settings in place of a preset's.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace slf::tools {
 struct EncodeOptions {
   const char* verb = "encode";  ///< for messages
   std::string capture, output, points, images, split, crs;
-  std::vector<double> crop;  ///< two corners in world units, or nothing
+  std::vector<double> crop;          ///< two corners in world units, or nothing
+  std::optional<WorldChange> world;  ///< --points-world
   bool up_given = false;
   UpAxis up = UpAxis::kPlusZ;
   GivenSettings given;

@@ -30,6 +30,7 @@ namespace {
 
 struct EvalOptions {
   std::string input, capture, points, images, split, unquantised, error_maps;
+  std::optional<WorldChange> world;
   int frame = -1;  ///< of a file of several
   bool split_given = false, no_images = false, estimate_normals = false;
   EvaluateSettings settings;
@@ -76,6 +77,7 @@ Outcome check_floors(const EvalOptions& given, const std::vector<Measured>& meas
 Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
+  options.world = given.world;
   options.points_needed = false;
   options.may_be_empty = true;
   options.images = given.images;
@@ -242,8 +244,7 @@ void add_eval(CLI::App& program, Run& run) {
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
   add_inputs(*verb, *o);
-  verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")
-      ->type_name("FILE");
+  add_points(*verb, o->points, o->world);
   verb->add_option("--images", o->images,
                    "Folder of the photographs, where they are not where the capture says")
       ->type_name("DIR");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "slf/error.h"
+#include "slf/points_world.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -115,6 +116,7 @@ struct CaptureOptions {
   /// Where the photographs are, by their names in the capture, else by those without folders.
   /// Empty: where the format has them.
   std::filesystem::path images = {};
+  std::optional<WorldChange> world = {};  ///< what brings the points to the cameras; before crop
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
