@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "tools/measure_file.h"
 #include "tools/spooled_input.h"
 #include "tools/text.h"
 
@@ -40,6 +41,22 @@ Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
   return std::vector<int>{};
 }
 
+/// Photographs without the object are left out. Black masks are no input, but a mistake.
+Outcome check_masks(const EncodeOptions& given, CaptureInput& input) {
+  const std::size_t all = input.cameras.size();
+  std::string warning =
+      leave_out_empty(input.capture, "input", given.common.threads, input.cameras);
+  if (warning.empty()) return Done{};
+  if (input.cameras.empty())
+    return Failure{kInputInvalid,
+                   given.capture + ": the masks (or alpha) of all " + std::to_string(all) +
+                       " input photographs are black, and 128 and more, white, is the object: "
+                       "invert them (mogrify -negate) or take them away"};
+  warn(warning, given.common.quiet);
+  input.capture.warnings.push_back(std::move(warning));
+  return Done{};
+}
+
 }  // namespace
 
 Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
@@ -62,6 +79,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
     warning = SpooledInput::named(std::move(warning));
   warn(input.capture.warnings, given.common.quiet);
   SLF_TRY(input.cameras, input_cameras(input.capture, given));
+  SLF_CHECK(check_masks(given, input));
   input.metadata.emplace_back("source", last_name(given.capture));
   if (!input.cameras.empty())
     input.metadata.emplace_back("split", split_name(input.capture, given.split));

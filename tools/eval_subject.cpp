@@ -12,6 +12,7 @@
 #include "slf/parallel.h"
 #include "tools/choices.h"
 #include "tools/describe.h"
+#include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/rd/igc/igc.h"
 #include "tools/splat_input.h"
@@ -135,6 +136,17 @@ Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
   out.subject.bytes_text = "";
   out.draw = pictures_of(std::move(file.gaussians));
   return out;
+}
+
+std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
+    const std::string& directory, const Capture& capture) {
+  if (directory.empty()) return {};
+  return [directory, &capture](int camera, const Image& map) {
+    const std::string& image = capture.cameras[std::size_t(camera)].name;
+    std::string name = std::filesystem::path(image).replace_extension().string();
+    std::replace(name.begin(), name.end(), '/', '_');
+    return write_png(inside(directory, text("%04d_", camera) + name + ".png"), map);
+  };
 }
 
 }  // namespace slf::tools

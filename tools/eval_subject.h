@@ -2,6 +2,7 @@
 // What `slf eval` judges: a file, decoded.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "slf/gaussians.h"
@@ -32,5 +33,10 @@ struct SplatSubject {
 Result<SplatSubject, Failure> read_splat_subject(const std::string& input,
                                                  const LimitOptions& limits,
                                                  const CommonOptions& common);
+
+/// DIR/NUMBER_NAME.png of every camera's error map; the folders of its name become part of the
+/// file's, and its extension is left out.
+std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
+    const std::string& directory, const Capture& capture);
 
 }  // namespace slf::tools

@@ -88,19 +88,6 @@ Result<Capture, Failure> read_capture(const EvalOptions& given) {
   return capture;
 }
 
-/// DIR/NUMBER_NAME.png of every camera's error map; the folders of its name become part of the
-/// file's, and its extension is left out.
-std::function<Result<Done, InputError>(int, const Image&)> error_map_writer(
-    const std::string& directory, const Capture& capture) {
-  if (directory.empty()) return {};
-  return [directory, &capture](int camera, const Image& map) {
-    const std::string& image = capture.cameras[std::size_t(camera)].name;
-    std::string name = std::filesystem::path(image).replace_extension().string();
-    std::replace(name.begin(), name.end(), '/', '_');
-    return write_png(inside(directory, text("%04d_", camera) + name + ".png"), map);
-  };
-}
-
 /// What a set of cameras says of a file.
 using Judge = std::function<Result<Quality, InputError>(
     std::span<const int> cameras, const EvaluateSettings& settings, const Progress& progress)>;
@@ -129,7 +116,7 @@ Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Captu
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
                                                const Metadata& metadata, const Judge& judge,
                                                const Judge& unquantised) {
-  SLF_TRY(const std::vector<int> input, input_of(given, capture, metadata));
+  SLF_TRY(std::vector<int> input, input_of(given, capture, metadata));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
   const std::size_t all = held_out.size();
   std::erase_if(held_out,
@@ -139,6 +126,9 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
              " evaluation images were input and are not held out",
          given.common.quiet);
 
+  for (auto& [which, cameras] : {std::pair{"input", &input}, std::pair{"held-out", &held_out}})
+    if (const auto w = leave_out_empty(capture, which, given.common.threads, *cameras); !w.empty())
+      warn(w, given.common.quiet);
   EvaluateSettings settings = given.settings;
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);

@@ -142,6 +142,11 @@ Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 /// @errors those of read_image; kInvalidInput: another size
 Result<Image, InputError> load_image(const Capture& capture, int camera);
 
+/// Those of the cameras whose mask or alpha shows no pixel of the object. Photographs that cannot
+/// be read are none of them.
+std::vector<int> cameras_without_object(const Capture& capture, std::span<const int> cameras,
+                                        int threads = 0);
+
 /// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else
 /// all but every fourth; "1/n" is every n-th of those that are not for evaluation; "all" is every
 /// camera; "evaluation" is the named split, else every fourth.
