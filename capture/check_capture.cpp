@@ -30,8 +30,12 @@ bool all_finite(const Camera& camera) {
 }
 
 Result<Done, InputError> check_rotation(const RotationRows& r, const std::string& label) {
-  if (!is_orthonormal(r)) return invalid(label, "the rotation is not orthonormal");
-  if (determinant(r) < 0) return invalid(label, "the rotation mirrors (determinant -1)");
+  if (!is_orthonormal(r))
+    return invalid(label, "the rotation is not orthonormal: leave a scale out of it");
+  if (determinant(r) < 0)
+    return invalid(label,
+                   "the rotation mirrors (determinant -1): left-handed axes (Unity, Unreal) are to "
+                   "be converted before");
   return Done{};
 }
 
@@ -40,7 +44,8 @@ Result<Done, InputError> check_camera(const Camera& camera, const std::string& l
   const auto size = std::to_string(camera.width) + " x " + std::to_string(camera.height);
   if (camera.width < 1 || camera.height < 1 || camera.width > 65535 || camera.height > 65535)
     return invalid(label, "image size " + size + " is out of range");
-  if (!(camera.fx > 0 && camera.fy > 0)) return invalid(label, "the focal length is not positive");
+  if (!(camera.fx > 0 && camera.fy > 0))
+    return invalid(label, "the focal length is not positive: it is in pixels");
   return check_rotation(camera.rotation, label);
 }
 
@@ -83,9 +88,10 @@ InputError outside_error(const Survey& all, const std::string& cloud_name) {
   if (all.in_front == 0)
     return invalid(cloud_name,
                    "every point is behind every camera; are the camera axes those of the format?");
-  return invalid(
-      cloud_name,
-      "no point is inside the frustum of any camera; are cloud and cameras in one world?");
+  return invalid(cloud_name,
+                 "no point is inside the frustum of any camera; are cloud and cameras in one "
+                 "world? --points-world turns, "
+                 "scales and shifts the points");
 }
 
 // A float has 24 bits: fewer than 11 of them may be left for the extent of the cloud.
@@ -140,9 +146,12 @@ Result<Done, InputError> check_cloud(Capture& capture, const std::string& cloud_
   const auto blind = std::count(sample.camera_sees.begin(), sample.camera_sees.end(), false);
   if (blind > 0)
     warnings.push_back(std::to_string(blind) + " of " + std::to_string(capture.cameras.size()) +
-                       " cameras do not see the cloud; are the camera axes those of the format?");
+                       " cameras do not see the cloud; are the camera axes those of the format? "
+                       "--points-world turns, scales and shifts the points");
   if (sample.in_view < sample.points / 2)
-    warnings.push_back(cloud_name + ": more than half of the points are in no camera's view");
+    warnings.push_back(cloud_name +
+                       ": more than half of the points are in no camera's view (--crop leaves them "
+                       "out; --points-world moves them)");
   return Done{};
 }
 

@@ -87,8 +87,12 @@ std::string foreign_file(const fs::path& file) {
   if (extension == ".txt" || extension == ".csv" || extension == ".asc")
     return "not a capture that is understood; a cloud as text is to be saved as PLY (CloudCompare, "
            "MeshLab)";
-  if (extension == ".obj" || extension == ".glb" || extension == ".gltf")
-    return "a mesh without photographs: --points takes it beside a capture's cameras";
+  if (extension == ".obj" || extension == ".glb" || extension == ".gltf" || extension == ".stl")
+    return "a mesh needs photographs and their cameras: slf encode CAPTURE --points " +
+           file.filename().string() + "; alone, save it as a coloured PLY: its vertices are coded";
+  if (extension == ".tif" || extension == ".tiff" || extension == ".heic" || extension == ".webp")
+    return "a photograph of a format that is not read: convert to PNG or JPEG (mogrify -format "
+           "png, heif-convert)";
   return {};
 }
 
@@ -105,6 +109,20 @@ std::size_t photographs_in(const fs::path& folder) {
   return found;
 }
 
+/// What to do before, where some of the photographs are of other formats.
+std::string to_convert(const fs::path& folder) {
+  std::error_code error;
+  std::size_t entries = 0;
+  for (fs::directory_iterator at(folder, error), end; at != end && !error; at.increment(error)) {
+    if (++entries > kMostPhotographs) break;
+    const std::string extension = extension_of(at->path());
+    if (extension == ".heic" || extension == ".tif" || extension == ".tiff")
+      return "; TIFF and HEIC are not read: convert them to PNG or JPEG before (mogrify -format "
+             "png, heif-convert)";
+  }
+  return {};
+}
+
 std::string foreign_directory(const fs::path& directory) {
   std::error_code error;
   if (fs::is_directory(directory / "keyframes", error))
@@ -112,7 +130,8 @@ std::string foreign_directory(const fs::path& directory) {
            "transforms.json of its raw export";
   for (const char* folder : {"", "images", "input"})
     if (const std::size_t found = photographs_in(directory / folder); found > 0)
-      return std::to_string(found) + " photographs without cameras: " + kCalibrate;
+      return std::to_string(found) + " photographs without cameras: " + kCalibrate +
+             to_convert(directory / folder);
   return {};
 }
 

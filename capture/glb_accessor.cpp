@@ -101,7 +101,9 @@ Result<std::vector<double>, InputError> read_accessor(const GlbData& data, const
   SLF_TRY(const JsonView type_json, accessor.at("type"));
   SLF_TRY(const std::string given, type_json.string());
   if (given != type) return type_json.error(std::string(type) + " is expected");
-  if (accessor.find("sparse")) return accessor.error("sparse accessors are not read");
+  if (accessor.find("sparse"))
+    return accessor.error(
+        "sparse accessors are not read: export the mesh as PLY or OBJ (Blender, MeshLab)");
   SLF_TRY(const auto component, glb_number(accessor, "componentType", 0, kMost));
   SLF_TRY(const auto count, glb_number(accessor, "count", 0, kMost));
   SLF_TRY(const auto offset, glb_number(accessor, "byteOffset", 0, kMost));

@@ -16,7 +16,7 @@ Result<Done, InputError> read_intrinsics(const JsonView& json, Camera& camera) {
   SLF_TRY(const auto k, (json_matrix<3, 3>(json)));
   if (std::abs(k[0][1]) > 1e-6 * std::abs(k[0][0]))
     return json.error("a skewed camera (K[0][1] = " + std::to_string(k[0][1]) +
-                      ") is not supported");
+                      ") is not supported: undistort the photographs to square axes");
   if (k[1][0] != 0 || k[2][0] != 0 || k[2][1] != 0 || k[2][2] != 1)
     return json.error("K is not of the form [fx 0 cx; 0 fy cy; 0 0 1]");
   camera.fx = k[0][0];

@@ -85,7 +85,10 @@ Result<Done, InputError> read_lens(const JsonView& intrinsic, const std::string&
 Result<Done, InputError> read_intrinsic(const JsonView& intrinsic, const std::string& label,
                                         Camera& camera, double& worst) {
   for (const char* other : {"fisheye", "disto_fisheye"})
-    if (member(intrinsic, other)) return intrinsic.error("fisheye cameras are not supported");
+    if (member(intrinsic, other))
+      return intrinsic.error(
+          "fisheye cameras are not supported: export undistorted "
+          "photographs (openMVG_main_ExportUndistortedImages)");
   SLF_TRY(const JsonView width, needed(intrinsic, "width"));
   SLF_TRY(const JsonView height, needed(intrinsic, "height"));
   SLF_TRY(camera.width, json_size(width));

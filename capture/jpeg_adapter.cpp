@@ -134,7 +134,8 @@ Result<Image, InputError> decode_jpeg(const std::string& name, Bytes file, int r
                    std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   const auto space = reader.info.jpeg_color_space;
   if (space != JCS_GRAYSCALE && space != JCS_YCbCr && space != JCS_RGB)
-    return invalid("JPEG that is neither grey nor RGB (CMYK?)");
+    return invalid(
+        "JPEG that is neither grey nor RGB (CMYK?): convert it (mogrify -colorspace sRGB)");
 
   if (!prepare(reader, reduction)) return damaged();
   Image image;

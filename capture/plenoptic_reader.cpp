@@ -137,12 +137,18 @@ void sort_rows(PlenopticRows rows, PlenopticCloud& cloud) {
 Result<Done, InputError> find_views(const std::string& name, const PlyHeader& header,
                                     const std::filesystem::path& file, PlenopticCloud& cloud,
                                     std::vector<std::string>& warnings) {
+  if (cloud.views == 1)
+    warnings.push_back(name +
+                       ": one view: its colours tell no directions; --as colour codes red, "
+                       "green, blue as a cloud of one colour");
   if (!file.empty()) {
     SLF_TRY(cloud.view_positions, read_views(file));
     if (cloud.view_positions.size() == cloud.views) return Done{};
     return refused_cloud(file.string(), std::to_string(cloud.view_positions.size()) +
                                             " positions of views; " + name + " has " +
-                                            std::to_string(cloud.views) + " views");
+                                            std::to_string(cloud.views) +
+                                            " views: give one for each, in the order of the "
+                                            "properties");
   }
   cloud.view_positions = views_of_comments(header.comments);
   if (cloud.view_positions.empty() || cloud.view_positions.size() == cloud.views) return Done{};

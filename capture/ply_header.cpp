@@ -48,6 +48,7 @@ class HeaderParser {
   HeaderParser(const std::string& name, std::string_view text) : name_(name), text_(text) {}
 
   Result<PlyHeader, InputError> parse() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark, as of Windows' editors
     if (words_of(next_line()) != std::vector<std::string_view>{"ply"})
       return invalid("not a PLY file");
     bool has_format = false;

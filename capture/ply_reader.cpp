@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "capture/exact_positions.h"
+#include "capture/mend_normals.h"
 #include "capture/ply_body.h"
 #include "capture/ply_colours.h"
 #include "capture/ply_columns.h"
@@ -31,7 +32,7 @@ class VertexReader {
 
   Result<Done, InputError> read(PlyBody& body) {
     if (!columns_.present[0] || !columns_.present[1] || !columns_.present[2])
-      return invalid("PLY vertex without x, y and z");
+      return invalid("PLY vertex without x, y and z: rename the properties of its positions");
     const auto count = static_cast<std::size_t>(vertex_.count);  // bounded by the file's size
     if (columns_.exact)
       exact_.reserve(count);
@@ -61,17 +62,9 @@ class VertexReader {
     if (left_out_ > 0)
       warnings.push_back(name_ + ": " + std::to_string(left_out_) + " of " +
                          std::to_string(vertex_.count) + " points are not finite: left out");
-    if (zero_normals_ > 0)
-      warnings.push_back(name_ + ": " + std::to_string(zero_normals_) +
-                         " normals have length 0 or are not finite: normals ignored");
-    else if (other_normals_ > 0)
+    if (other_normals_ > 0)
       warnings.push_back(name_ + ": " + std::to_string(other_normals_) +
                          " normals are not of unit length: normalised");
-  }
-
-  // Normals are usable as a whole or not at all.
-  void drop_unusable_normals() {
-    if (zero_normals_ > 0) cloud.normals.clear();
   }
 
   /// Faces of the file to those of the cloud, which has fewer vertices where some were left out.
@@ -143,8 +136,7 @@ class VertexReader {
     const double x = row[kPlyNormal], y = row[kPlyNormal + 1], z = row[kPlyNormal + 2];
     const double length = std::hypot(x, y, z);
     if (!(length > 0) || !std::isfinite(length)) {
-      ++zero_normals_;
-      cloud.normals.push_back({0, 0, 1});
+      cloud.normals.push_back({0, 0, 0});  // mend_normals sees to it
       return;
     }
     if (std::abs(length - 1) > 1e-3) ++other_normals_;
@@ -166,7 +158,7 @@ class VertexReader {
   std::vector<Vec3> exact_;           // [P] positions until all are known, where columns_.exact
   std::vector<std::uint32_t> place_;  // [vertices] in the cloud; empty: where they are in the file
   std::size_t left_out_ = 0;
-  std::size_t zero_normals_ = 0, other_normals_ = 0;
+  std::size_t other_normals_ = 0;
 };
 
 }  // namespace
@@ -188,7 +180,6 @@ Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool w
       vertices.emplace(name, element);
       SLF_CHECK(vertices->read(body));
       if (warnings != nullptr) vertices->warn(*warnings);
-      vertices->drop_unusable_normals();
     } else if (with_faces && (element.name == "face" || element.name == "tristrips")) {
       SLF_TRY(const auto triangles, element.name == "face" ? read_ply_faces(name, element, body)
                                                            : read_ply_strips(name, element, body));
@@ -201,6 +192,12 @@ Result<Mesh, InputError> read_ply_mesh(const std::filesystem::path& file, bool w
   if (!vertices) return InputError{Errc::kInvalidInput, name + ": PLY without vertices"};
   vertices->renumber(mesh.triangles);
   mesh.vertices = std::move(vertices->cloud);
+  const std::size_t normals = mesh.vertices.normals.size(), mended = mend_normals(mesh);
+  if (mended > 0 && warnings != nullptr)
+    warnings->push_back(
+        name + ": " + std::to_string(mended) + " normals have length 0 or are not finite, of " +
+        std::to_string(normals) +
+        (mesh.vertices.normals.empty() ? ": normals ignored" : ": taken from their neighbours"));
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/file_names.h"
+#include "capture/mend_normals.h"
 #include "capture/mesh_formats.h"
 #include "capture/ply_reader.h"
 #include "capture/read_scan.h"
@@ -48,7 +49,7 @@ Result<Done, InputError> check_mesh(const std::string& name, Mesh& mesh) {
   const auto invalid = [&](const char* what, std::size_t i, const std::string& cause) {
     return InputError{Errc::kInvalidInput, name + ": " + what + " " + std::to_string(i) + cause};
   };
-  auto& vertices = mesh.vertices;
+  const auto& vertices = mesh.vertices;
   const std::size_t count = vertices.positions.size();
   if (count == 0) return InputError{Errc::kInvalidInput, name + ": no points"};
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
@@ -59,14 +60,7 @@ Result<Done, InputError> check_mesh(const std::string& name, Mesh& mesh) {
   for (std::size_t v = 0; v < count; ++v)
     for (const float x : vertices.positions[v])
       if (!std::isfinite(x)) return invalid("vertex", v, " is not finite");
-  for (auto& normal : vertices.normals) {
-    const double length = std::hypot(double{normal[0]}, double{normal[1]}, double{normal[2]});
-    if (!(length > 0) || !std::isfinite(length)) {  // the faces know better
-      vertices.normals.clear();
-      break;
-    }
-    for (float& n : normal) n = static_cast<float>(double{n} / length);
-  }
+  mend_normals(mesh);
   return Done{};
 }
 

@@ -65,7 +65,8 @@ Result<Done, InputError> read_focal(const JsonView& frame, const JsonView& docum
     camera.fy = y ? *y : *x;
     return Done{};
   }
-  return frame.error("no focal length: neither fl_x nor camera_angle_x");
+  return frame.error(
+      "no focal length: neither fl_x (pixels) nor camera_angle_x (radians); add one");
 }
 
 // Refuses what Brown distortion with k1, k2, p1, p2 does not express.
@@ -78,13 +79,19 @@ Result<Done, InputError> check_model(const JsonView& frame, const JsonView& docu
     for (const char* supported :
          {"PINHOLE", "SIMPLE_PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV", "PERSPECTIVE"})
       known = known || name == supported;
-    if (!known) return model->error("camera model " + name + " is not supported");
+    if (!known)
+      return model->error("camera model " + name +
+                          " is not supported: undistort the photographs (colmap "
+                          "image_undistorter)");
     break;
   }
   for (const JsonView* json : {&frame, &document}) {
     if (const auto fisheye = json->find("is_fisheye")) {
       SLF_TRY(const bool is, fisheye->boolean());
-      if (is) return fisheye->error("fisheye cameras are not supported");
+      if (is)
+        return fisheye->error(
+            "fisheye cameras are not supported: undistort the photographs (colmap "
+            "image_undistorter)");
       break;  // a frame may take back what the document says
     }
   }

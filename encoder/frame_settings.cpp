@@ -52,9 +52,9 @@ const std::vector<PartlyOfFrames>& partly() {
 }
 
 constexpr std::string_view kAny[] = {
-    "linear",     "grid-bits", "voxel-size",  "quality", "target-bitrate",     "steps",
-    "colour",     "klt",       "chroma-step", "predict", "reference-contexts", "rdo",
-    "normal-bits"};
+    "linear", "grid-bits",  "voxel-size", "metres-per-unit", "quality", "target-bitrate",
+    "steps",  "colour",     "klt",        "chroma-step",     "predict", "reference-contexts",
+    "rdo",    "normal-bits"};
 
 constexpr std::string_view kOfPhotographs[] = {"effort",
                                                "photograph-pixels",

@@ -7,10 +7,10 @@
 
 #include "base/error_sum.h"
 #include "capture/object_mask.h"
+#include "capture/object_outline.h"
 #include "encoder/fit_capture.h"
 #include "encoder/measure/picture_background.h"
 #include "encoder/measure/ssim.h"
-#include "encoder/train/object_outline.h"
 #include "encoder/train/outlines.h"
 #include "slf/parallel.h"
 #include "slf/render.h"

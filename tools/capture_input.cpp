@@ -6,6 +6,7 @@
 
 #include "slf/crop_gaussians.h"
 #include "slf/splat_surface.h"
+#include "tools/measure_file.h"
 #include "tools/splat_input.h"
 #include "tools/spooled_input.h"
 #include "tools/text.h"
@@ -60,6 +61,22 @@ Outcome take_splats(const EncodeOptions& given, CaptureInput& input) {
   return Done{};
 }
 
+/// Photographs without the object are left out. Black masks are no input, but a mistake.
+Outcome check_masks(const EncodeOptions& given, CaptureInput& input) {
+  const std::size_t all = input.cameras.size();
+  std::string warning =
+      leave_out_empty(input.capture, "input", given.common.threads, input.cameras);
+  if (warning.empty()) return Done{};
+  if (input.cameras.empty())
+    return Failure{kInputInvalid,
+                   given.capture + ": the masks (or alpha) of all " + std::to_string(all) +
+                       " input photographs are black, and 128 and more, white, is the object: "
+                       "invert them (mogrify -negate) or take them away"};
+  warn(warning, given.common.quiet);
+  input.capture.warnings.push_back(std::move(warning));
+  return Done{};
+}
+
 }  // namespace
 
 Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLine& line,
@@ -73,6 +90,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   options.points_needed = wanted != PointsWanted::kOrPhotographs;
   options.may_be_empty = wanted == PointsWanted::kOrNone;
   options.images = given.images;
+  options.world = given.world;
   if (const auto& c = given.crop; !c.empty() && !splats)
     options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   CaptureInput input;
@@ -85,6 +103,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   warn(input.capture.warnings, given.common.quiet);
   SLF_TRY(input.cameras, input_cameras(input.capture, given));
   if (splats) SLF_CHECK(take_splats(given, input));
+  SLF_CHECK(check_masks(given, input));
   input.metadata.emplace_back("source", last_name(given.capture));
   if (!input.cameras.empty())
     input.metadata.emplace_back("split", split_name(input.capture, given.split));

@@ -25,11 +25,7 @@ void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
                   std::string("The ") + file + " file; - is standard output")
       ->type_name("FILE")
       ->required();
-  verb.add_option(
-          "--points", o.points,
-          "Cloud (PLY, LAS, E57; LAZ with PDAL) or mesh (PLY with faces, OBJ, GLB) in place of the "
-          "capture's own")
-      ->type_name("FILE");
+  add_points(verb, o.points, o.world);
   verb.add_option("--images", o.images,
                   "Folder of the photographs, where they are not where the capture says: by name, "
                   "with or without folders. Of frames a folder of theirs in it, as frame_0001, or "

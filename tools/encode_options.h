@@ -16,8 +16,9 @@ namespace slf::tools {
 struct EncodeOptions {
   const char* verb = "encode";  ///< for messages
   std::string capture, output, points, images, split, crs;
-  std::optional<FrameInput> frame;  ///< that the capture is of
-  std::vector<double> crop;         ///< two corners in world units, or nothing
+  std::optional<FrameInput> frame;   ///< that the capture is of
+  std::vector<double> crop;          ///< two corners in world units, or nothing
+  std::optional<WorldChange> world;  ///< --points-world
   bool up_given = false;
   UpAxis up = UpAxis::kPlusZ;
   GivenSettings given;

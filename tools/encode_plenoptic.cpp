@@ -28,6 +28,7 @@ PlenopticCoding way_of(const std::string& word) {
 /// Options that choose photographs, or a part of a capture.
 Outcome check_alone(const EncodeOptions& given) {
   for (const auto& [option, is_given] : {std::pair{"--points", !given.points.empty()},
+                                         {"--points-world", given.world.has_value()},
                                          {"--images", !given.images.empty()},
                                          {"--crop", !given.crop.empty()},
                                          {"--split", !given.split.empty()},

@@ -88,6 +88,7 @@ class SceneRun {
     CaptureOptions options;
     options.points = given_.points;
     options.images = given_.images;
+    options.world = given_.world;
     if (const auto& c = given_.crop; !c.empty())
       options.crop = WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
     options.cloud = !has_points(plan_, work_);

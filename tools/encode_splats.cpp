@@ -24,6 +24,7 @@ Outcome check_given(const EncodeOptions& given) {
                                given.capture + " holds splats"};
   };
   if (!given.points.empty()) return refused("points");
+  if (given.world) return refused("points-world");
   if (!given.images.empty()) return refused("images");
   if (!given.split.empty()) return refused("split");
   const auto& settings = encoder_settings();

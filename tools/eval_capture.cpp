@@ -26,6 +26,7 @@ std::string metadata_value(const Metadata& metadata, const std::string& key) {
 Result<Capture, Failure> read_capture(const EvalOptions& given) {
   CaptureOptions options;
   options.points = given.points;
+  options.world = given.world;
   options.points_needed = false;
   options.may_be_empty = true;
   options.images = given.images;
@@ -79,7 +80,7 @@ Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Captu
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
                                                const Metadata& metadata, const Judge& judge,
                                                const Judge& unquantised) {
-  SLF_TRY(const std::vector<int> input, input_of(given, capture, metadata));
+  SLF_TRY(std::vector<int> input, input_of(given, capture, metadata));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
   const std::size_t all = held_out.size();
   std::erase_if(held_out,
@@ -89,6 +90,9 @@ Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const C
              " evaluation images were input and are not held out",
          given.common.quiet);
 
+  for (auto& [which, cameras] : {std::pair{"input", &input}, std::pair{"held-out", &held_out}})
+    if (const auto w = leave_out_empty(capture, which, given.common.threads, *cameras); !w.empty())
+      warn(w, given.common.quiet);
   EvaluateSettings settings = given.settings;
   settings.threads = given.common.threads;
   ProgressLine line(given.common.quiet);

@@ -17,6 +17,7 @@ namespace slf::tools {
 
 struct EvalOptions {
   std::string input, capture, points, images, split, unquantised, error_maps;
+  std::optional<WorldChange> world;       ///< --points-world
   std::string range;                      ///< A:B of captures in a directory of frames
   int frame = -1;                         ///< of a file of several
   std::optional<FrameInput> input_frame;  ///< that the capture is of

@@ -24,6 +24,7 @@ constexpr std::string_view kOneColour =
 constexpr std::array kChoices = {
     FrameChoice{"output"},
     FrameChoice{"points", FrameChoice::kPhotographs},
+    FrameChoice{"points-world", FrameChoice::kPhotographs},
     FrameChoice{"images", FrameChoice::kPhotographs},
     FrameChoice{"split", FrameChoice::kPhotographs},
     FrameChoice{"refit-still", FrameChoice::kPhotographs},
@@ -31,6 +32,7 @@ constexpr std::array kChoices = {
     FrameChoice{"crs"},
     FrameChoice{"up"},
     FrameChoice{"metadata"},
+    FrameChoice{"notes"},
     FrameChoice{"threads"},
     FrameChoice{"quiet"},
     FrameChoice{"json"},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,19 @@ namespace {
 // Pixels. Right poses: 0.01 to 0.1 on four captures; the dinosaur, which has wrong ones: 0.4.
 constexpr double kOffPixels = 0.25;
 constexpr std::size_t kMostCameras = 32;
+// Below, a picture lies off by what points and pixels are wide: 0.3 and more with right poses.
+constexpr int kLeastSide = 128;
+constexpr std::size_t kLeastCameras = 4;
+constexpr double kCoarse = 3;  // pixels of a voxel
+
+int least_side(const Capture& capture, std::span<const int> cameras) {
+  int side = cameras.empty() ? 0 : std::numeric_limits<int>::max();
+  for (const int c : cameras) {
+    const Camera& camera = capture.cameras[static_cast<std::size_t>(c)];
+    side = std::min({side, camera.width, camera.height});
+  }
+  return side;
+}
 
 }  // namespace
 
@@ -36,6 +50,19 @@ std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras) 
   for (const CameraTrust& trust : encoded.cameras)
     if (trust.verdict == CameraVerdict::kDropped) std::erase(cameras, trust.camera);
   return cameras;
+}
+
+std::string leave_out_empty(const Capture& capture, const char* which, int threads,
+                            std::vector<int>& cameras) {
+  const std::vector<int> empty = cameras_without_object(capture, cameras, threads);
+  if (empty.empty()) return {};
+  const std::size_t all = cameras.size();
+  for (const int camera : empty) std::erase(cameras, camera);
+  return text(
+      "%zu of %zu %s photographs have a mask or alpha without a pixel of the object (the first is "
+      "%s): left out; 128 and more, white, is the object",
+      empty.size(), all, which,
+      printable(capture.cameras[static_cast<std::size_t>(empty[0])].name).c_str());
 }
 
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
@@ -59,11 +86,13 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
     SLF_TRY(const Quality quality,
             from("the file that was written",
                  evaluate_pictures(pictures_of(std::move(splats)), judge, some, settings)));
-    return FilePictures{quality.image.psnr, chosen, quality.image.off_pixels, watch.lap()};
+    return FilePictures{quality.image.psnr, chosen, quality.image.off_pixels,
+                        least_side(judge, some), watch.lap()};
   }
   SLF_TRY(const Quality quality,
           from("the file that was written", evaluate(ViewMaps(field), judge, some, settings)));
-  return FilePictures{quality.image.psnr, chosen, quality.image.off_pixels, watch.lap()};
+  return FilePictures{quality.image.psnr, chosen, quality.image.off_pixels, least_side(judge, some),
+                      watch.lap()};
 }
 
 void take_poses(const PoseReport& poses, Capture& capture) {
@@ -76,6 +105,8 @@ void take_poses(const PoseReport& poses, Capture& capture) {
 
 std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded) {
   if (!(pictures.off_pixels > kOffPixels) || !encoded.poses.cameras.empty()) return {};
+  if (pictures.side < kLeastSide || pictures.cameras < kLeastCameras) return {};
+  if (encoded.density.pixel > 0 && encoded.grid.step > kCoarse * encoded.density.pixel) return {};
   return text(
       "pictures lie %.2f pixels off their photographs (median): poses of cameras may be wrong; "
       "--refine-cameras on trains them",

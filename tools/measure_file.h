@@ -17,11 +17,18 @@ struct FilePictures {
   double psnr = 0;          ///< dB, as `slf eval` has it of images; NaN: nothing to compare
   std::size_t cameras = 0;  ///< that it is of: all of the input, or some where there are many
   double off_pixels = 0;    ///< ImageQuality::off_pixels of these
+  int side = 0;             ///< the shorter one of the smallest of their photographs, pixels
   double seconds = 0;
 };
 
 /// Those of the input that were not dropped.
 std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras);
+
+/// Leaves out photographs whose mask or alpha shows nothing of the object.
+/// @param which  "input", "held-out"
+/// @return a warning; empty where all show it
+std::string leave_out_empty(const Capture& capture, const char* which, int threads,
+                            std::vector<int>& cameras);
 
 /// Decodes the file and draws what the input cameras saw, 32 of them at most.
 /// @param capture  what was encoded
@@ -31,7 +38,8 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
 /// The cameras where the encoder had them.
 void take_poses(const PoseReport& poses, Capture& capture);
 
-/// Says what to do where poses seem wrong; empty: they do not.
+/// Says what to do where poses seem wrong; empty: they do not, or few or tiny photographs, or
+/// voxels of several pixels, do not tell.
 std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded);
 
 /// A line of the report.

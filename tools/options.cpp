@@ -108,6 +108,23 @@ void add_part(CLI::App& verb, PartOptions& options) {
       ->check(range(-1e300, 1e300));
 }
 
+void add_points(CLI::App& verb, std::string& points, std::optional<WorldChange>& world) {
+  verb.add_option("--points", points,
+                  "Cloud (PLY, LAS, E57; LAZ with PDAL) or mesh (PLY with faces, OBJ, STL, GLB, "
+                  "glTF) in place of the capture's own")
+      ->type_name("FILE");
+  verb.add_option_function<std::string>(
+          "--points-world",
+          [&world](const std::string& text) {
+            const auto change = parse_world_change(text);
+            if (!change) throw CLI::ValidationError("--points-world", change.error().message);
+            world = *change;
+          },
+          "Brings points into the world of the cameras: new axes, as x,-z,y, then a scale and a "
+          "shift, as x,y,z,0.001,0,0,2; write --points-world=-y,x,z where a sign comes first")
+      ->type_name("X,Y,Z[,S[,X,Y,Z]]");
+}
+
 void add_frame(CLI::App& verb, PartOptions& options) {
   verb.add_option(
           "--frame", options.frame,

@@ -5,10 +5,13 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include "slf/points_world.h"
 
 namespace slf::tools {
 
@@ -28,6 +31,9 @@ struct CommonOptions {
 void add_threads(CLI::App& verb, CommonOptions& options);
 void add_quiet(CLI::App& verb, CommonOptions& options);
 void add_json(CLI::App& verb, CommonOptions& options);
+
+/// --points and --points-world.
+void add_points(CLI::App& verb, std::string& points, std::optional<WorldChange>& world);
 
 /// --levels, --groups, --layers, --max-bytes and --region: which part of a stream is decoded.
 class FrameSource;

@@ -231,8 +231,10 @@ Outcome encode_any(const AllOptions& o) {
   if (is_plenoptic_input(o.encode, o.plenoptic))
     return encode_plenoptic_file(o.encode, o.plenoptic, o.scene.memory);
   if (o.plenoptic.given() && o.plenoptic.as != "colour")
-    return Failure{kUsage, "encode: --as, --views and --hold-out are of plenoptic clouds, and " +
-                               o.encode.capture + " has no views"};
+    return Failure{
+        kUsage,
+        "encode: --as, --views and --hold-out are of plenoptic clouds, and " + o.encode.capture +
+            " has no views (docs/plenoptic.md: a PLY with more than one triple of 8-bit colours)"};
   SLF_CHECK(check_scene_options(o));
   return o.scene.in_parts() ? encode_scene(o.encode, o.scene) : run_encode(o.encode, o.scene);
 }

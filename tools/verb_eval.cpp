@@ -49,8 +49,7 @@ void add_eval(CLI::App& program, Run& run) {
       program.add_subcommand("eval", "Measure a file against the capture it was made from");
   auto o = std::make_shared<EvalOptions>();
   add_inputs(*verb, *o);
-  verb->add_option("--points", o->points, "PLY cloud to use in place of the capture's own")
-      ->type_name("FILE");
+  add_points(*verb, o->points, o->world);
   verb->add_option("--images", o->images,
                    "Folder of the photographs, where they are not where the capture says")
       ->type_name("DIR");

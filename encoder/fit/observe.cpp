@@ -95,12 +95,17 @@ Observations group_by_point(std::vector<CameraResult>& results, const std::vecto
 }
 
 InputError nothing_seen(const SightingCounts& sum, std::size_t cameras, std::size_t points) {
-  return {Errc::kInvalidInput,
+  const bool masked = sum.visible > 0;
+  return {
+      Errc::kInvalidInput,
+      std::string(masked ? "masks or alpha hide every point (128 and more, white, is the object: "
+                           "invert them, or leave them out): "
+                         : "") +
           "no camera sees any point: of " + std::to_string(cameras) + " cameras x " +
-              std::to_string(points) + " points, " + std::to_string(sum.facing) +
-              " face the camera within delta, " + std::to_string(sum.inside) +
-              " of them project into the image, " + std::to_string(sum.visible) +
-              " of those are not hidden, and none is free of the mask"};
+          std::to_string(points) + " points, " + std::to_string(sum.facing) +
+          " face the camera within delta, " + std::to_string(sum.inside) +
+          " of them project into the image, " + std::to_string(sum.visible) +
+          " of those are not hidden, and none is free of the mask"};
 }
 
 }  // namespace

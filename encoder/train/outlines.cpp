@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "encoder/train/object_outline.h"
+#include "capture/object_outline.h"
 #include "slf/parallel.h"
 
 namespace slf {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "slf/error.h"
+#include "slf/points_world.h"
 #include "slf/types.h"
 
 namespace slf {
@@ -115,6 +116,7 @@ struct CaptureOptions {
   /// Where the photographs are, by their names in the capture, else by those without folders.
   /// Empty: where the format has them.
   std::filesystem::path images = {};
+  std::optional<WorldChange> world = {};  ///< what brings the points to the cameras; before crop
 };
 
 /// Reads a capture. `path` is a directory that holds cameras.json (shared convention), a COLMAP
@@ -139,6 +141,11 @@ Result<std::string, InputError> read_crs(const std::filesystem::path& file);
 /// decoded to that size. Colours are multiplied by Capture::gains, rounded, 255 at most.
 /// @errors those of read_image; kInvalidInput: another size
 Result<Image, InputError> load_image(const Capture& capture, int camera);
+
+/// Those of the cameras whose mask or alpha shows no pixel of the object. Photographs that cannot
+/// be read are none of them.
+std::vector<int> cameras_without_object(const Capture& capture, std::span<const int> cameras,
+                                        int threads = 0);
 
 /// Camera indices of a split. "" and "default" mean `dense` where the capture names splits, else
 /// all but every fourth; "1/n" is every n-th of those that are not for evaluation; "all" is every

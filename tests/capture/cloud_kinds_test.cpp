@@ -118,6 +118,25 @@ TEST(CloudPoints, ThatAreNotFiniteAreLeftOutAndCounted) {
   EXPECT_THAT(normals.warnings, ElementsAre(HasSubstr("1 normals have length 0 or are not")));
 }
 
+TEST(CloudPoints, NormalsThatAreNoneAreTakenFromNeighboursAndCounted) {
+  const std::string normals = three("float", {"nx", "ny", "nz"});
+  const Read some =
+      read(5, normals, "0 0 0 0 0 1\n1 0 0 0 0 0\n2 0 0 0 0 2\n3 0 0 nan 0 0\n9 0 0 0 1 0\n");
+  using Normal = std::array<float, 3>;
+  ASSERT_EQ(some.mesh.vertices.normals.size(), 5u);
+  EXPECT_EQ(some.mesh.vertices.normals[0], (Normal{0, 0, 1}));
+  EXPECT_EQ(some.mesh.vertices.normals[4], (Normal{0, 1, 0}));
+  for (const std::size_t i : {1, 3}) EXPECT_GT(some.mesh.vertices.normals[i][2], 0.8f) << i;
+  EXPECT_THAT(some.warnings,
+              ElementsAre(HasSubstr("normals are not of unit length"),
+                          AllOf(HasSubstr("2 normals have length 0 or are not finite, of 5"),
+                                HasSubstr("neighbours"))));
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+  const Read mesh = read(3, normals + face, "0 0 0 0 0 1\n1 0 0 0 0 0\n0 1 0 0 0 1\n3 0 1 2\n");
+  EXPECT_THAT(mesh.mesh.vertices.normals, IsEmpty()) << "the faces know better";
+  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("normals ignored")));
+}
+
 TEST(CloudColours, ColoursOfDirectionsAndOfSplatsAreNamed) {
   std::string properties, row = "0 0 0";
   for (int view = 0; view < 3; ++view)

@@ -29,6 +29,19 @@ TEST(ForeignCaptures, FilesAreNamedWithTheWayToACapture) {
   EXPECT_THAT(refusal("a.unknown", ""), HasSubstr("a.unknown: is empty"));
 }
 
+TEST(ForeignCaptures, AMeshAloneIsToldWhereItGoes) {
+  for (const char* name : {"m.stl", "m.obj", "m.glb", "m.gltf"})
+    EXPECT_THAT(refusal(name, "solid x\n"),
+                AllOf(HasSubstr("a mesh needs photographs"),
+                      HasSubstr(std::string("slf encode CAPTURE --points ") + name)));
+}
+
+TEST(ForeignCaptures, PhotographsOfOtherFormatsAreToBeConverted) {
+  EXPECT_THAT(refusal("a.heic", "x"), HasSubstr("convert to PNG or JPEG"));
+  EXPECT_THAT(message_of(load_with([](const fs::path& p) { write_text(p / "a.tif", "x"); })),
+              AllOf(HasSubstr("1 photographs without cameras"), HasSubstr("convert them")));
+}
+
 TEST(ForeignCaptures, WhatIsCodedEmptyOrTextIsSaidToBe) {
   EXPECT_THAT(refusal("a.slf", "\x8BSLF\r\n"), HasSubstr("coded already"));
   EXPECT_THAT(refusal("a.spz", ""), AllOf(HasSubstr("is empty"), Not(HasSubstr("splats"))));

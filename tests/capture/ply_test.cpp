@@ -46,6 +46,17 @@ TEST(PlyReader, ReadsAsciiPropertiesInAnyOrderAndSkipsOthersWithOneWarning) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("confidence, around")));
 }
 
+TEST(PlyReader, AByteOrderMarkIsNoPartOfTheFile) {
+  const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n";
+  const std::string properties =
+      "property float x\nproperty float y\nproperty float z\nend_header\n";
+  ByteString file;
+  file.text("\xEF\xBB\xBF" + header + properties).put(1.0f).put(2.0f).put(3.0f);
+  const auto cloud = read(file.bytes);
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_THAT(cloud->positions, ElementsAre(Position{1, 2, 3}));
+}
+
 // One vertex with every scalar type, in either byte order.
 std::string every_type(bool big) {
   ByteString file;

@@ -9,8 +9,8 @@
 
 #include "capture/mesh_sampling.h"
 #include "capture/nearest.h"
+#include "capture/object_outline.h"
 #include "capture/surface_points.h"
-#include "encoder/train/object_outline.h"
 #include "slf/encoder.h"
 #include "traced_scene.h"
 

@@ -31,12 +31,14 @@ const std::set<std::string> kRestated = {"free-dc"};
 
 std::vector<Example> inputs() {
   return {{"points", "other.ply", kRefused},
+          {"points-world", "x,y,z,0.9", kRefused},
           {"images", "photographs", kRefused},
           {"crop", "-9,-9,-9,40,0.1,40"},
           {"crs", "site.prj"},
           {"split", "all", kRefused},
           {"up", "+x"},
           {"metadata", "who=me"},
+          {"notes", "notes.json"},
           {"memory", "300M", kRefused, kRefused},
           {"work", "w", kRefused, kRefused},
           {"log", "l", kRefused, kRefused},
@@ -64,6 +66,7 @@ std::vector<Example> geometry_and_coding() {
           {"surface-memory", "99", kRefused, kRefused},
           {"photograph-pixels", "0.0002", kRefused},
           {"geometry", "draco", kRefused, kRefused},
+          {"metres-per-unit", "2"},
           {"quality", "5"},
           {"quality-loss", "9", kRefused, kAct, "--effort 2"},
           {"target-bytes", "3000", kRefused, kRefused},
@@ -134,6 +137,7 @@ class FrameOptionsTest : public CliTest {
     CliTest::SetUp();
     for (int f = 0; f < 2; ++f) write("c_" + std::to_string(f) + ".ply", cloud(f));
     write("other.ply", cloud(1, 0.05F));
+    write("notes.json", R"({"version": 1, "annotations": [{"at": [0, 0, 0], "title": "here"}]})");
     write("site.prj", "LOCAL_CS[\"site\", UNIT[\"metre\", 1]]");
     draw("take", "--points 3000 --circles 1 --per-circle 12");
     for (const std::string frame : {"frame_0001", "frame_0002"}) {

@@ -53,6 +53,20 @@ TEST_F(PlenopticCli, OneColourAloneIsTakenWhereItIsAskedFor) {
   EXPECT_EQ(read("b.ply").find("red_0"), std::string::npos);
 }
 
+TEST_F(PlenopticCli, OneViewAndPositionsOfOthersAreSaidWithWhatWouldDo) {
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex 2\n";
+  for (const char* name : {"x", "y", "z"}) ply += std::string("property int ") + name + "\n";
+  for (const char* name : {"red", "green", "blue", "v0_r", "v0_g", "v0_b"})
+    ply += std::string("property uchar ") + name + "\n";
+  write("one.ply", ply + "end_header\n0 0 0 1 2 3 4 5 6\n1 0 0 1 2 3 4 5 6\n");
+  const Ran one = slf("encode one.ply -o one.slf");
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_NE(one.err.find("one view"), std::string::npos) << one.err;
+  EXPECT_NE(one.err.find("--as colour"), std::string::npos) << one.err;
+  write("v.json", "[[1,2,3],[4,5,6]]");
+  expect_failure(slf("encode a.ply -o a.slf --views v.json"), 4, "v.json", "give one for each");
+}
+
 TEST_F(PlenopticCli, WhatDoesNotFitIsRefused) {
   write("v.json", "[[1,2,3],[4,5,6]]");
   expect_failure(slf("encode a.ply -o a.slf --views v.json"), 4, "v.json", "has 9 views");

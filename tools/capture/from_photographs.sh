@@ -7,7 +7,7 @@
 #
 # Structure from motion by COLMAP (Debian's package; on the CPU), then slf encode, which trains geometry from the photographs,
 # then the page. Steps whose results are in the work directory (default: x.slf.work) are not done again. PHOTOS may be a capture
-# already: a COLMAP model, cameras.json, transforms.json; then only encode and page are left.
+# already: a COLMAP model, cameras.json and what else slf encode reads; then only encode and page are left.
 set -euo pipefail
 
 fail() { echo "from_photographs.sh: $*" >&2; exit 2; }
@@ -36,10 +36,18 @@ here=$(cd "$(dirname "$0")/../.." && pwd)
 [ -x "$slf" ] || fail "$slf: not there (--slf PROGRAM; tools/demo.sh builds one)"
 work=${work:-$output.work}
 
+# What slf encode finds in a folder: docs/captures.md.
 is_capture() {
-  [ -e "$1/cameras.json" ] || [ -e "$1/transforms.json" ] || [ -e "$1/index.cams" ] ||
-    compgen -G "$1/cameras.bin" "$1/cameras.txt" >/dev/null || compgen -G "$1/sparse*" >/dev/null
+  local name
+  for name in cameras.json cameras.bin cameras.txt transforms.json transforms_train.json index.cams cameras.xml \
+    bundle.out bundle.rd.out bundle/bundle.out sfm_data.json {.,colmap}/sparse/{,0/}cameras.{bin,txt} colmap/cameras.{bin,txt}; do
+    [ ! -e "$1/$name" ] || return 0
+  done
+  compgen -G "$1/sparse/[0-9]*/cameras.*" >/dev/null
 }
+
+# How many photographs have one of the extensions.
+count_of() { find -L "$photos" -maxdepth 1 -type f | grep -icE "\\.($1)\$" || true; }
 
 # A step, its time, and its log where it fails.
 step() {
@@ -52,11 +60,14 @@ step() {
 }
 
 structure_from_motion() {
-  command -v colmap >/dev/null || fail "colmap is missing: apt-get install colmap (Debian, Ubuntu)"
-  local count
-  count=$(find -L "$photos" -maxdepth 1 -type f | grep -icE '\.(jpe?g|png|tiff?|ppm)$' || true)
+  local count other
+  other=$(count_of 'tiff?|hei[cf]|webp|avif|dng|cr[23]|nef|arw')
+  [ "$other" -eq 0 ] || fail "$photos: $other photographs are TIFF, HEIC or raw, which slf does not read: convert them to PNG or JPEG in a" \
+    "folder of its own (mogrify -path OTHER -format png; heif-convert a.heic a.jpg), or move them away"
+  count=$(count_of 'jpe?g|png|ppm|pgm')
   [ "$count" -ge 8 ] || fail "$photos: $count photographs; 8 are the least, 40 and more are good"
   [ "$matcher" = exhaustive ] && [ "$count" -gt 400 ] && echo "exhaustive matching of $count photographs takes long: --matcher sequential for a walk around" >&2
+  command -v colmap >/dev/null || fail "colmap is missing: apt-get install colmap (Debian, Ubuntu)"
   mkdir -p "$work/sparse"
   export QT_QPA_PLATFORM=offscreen
   step features colmap feature_extractor --database_path "$work/database.db" --image_path "$photos" \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/train/object_outline.h"
+#include "capture/object_outline.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kLikeBorder = 14;     // grey levels: noise of a background, not the object
 constexpr double kEvenShare = 0.9;  // of the border that is alike
-constexpr double kLeastShare = 0.002, kMostShare = 0.95;  // of a photograph that is the object
+constexpr double kLeastOfObject = 0.002,
+                 kMostOfObject = 0.95;  // of a photograph that is the object
 
 std::vector<std::size_t> border_of(int width, int height) {
   std::vector<std::size_t> border;
@@ -81,7 +82,7 @@ std::vector<std::uint8_t> object_outline(const Image& photograph) {
   }
   const auto shown = double(std::count(object.begin(), object.end(), 1));
   const auto all = double(object.size());
-  if (shown < kLeastShare * all || shown > kMostShare * all) return {};
+  if (shown < kLeastOfObject * all || shown > kMostOfObject * all) return {};
   return object;
 }
 
