@@ -22,7 +22,8 @@ class CliNotesTest : public CliTest {
   }
   nlohmann::json info() const { return parsed(slf("info x.slf --json").out); }
   std::string metadata(const std::string& key) const {
-    for (const auto& pair : info()["metadata"])
+    const nlohmann::json read = info();
+    for (const auto& pair : read["metadata"])
       if (pair["key"] == key) return pair["value"];
     return "";
   }
@@ -65,15 +66,15 @@ TEST_F(CliNotesTest, ThePageHasNotesAndMetresThatItWasGiven) {
 
 TEST_F(CliNotesTest, MetresPerUnitAreInTheHeaderOfSurfacesSplatsAndParts) {
   ASSERT_EQ(encode("").code, 0);
-  EXPECT_EQ(info()["metres_per_unit"], 0);
+  EXPECT_EQ(info()["header"]["metres_per_unit"], 0);
   const std::string metres = "--metres-per-unit 0.001";
   ASSERT_EQ(slf("export x.slf -o die.ply --degree 1 --quiet").code, 0);
   ASSERT_EQ(encode(metres).code, 0);
-  EXPECT_EQ(info()["metres_per_unit"], 0.001);
+  EXPECT_EQ(info()["header"]["metres_per_unit"], 0.001);
   ASSERT_EQ(slf("encode die.ply -o x.slf --quiet " + metres).code, 0);
-  EXPECT_EQ(info()["metres_per_unit"], 0.001);
+  EXPECT_EQ(info()["header"]["metres_per_unit"], 0.001);
   ASSERT_EQ(encode(metres + " --memory 1G --notes notes.json").code, 0);
-  EXPECT_EQ(info()["metres_per_unit"], 0.001);
+  EXPECT_EQ(info()["header"]["metres_per_unit"], 0.001);
   EXPECT_EQ(metadata("notes"), kKept);
   EXPECT_EQ(encode("--metres-per-unit -1").code, 2);
 }
