@@ -71,9 +71,10 @@ std::string text_of(const WorldChange& change) {
   for (const int axis : change.axes)
     out += std::string(out.empty() ? "" : ",") + (axis < 0 ? "-" : "") + "xyz"[std::abs(axis) - 1];
   const bool shifted = change.shift != Vec3{0, 0, 0};
-  if (change.scale != 1 || shifted) out += "," + short_number(change.scale);
+  const auto add = [&out](double number) { (out += ',') += short_number(number); };
+  if (change.scale != 1 || shifted) add(change.scale);
   if (shifted)
-    for (const double s : change.shift) out += "," + short_number(s);
+    for (const double s : change.shift) add(s);
   return out;
 }
 
