@@ -122,7 +122,8 @@ TEST(Spec_7_1_2_Version, IsThatOfTheWriterInWhatIsCut) {
   EXPECT_EQ(decode(later).error().code, Errc::kChecksum);  // which is of the version, too
   later = fuzz::with_sound_crcs(later);
   EXPECT_EQ(read_info(later)->version_minor, 200);
-  EXPECT_EQ(read_info(*truncate(later, {}))->version_minor, 0);
+  EXPECT_EQ(read_info(*truncate(later, {.levels = 1}))->version_minor, 0);
+  EXPECT_EQ(*truncate(later, {}), later) << "nothing is cut";
 }
 
 TEST(Spec_7_2_1_Features, ThoseThatAreKnownAreReadWrittenAndGivenTheirVersion) {
@@ -176,7 +177,8 @@ TEST(Spec_7_2_1_Extension, IsListedAndLeftOutOfWhatIsCut) {
   ASSERT_TRUE(listed);
   EXPECT_EQ(listed->front().elements.back().name, "sps_extension");
   EXPECT_EQ(listed->front().elements.back().bits, 16u);
-  EXPECT_EQ(*truncate(stream, {}), *truncate(base_stream(false), {}));
+  const DecodeOptions coarse{.levels = 1};
+  EXPECT_EQ(*truncate(stream, coarse), *truncate(base_stream(false), coarse));
 }
 
 TEST(Spec_7_2_1_Extension, CutShortOrTooLongIsAnError) {

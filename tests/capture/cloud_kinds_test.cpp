@@ -126,7 +126,8 @@ TEST(CloudPoints, NormalsThatAreNoneAreTakenFromNeighboursAndCounted) {
   ASSERT_EQ(some.mesh.vertices.normals.size(), 5u);
   EXPECT_EQ(some.mesh.vertices.normals[0], (Normal{0, 0, 1}));
   EXPECT_EQ(some.mesh.vertices.normals[4], (Normal{0, 1, 0}));
-  for (const std::size_t i : {1, 3}) EXPECT_GT(some.mesh.vertices.normals[i][2], 0.8f) << i;
+  for (const std::size_t i : {std::size_t{1}, std::size_t{3}})
+    EXPECT_GT(some.mesh.vertices.normals[i][2], 0.8f) << i;
   EXPECT_THAT(some.warnings,
               ElementsAre(HasSubstr("normals are not of unit length"),
                           AllOf(HasSubstr("2 normals have length 0 or are not finite, of 5"),

@@ -120,7 +120,7 @@ std::string with_sides(std::string file, int side, std::size_t size) {
 
 TEST(Jpeg, ScansTimesPixelsAreRefusedBeforeTimeIsSpentOnThem) {
   constexpr std::size_t kPaid = std::size_t{1} << 28 >> 12;  // for a picture of 2^28 pixels
-  for (const std::size_t scans : {17, 200}) {
+  for (const std::size_t scans : {std::size_t{17}, std::size_t{200}}) {
     const std::clock_t before = std::clock();
     const auto image = read(with_sides(jpeg_of_scans(scans), 16384, kPaid));
     EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC / 20) << scans;

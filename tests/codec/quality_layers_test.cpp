@@ -92,10 +92,12 @@ TEST_P(QualityLayersTest, ACutToLayersDecodesAsThatManyAskedFor) {
     const auto cut = truncate(stream, options);
     ASSERT_TRUE(cut) << to_string(cut.error());
     EXPECT_EQ(decoded(*cut).components, decoded(stream, layers).components) << layers;
-    if (layers < 3) {
-      EXPECT_LT(cut->size(), stream.size());
+    if (layers == 3) {
+      EXPECT_EQ(*cut, stream) << "nothing is cut";
+      continue;
     }
-    EXPECT_EQ(read_info(*cut)->cut->layers, layers < 3 ? layers : 0);
+    EXPECT_LT(cut->size(), stream.size());
+    EXPECT_EQ(read_info(*cut)->cut->layers, layers);
   }
 }
 
