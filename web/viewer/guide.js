@@ -2,7 +2,7 @@
 // Notes on the stage: a mark for each annotation where its point is, a card with its text, and tracks that are played.
 import { fetchNotes, parseNotes, readNotes } from './notes.js';
 import { pick } from './pick.js';
-import { blendedPose, fittingPose } from './view.js';
+import { blendedPose, fittingPose, pixelOf } from './view.js';
 
 const BUDGET = 3e6, // points that are asked in a frame whether they hide a mark
   SLACK = 3; // voxels before a mark that do not hide it
@@ -150,12 +150,9 @@ export class Guide {
     const { clientWidth: width, clientHeight: height } = stage.canvas,
       view = stage.view(width, height);
     this.notes.annotations.forEach(({ at }, i) => {
-      const from = at.map((x, k) => x - view.eye[k]),
-        [x, y, z] = [0, 3, 6].map((r) => from.reduce((sum, v, k) => sum + view.rotation[r + k] * v, 0));
-      this.marks[i].hidden = !(z > 0);
-      if (!(z > 0)) return;
-      this.marks[i].style.left = `${view.fx * (x / z) + view.cx}px`;
-      this.marks[i].style.top = `${view.fy * (y / z) + view.cy}px`;
+      const pixel = pixelOf(view, at);
+      this.marks[i].hidden = !pixel;
+      if (pixel) Object.assign(this.marks[i].style, { left: `${pixel[0]}px`, top: `${pixel[1]}px` });
     });
     this.occlude(view.eye);
   }

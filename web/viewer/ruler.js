@@ -2,6 +2,7 @@
 // Lengths: a bar of scale in the caption, and the distance of two points of the object. In metres where the viewer knows
 // them, else in units of the file's world.
 import { placeAt } from './pick.js';
+import { pixelOf } from './view.js';
 
 const STILL = 4; // pixels that a click may move
 const BAR = 150; // pixels of the bar of scale, at most
@@ -46,9 +47,7 @@ export class Ruler {
     this.on = on;
     this.ends = [];
     this.page.press('measure', on);
-    if (on) this.viewer.report.hint('Click on two points; Enter takes the middle.');
-    if (on) this.viewer.report.say('Click on two points; Enter takes the middle.');
-    this.page.at('length').textContent = '';
+    for (const way of on ? ['hint', 'say'] : []) this.viewer.report[way]('Click on two points; Enter takes the middle.');
     this.page.at('ruler').hidden = true;
     this.viewer.stage?.redraw();
   }
@@ -71,7 +70,7 @@ export class Ruler {
     const place = this.under(x, y);
     if (!place) return this.viewer.report.hint('There is nothing here.');
     this.ends = this.ends.length === 2 ? [place] : [...this.ends, place];
-    this.page.at('length').textContent = '';
+    this.page.at('length').hidden = this.ends.length < 2;
     if (this.ends.length === 2) this.measured();
     this.viewer.stage.redraw();
   }
@@ -90,20 +89,15 @@ export class Ruler {
     const { stage } = this.viewer,
       shown = this.on && this.ends.length > 0 && stage.field && (stage.pose || stage.camera);
     const { clientWidth: width, clientHeight: height } = stage.canvas,
-      at = shown ? this.ends.map((end) => onStage(stage.view(width, height), end)) : [];
+      at = shown ? this.ends.map((end) => pixelOf(stage.view(width, height), end)) : [];
     const ruler = this.page.at('ruler');
     ruler.hidden = !shown || at.includes(null);
     if (ruler.hidden) return;
-    const [[x1, y1], [x2, y2]] = [at[0], at.at(-1)],
-      length = this.page.at('length');
-    const line = ruler.querySelector('line');
-    Object.entries({ x1, y1, x2, y2 }).forEach(([name, value]) => line.setAttribute(name, value));
-    [...ruler.querySelectorAll('circle')].forEach((end, i) => {
-      end.setAttribute('cx', at[i]?.[0] ?? x1);
-      end.setAttribute('cy', at[i]?.[1] ?? y1);
-    });
-    length.style.left = `${(x1 + x2) / 2}px`;
-    length.style.top = `${(y1 + y2) / 2}px`;
+    const [x1, y1] = at[0],
+      [x2, y2] = at.at(-1);
+    const end = (x, y) => `<circle r="4" cx="${x}" cy="${y}"/>`; // numbers alone
+    ruler.firstElementChild.innerHTML = `<path d="M${x1} ${y1}L${x2} ${y2}"/>${end(x1, y1)}${end(x2, y2)}`;
+    Object.assign(this.page.at('length').style, { left: `${(x1 + x2) / 2}px`, top: `${(y1 + y2) / 2}px` });
   }
 
   /** A length at the depth of what the view turns around. */
@@ -120,11 +114,4 @@ export class Ruler {
     const text = this.text(units);
     if (bar.lastElementChild.textContent !== text) bar.lastElementChild.textContent = text;
   }
-}
-
-/** Pixels of the stage; null behind the eye. */
-function onStage(view, place) {
-  const from = place.map((v, k) => v - view.eye[k]),
-    [x, y, z] = [0, 3, 6].map((r) => from.reduce((sum, v, k) => sum + view.rotation[r + k] * v, 0));
-  return z > 0 ? [view.fx * (x / z) + view.cx, view.fy * (y / z) + view.cy] : null;
 }

@@ -107,6 +107,13 @@ export function viewOf(pose, up, width, height) {
   };
 }
 
+/** Where a place of the world is in the picture of a View; null behind the eye. */
+export function pixelOf({ eye, rotation, fx, fy, cx, cy }, place) {
+  const from = add(place, eye, -1),
+    [x, y, z] = [0, 3, 6].map((row) => dot(rotation.slice(row), from));
+  return z > 0 ? [fx * (x / z) + cx, fy * (y / z) + cy] : null;
+}
+
 /** Between two poses, the short way round; distances by their ratio. @param share  0: a, 1: b */
 export function blendedPose(a, b, share) {
   const mix = (x, y) => x + share * (y - x),
