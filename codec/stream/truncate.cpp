@@ -80,12 +80,24 @@ Result<Done> check_values_of_cut(const Request& asked, const std::vector<std::ui
   return check_values(request, rows);
 }
 
-/// Copies a stream that nothing is left out of. It is no longer than it was, and its digests stay.
-/// An empty frame whose frame unit is missing (7.13) is one.
+/// Copies an empty frame whose frame unit is missing: there is nothing to leave out, and no end
+/// unit to write behind it (7.13).
 Result<std::vector<std::uint8_t>> copy_of(std::span<const std::uint8_t> stream,
                                           std::uint64_t max_bytes) {
   if (max_bytes > 0 && stream.size() > max_bytes) return Error{Errc::kInvalidArgument, "max_bytes"};
   return std::vector<std::uint8_t>(stream.begin(), stream.end());
+}
+
+/// A stream that nothing is left out of: no longer than it was, and its digests stay. The sequence
+/// unit of a later version becomes one of this (7.1.2).
+Result<std::vector<std::uint8_t>> as_it_was(std::span<const std::uint8_t> stream,
+                                            const Units& units, const SequenceParameterSet& set) {
+  std::vector<std::uint8_t> copy(kSignature.begin(), kSignature.end());
+  SLF_CHECK(of_what_was_read(append_sequence(copy, set)));
+  const Unit& sequence = units.units.front();
+  const auto rest = stream.subspan(static_cast<std::size_t>(sequence.offset + sequence.bytes));
+  copy.insert(copy.end(), rest.begin(), rest.end());
+  return copy;
 }
 
 /// Was as much left out of one before as is out of the other?
@@ -114,15 +126,15 @@ Result<std::vector<std::uint8_t>> truncate(std::span<const std::uint8_t> stream,
   std::vector<std::uint8_t> present;
   for (const PartUnits& slice : scene.slices) present.push_back(!slice.empty());
   Cut cut{scene.stream, units.complete, cut_sequence(request, chosen, present), {}};
-  const bool as_it_was = kept.all && (request.whole || is_cut_alike(scene.stream.set, cut.set));
+  const bool is_all = kept.all && (request.whole || is_cut_alike(scene.stream.set, cut.set));
   const bool fits = options.max_bytes == 0 || stream.size() <= options.max_bytes;
-  if (as_it_was && fits) return copy_of(stream, options.max_bytes);
+  if (is_all && fits) return as_it_was(stream, units, scene.stream.set);
   SLF_TRY(auto index, find_index(units, scene.stream.set));
   if (index) cut.boxes = std::move(index->boxes);
   index.reset();  // its entries
   SLF_TRY(auto less, assemble_within(cut, kept.units, options.max_bytes));
   // To say that it is cut can take more bytes than were left out.
-  if (less.size() > stream.size()) return copy_of(stream, options.max_bytes);
+  if (less.size() > stream.size()) return as_it_was(stream, units, scene.stream.set);
   SLF_CHECK(check_values_of_cut(request, chosen, less.size(), options.limits));
   return less;
 }

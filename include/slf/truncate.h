@@ -15,8 +15,8 @@ namespace slf {
 /// cut and writes its index anew. decode() of the result, with the same options, gives what
 /// decode() of the stream gives with them; without options the same for levels, groups and layers,
 /// and of a region all of the slices that meet it. It is never longer than the stream: an index is
-/// left out that would make it so, and the stream comes back as it was where nothing is left out,
-/// or less than what says that it is cut.
+/// left out that would make it so, and the stream comes back as it was, not marked, where nothing
+/// is left out, or less than what says that it is cut.
 /// @param options  max_bytes > 0: as many of the units that remain as fit into a file of so many
 ///                 bytes; they come coarse first. limits: of the decode of what is asked for,
 ///                 whatever max_bytes. threads: those of that decode. seconds: not used

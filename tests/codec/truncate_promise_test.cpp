@@ -180,8 +180,15 @@ TEST(Spec_8_9_TruncatePromise, ACutIsNeverLongerThanTheStreamOrThanWasAskedFor) 
   EXPECT_GT(within, 2000);
 }
 
+/// A sequence unit of a later version becomes one of this: 7.1.2.
+Stream behind_sequence(const Stream& stream) {
+  const Unit sequence = *read_unit(stream, kSignature.size());
+  return {stream.begin() + static_cast<std::ptrdiff_t>(sequence.offset + sequence.bytes),
+          stream.end()};
+}
+
 TEST(Spec_8_9_TruncatePromise, WhereNothingIsLeftOutTheStreamIsAsItWas) {
-  int streams = 0;
+  int streams = 0, same = 0;
   for (const auto& folder : suite()) {
     SCOPED_TRACE(folder.filename().string());
     const Stream stream = read(folder);
@@ -194,12 +201,15 @@ TEST(Spec_8_9_TruncatePromise, WhereNothingIsLeftOutTheStreamIsAsItWas) {
       const auto copy = truncate(begin, {});
       EXPECT_EQ(static_cast<bool>(copy), static_cast<bool>(decode(begin))) << last.type;
       if (copy) {
-        EXPECT_EQ(*copy, begin);
+        EXPECT_EQ(behind_sequence(*copy), behind_sequence(begin));
+        EXPECT_LE(copy->size(), begin.size());
+        same += *copy == begin;
       }
       ++streams;
     }
   }
   EXPECT_GT(streams, 1000);
+  EXPECT_GT(same, 1000);
 }
 
 TEST(Spec_8_9_TruncatePromise, HoldsForDamagedStreamsAsFarAsTheyDecode) {
