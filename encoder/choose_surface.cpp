@@ -158,10 +158,8 @@ Result<Done, InputError> find_foreign(const SurfaceChoice& job, const PointCloud
 /// @param quick  of the points before a training
 Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const CameraParts& parts,
                                            const DrawnQuality& quick) {
-  if (!job.splats) return false;
   SLF_TRY(const Gaussians splats, tried_splats(job, parts));
-  const bool dense = is_dense(job.capture, job.cameras);
-  if (!dense || job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
+  if (job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
   const auto shown = surface_of_splats(splats, job.capture, parts.matched, job.settings.threads);
   if (!shown) return false;
   SLF_CHECK(find_foreign(job, *shown));
@@ -175,8 +173,11 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
   job.report.before_psnr = before_quality.psnr;
   if (before_quality.psnr > kPerfect) return before;
-  SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality));
-  if (beyond) return no_surface(job);
+  const bool splats_first = job.splats && is_dense(job.capture, job.cameras);
+  if (splats_first) {
+    SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality));
+    if (beyond) return no_surface(job);
+  }
   SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}, 1 - kAgain));
   if (trained.cloud.positions.empty()) {
     job.report.untrained = "photographs agree on no surface";
@@ -192,6 +193,7 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
   job.report.trained_psnr = trained_quality.psnr;
   const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
+  if (job.splats && !splats_first) SLF_CHECK(tried_splats(job, parts));
   SLF_TRY(const bool better, splats_are_better(job, parts, pays ? *cloud : before,
                                                pays ? trained_quality : before_quality));
   if (better) return no_surface(job);

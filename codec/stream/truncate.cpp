@@ -66,8 +66,8 @@ Result<std::vector<std::uint8_t>> assemble_within(const Cut& cut, std::span<cons
   return some;
 }
 
-/// Whoever decodes a cut stream is held to its bytes, which are fewer. Of one that was partial
-/// before nobody knows what it has.
+/// A decode of the cut stream is held to its bytes, which are fewer. A stream that was partial
+/// before is not checked: its headers say more than it has.
 /// @errors kLimitExceeded: max_values_per_byte
 Result<Done> check_values_of_cut(const Request& asked, const std::vector<std::uint8_t>& chosen,
                                  std::uint64_t bytes, const DecodeLimits& limits) {
