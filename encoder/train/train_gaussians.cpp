@@ -77,17 +77,22 @@ Gaussians gaussians_of(const TrainedSurfels& surfels) {
   return out;
 }
 
-Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
-                                              const TrainGeometrySettings& settings,
-                                              const Progress& progress) {
-  SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
-  if (start.views.empty()) return Gaussians{};
-  for (TrainingView& view : start.views) view.camera.gaussian = true;
-  TrainSettings& training = start.settings;
+void train_as_gaussians(std::vector<TrainingView>& views, TrainSettings& training) {
+  for (TrainingView& view : views) view.camera.gaussian = true;
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
-  if (!settings.is_volume) training.least_opacity = kFaint;  // there all begin as faint
   training.coarse = kCoarseShare;
+}
+
+Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture,
+                                                          std::span<const int> cameras,
+                                                          const TrainGeometrySettings& settings,
+                                                          const Progress& progress) {
+  SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
+  if (start.views.empty()) return TrainedSurfels{};
+  TrainSettings& training = start.settings;
+  train_as_gaussians(start.views, training);
+  if (!settings.is_volume) training.least_opacity = kFaint;  // there all begin as faint
   SLF_TRY(std::vector<Outline> outlines, outlines_of(capture, cameras, settings.threads));
   const bool outlined = are_outlined(outlines.size(), cameras.size());
   if (!outlined) outlines.clear();
@@ -110,8 +115,16 @@ Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<
   }
   SLF_CHECK(train_surfels(start.views, training, surfels));
   if (outlined) keep_object(outlines, settings.threads, surfels);
+  return surfels;
+}
+
+Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
+                                              const TrainGeometrySettings& settings,
+                                              const Progress& progress) {
+  SLF_TRY(const TrainedSurfels surfels,
+          train_gaussian_surfels(capture, cameras, settings, progress));
   Gaussians out = gaussians_of(surfels);
-  out.up = capture.up;
+  if (!surfels.empty()) out.up = capture.up;
   return out;
 }
 

@@ -7,7 +7,9 @@
 
 #include "encoder/train/outlines.h"
 #include "encoder/train/train_geometry.h"
+#include "encoder/train/train_surfels.h"
 #include "encoder/train/trained_surfel.h"
+#include "encoder/train/training_view.h"
 #include "slf/gaussians.h"
 
 namespace slf {
@@ -24,6 +26,15 @@ inline constexpr std::size_t kFewestSplats = 500;  ///< that any limit leaves
 Result<Gaussians, InputError> train_gaussians(const Capture& capture, std::span<const int> cameras,
                                               const TrainGeometrySettings& settings,
                                               const Progress& progress = {});
+
+/// The same before they are splats; empty where photographs train nothing.
+Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture,
+                                                          std::span<const int> cameras,
+                                                          const TrainGeometrySettings& settings,
+                                                          const Progress& progress = {});
+
+/// What every training of Gaussians has in common: views that are drawn so, settings.
+void train_as_gaussians(std::vector<TrainingView>& views, TrainSettings& training);
 
 /// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.

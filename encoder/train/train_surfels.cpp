@@ -14,6 +14,7 @@
 #include "encoder/train/adam.h"
 #include "encoder/train/camera_twists.h"
 #include "encoder/train/chance.h"
+#include "encoder/train/changed_views.h"
 #include "encoder/train/draw_surfels.h"
 #include "encoder/train/grow_surfels.h"
 #include "encoder/train/picture_loss.h"
@@ -198,6 +199,7 @@ class Training {
     if (settings_.twists != nullptr) move_camera(index, done);
     pull(done);
     use_.add(tiles, projected_.sums);
+    if (settings_.changed != nullptr) leave_still();
     adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), space_,
               settings_.threads, adam_, surfels_);
     ++drawn_views_;
@@ -219,6 +221,14 @@ class Training {
       pull_opacities(settings_.decided, surfels_, gradients_);
   }
 
+  /// Without a gradient ever Adam leaves a value as it is.
+  void leave_still() {
+    if (moving_.size() != surfels_.size() || iteration_ % kGrowEvery == 0)
+      moving_ = settings_.changed->shown_by(surfels_, settings_.threads);
+    for (std::size_t i = 0; i < surfels_.size(); ++i)
+      if (!moving_[i]) gradients_[i] = {}, use_.pull[i] = 0;
+  }
+
   void move_camera(std::size_t view, double done) {
     const double rate = kFirstTwist * std::pow(kLastTwist / kFirstTwist, done);
     settings_.twists->step(view, rate, surfels_, gradients_);
@@ -232,7 +242,8 @@ class Training {
     grow.smallest = float(kSmallest * pixel_);
     grow.space = space_;
     grow.least_opacity = settings_.least_opacity;
-    grow.all_seen = drawn_views_ >= views_.size();
+    // What stands still was drawn in photographs of another instant.
+    grow.all_seen = settings_.changed == nullptr && drawn_views_ >= views_.size();
     grow_surfels(grow, use_, adam_, surfels_);
     drawn_views_ = 0;
   }
@@ -246,6 +257,7 @@ class Training {
   AdamState adam_;
   SurfelUse use_;
   std::vector<TrainedSurfel> gradients_;
+  std::vector<std::uint8_t> moving_;  // where some stand still
   SurfelNeighbours neighbours_;
   DrawnSurfels drawn_;
   ProjectedGradients projected_;

@@ -14,6 +14,7 @@
 namespace slf {
 
 class CameraTwists;
+class ChangedViews;
 
 struct TrainSettings {
   int iterations = 3000;    ///< one photograph each
@@ -28,6 +29,8 @@ struct TrainSettings {
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
   float least_opacity = 0.02f;     ///< fainter ones make room for others while surfels grow
   CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too; no checkpoints
+  /// Surfels that nothing changed shows stay as they are, to the bit; nullptr: all are trained.
+  const ChangedViews* changed = nullptr;
   double seconds = 0;  ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
   /// Where the training leaves what it would need to go on; empty: nowhere. Not with `seconds`.

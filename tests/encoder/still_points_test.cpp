@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands still keeps its view map from frame to frame; what changes does not.
+#include "encoder/measure/changed_pixels.h"
 #include "encoder/still_points.h"
 
 #include <gtest/gtest.h>
