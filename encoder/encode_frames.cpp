@@ -10,10 +10,10 @@
 #include "bitstream/units.h"
 #include "capture/photograph_size.h"
 #include "capture/voxelise.h"
+#include "encoder/check_frame_run.h"
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
-#include "encoder/encode_to_target.h"
 #include "encoder/fit_capture.h"
 #include "encoder/frames_to_bitrate.h"
 #include "encoder/still_points.h"
@@ -26,30 +26,17 @@ InputError of_frames(const std::string& what) {
   return {Errc::kInvalidArgument, "frames: " + what};
 }
 
+/// What clouds and photographs of frames have, beyond what all frames have.
 Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings& s,
                                       const FrameSettings& f) {
-  if (frames == 0) return of_frames("there are none");
-  if (has_target(s))
-    return of_frames("a target of bytes or PSNR is of one light field; frames have a bitrate");
-  if (!(s.target_bitrate >= 0) || !std::isfinite(s.target_bitrate))
-    return of_frames("target bitrate: bits a second, above 0");
+  SLF_CHECK(check_frame_run(frames, s, f));
   if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
   if (s.refine_cameras == RefineCameras::kOn) return of_frames("poses are not refined over them");
   if (s.densify.mode == Densify::kOn) return of_frames("no points are made up");
   if (s.surface != Surface::kGiven && s.surface != Surface::kAuto)
     return of_frames("their points are coded as given, not mended or trained");
-  if (s.quality_layers > 1) return of_frames("they have one quality layer");
-  if (s.base_levels > 0) return of_frames("they have no base");
-  if (s.geometry != GeometryCoder::kOctree || s.coefficients != CoefficientCoder::kVector)
-    return of_frames("they are coded by the octree and vector coders");
-  if (f.group < 1) return of_frames("a group has one at the least");
-  if (f.part < 0 || f.part >= f.parts) return of_frames("part: 0 to the number of parts - 1");
-  if (frames_of_part(frames, f).count == 0)
-    return of_frames("there are more parts than groups of frames");
-  if (f.parts > 1 && s.target_bitrate > 0) return of_frames("a bitrate is of all parts together");
   if (f.parts > 1 && f.hold_over_groups)
     return of_frames("parts hold still points within groups alone");
-  if (!(f.rate > 0) || !std::isfinite(f.rate)) return of_frames("so many a second: above 0");
   return Done{};
 }
 
@@ -151,6 +138,22 @@ Result<LightField, InputError> light_field_of(const LoadedFrame& frame, const Vo
   return field;
 }
 
+/// The frames of an input, which can be coded as often as is asked for.
+struct Sequence {
+  std::size_t length;  // frames
+  const LoadFrame& load;
+  EncoderSettings settings;
+  const FrameSettings& frames;
+  Grid grid;
+  bool clouds;          // no frame has cameras
+  std::size_t chooser;  // the first frame with points: it chooses for all
+  const Progress& progress;
+
+  /// @param q  quantiser step, or kAutomaticQ
+  Result<Done, InputError> code(double q, std::size_t first, std::size_t count,
+                                const TakeFrame& take, EncodedFrames& encoded) const;
+};
+
 /// What the first frame with points chooses, where it is not the one that is coded first.
 Result<Done, InputError> choose_for_all(const Sequence& sequence, const EncoderSettings& own,
                                         bool chooses, std::optional<ChosenForAll>& chosen) {
@@ -159,8 +162,6 @@ Result<Done, InputError> choose_for_all(const Sequence& sequence, const EncoderS
   SLF_CHECK(light_field_of(frame, cloud, own, chooses, chosen, sequence.progress));
   return Done{};
 }
-
-}  // namespace
 
 Result<Done, InputError> Sequence::code(double q, std::size_t first, std::size_t count,
                                         const TakeFrame& take, EncodedFrames& encoded) const {
@@ -207,14 +208,7 @@ Result<Done, InputError> Sequence::code(double q, std::size_t first, std::size_t
   return Done{};
 }
 
-FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings) {
-  const auto group = static_cast<std::size_t>(settings.group),
-             part = static_cast<std::size_t>(settings.part),
-             parts = static_cast<std::size_t>(settings.parts);
-  const std::size_t groups = (frames + group - 1) / group;
-  const auto begin = [&](std::size_t p) { return std::min(frames, groups * p / parts * group); };
-  return {begin(part), begin(part + 1) - begin(part)};
-}
+}  // namespace
 
 Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFrame& load,
                                               const EncoderSettings& settings,
@@ -257,8 +251,15 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
   if (sequence.clouds) fit_colours_alone(sequence.settings);
   const auto [first, count] = plan.part;
   EncodedFrames encoded;
+  const RateJob job{frames,
+                    sequence.chooser,
+                    frame_settings,
+                    given.target_bitrate,
+                    kPlainQ,
+                    [&](double q, std::size_t from, std::size_t many, const TakeFrame& to,
+                        EncodedFrames& out) { return sequence.code(q, from, many, to, out); }};
   SLF_CHECK(given.target_bitrate > 0
-                ? code_to_bitrate(sequence, take, encoded)
+                ? code_to_bitrate(job, take, encoded)
                 : sequence.code(sequence.settings.q, first, count, take, encoded));
   return encoded;
 }

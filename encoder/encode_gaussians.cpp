@@ -10,36 +10,13 @@
 #include "encoder/gaussian_planes.h"
 #include "encoder/rate_control.h"
 #include "encoder/splat_pictures.h"
-#include "lightfield/keep_splats.h"
 #include "slf/decoder.h"
 
 namespace slf {
 namespace {
 
-// Shares of Q at which the last byte of each buys the same in pictures: slopes of blender_can and
-// middlebury_dino, 4,000 and 6,000 splats. docs/decisions/024
-constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
 constexpr double kAboveTarget = 0.05;  // dB of PSNR
 constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and down with the step
-
-/// What the reference rasteriser never draws.
-const double kLeastLogit = -std::log(254.0);
-
-Gaussians that_show(Gaussians splats) {
-  keep_splats(splats, [&](std::size_t p) { return !(double{splats.logits[p]} < kLeastLogit); });
-  return splats;
-}
-
-/// The median deviation along the middle axis, world units.
-double typical_deviation(const Gaussians& splats) {
-  std::vector<float> middle;
-  middle.reserve(splats.size());
-  for (const auto& d : splats.log_deviations)
-    middle.push_back(std::max(std::min(d[0], d[1]), std::min(std::max(d[0], d[1]), d[2])));
-  const auto place = middle.begin() + static_cast<std::ptrdiff_t>(middle.size() / 2);
-  std::nth_element(middle.begin(), place, middle.end());
-  return std::exp(double{*place});
-}
 
 double extent_of(const Gaussians& splats) {
   const auto [low, high] = bounds_of(splats);
@@ -56,14 +33,13 @@ class GaussianEncoder {
         extent_(extent_of(splats)) {}
 
   Result<double, InputError> code(double q, EncodedGaussians& out) const {
-    SLF_TRY(LightField field, light_field_of(splats_, grid_step(q), settings_.threads));
+    SLF_TRY(LightField field,
+            light_field_of(splats_, grid_step_of(q, deviation_, extent_, settings_),
+                           settings_.threads));
     for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
     field.header.metres_per_unit = settings_.metres_per_unit;
-    CodingParameters parameters =
-        gaussian_parameters(field, {q, kOpacityShare * q, kShapeShare * q}, settings_);
-    parameters.metadata = {{"quality", std::to_string(q)}};
-    parameters.metadata.insert(parameters.metadata.begin(), settings_.metadata.begin(),
-                               settings_.metadata.end());
+    CodingParameters parameters = gaussian_parameters(field.header, steps_of(q), settings_);
+    parameters.metadata = metadata_of_gaussians(q, settings_);
     out.q = q;
     out.grid = field.header.grid;
     SLF_TRY(out.stream, pack_taken(std::move(field), parameters));
@@ -71,12 +47,6 @@ class GaussianEncoder {
   }
 
  private:
-  double grid_step(double q) const {
-    if (settings_.voxel_size > 0) return settings_.voxel_size;
-    if (settings_.grid_bits > 0) return extent_ / ((1 << settings_.grid_bits) - 1);
-    return kPositionShare * q * deviation_;
-  }
-
   const Gaussians& splats_;
   const EncoderSettings& settings_;
   Vec3 origin_;

@@ -22,21 +22,20 @@ struct Run {
   double bytes = 0;
 };
 
-Result<Run, InputError> run(const Sequence& sequence, double q, std::size_t first,
-                            std::size_t count) {
+Result<Run, InputError> run(const RateJob& job, double q, std::size_t first, std::size_t count) {
   Run coded;
   const auto keep = [&](std::size_t, std::span<const std::uint8_t> bytes) {
     coded.frames.emplace_back(bytes.begin(), bytes.end());
     coded.bytes += static_cast<double>(bytes.size());
     return Result<Done, InputError>(Done{});
   };
-  SLF_CHECK(sequence.code(q, first, count, keep, coded.encoded));
+  SLF_CHECK(job.code(q, first, count, keep, coded.encoded));
   return coded;
 }
 
 /// Bytes of all frames, if those that are predicted take what those of the sample take.
-double expected_bytes(const Sequence& sequence, const Run& sample) {
-  const auto group = static_cast<std::size_t>(sequence.frames.group);
+double expected_bytes(const RateJob& job, const Run& sample) {
+  const auto group = static_cast<std::size_t>(job.frames.group);
   double intra = 0, num_intra = 0;
   for (const EncodedFrame& frame : sample.encoded.frames) {
     if (frame.predicted) continue;
@@ -45,10 +44,10 @@ double expected_bytes(const Sequence& sequence, const Run& sample) {
   }
   const double predicted = sample.bytes - intra,
                num_predicted = static_cast<double>(sample.frames.size()) - num_intra;
-  const std::size_t num_groups = (sequence.length + group - 1) / group;
+  const std::size_t num_groups = (job.length + group - 1) / group;
   const auto groups = static_cast<double>(num_groups);
   return groups * intra / num_intra +
-         (static_cast<double>(sequence.length) - groups) * predicted / std::max(num_predicted, 1.0);
+         (static_cast<double>(job.length) - groups) * predicted / std::max(num_predicted, 1.0);
 }
 
 /// Is a run better than another, where neither need be within the goal? Most bytes within the rate
@@ -62,16 +61,15 @@ bool is_better(const Run& a, const Run& b, double most) {
 
 }  // namespace
 
-Result<Done, InputError> code_to_bitrate(const Sequence& sequence, const TakeFrame& take,
+Result<Done, InputError> code_to_bitrate(const RateJob& job, const TakeFrame& take,
                                          EncodedFrames& encoded) {
-  const double most = sequence.settings.target_bitrate / 8 * static_cast<double>(sequence.length) /
-                      sequence.frames.rate;
+  const double most = job.bitrate / 8 * static_cast<double>(job.length) / job.frames.rate;
   const StepGoal goal{std::log(most * (1 - kTolerance)), std::log(most)};
-  double guess = kPlainQ, factor = kFactorOfWhole;
-  if (sequence.length > sequence.chooser + 2 * kSample) {
+  double guess = job.guess, factor = kFactorOfWhole;
+  if (job.length > job.chooser + 2 * kSample) {
     const auto measure_sample = [&](double q) -> Result<double, InputError> {
-      SLF_TRY(const Run sample, run(sequence, q, sequence.chooser, kSample));
-      return std::log(expected_bytes(sequence, sample));
+      SLF_TRY(const Run sample, run(job, q, job.chooser, kSample));
+      return std::log(expected_bytes(job, sample));
     };
     SLF_TRY(const StepFound found, find_step(guess, goal, measure_sample));
     guess = found.q;
@@ -80,7 +78,7 @@ Result<Done, InputError> code_to_bitrate(const Sequence& sequence, const TakeFra
   }
   Run best;
   const auto measure = [&](double q) -> Result<double, InputError> {
-    SLF_TRY(Run whole, run(sequence, q, 0, sequence.length));
+    SLF_TRY(Run whole, run(job, q, 0, job.length));
     const double bytes = whole.bytes;
     if (is_better(whole, best, most)) best = std::move(whole);
     return std::log(bytes);
@@ -89,11 +87,10 @@ Result<Done, InputError> code_to_bitrate(const Sequence& sequence, const TakeFra
   for (std::size_t f = 0; f < best.frames.size(); ++f) SLF_CHECK(take(f, best.frames[f]));
   encoded = std::move(best.encoded);
   if (!found.reached)
-    encoded.warnings.push_back(
-        "no step gives 97 to 100 % of " +
-        std::to_string(std::llround(sequence.settings.target_bitrate)) + " bits a second: Q " +
-        std::to_string(encoded.q) + " gives " +
-        std::to_string(std::llround(best.bytes / most * sequence.settings.target_bitrate)));
+    encoded.warnings.push_back("no step gives 97 to 100 % of " +
+                               std::to_string(std::llround(job.bitrate)) + " bits a second: Q " +
+                               std::to_string(encoded.q) + " gives " +
+                               std::to_string(std::llround(best.bytes / most * job.bitrate)));
   return Done{};
 }
 

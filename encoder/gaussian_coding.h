@@ -16,9 +16,25 @@ struct GaussianSteps {
   double colour, opacity, shape;
 };
 
+GaussianSteps steps_of(double q);
+
+/// The splats that the reference rasteriser draws: of an opacity of 1 / 255 and more.
+Gaussians that_show(Gaussians splats);
+
+/// The median deviation along the middle axis, world units. There is a splat.
+double typical_deviation(const Gaussians& splats);
+
+/// The step of the grid that goes with a quality, unless settings say another.
+/// @param deviation  typical_deviation()
+/// @param extent     the longest side of the box of all splats
+double grid_step_of(double q, double deviation, double extent, const EncoderSettings& settings);
+
+/// The quality, behind what settings have.
+Metadata metadata_of_gaussians(double q, const EncoderSettings& settings);
+
 /// Attributes are group 0, so that every cut by groups has them; then harmonics by degree.
-/// @param field  of light_field_of()
-CodingParameters gaussian_parameters(const LightField& field, const GaussianSteps& steps,
+/// @param header  of header_of_splats()
+CodingParameters gaussian_parameters(const LightFieldHeader& header, const GaussianSteps& steps,
                                      const EncoderSettings& settings);
 
 /// What a decoder gets, in the order of the file.

@@ -20,20 +20,6 @@ namespace {
 constexpr std::size_t kSplatGrain = 1024;
 constexpr int kMostBits = 21;
 
-/// The smallest grid of at least this step that holds the positions.
-Result<Grid, InputError> grid_around(const Gaussians& splats, double step) {
-  const auto [low, high] = bounds_of(splats);
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
-  if (!std::isfinite(extent)) return invalid_input("splats: their extent is not finite");
-  Grid grid{low, std::max(step, extent / ((1 << kMostBits) - 1)), 1};
-  if (!(grid.step > 0)) grid.step = 1;
-  while ((1 << grid.bits) - 1 < std::lround(extent / grid.step)) ++grid.bits;
-  if (!grid.fits_floats())
-    return invalid_input("splats: beyond 1e12, or all within 1e-12: no picture can be drawn");
-  return grid;
-}
-
 std::vector<std::uint64_t> codes_of(const Gaussians& splats, const Grid& grid) {
   std::vector<std::uint64_t> codes(splats.size());
   for (std::size_t p = 0; p < codes.size(); ++p) {
@@ -88,19 +74,6 @@ void put_planes(const Gaussians& splats, std::size_t p, std::int32_t* to) {
     *to++ = rounded(std::ldexp(value, kShapeShift));
 }
 
-LightFieldHeader header_of(const Gaussians& splats, const Grid& grid) {
-  LightFieldHeader header;
-  header.grid = grid;
-  header.basis = {BasisId::kHarmonics, 2, 0, 0, splats.degree};
-  header.colour = ColourTransform::kOpponent;
-  header.up = splats.up;
-  header.attributes = {{AttributeId::kOpacity, 1}, {AttributeId::kShape, 2}};
-  header.num_functions = header.basis.num_functions() + 3;
-  header.shift.assign(splats.num_harmonics(), kHarmonicsShift);
-  header.shift.insert(header.shift.end(), {kOpacityShift, kShapeShift, kShapeShift});
-  return header;
-}
-
 }  // namespace
 
 std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
@@ -115,18 +88,47 @@ std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
   return {low, high};
 }
 
-Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads) {
-  if (splats.size() == 0) return invalid_input("splats: there are none");
-  SLF_TRY(const Grid grid, grid_around(splats, step));
+Result<Grid, InputError> grid_around(const std::array<Vec3, 2>& bounds, double step,
+                                     std::size_t splats) {
+  const auto& [low, high] = bounds;
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
+  if (!std::isfinite(extent)) return invalid_input("splats: their extent is not finite");
+  Grid grid{low, std::max(step, extent / ((1 << kMostBits) - 1)), 1};
+  if (!(grid.step > 0)) grid.step = 1;
+  while ((1 << grid.bits) - 1 < std::lround(extent / grid.step)) ++grid.bits;
+  if (!grid.fits_floats())
+    return invalid_input("splats: beyond 1e12, or all within 1e-12: no picture can be drawn");
+  while (std::uint64_t{1} << 3 * grid.bits < splats) ++grid.bits;
+  return grid;
+}
+
+LightFieldHeader header_of_splats(const Grid& grid, int degree, UpAxis up) {
+  LightFieldHeader header;
+  header.grid = grid;
+  header.basis = {BasisId::kHarmonics, 2, 0, 0, degree};
+  header.colour = ColourTransform::kOpponent;
+  header.up = up;
+  header.attributes = {{AttributeId::kOpacity, 1}, {AttributeId::kShape, 2}};
+  const int harmonics = header.basis.num_functions();
+  header.num_functions = harmonics + 3;
+  header.shift.assign(static_cast<std::size_t>(harmonics), kHarmonicsShift);
+  header.shift.insert(header.shift.end(), {kOpacityShift, kShapeShift, kShapeShift});
+  return header;
+}
+
+Result<LightField, InputError> light_field_on(const Gaussians& splats, const Grid& grid,
+                                              int threads) {
   LightField field;
-  field.header = header_of(splats, grid);
+  field.header = header_of_splats(grid, splats.degree, splats.up);
   std::vector<std::uint64_t> codes = codes_of(splats, grid);
   std::vector<std::uint32_t> order(splats.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
   std::sort(codes.begin(), codes.end());
-  while (!spread(codes, field.header.grid.bits)) ++field.header.grid.bits;
+  if (!spread(codes, grid.bits))
+    return invalid_input("splats: there are more than the grid has voxels");
   field.positions.reserve(codes.size());
   for (const std::uint64_t code : codes) field.positions.push_back(from_morton(code));
   const std::size_t row = 3 * static_cast<std::size_t>(field.header.num_functions);
@@ -136,6 +138,12 @@ Result<LightField, InputError> light_field_of(const Gaussians& splats, double st
       put_planes(splats, order[p], &field.components[p * row]);
   });
   return field;
+}
+
+Result<LightField, InputError> light_field_of(const Gaussians& splats, double step, int threads) {
+  if (splats.size() == 0) return invalid_input("splats: there are none");
+  SLF_TRY(const Grid grid, grid_around(bounds_of(splats), step, splats.size()));
+  return light_field_on(splats, grid, threads);
 }
 
 }  // namespace slf

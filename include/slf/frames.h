@@ -165,6 +165,7 @@ struct EncodedFrame {
   std::size_t points = 0, held = 0;  ///< held: with the view map of the frame before
   std::uint64_t bytes = 0;
   double seconds = 0;
+  std::size_t left_out = 0;  ///< splats that no pixel shows
 };
 struct EncodedFrames {
   std::vector<EncodedFrame> frames;
