@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The promise that files stay, kept by programs of the past: builds the decoder of every version that releases.txt lists, from
-# its commit, and runs it over today's streams of the format's number that it knows, and over files of today's encoder (SLF_PROGRAM,
-# default build/bin/slf) whose number says that it reads them. A stream of a later number it decodes as it should, or refuses.
+# its commit, and runs it over today's streams of the format's number that it knows. A stream of a later number it reads or refuses.
 # Exit code: 1 where one differs; 77 where the commits are not there (a shallow clone).
 set -euo pipefail
 cd "$(dirname "$0")/.."
