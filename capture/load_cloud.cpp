@@ -209,6 +209,7 @@ Result<Done, InputError> load_geometry(const std::string& path, const CaptureOpt
       return InputError{Errc::kInvalidInput, path + ": crop: the capture has no points"};
     capture.warnings.push_back(path + ": no points: photographs find them");
     capture.cloud = {};
+    capture.has_geometry = false;
     return Done{};
   }
   SLF_TRY(const bool empty, is_empty(options, import));

@@ -14,6 +14,7 @@
 #include "encoder/check_settings.h"
 #include "encoder/choose_step.h"
 #include "encoder/coding_parameters.h"
+#include "encoder/encode_trained_frames.h"
 #include "encoder/fit_capture.h"
 #include "encoder/frames_to_bitrate.h"
 #include "encoder/still_points.h"
@@ -33,8 +34,8 @@ Result<Done, InputError> check_frames(std::size_t frames, const EncoderSettings&
   if (s.match_exposure == MatchExposure::kOn) return of_frames("exposure is not matched over them");
   if (s.refine_cameras == RefineCameras::kOn) return of_frames("poses are not refined over them");
   if (s.densify.mode == Densify::kOn) return of_frames("no points are made up");
-  if (s.surface != Surface::kGiven && s.surface != Surface::kAuto)
-    return of_frames("their points are coded as given, not mended or trained");
+  if (s.surface != Surface::kGiven && s.surface != Surface::kAuto && s.surface != Surface::kSplats)
+    return of_frames("their points are coded as given, not mended, or splats are trained");
   if (f.parts > 1 && f.hold_over_groups)
     return of_frames("parts hold still points within groups alone");
   return Done{};
@@ -218,6 +219,8 @@ Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFram
   SLF_CHECK(check_frames(frames, settings, frame_settings));
   PlannedFrames plan;
   SharedGrid shared;
+  std::optional<LoadedFrame> first;  // with points, if one has
+  std::optional<std::size_t> bare;   // without a cloud
   for (std::size_t f = 0; f < frames; ++f) {
     if (progress) progress("load", static_cast<double>(f) / static_cast<double>(frames));
     SLF_TRY(LoadedFrame frame, load(f));
@@ -226,9 +229,20 @@ Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFram
     plan.points.push_back(frame.capture.cloud.positions.size());
     plan.cameras.push_back(frame.cameras.size());
     SLF_CHECK(shared.add(frame, settings));
+    if (!bare && !frame.capture.has_geometry) bare = f;
+    if (!first || (first->capture.cloud.positions.empty() && plan.points.back() > 0))
+      first = std::move(frame);
   }
-  SLF_TRY(plan.grid, shared.grid());
   plan.part = frames_of_part(frames, frame_settings);
+  plan.trained = are_trained(settings, plan.points, *first);
+  if (!plan.trained && settings.surface == Surface::kSplats)
+    return of_frames("splats are trained by photographs, and there are none");
+  if (!plan.trained && bare)
+    return of_frames("the one at place " + std::to_string(*bare) +
+                     " has no point cloud, and others have");
+  if (!plan.trained) {
+    SLF_TRY(plan.grid, shared.grid());
+  }
   return plan;
 }
 
@@ -243,6 +257,8 @@ Result<EncodedFrames, InputError> encode_frames(std::size_t frames, const LoadFr
     return frame;
   };
   SLF_TRY(const PlannedFrames plan, plan_frames(frames, load, given, frame_settings, progress));
+  if (plan.trained)
+    return encode_trained_frames(frames, load, given, frame_settings, take, progress);
   Sequence sequence{frames, load, given, frame_settings, plan.grid, false, 0, progress};
   sequence.settings.observe.threads = sequence.settings.fit.threads = given.threads;
   while (plan.points[sequence.chooser] == 0) ++sequence.chooser;

@@ -78,6 +78,14 @@ TrainGeometrySettings pose_training_of(const EncoderSettings& settings, StartId 
   return training;
 }
 
+TrainGeometrySettings training_of_frames(const EncoderSettings& settings) {
+  TrainingCache none;
+  TrainGeometrySettings training = training_of(settings, StartId::kPoints, kSplatIterations, none);
+  training.work.clear();
+  training.cache = nullptr;
+  return training;
+}
+
 bool may_be_splats(const EncoderSettings& settings) {
   const EncoderSettings plain;
   return settings.surface == Surface::kAuto && settings.preset == plain.preset &&

@@ -15,6 +15,9 @@ namespace slf {
 /// The training of poses: splats, as many as the photographs resolve.
 TrainGeometrySettings pose_training_of(const EncoderSettings& settings, StartId start);
 
+/// The training of the first of several frames.
+TrainGeometrySettings training_of_frames(const EncoderSettings& settings);
+
 /// What splats are tried with.
 struct SplatJob {
   const Capture& capture;

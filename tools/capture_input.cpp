@@ -87,7 +87,7 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   const bool splats = !given.points.empty() && is_splat_file(given.points);
   if (!splats) options.points = given.points;
   options.cloud = !splats;
-  options.points_needed = wanted != PointsWanted::kOrPhotographs;
+  options.points_needed = wanted == PointsWanted::kNeeded;
   options.may_be_empty = wanted == PointsWanted::kOrNone;
   options.images = given.images;
   options.world = given.world;

@@ -23,7 +23,7 @@ struct CaptureInput {
 enum class PointsWanted : std::uint8_t {
   kNeeded,
   kOrPhotographs,  ///< photographs with cameras are enough
-  kOrNone,         ///< a cloud may have no points
+  kOrNone,         ///< so they are, and a cloud may have no points
 };
 
 /// Loads the capture, prints its warnings, and picks the cameras of the split.

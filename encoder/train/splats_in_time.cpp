@@ -2,10 +2,14 @@
 #include "encoder/train/splats_in_time.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "capture/nearest.h"
+#include "capture/spacing.h"
 #include "encoder/train/changed_views.h"
 #include "encoder/train/outlines.h"
+#include "encoder/train/starting_points.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/train/train_surfels.h"
 #include "encoder/train/training_start.h"
@@ -15,6 +19,8 @@ namespace {
 
 constexpr int kIterationsOfChange = 1500;  // decision 056
 constexpr double kMoreSplats = 1.25;       // of those of the first frame, where things appear
+constexpr float kNewReach = 1.5f;          // spacings: points so far from every surfel are new
+constexpr std::size_t kFewestNew = 20;     // points: fewer are the hull's own noise
 constexpr float kFaintest = 0.004f;        // fainter than any pixel shows
 
 /// Another origin, and what the surfels show in place of the capture's points.
@@ -29,6 +35,25 @@ Capture on_surfels(const Capture& capture, const Vec3& origin, const TrainedSurf
   for (const TrainedSurfel& surfel : surfels) {
     out.cloud.positions.push_back(surfel.position());
     out.cloud.normals.push_back(axes_of(surfel).normal);
+  }
+  return out;
+}
+
+/// Points of this instant where no surfel is: something has appeared there.
+SurfacePoints points_apart(const PointCloud& cloud, const TrainedSurfels& surfels, float apart) {
+  std::vector<Float3> known;
+  for (const TrainedSurfel& surfel : surfels) known.push_back(surfel.position());
+  const NearestPoints nearest(known);
+  SurfacePoints out;
+  for (std::size_t p = 0; p < cloud.positions.size(); ++p) {
+    std::uint32_t index = 0;
+    float square = 0;
+    nearest.nearest(cloud.positions[p], 1, &index, &square);
+    const TrainedSurfel& there = surfels[index];
+    const float reach = apart + std::max(there.radius(0), there.radius(1));
+    if (square < reach * reach) continue;
+    out.positions.push_back(cloud.positions[p]);
+    out.normals.push_back(cloud.normals[p]);
   }
   return out;
 }
@@ -51,6 +76,30 @@ Result<Done, InputError> SplatsInTime::begin(const Capture& capture, std::span<c
   origin_ = capture.origin;
   settings_.cache = &cache_;
   SLF_TRY(surfels_, train_gaussian_surfels(capture, cameras, settings_, progress));
+  first_ = surfels_.size();
+  return Done{};
+}
+
+Result<Done, InputError> SplatsInTime::add_what_appears(const Capture& capture,
+                                                        std::span<const int> cameras,
+                                                        const ChangedViews& changed,
+                                                        std::size_t most) {
+  if (!cache_.outlined || surfels_.size() >= most) return Done{};
+  const auto hull = starting_points(capture, cameras, settings_.threads);
+  if (!hull || hull->start != StartId::kHull) return Done{};  // nothing is cut out this time
+  const double spacing = typical_spacing(hull->cloud.positions);
+  const SurfacePoints fresh =
+      points_apart(hull->cloud, surfels_, kNewReach * static_cast<float>(spacing));
+  if (fresh.size() < kFewestNew) return Done{};
+  const std::size_t before = surfels_.size();
+  const TrainedSurfels added = start_surfels(fresh, spacing, changed.views(), most - before,
+                                             kSolidOpacity, settings_.threads);
+  surfels_.insert(surfels_.end(), added.begin(), added.end());
+  const std::vector<std::uint8_t> shown = changed.shown_by(surfels_, settings_.threads);
+  std::size_t kept = before;
+  for (std::size_t i = before; i < surfels_.size(); ++i)
+    if (shown[i]) surfels_[kept++] = surfels_[i];
+  surfels_.resize(kept);
   return Done{};
 }
 
@@ -59,7 +108,7 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   TrainGeometrySettings settings = settings_;
   settings.iterations = kIterationsOfChange;
   settings.is_volume = false;
-  settings.surfels = static_cast<std::size_t>(kMoreSplats * static_cast<double>(surfels_.size()));
+  settings.surfels = static_cast<std::size_t>(kMoreSplats * static_cast<double>(first_));
   cache_.normals.clear();  // those of the points of the first
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return Done{};
@@ -71,6 +120,7 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   if (changed.views().empty()) return Done{};
   std::vector<TrainingView> views = changed.views();
   train_as_gaussians(views, start.settings);
+  SLF_CHECK(add_what_appears(capture, cameras, changed, start.settings.surfels));
   start.settings.changed = &changed;
   start.settings.least_opacity = kFaintest;
   SLF_CHECK(train_surfels(views, start.settings, surfels_));

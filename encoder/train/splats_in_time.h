@@ -14,6 +14,8 @@
 
 namespace slf {
 
+class ChangedViews;
+
 /// Trains the splats of frames in their order. The first is trained like any capture. Those after
 /// it begin as the one before ended, and only splats that changed pixels show are trained, on what
 /// is around these pixels: so time and bytes go where something moves, and the rest does not
@@ -30,15 +32,26 @@ class SplatsInTime {
   Result<Gaussians, InputError> next(const Capture& capture, std::span<const int> cameras,
                                      const Progress& progress = {});
 
+  /// The first frame's points are anywhere (TrainGeometrySettings::is_volume).
+  void set_volume(bool is_volume) { settings_.is_volume = is_volume; }
+  /// What the first frame's training found.
+  const TrainingCache& cache() const { return cache_; }
+
  private:
   Result<Done, InputError> begin(const Capture& capture, std::span<const int> cameras,
                                  const Progress& progress);
   Result<Done, InputError> go_on(const Capture& capture, std::span<const int> cameras,
                                  const Progress& progress);
 
+  /// Surfels where outlines have an object and the frame before had none, and photographs changed,
+  /// as long as there are fewer than `most`.
+  Result<Done, InputError> add_what_appears(const Capture& capture, std::span<const int> cameras,
+                                            const ChangedViews& changed, std::size_t most);
+
   TrainGeometrySettings settings_;
   TrainingCache cache_;
   Vec3 origin_{};
+  std::size_t first_ = 0;  // surfels of the first
   TrainedSurfels surfels_;
   std::vector<TrainingView> before_;  // photographs, as they were when they last changed
 };

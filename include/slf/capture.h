@@ -77,7 +77,8 @@ struct Capture {
   Vec3 origin{0, 0, 0};  ///< world; cloud, mesh and cameras are given from it, and so are grids
                          ///< and points that are made of a capture. Origins of cloud and mesh are 0
   PointCloud cloud;
-  Mesh mesh;  ///< what `cloud` is a sample of, one point for every voxel that the photographs
+  bool has_geometry = true;  ///< false: cameras alone, not even a cloud without points
+  Mesh mesh;                 ///< what `cloud` is a sample of, one point for every voxel that the photographs
               ///< resolve; without triangles: the cloud is the capture's own
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute

@@ -147,8 +147,9 @@ using TakeFrame =
 struct PlannedFrames {
   std::vector<std::size_t> points;   ///< [F] as given; those of one voxel are merged
   std::vector<std::size_t> cameras;  ///< [F] that are input
-  Grid grid;                         ///< of all of them
+  Grid grid;                         ///< of all of them; not known of splats that are trained
   FramesOfPart part;                 ///< those that are to be coded
+  bool trained = false;              ///< as splats, by photographs
 };
 
 /// What encode_frames() does first: checks settings, loads each frame and finds the grid.
@@ -175,8 +176,11 @@ struct EncodedFrames {
 };
 
 /// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the
-/// first frame chose. Points are as given: nothing is mended, trained or made up. What stands still
+/// first frame chose. Points are as given: nothing is mended or made up. What stands still
 /// keeps its view map (FrameSettings::hold_still).
+/// With Surface::kSplats, and with kAuto where photographs have no points or points that leave
+/// holes, splats are trained instead: those of the first frame, and then, frame after frame, those
+/// that changed pixels show. The others stay as they are. All frames' splats are held.
 /// With EncoderSettings::target_bitrate the step is the one for which all frames together have 97
 /// to 100 % of it: they are coded some five times, and the bytes of two such runs are held.
 /// @param frames  how many there are, 1 or more. Each is loaded twice: for the grid, and to be

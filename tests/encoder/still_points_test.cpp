@@ -86,6 +86,7 @@ class StillPointsTest : public testing::Test {
     std::vector<std::uint8_t> stream;
     EncoderSettings settings;
     settings.q = 8;
+    settings.surface = Surface::kGiven;  // too few points for photographs of this size
     const auto encoded = encode_frames(
         frames.size(), [&](std::size_t f) { return Result<LoadedFrame, InputError>(frames[f]); },
         settings, {.hold_still = hold},
