@@ -7,11 +7,10 @@
 #include <tuple>
 
 #include "capture/file_names.h"
+#include "capture/frame_files.h"
 #include "capture/frame_names.h"
 #include "capture/frame_photographs.h"
-#include "capture/ply_reader.h"
 #include "slf/capture.h"
-#include "slf/gaussian_files.h"
 
 namespace slf {
 
@@ -21,10 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCapturePrefix = "frame_";
 
-InputError bad_frame(const fs::path& path, const std::string& cause) {
-  return {Errc::kInvalidInput, path.string() + ": " + cause};
-}
-
 /// An entry whose name is that of a frame.
 struct Candidate {
   FramePattern pattern;
@@ -32,13 +27,7 @@ struct Candidate {
   FrameKind kind;
 };
 
-bool is_splat_name(const fs::path& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".spz" || extension == ".splat" || extension == ".ksplat" ||
-         extension == ".sog";
-}
-
-/// Splats in other files than PLY are candidates to be refused by name, where nothing else is.
+/// Splats in other files than PLY are candidates where nothing else is.
 std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
                                       const std::optional<FramePattern>& wanted, bool splats) {
   std::error_code ignored;
@@ -148,19 +137,6 @@ Result<FrameInputs, InputError> frames_of_images(const fs::path& directory,
   return inputs;
 }
 
-Result<Done, InputError> check_cloud(const fs::path& file) {
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(file, error);
-  if (error) return InputError{Errc::kUnreadable, file.string() + ": " + error.message()};
-  if (size == 0) return bad_frame(file, "the frame is empty");
-  if (is_splat_name(file) || looks_like_gaussians(file))
-    return bad_frame(file,
-                     "Gaussian splats, and frames are photographs or coloured clouds: slf encode "
-                     "of the file alone codes this instant");
-  SLF_CHECK(ply_vertices(file));
-  return Done{};
-}
-
 struct NamedSize {
   std::string name;
   int width, height;
@@ -204,13 +180,10 @@ Result<Done, InputError> check_same_cameras(const FrameInput& frame,
   return Done{};
 }
 
-Result<Done, InputError> check_frames(const FrameInputs& inputs) {
+Result<Done, InputError> check_frames(FrameInputs& inputs) {
+  if (inputs.kind == FrameKind::kClouds) return check_frame_files(inputs);
   std::vector<NamedSize> expected;
   for (const FrameInput& frame : inputs.frames) {
-    if (inputs.kind == FrameKind::kClouds) {
-      SLF_CHECK(check_cloud(frame.path));
-      continue;
-    }
     SLF_TRY(auto cameras, cameras_of(frame.path));
     if (&frame == &inputs.frames.front())
       expected = std::move(cameras);
@@ -263,8 +236,8 @@ Result<FrameInputs, InputError> list_frames(const fs::path& input,
   SLF_TRY(const auto found, candidates_in(directory, pattern));
   if (found.empty())
     return bad_frame(input, pattern ? "no file has such a name"
-                                    : "no frames: neither frame_0001 and so on, nor clouds whose "
-                                      "names end in numbers");
+                                    : "no frames: neither frame_0001 and so on, nor clouds or "
+                                      "splats whose names end in numbers");
   SLF_CHECK(check_one_sequence(found));
   const FrameRange all{found.front().frame.number, found.back().frame.number};
   FrameInputs inputs{found.front().kind, {}};

@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/motion_mismatch.h"
 #include "encoder/motion_model.h"
-#include "geometry/morton.h"
-#include "geometry/reference_walk.h"
 
 namespace slf {
 namespace {
@@ -22,6 +21,10 @@ constexpr double kSettled = 0.01;
 constexpr double kWorthwhile = 0.98;
 /// How much better a motion has to foretell that has more to code.
 constexpr double kAffineCost = 1.002, kLatticeCost = 1.04, kFineCost = 1.10;
+constexpr double kAllStill = 1;  // grey levels of scattered points that nothing moves
+/// Sixteenths of a voxel that a vector of a lattice may have where things stand still.
+constexpr std::int32_t kRest = 24;
+constexpr double kRoomOfLattice = 1 << 18;  // points of a lattice. Spec 7.13
 /// Places whose matches would pull a lattice as hard as its full stiffness holds.
 constexpr std::size_t kStiffPlaces = 20000;
 
@@ -32,59 +35,24 @@ struct MatchEffort {
 };
 constexpr MatchEffort kAffine{3000, 5}, kTrial{3000, 3}, kLattice{12000, 5}, kNextFrame{8000, 4};
 
-/// Grey levels by which a frame differs from what its reference shows there, of a sample of points:
-/// others than those that are matched, where there are enough.
-class Mismatch {
- public:
-  Mismatch(const FramePoints& now, const FramePoints& before, int bits)
-      : now_(now), before_(before), bits_(bits), level_(before.codes), index_(level_) {}
-
-  double of(const Motion& motion) {
-    constexpr std::size_t kMost = 6000;
-    constexpr double kMissed = 48;  // grey levels that a point counts whose place is empty there
-    const std::size_t apart = std::max<std::size_t>(1, now_.codes.size() / kMost);
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < now_.codes.size(); i += apart, ++count) {
-      const Voxel v = from_morton(now_.codes[i]);
-      const Displacement d = motion.at({2 * v[0] + 1, 2 * v[1] + 1, 2 * v[2] + 1}, bits_);
-      const std::uint32_t at = index_.find(
-          {v[0] + ((d[0] + 8) >> 4), v[1] + ((d[1] + 8) >> 4), v[2] + ((d[2] + 8) >> 4)});
-      if (at == ReferenceLevel::kNone) {
-        sum += kMissed;
-        continue;
-      }
-      for (std::size_t c = 0; c < 3; ++c)
-        sum += std::min(std::abs(double{now_.colours[i][c]} - double{before_.colours[at][c]}),
-                        kMissed) /
-               3;
-    }
-    return count > 0 ? sum / count : 0;
-  }
-
- private:
-  const FramePoints &now_, &before_;
-  int bits_;
-  ReferenceLevel level_;
-  ReferenceWalk index_;
-};
-
 class MotionSearch {
  public:
   MotionSearch(const FramePoints& now, const FramePoints& before, int bits)
       : bits_(bits),
-        mismatch_(now, before, bits),
+        scattered_(now.scattered),
         here_(coarser_frames(now, std::max(bits - 4, 0))),
         there_(coarser_frames(before, std::max(bits - 4, 0))),
+        mismatch_(now, before, bits, here_, there_),
         matched_(there_.size()),
         motion_(bits) {
     least_ = mismatch_.of(best_);
   }
 
   Motion find(const Motion& previous) {
-    if (!previous.is_zero() && mismatch_.of(previous) < least_)
-      go_on(previous);
-    else
-      begin();
+    if (scattered_ && least_ < kAllStill) return {};
+    const bool goes_on = !previous.is_zero() && mismatch_.of(previous) < least_;
+    if (goes_on) go_on(previous);
+    if (!goes_on || scattered_) begin();
     return std::move(best_);
   }
 
@@ -94,8 +62,19 @@ class MotionSearch {
   MatchedFrame& there(int level) {
     auto& there = matched_[static_cast<std::size_t>(level)];
     if (!there)
-      there = std::make_unique<MatchedFrame>(there_[static_cast<std::size_t>(level)], level);
+      there = std::make_unique<MatchedFrame>(there_[static_cast<std::size_t>(level)], level,
+                                             scattered_);
     return *there;
+  }
+
+  /// Is a lattice of that distance over all points one that a frame can have?
+  bool has_room(int log2) const {
+    Place low = here(0).centres[0], high = low;
+    for (const Place& p : here(0).centres) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    double points = 1;
+    for (int i = 0; i < 3; ++i)
+      points *= std::floor(std::ldexp(high[i], -log2)) + 2 - std::floor(std::ldexp(low[i], -log2));
+    return points <= kRoomOfLattice;
   }
 
   int widest_lattice() const { return std::clamp(bits_ - 3, 3, kWidestLattice); }
@@ -107,15 +86,36 @@ class MotionSearch {
     return mismatch_.of(motion_.rounded()) <= kWorthwhile * least_;
   }
 
+  /// A part moves, by the affine motion to begin with, and the rest stands still. Leaves that
+  /// motion as it was.
+  void try_parts() {
+    const MotionModel affine = motion_;
+    std::vector<bool> still;
+    for (std::size_t i = 0; i < here(0).codes.size(); ++i) still.push_back(mismatch_.is_still(i));
+    for (const int log2 : {widest_lattice(), widest_lattice() - 1}) {
+      if (log2 < 3 || !has_room(log2)) break;
+      motion_ = MotionModel(bits_);
+      motion_.begin_part(here(0), log2, affine, still);
+      const double cost = log2 == widest_lattice() ? kLatticeCost : kFineCost;
+      consider(cost);
+      for (int level = std::min(2, coarsest()); level >= 0; --level) fit(level, kNextFrame);
+      consider(cost);
+    }
+    motion_ = affine;
+  }
+
   /// From no motion, coarse to fine.
   void begin() {
+    motion_ = MotionModel(bits_);
     for (int level = coarsest(); level >= 0; --level) fit(level, kAffine);
     consider(kAffineCost);
+    if (scattered_) try_parts();
     const int first = std::max(bits_ - 6, 0);
-    if (!try_lattice(first)) return;
+    if (!has_room(widest_lattice()) || !try_lattice(first)) return;
     for (int level = std::max(first - 1, 0); level >= 0; --level) fit(level, kLattice);
     consider(kLatticeCost);
-    if (motion_.lattice_log2() == 3) return;
+    const int finer = motion_.lattice_log2() - 1;
+    if (finer < 3 || !has_room(finer)) return;
     motion_.refine_lattice(here(0));
     fit(0, kNextFrame);
     consider(kFineCost);
@@ -128,7 +128,7 @@ class MotionSearch {
     if (previous.lattice_log2 == 0) {
       for (int level = fine; level >= 0; --level) fit(level, kAffine);
       consider(kAffineCost);
-      if (!try_lattice(fine)) return;
+      if (!has_room(widest_lattice()) || !try_lattice(fine)) return;
     }
     for (int level = fine; level >= 0; --level) fit(level, kNextFrame);
     consider(motion_.lattice_log2() == widest_lattice() ? kLatticeCost : kFineCost);
@@ -170,15 +170,24 @@ class MotionSearch {
   /// cost: how much better a motion has to foretell that has more to code
   void consider(double cost) {
     Motion found = motion_.rounded();
+    if (scattered_) rest(found);
     const double with = cost * mismatch_.of(found);
     if (with >= least_) return;
     least_ = with;
     best_ = std::move(found);
   }
 
+  /// What hardly moves stands still.
+  static void rest(Motion& motion) {
+    for (Displacement& d : motion.lattice)
+      if (std::all_of(d.begin(), d.end(), [](std::int32_t x) { return std::abs(x) < kRest; }))
+        d = {};
+  }
+
   int bits_;
-  Mismatch mismatch_;
+  bool scattered_;
   std::vector<CoarseFrame> here_, there_;
+  Mismatch mismatch_;
   std::vector<std::unique_ptr<MatchedFrame>> matched_;  // of there_, where it was needed
   MotionModel motion_;
   Motion best_;

@@ -14,6 +14,8 @@ namespace slf {
 struct FramePoints {
   std::span<const std::uint64_t> codes;
   std::span<const std::array<float, 3>> colours;
+  /// Splats: what is between them is far more than a voxel, and no surface is to be seen.
+  bool scattered = false;
 };
 
 /// Where the points of `now` were in `before`: an affine motion, one with a lattice added, one with

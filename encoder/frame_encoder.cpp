@@ -13,6 +13,7 @@
 #include "encoder/find_motion.h"
 #include "geometry/morton.h"
 #include "slf/frames.h"
+#include "slf/gaussians.h"
 #include "slf/view_map.h"
 
 namespace slf {
@@ -22,7 +23,7 @@ struct FrameColours {
   std::vector<std::uint64_t> codes;
   std::vector<std::array<float, 3>> colours;
 
-  FramePoints points() const { return {codes, colours}; }
+  FramePoints points(bool scattered) const { return {codes, colours, scattered}; }
 };
 
 namespace {
@@ -149,7 +150,9 @@ struct FrameEncoder::Impl {
       return pack_frame(field, parameters, &frame, &group);
     }
     const FrameColours now = colours_of(field, parameters.threads);
-    frame.motion = choose_motion(now.points(), before.points(), field.header.grid.bits, motion);
+    const bool scattered = has_gaussians(field.header);
+    frame.motion = choose_motion(now.points(scattered), before.points(scattered),
+                                 field.header.grid.bits, motion);
     motion = frame.motion;
     return pack_predicted(field, parameters, group, chain.state(), frame);
   }

@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "encoder/setting_rows.h"
+#include "slf/frame_inputs.h"
 
 namespace slf {
 namespace {
@@ -56,6 +57,9 @@ constexpr std::string_view kAny[] = {
     "steps",  "colour",     "klt",        "chroma-step",     "predict", "reference-contexts",
     "rdo",    "normal-bits"};
 
+/// What splats alone do not have, and frames of them do.
+constexpr std::string_view kOfSplatsInTime[] = {"target-bitrate", "reference-contexts"};
+
 constexpr std::string_view kOfPhotographs[] = {"effort",
                                                "photograph-pixels",
                                                "quality-loss",
@@ -98,7 +102,7 @@ const PartlyOfFrames* find_partly(std::string_view name) {
 }
 
 Result<Done, InputError> check_one(const SettingInfo& info, const std::string& value,
-                                   bool photographs) {
+                                   FrameKind kind) {
   const auto& values = info.frame_values;
   const bool has_value = values.empty() || is_among(values, value);
   if (info.frames == SettingInfo::kNotFrames || !has_value) {
@@ -107,9 +111,13 @@ Result<Done, InputError> check_one(const SettingInfo& info, const std::string& v
     return invalid_argument(
         given + " is not for frames: " + (row != nullptr ? row->instead : kTheirCoders));
   }
-  if (info.frames == SettingInfo::kFramesOfPhotographs && !photographs)
+  if (info.frames == SettingInfo::kFramesOfPhotographs && kind != FrameKind::kCaptures)
+    return invalid_argument("--" + info.name + " is for photographs, and frames that are " +
+                            (kind == FrameKind::kSplats ? "splats" : "clouds") + " have none");
+  if (kind == FrameKind::kSplats && info.splats != SettingInfo::kAnySplats &&
+      !is_among(kOfSplatsInTime, info.name))
     return invalid_argument("--" + info.name +
-                            " is for photographs, and frames that are clouds have none");
+                            " is for photographs and clouds, and these frames are splats");
   return Done{};
 }
 
@@ -127,10 +135,10 @@ void mark_for_frames(SettingTable& rows) {
   }
 }
 
-Result<Done, InputError> check_frame_settings(const GivenSettings& given, bool photographs) {
+Result<Done, InputError> check_frame_settings(const GivenSettings& given, FrameKind kind) {
   for (const auto& [name, value] : given)
     for (const SettingInfo& info : encoder_settings())
-      if (info.name == name) SLF_CHECK(check_one(info, value, photographs));
+      if (info.name == name) SLF_CHECK(check_one(info, value, kind));
   return Done{};
 }
 

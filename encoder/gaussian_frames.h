@@ -33,7 +33,7 @@ class GaussianExtent {
   LightFieldHeader header(const Grid& grid) const;
 
  private:
-  /// Of the first frame that shows something.
+  /// What the first frame that shows something has.
   struct First {
     int degree;
     UpAxis up;

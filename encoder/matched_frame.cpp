@@ -181,6 +181,13 @@ Match MatchedFrame::match(const Place& place, double brightness, const Place& gu
   const Place normal = there.normal / side_, slope = there.gradient / kGreyPerCell;
   add(normal, normal.dot(to));
   add(slope, slope.dot(to) + (brightness - frame_.brightness[nearest]) / kGreyPerCell);
+  if (scattered_ && there.normal.isZero()) {
+    const double miss = (guess - to).norm() / side_,
+                 other = (brightness - frame_.brightness[nearest]) / kGreyPerCell;
+    const double w = 1 / ((1 + miss * miss) * (1 + other * other) * side_ * side_);
+    match.weight += w * Eigen::Matrix3d::Identity();
+    match.wanted += w * to;
+  }
   constexpr double kHold = 1e-3;  // where neither tells
   match.weight += kHold / (side_ * side_) * Eigen::Matrix3d::Identity();
   match.wanted += kHold / (side_ * side_) * guess;

@@ -38,12 +38,14 @@ class MatchedFrame {
 
   MatchedFrame(const MatchedFrame&) = delete;
   MatchedFrame& operator=(const MatchedFrame&) = delete;
-  /// frame: kept by reference. dropped: levels of the grid that it lacks
-  MatchedFrame(const CoarseFrame& frame, int dropped)
+  /// frame: kept by reference. dropped: levels of the grid that it lacks. scattered: where no
+  /// surface is to be seen, places are matched with the nearest point itself
+  MatchedFrame(const CoarseFrame& frame, int dropped, bool scattered = false)
       : frame_(frame),
         index_(frame_.codes),
         walk_(index_),
         side_(std::ldexp(1.0, dropped)),
+        scattered_(scattered),
         known_(frame_.codes.size()),
         surface_(frame_.codes.size()) {}
 
@@ -67,6 +69,7 @@ class MatchedFrame {
   ReferenceLevel index_;
   ReferenceWalk walk_;
   double side_;
+  bool scattered_;
   std::vector<bool> known_;
   std::vector<Surface> surface_;
 };

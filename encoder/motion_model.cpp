@@ -38,6 +38,21 @@ void MotionModel::sample_lattice(const MotionModel& other, const CoarseFrame& po
         lattice_[k] = other.added(side_ * Place(first_[0] + x, first_[1] + y, first_[2] + z));
 }
 
+void MotionModel::begin_part(const CoarseFrame& points, int log2, const MotionModel& moving,
+                             const std::vector<bool>& still) {
+  begin_lattice(points, log2);
+  std::vector<double> votes(lattice_.size());
+  for (std::size_t i = 0; i < points.centres.size(); ++i)
+    for_corners(points.centres[i],
+                [&](std::size_t at, double w) { votes[at] += still[i] ? -w : w; });
+  std::size_t k = 0;
+  for (int z = 0; z < size_[2]; ++z)
+    for (int y = 0; y < size_[1]; ++y)
+      for (int x = 0; x < size_[0]; ++x, ++k)
+        if (votes[k] > 0)
+          lattice_[k] = moving.at(side_ * Place(first_[0] + x, first_[1] + y, first_[2] + z));
+}
+
 void MotionModel::refine_lattice(const CoarseFrame& points) {
   const MotionModel wide = *this;
   sample_lattice(wide, points, log2_ - 1);
@@ -175,7 +190,8 @@ Motion MotionModel::rounded() const {
           std::clamp<long>(std::lround(matrix_(static_cast<int>(i), static_cast<int>(j)) *
                                        (1 << Motion::kMatrixBits)),
                            -Motion::kMostEntry, Motion::kMostEntry));
-    m.shift[i] = static_cast<std::int32_t>(std::lround(16 * shift_[static_cast<int>(i)]));
+    m.shift[i] = static_cast<std::int32_t>(std::clamp<long>(
+        std::lround(16 * shift_[static_cast<int>(i)]), -Motion::kMostShift, Motion::kMostShift));
   }
   if (side_ == 0) return m;
   m.lattice_log2 = log2_;

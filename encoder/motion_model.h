@@ -34,6 +34,10 @@ class MotionModel {
   /// One of half the distance in its place, which is the same motion.
   void refine_lattice(const CoarseFrame& points);
 
+  /// A lattice that adds a motion where fewer than half of the points around stand still.
+  void begin_part(const CoarseFrame& points, int log2, const MotionModel& moving,
+                  const std::vector<bool>& still);
+
   /// The cell that a place is in: points of the lattice, and how much each counts.
   struct Corners {
     std::array<std::size_t, 8> point;

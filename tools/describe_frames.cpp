@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tools/frame_choices.h"
 #include "tools/text.h"
 
 namespace slf::tools {
@@ -38,7 +39,7 @@ nlohmann::ordered_json plan_json(const FrameInputs& inputs, const PlannedFrames&
                       {"cameras", plan.cameras[f]}});
   }
   return {{"dry_run", true},
-          {"kind", inputs.kind == FrameKind::kCaptures ? "captures" : "clouds"},
+          {"kind", words_of(inputs.kind)},
           {"grid", {{"bits", plan.grid.bits}, {"step", plan.grid.step}}},
           {"rate", settings.rate},
           {"group", settings.group},
@@ -48,6 +49,7 @@ nlohmann::ordered_json plan_json(const FrameInputs& inputs, const PlannedFrames&
 std::string plan_text(const FrameInputs& inputs, const PlannedFrames& plan,
                       const FrameSettings& settings, const std::vector<bool>& predicted) {
   const std::size_t first = plan.part.first, count = plan.part.count;
+  const bool splats = inputs.kind == FrameKind::kSplats;
   const auto points = plan.points.begin() + static_cast<std::ptrdiff_t>(first);
   const auto [least, most] =
       std::minmax_element(points, points + static_cast<std::ptrdiff_t>(count));
@@ -58,7 +60,8 @@ std::string plan_text(const FrameInputs& inputs, const PlannedFrames& plan,
   if (count < plan.points.size()) out += text("part          of %zu frames\n", plan.points.size());
   out += text("time          %.3f s at %g frames a second\n",
               static_cast<double>(count) / settings.rate, settings.rate);
-  out += text("points        %s to %s a frame\n", grouped(*least).c_str(), grouped(*most).c_str());
+  out += text("%-13s %s to %s a frame\n", splats ? "splats" : "points", grouped(*least).c_str(),
+              grouped(*most).c_str());
   if (inputs.kind == FrameKind::kCaptures)
     out += text("cameras       %zu a frame\n", plan.cameras[first]);
   return out + text("grid          %d bits, voxels of %.4g\n", plan.grid.bits, plan.grid.step);
@@ -78,7 +81,8 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
                       const FrameSettings& settings) {
   const double rate = settings.rate;
   const std::size_t first = frames_of_part(inputs.frames.size(), settings).first;
-  std::size_t predicted = 0, points = 0, held = 0;
+  const bool splats = inputs.kind == FrameKind::kSplats;
+  std::size_t predicted = 0, points = 0, held = 0, left_out = 0;
   std::uint64_t of_predicted = 0;
   double seconds = 0;
   for (const EncodedFrame& f : encoded.frames) {
@@ -87,16 +91,22 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
     seconds += f.seconds;
     points += f.points;
     held += f.held;
+    left_out += f.left_out;
   }
   const std::size_t count = encoded.frames.size();
   if (given.common.json) {
     nlohmann::ordered_json json = {{"bytes", bytes}, {"q", encoded.q}, {"rate", rate}};
-    for (std::size_t f = 0; f < count; ++f)
+    for (std::size_t f = 0; f < count; ++f) {
       json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[first + f].number));
+      if (splats) json["frames"].back()["left_out"] = encoded.frames[f].left_out;
+    }
     return print(json);
   }
   if (given.common.quiet) return Done{};
   std::string out = text("frames        %zu, %zu predicted\n", count, predicted);
+  if (splats)
+    out += text("splats        %s a frame (%s that no pixel shows left out)\n",
+                grouped(points / count).c_str(), grouped(left_out / count).c_str());
   if (held > 0)
     out += text("still         %.1f %% of points keep the view map of the frame before\n",
                 1e2 * static_cast<double>(held) / static_cast<double>(points));

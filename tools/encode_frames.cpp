@@ -8,10 +8,11 @@
 
 #include "slf/frame_inputs.h"
 #include "slf/frames.h"
+#include "slf/gaussian_frames.h"
 #include "slf/plenoptic.h"
 #include "tools/capture_input.h"
 #include "tools/describe_frames.h"
-#include "tools/frame_places.h"
+#include "tools/frame_loader.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
@@ -19,55 +20,6 @@
 
 namespace slf::tools {
 namespace {
-
-/// Captures are loaded by the program, with their warnings: the first one's alone, all are alike.
-class FrameLoader {
- public:
-  FrameLoader(const EncodeOptions& given, const FrameInputs& inputs, ProgressLine& line)
-      : given_(given), inputs_(inputs), line_(line) {}
-
-  Result<LoadedFrame, InputError> load(std::size_t f) {
-    auto input = load_frame(inputs_.frames[f]);
-    if (!input) {
-      failure_ = input.error();
-      return InputError{Errc::kInvalidInput, failure_->message};
-    }
-    loaded_ = true;
-    return LoadedFrame{std::move(input->capture), std::move(input->cameras)};
-  }
-  LoadFrame function() {
-    return [this](std::size_t f) { return load(f); };
-  }
-  /// The result of a library call, which may have failed for what could not be loaded.
-  template <class T>
-  Result<T, Failure> from_frames(Result<T, InputError> result) const {
-    if (!result && failure_) return *failure_;
-    return from(given_.capture, std::move(result));
-  }
-
- private:
-  Result<CaptureInput, Failure> load_frame(const FrameInput& frame) {
-    EncodeOptions options = given_;
-    options.capture = frame.path.string();
-    options.frame = frame;
-    options.common.quiet = given_.common.quiet || loaded_;
-    options.points = file_of_frame(given_.points, frame);
-    SLF_TRY(options.images, images_of_frame(given_.images, frame));
-    SLF_TRY(CaptureInput input, load_input(options, line_, PointsWanted::kOrNone));
-    const PointCloud& cloud = input.capture.cloud;
-    if (input.cameras.empty() && !cloud.positions.empty() && cloud.colours.empty())
-      return Failure{kInputInvalid, options.capture +
-                                        ": the frame has no cameras and its points have no "
-                                        "colours"};
-    return input;
-  }
-
-  const EncodeOptions& given_;
-  const FrameInputs& inputs_;
-  ProgressLine& line_;
-  bool loaded_ = false;
-  std::optional<Failure> failure_;  // why a frame could not be loaded, with the exit code
-};
 
 /// Colours of views are not left out without a word.
 Outcome check_one_colour(const FrameInputs& inputs, const FrameOptions& frames) {
@@ -99,6 +51,26 @@ Outcome add_metadata(const EncodeOptions& given, Metadata& metadata) {
   return Done{};
 }
 
+/// By what the frames are.
+Result<PlannedFrames, InputError> plan_of(FrameLoader& loader, const FrameInputs& inputs,
+                                          const EncoderSettings& settings, const FrameSettings& own,
+                                          const Progress& progress) {
+  const std::size_t count = inputs.frames.size();
+  return inputs.kind == FrameKind::kSplats
+             ? plan_gaussian_frames(count, loader.splats(), settings, own, progress)
+             : plan_frames(count, loader.captures(), settings, own, progress);
+}
+
+Result<EncodedFrames, InputError> encoded_of(FrameLoader& loader, const FrameInputs& inputs,
+                                             const EncoderSettings& settings,
+                                             const FrameSettings& own, const TakeFrame& take,
+                                             const Progress& progress) {
+  const std::size_t count = inputs.frames.size();
+  return inputs.kind == FrameKind::kSplats
+             ? encode_gaussian_frames(count, loader.splats(), settings, own, take, progress)
+             : encode_frames(count, loader.captures(), settings, own, take, progress);
+}
+
 }  // namespace
 
 void add_frames(CLI::App& verb, FrameOptions& options) {
@@ -106,7 +78,7 @@ void add_frames(CLI::App& verb, FrameOptions& options) {
   verb.add_option(
           "--frames", options.range,
           "Numbers of the frames to encode, of a directory (frame_0001/ and on, or NAME_0001.ply "
-          "and on) or of a pattern of their names (NAME_%04d.ply)")
+          "and on, clouds or splats) or of a pattern of their names (NAME_%04d.ply)")
       ->type_name("A:B")
       ->group(group);
   verb.add_option("--group", options.group,
@@ -146,12 +118,10 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
   SLF_TRY(const FrameSettings own, frame_settings(frames));
   ProgressLine line(given.common.quiet);
   FrameLoader loader(given, inputs, line);
-  const std::size_t count = inputs.frames.size();
   if (frames.dry_run) {
-    SLF_TRY(
-        const PlannedFrames plan,
-        loader.from_frames(plan_frames(count, loader.function(), settings, own, line.callback())));
+    auto planned = plan_of(loader, inputs, settings, own, line.callback());
     line.clear();
+    SLF_TRY(const PlannedFrames plan, loader.from_frames(std::move(planned)));
     return report_plan(given, inputs, plan, own);
   }
   std::vector<std::uint8_t> stream;
@@ -159,7 +129,7 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
     stream.insert(stream.end(), bytes.begin(), bytes.end());
     return Result<Done, InputError>(Done{});
   };
-  auto encoded = encode_frames(count, loader.function(), settings, own, take, line.callback());
+  auto encoded = encoded_of(loader, inputs, settings, own, take, line.callback());
   line.clear();
   SLF_TRY(const EncodedFrames all, loader.from_frames(std::move(encoded)));
   warn(all.warnings, given.common.quiet);

@@ -37,24 +37,29 @@ Outcome check_given(const EncodeOptions& given) {
 }
 
 /// Leaves out what is not wanted; else says what perhaps is not.
-Outcome crop_or_warn(const EncodeOptions& given, Gaussians& splats) {
+Outcome crop_or_warn(const EncodeOptions& given, const std::string& file, Gaussians& splats) {
   if (const auto& c = given.crop; !c.empty())
-    return from(given.capture, crop(splats, WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}}));
+    return from(file, crop(splats, WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}}));
   const std::string far = far_splats_warning(splats);
-  if (!far.empty()) warn(given.capture + ": " + far, given.common.quiet);
+  if (!far.empty()) warn(file + ": " + far, given.common.quiet);
   return Done{};
 }
 
 }  // namespace
 
+Result<GaussianFile, Failure> wanted_splats(const EncodeOptions& given, const std::string& name) {
+  LimitOptions limits;  // as of any file that is encoded: 16 million splats of degree 3
+  limits.limits.max_stream_bytes = limits.limits.max_memory = kMostInput;
+  SLF_TRY(GaussianFile file, read_splat_file("encode", name, {}, limits, given.common));
+  SLF_CHECK(crop_or_warn(given, name, file.gaussians));
+  if (given.up_given) file.gaussians.up = given.up;
+  return file;
+}
+
 Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
   SLF_CHECK(check_given(given));
   Stopwatch watch;
-  LimitOptions limits;  // as of any file that is encoded: 16 million splats of degree 3
-  limits.limits.max_stream_bytes = limits.limits.max_memory = kMostInput;
-  SLF_TRY(GaussianFile file, read_splat_file("encode", given.capture, {}, limits, given.common));
-  SLF_CHECK(crop_or_warn(given, file.gaussians));
-  if (given.up_given) file.gaussians.up = given.up;
+  SLF_TRY(GaussianFile file, wanted_splats(given, given.capture));
   const double load = watch.lap();
   const int degree = file.gaussians.degree;
   settings.metadata.insert(settings.metadata.begin(), {"source", file.format});

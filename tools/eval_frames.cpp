@@ -233,6 +233,9 @@ Outcome eval_frames(const EvalOptions& options) {
     SLF_TRY(range, from("--frames", parse_frame_range(given.range)));
   }
   SLF_TRY(const FrameInputs inputs, from(given.capture, list_frames(given.capture, range)));
+  if (inputs.kind == FrameKind::kSplats)
+    return Failure{kUsage, "eval: frames are measured against captures, and those of " +
+                               given.capture + " are splats"};
   SLF_TRY(given.frames, open_frames(given.input, given.limits, given.common));
   if (!given.unquantised.empty()) {
     SLF_TRY(given.unquantised_frames, open_frames(given.unquantised, given.limits, given.common));

@@ -66,14 +66,20 @@ Outcome check_choice(const std::string& name, FrameKind kind) {
   if (found == kChoices.end() || found->of == FrameChoice::kNone)
     return Failure{kUsage, option + " is not for frames" +
                                (found == kChoices.end() ? "" : ": " + std::string(found->instead))};
-  if (found->of == FrameChoice::kPhotographs && kind == FrameKind::kClouds)
-    return Failure{kUsage, option + " is for photographs, and frames that are clouds have none"};
-  if (found->of == FrameChoice::kClouds && kind == FrameKind::kCaptures)
-    return Failure{kUsage, option + " is for clouds, and these frames are captures"};
+  if (found->of == FrameChoice::kPhotographs && kind != FrameKind::kCaptures)
+    return Failure{kUsage, option + " is for photographs, and frames that are " + words_of(kind) +
+                               " have none"};
+  if (found->of == FrameChoice::kClouds && kind != FrameKind::kClouds)
+    return Failure{kUsage, option + " is for clouds, and these frames are " + words_of(kind)};
   return Done{};
 }
 
 }  // namespace
+
+std::string words_of(FrameKind kind) {
+  if (kind == FrameKind::kSplats) return "splats";
+  return kind == FrameKind::kClouds ? "clouds" : "captures";
+}
 
 std::vector<GivenOption> given_options(const CLI::App& verb) {
   std::vector<GivenOption> given;
@@ -92,7 +98,7 @@ Outcome check_frame_options(const std::vector<GivenOption>& given, const EncodeO
       return Failure{kUsage, "encode: --as " + option.value + " is not for frames: " +
                                  std::string(kOneColour) + ", or take --as colour"};
   }
-  auto checked = check_frame_settings(encode.given, kind == FrameKind::kCaptures);
+  auto checked = check_frame_settings(encode.given, kind);
   if (!checked) return Failure{kUsage, "encode: " + checked.error().message};
   return Done{};
 }

@@ -16,6 +16,9 @@ struct GivenOption {
   std::string value;  ///< the first; none of a flag
 };
 
+/// "captures", "clouds" or "splats".
+std::string words_of(FrameKind kind);
+
 /// What was given on the command line, but for positionals.
 std::vector<GivenOption> given_options(const CLI::App& verb);
 

@@ -13,12 +13,17 @@
 
 namespace slf {
 
-enum class FrameKind : std::uint8_t { kCaptures, kClouds };
+enum class FrameKind : std::uint8_t {
+  kCaptures,
+  kClouds,
+  kSplats,  ///< Gaussian splats, files of looks_like_gaussians()
+};
 
 struct FrameInput {
   std::uint32_t number = 0;    ///< as its name has it; from one frame to the next 1 more
-  std::filesystem::path path;  ///< a directory that load_capture reads, or a PLY
+  std::filesystem::path path;  ///< a directory that load_capture reads, a PLY or a file of splats
   bool of_all = false;         ///< path is one capture whose files have %d for the number
+  bool is_empty = false;       ///< a PLY without vertices
 
   /// For messages, and for a folder of its own: frame_0001, NAME_0001.ply.
   std::string name() const;
@@ -40,28 +45,30 @@ struct FrameRange {
 Result<Capture, InputError> load_frame(const FrameInput& frame, const CaptureOptions& options = {});
 
 /// Is this what list_frames reads, rather than one capture or one cloud? A name with a pattern; or
-/// a directory that is no capture itself and has frame_NUMBER/, or clouds whose names end in
-/// numbers; or one whose cameras.json has images with a pattern.
+/// a directory that is no capture itself and has frame_NUMBER/, or clouds or splats whose names end
+/// in numbers; or one whose cameras.json has images with a pattern.
 bool holds_frames(const std::filesystem::path& input);
 
 /// Finds the frames of an input and checks that they are of one sequence. Headers and cameras are
 /// read; points and photographs are not.
 ///
 /// @param input  a directory of captures frame_NUMBER/, or of clouds NAME + NUMBER.ply, one NAME
-///               in all; or a path whose last part has one pattern %d, %4d or %04d for the number
+///               in all, or of splats: NAME + NUMBER.ply or, where there is no PLY, .spz, .sog,
+///               .splat, .ksplat, .glb; or a path whose last part has one pattern %d, %4d or %04d
+///               for the number
 ///               ("loot_vox10_%04d.ply", "take/frame_%04d"), which leaves other names out; or a
 ///               directory with one cameras.json, each of whose images has such a pattern
 ///               ("cam1/%04d.png"): frames have the numbers of the first camera's photographs.
 ///               Numbers begin anywhere in 0 .. 999,999,999. Other files are not looked at.
 /// @param range  frames that are wanted; without: all
-/// @return F frames, F >= 1, numbers without a gap. A cloud may have no points.
+/// @return F frames, F >= 1, numbers without a gap. A cloud may have no points, a PLY no splats;
+///         without points it goes with both.
 /// @errors kUnreadable: the directory, or a file of a frame. kInvalidArgument: a pattern that is
 ///         none of these, a range that ends before it begins. kInvalidInput, names the file:
 ///         no frames; one that is missing between the first and the last; two of one number;
-///         captures and clouds in one directory, or clouds of two names; an empty frame; Gaussian
-///         splats, which frames do not have; captures
-///         that have other cameras (names, in any order) or other sizes of images than the first;
-///         what load_capture or a PLY's header refuses.
+///         captures, clouds and splats in one directory, or clouds of two names; an empty file;
+///         captures that have other cameras (names, in any order) or other sizes of images than the
+///         first; what load_capture or a PLY's header refuses.
 /// O(E log E + F C log C) for E entries of the directory and C cameras. Thread-safe.
 Result<FrameInputs, InputError> list_frames(const std::filesystem::path& input,
                                             std::optional<FrameRange> range = {});

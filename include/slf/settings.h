@@ -14,6 +14,8 @@
 
 namespace slf {
 
+enum class FrameKind : std::uint8_t;  // slf/frame_inputs.h
+
 /// What a setting is called, what it may be, and what it is for.
 struct SettingInfo {
   enum Kind : std::uint8_t {
@@ -68,8 +70,7 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 Result<EncoderSettings, InputError> settings_from(const GivenSettings& given);
 
 /// Refuses what frames in time do not have, so that nothing is given without effect.
-/// @param photographs  the frames are captures; else coloured clouds
 /// @errors kInvalidArgument, with "--name" in the message and what would do in its place
-Result<Done, InputError> check_frame_settings(const GivenSettings& given, bool photographs);
+Result<Done, InputError> check_frame_settings(const GivenSettings& given, FrameKind kind);
 
 }  // namespace slf

@@ -52,7 +52,9 @@ class FrameInputsTest : public testing::Test {
   }
   static std::string listed(const Result<FrameInputs, InputError>& frames) {
     if (!frames) return frames.error().message;
-    std::string text = frames->kind == FrameKind::kClouds ? "clouds" : "captures";
+    std::string text = frames->kind == FrameKind::kClouds   ? "clouds"
+                       : frames->kind == FrameKind::kSplats ? "splats"
+                                                            : "captures";
     for (const FrameInput& frame : frames->frames)
       text += " " + std::to_string(frame.number) + "=" + frame.path.filename().string();
     return text;

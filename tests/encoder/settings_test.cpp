@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slf/settings.h"
+#include "slf/frame_inputs.h"
 
 #include <gtest/gtest.h>
 
@@ -144,8 +145,8 @@ TEST(Settings, WhatFramesDoNotHaveIsRefusedWithThemAndWhatWouldDoIsNamed) {
         value = word;
     if (limited && std::count(info.frame_values.begin(), info.frame_values.end(), value) > 0)
       value = std::to_string(static_cast<int>(info.high));
-    const auto of_captures = check_frame_settings({{info.name, value}}, true),
-               of_clouds = check_frame_settings({{info.name, value}}, false);
+    const auto of_captures = check_frame_settings({{info.name, value}}, FrameKind::kCaptures),
+               of_clouds = check_frame_settings({{info.name, value}}, FrameKind::kClouds);
     if (info.frames == SettingInfo::kNotFrames || limited) {
       ASSERT_FALSE(of_captures || of_clouds) << info.name;
       EXPECT_NE(of_captures.error().message.find("--" + info.name), std::string::npos);
@@ -160,7 +161,8 @@ TEST(Settings, WhatFramesDoNotHaveIsRefusedWithThemAndWhatWouldDoIsNamed) {
   EXPECT_GE(refused, 18);
   EXPECT_GE(of_photographs, 25);
   EXPECT_GE(of_any, 12);
-  EXPECT_TRUE(check_frame_settings({{"surface", "given"}, {"base-levels", "auto"}}, false));
+  EXPECT_TRUE(
+      check_frame_settings({{"surface", "given"}, {"base-levels", "auto"}}, FrameKind::kClouds));
 }
 
 const SettingScope kOnOctrees = {"--geometry octree", [](const EncoderSettings& s) {

@@ -49,21 +49,6 @@ TEST_F(SequenceTest, ADryRunSaysWhatWouldBeDoneAndWritesNothing) {
                  "as they are given");
 }
 
-TEST_F(SequenceTest, SplatFilesAsFramesAreRefusedByName) {
-  const auto splats = test::random_gaussians(50, 1);
-  for (const auto& [name, format] :
-       {std::pair{"s_1.ply", SplatFormat::kPly}, std::pair{"t/s_1.spz", SplatFormat::kSpz3}}) {
-    fs::create_directories(path("t"));
-    const auto bytes = gaussian_file(splats, format);
-    write(name, {bytes->begin(), bytes->end()});
-  }
-  for (const char* input : {"s_%d.ply", "t", "t/s_%d.spz"})
-    expect_failure(slf("encode " + std::string(input) + " -o x.slf --quiet"), 4, "s_1.",
-                   "Gaussian splats, and frames are photographs or coloured clouds: slf encode of "
-                   "the file alone");
-  EXPECT_FALSE(exists("x.slf"));
-}
-
 TEST_F(SequenceTest, ColoursOfViewsAreNotLeftOutWithoutAWord) {
   ASSERT_EQ(slf("synth can --plenoptic 5 --points 500 -o p_1.ply --quiet").code, 0);
   fs::copy_file(path("p_1.ply"), path("p_2.ply"));
