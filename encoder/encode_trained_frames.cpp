@@ -97,6 +97,11 @@ bool are_trained(const EncoderSettings& settings, const std::vector<std::size_t>
                  const LoadedFrame& first) {
   if (first.cameras.empty()) return false;
   if (settings.surface != Surface::kAuto) return settings.surface == Surface::kSplats;
+  EncoderSettings plain = settings;  // what a step and a grid are for splats too
+  plain.q = kAutomaticQ;
+  plain.grid_bits = 0;
+  plain.voxel_size = 0;
+  if (!may_be_splats(plain)) return false;
   const bool none = std::all_of(points.begin(), points.end(), [](std::size_t n) { return n == 0; });
   return none || (training_obstacle(first.capture, first.cameras).empty() &&
                   !is_dense(first.capture, first.cameras));

@@ -8,8 +8,8 @@
 
 namespace slf {
 
-/// Whether frames are trained: where splats are asked for, or photographs have no points, or points
-/// that leave holes.
+/// Whether frames are trained: where splats are asked for, or no setting asks for a surface and
+/// photographs have no points, or points that leave holes.
 /// @param points  [F] of each
 /// @param first   a frame with cameras and, where there is one, with points
 bool are_trained(const EncoderSettings& settings, const std::vector<std::size_t>& points,

@@ -35,7 +35,7 @@ const std::vector<PartlyOfFrames>& partly() {
   static const std::vector<PartlyOfFrames> all = {
       {"preset", Info::kAnyFrames, {"default"}, "--fit paper fits view maps as the paper does"},
       {"densify", Info::kAnyFrames, {"off", "auto"}, kPointsAsGiven},
-      {"surface", Info::kAnyFrames, {"given", "auto"}, kPointsAsGiven},
+      {"surface", Info::kAnyFrames, {"given", "auto", "splats"}, kPointsAsGiven},
       {"surface-seconds", Info::kNotFrames, {}, kPointsAsGiven},
       {"surface-memory", Info::kNotFrames, {}, kPointsAsGiven},
       {"geometry", Info::kAnyFrames, {"octree"}, kTheirCoders},
