@@ -143,6 +143,15 @@ TEST(Spec_8_12_Gaussians, WithAPartThatMovesTakeFewerBytesThanThoseThatAllMove) 
   EXPECT_LT(bytes_of(code(part), true), bytes_of(code(all), true) * 3 / 4);
 }
 
+TEST(Spec_8_12_Gaussians, OnTheFinestGridAreForetoldWithoutALattice) {
+  EncoderSettings settings;
+  settings.grid_bits = 21;
+  const auto frames = turning(2, 0.03, 500);
+  const Coded coded = code(frames, {}, settings), alone = code(frames, {.group = 1}, settings);
+  EXPECT_EQ(coded.report.grid.bits, 21);
+  EXPECT_LT(bytes_of(coded, true), bytes_of(alone, false) / 2);
+}
+
 TEST(Spec_8_12_Gaussians, OneFrameIsThePlainFile) {
   const Gaussians splats = ball(300);
   const Coded coded = code({splats});
