@@ -124,6 +124,7 @@ Result<EncodedFrames, InputError> encode_trained_frames(std::size_t frames, cons
       encode_gaussian_frames(
           frames, [&](std::size_t f) -> Result<Gaussians, InputError> { return trained.splats[f]; },
           coding, frame_settings, take, progress, trained.origin));
+  encoded.trained = true;
   for (std::size_t f = 0; f < encoded.frames.size(); ++f) {
     encoded.frames[f].held = trained.still[f];
     encoded.frames[f].seconds += trained.seconds[f];

@@ -13,8 +13,8 @@ namespace slf {
 namespace {
 
 constexpr const char* kPointsAsGiven =
-    "points of frames are coded as they are given: mend, train or densify each frame first, by "
-    "slf encode of it alone and slf decode";
+    "points of frames are coded as they are given, or --surface splats has photographs train them: "
+    "mend or densify each frame first, by slf encode of it alone and slf decode";
 constexpr const char* kNoTarget = "--target-bitrate, or -q, is for a sequence";
 constexpr const char* kOneSlice =
     "a frame is one slice: --group and --part divide a sequence, slf truncate --frames cuts it";
@@ -111,7 +111,8 @@ Result<Done, InputError> check_one(const SettingInfo& info, const std::string& v
     return invalid_argument(
         given + " is not for frames: " + (row != nullptr ? row->instead : kTheirCoders));
   }
-  if (info.frames == SettingInfo::kFramesOfPhotographs && kind != FrameKind::kCaptures)
+  const bool trains = info.name == "surface" && value == "splats";
+  if ((info.frames == SettingInfo::kFramesOfPhotographs || trains) && kind != FrameKind::kCaptures)
     return invalid_argument("--" + info.name + " is for photographs, and frames that are " +
                             (kind == FrameKind::kSplats ? "splats" : "clouds") + " have none");
   if (kind == FrameKind::kSplats && info.splats != SettingInfo::kAnySplats &&

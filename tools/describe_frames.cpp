@@ -20,8 +20,9 @@ std::vector<bool> predicted_of(const PlannedFrames& plan, const FrameSettings& s
   std::vector<bool> predicted;
   for (std::size_t i = 0; i < plan.part.count; ++i) {
     const std::size_t f = plan.part.first + i;
-    predicted.push_back(f % static_cast<std::size_t>(settings.group) != 0 && plan.points[f] > 0 &&
-                        plan.points[f - 1] > 0);
+    const bool begins = f % static_cast<std::size_t>(settings.group) == 0;
+    predicted.push_back(!begins &&
+                        (plan.trained || (plan.points[f] > 0 && plan.points[f - 1] > 0)));
   }
   return predicted;
 }
@@ -40,7 +41,10 @@ nlohmann::ordered_json plan_json(const FrameInputs& inputs, const PlannedFrames&
   }
   return {{"dry_run", true},
           {"kind", words_of(inputs.kind)},
-          {"grid", {{"bits", plan.grid.bits}, {"step", plan.grid.step}}},
+          {"trained", plan.trained},
+          {"grid", plan.trained ? nlohmann::ordered_json()
+                                : nlohmann::ordered_json{{"bits", plan.grid.bits},
+                                                         {"step", plan.grid.step}}},
           {"rate", settings.rate},
           {"group", settings.group},
           {"frames", std::move(frames)}};
@@ -64,6 +68,7 @@ std::string plan_text(const FrameInputs& inputs, const PlannedFrames& plan,
               grouped(*most).c_str());
   if (inputs.kind == FrameKind::kCaptures)
     out += text("cameras       %zu a frame\n", plan.cameras[first]);
+  if (plan.trained) return out + "splats        photographs train them, and so find their grid\n";
   return out + text("grid          %d bits, voxels of %.4g\n", plan.grid.bits, plan.grid.step);
 }
 
@@ -95,7 +100,8 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
   }
   const std::size_t count = encoded.frames.size();
   if (given.common.json) {
-    nlohmann::ordered_json json = {{"bytes", bytes}, {"q", encoded.q}, {"rate", rate}};
+    nlohmann::ordered_json json = {
+        {"bytes", bytes}, {"q", encoded.q}, {"rate", rate}, {"trained", encoded.trained}};
     for (std::size_t f = 0; f < count; ++f) {
       json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[first + f].number));
       if (splats) json["frames"].back()["left_out"] = encoded.frames[f].left_out;
@@ -107,9 +113,11 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
   if (splats)
     out += text("splats        %s a frame (%s that no pixel shows left out)\n",
                 grouped(points / count).c_str(), grouped(left_out / count).c_str());
+  if (encoded.trained) out += "surface       splats, trained by photographs\n";
   if (held > 0)
-    out += text("still         %.1f %% of points keep the view map of the frame before\n",
-                1e2 * static_cast<double>(held) / static_cast<double>(points));
+    out += text("still         %.1f %% of %s of the frame before\n",
+                1e2 * static_cast<double>(held) / static_cast<double>(points),
+                encoded.trained ? "splats are those" : "points keep the view map");
   out += text("quality       Q %.4g\n", encoded.q);
   out += text("bytes         %s a frame that is not predicted, %s one that is\n",
               grouped((bytes - of_predicted) / std::max<std::size_t>(count - predicted, 1)).c_str(),

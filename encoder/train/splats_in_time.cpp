@@ -18,7 +18,7 @@ namespace slf {
 namespace {
 
 constexpr int kIterationsOfChange = 1500;  // decision 056
-constexpr double kMoreSplats = 1.25;       // of those of the first frame, where things appear
+constexpr double kMoreSplats = 1.5;        // of those of the first frame, where things appear
 constexpr float kNewReach = 1.5f;          // spacings: points so far from every surfel are new
 constexpr std::size_t kFewestNew = 20;     // points: fewer are the hull's own noise
 constexpr float kFaintest = 0.004f;        // fainter than any pixel shows
@@ -82,8 +82,8 @@ Result<Done, InputError> SplatsInTime::begin(const Capture& capture, std::span<c
 
 Result<Done, InputError> SplatsInTime::add_what_appears(const Capture& capture,
                                                         std::span<const int> cameras,
-                                                        const ChangedViews& changed,
-                                                        std::size_t most) {
+                                                        const ChangedViews& changed) {
+  const auto most = static_cast<std::size_t>(kMoreSplats * static_cast<double>(first_));
   if (!cache_.outlined || surfels_.size() >= most) return Done{};
   const auto hull = starting_points(capture, cameras, settings_.threads);
   if (!hull || hull->start != StartId::kHull) return Done{};  // nothing is cut out this time
@@ -108,7 +108,6 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   TrainGeometrySettings settings = settings_;
   settings.iterations = kIterationsOfChange;
   settings.is_volume = false;
-  settings.surfels = static_cast<std::size_t>(kMoreSplats * static_cast<double>(first_));
   cache_.normals.clear();  // those of the points of the first
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return Done{};
@@ -120,7 +119,8 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   if (changed.views().empty()) return Done{};
   std::vector<TrainingView> views = changed.views();
   train_as_gaussians(views, start.settings);
-  SLF_CHECK(add_what_appears(capture, cameras, changed, start.settings.surfels));
+  SLF_CHECK(add_what_appears(capture, cameras, changed));
+  start.settings.surfels = std::max(first_, surfels_.size());
   start.settings.changed = &changed;
   start.settings.least_opacity = kFaintest;
   SLF_CHECK(train_surfels(views, start.settings, surfels_));

@@ -43,10 +43,10 @@ class SplatsInTime {
   Result<Done, InputError> go_on(const Capture& capture, std::span<const int> cameras,
                                  const Progress& progress);
 
-  /// Surfels where outlines have an object and the frame before had none, and photographs changed,
-  /// as long as there are fewer than `most`.
+  /// Surfels where outlines have an object and the frame before had none, and photographs changed;
+  /// half as many as the first frame has at most.
   Result<Done, InputError> add_what_appears(const Capture& capture, std::span<const int> cameras,
-                                            const ChangedViews& changed, std::size_t most);
+                                            const ChangedViews& changed);
 
   TrainGeometrySettings settings_;
   TrainingCache cache_;

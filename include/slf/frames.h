@@ -170,8 +170,9 @@ struct EncodedFrame {
 };
 struct EncodedFrames {
   std::vector<EncodedFrame> frames;
-  Grid grid;     ///< of all of them
-  double q = 0;  ///< of all of them
+  Grid grid;             ///< of all of them
+  double q = 0;          ///< of all of them
+  bool trained = false;  ///< their points are splats that photographs trained
   std::vector<std::string> warnings;
 };
 
