@@ -47,7 +47,7 @@ struct Plane {
 };
 
 /// What differs in a channel of two photographs; nothing where both are clear.
-Plane difference(const Image& before, const Image& after, int channel) {
+Plane channel_difference(const Image& before, const Image& after, int channel) {
   Plane out(after.width, after.height);
   const auto clear = [](const Image& image, std::size_t pixel) {
     return image.channels == 4 && image.data[4 * pixel + 3] == 0;
@@ -79,7 +79,7 @@ float noise_of(const Plane& difference, const Plane& means) {
 std::vector<std::uint8_t> changed_pixels(const Image& before, const Image& after) {
   std::vector<std::uint8_t> changed(std::size_t(after.width) * std::size_t(after.height));
   for (int channel = 0; channel < 3; ++channel) {
-    const Plane signed_ = difference(before, after, channel);
+    const Plane signed_ = channel_difference(before, after, channel);
     Plane magnitude = signed_;
     for (float& value : magnitude.values) value = std::abs(value);
     const Plane mean = signed_.means(), mean_magnitude = magnitude.means();

@@ -19,7 +19,8 @@ void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
     const bool idle = surfels[i].opacity() < settings.least_opacity ||
                       (settings.all_seen && !(use.drawn[i] > 0)) ||
                       !std::isfinite(surfels[i].value[TrainedSurfel::kPosition]);
-    if (idle) continue;
+    const bool stays = !settings.moving.empty() && !settings.moving[i];
+    if (idle && !stays) continue;
     surfels[kept] = surfels[i];
     state.mean[kept] = state.mean[i];
     state.square[kept] = state.square[i];

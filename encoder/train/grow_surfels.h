@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "encoder/train/adam.h"
@@ -27,7 +29,8 @@ struct GrowSettings {
   std::size_t axes = 2;     ///< that are split: 3 of ellipsoids
   float smallest = 0;       ///< world radius: no smaller ones split; far away larger
   ViewedSpace space = {};   ///< where a pixel is larger
-  bool all_seen = false;    ///< every photograph was drawn since: what was not drawn goes
+  std::span<const std::uint8_t> moving = {};  ///< [surfels] 0: stays as it is; or none
+  bool all_seen = false;  ///< every photograph was drawn since: what was not drawn goes
 };
 
 /// Splits across the longest axis those with the greatest pull, so that the two draw about what the

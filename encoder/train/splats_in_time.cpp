@@ -21,7 +21,6 @@ constexpr int kIterationsOfChange = 1500;  // decision 056
 constexpr double kMoreSplats = 1.5;        // of those of the first frame, where things appear
 constexpr float kNewReach = 1.5f;          // spacings: points so far from every surfel are new
 constexpr std::size_t kFewestNew = 20;     // points: fewer are the hull's own noise
-constexpr float kFaintest = 0.004f;        // fainter than any pixel shows
 
 /// Another origin, and what the surfels show in place of the capture's points.
 Capture on_surfels(const Capture& capture, const Vec3& origin, const TrainedSurfels& surfels) {
@@ -118,11 +117,10 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   const ChangedViews changed(before_, std::move(start.views), settings.threads);
   if (changed.views().empty()) return Done{};
   std::vector<TrainingView> views = changed.views();
-  train_as_gaussians(views, start.settings);
+  train_as_gaussians(false, views, start.settings);
   SLF_CHECK(add_what_appears(capture, cameras, changed));
   start.settings.surfels = std::max(first_, surfels_.size());
   start.settings.changed = &changed;
-  start.settings.least_opacity = kFaintest;
   SLF_CHECK(train_surfels(views, start.settings, surfels_));
   if (!cache_.outlined) return Done{};
   SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, settings.threads));

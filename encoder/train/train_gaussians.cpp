@@ -77,10 +77,11 @@ Gaussians gaussians_of(const TrainedSurfels& surfels) {
   return out;
 }
 
-void train_as_gaussians(std::vector<TrainingView>& views, TrainSettings& training) {
+void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainSettings& training) {
   for (TrainingView& view : views) view.camera.gaussian = true;
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
+  if (!is_volume) training.least_opacity = kFaint;
   training.coarse = kCoarseShare;
 }
 
@@ -91,8 +92,7 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return TrainedSurfels{};
   TrainSettings& training = start.settings;
-  train_as_gaussians(start.views, training);
-  if (!settings.is_volume) training.least_opacity = kFaint;  // there all begin as faint
+  train_as_gaussians(settings.is_volume, start.views, training);
   SLF_TRY(std::vector<Outline> outlines, outlines_of(capture, cameras, settings.threads));
   const bool outlined = are_outlined(outlines.size(), cameras.size());
   if (!outlined) outlines.clear();

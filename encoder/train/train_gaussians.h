@@ -34,7 +34,8 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
                                                           const Progress& progress = {});
 
 /// What every training of Gaussians has in common: views that are drawn so, settings.
-void train_as_gaussians(std::vector<TrainingView>& views, TrainSettings& training);
+/// @param is_volume  they begin anywhere, and all as faint
+void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainSettings& training);
 
 /// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.

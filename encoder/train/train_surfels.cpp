@@ -242,8 +242,8 @@ class Training {
     grow.smallest = float(kSmallest * pixel_);
     grow.space = space_;
     grow.least_opacity = settings_.least_opacity;
-    // What stands still was drawn in photographs of another instant.
-    grow.all_seen = settings_.changed == nullptr && drawn_views_ >= views_.size();
+    grow.moving = moving_;
+    grow.all_seen = drawn_views_ >= views_.size();
     grow_surfels(grow, use_, adam_, surfels_);
     drawn_views_ = 0;
   }
