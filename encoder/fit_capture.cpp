@@ -227,12 +227,15 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
 }
 
 LightField quantise_rows(const Grid& grid, std::vector<Voxel> positions, FittedRows rows,
-                         const CaptureFit& fit, const EncoderSettings& settings) {
+                         const CaptureFit& fit, const EncoderSettings& settings,
+                         const std::vector<int>& shift) {
   LightField field;
   LightFieldHeader& header = field.header;
   header = header_on_grid(grid, fit, {0, 0, 0}, UpAxis::kUnknown, settings);
   for (auto& piece : rows.pieces()) to_coded_channels(piece, header.colour, settings.threads);
-  header.shift = component_shifts(rows, functions_of(header), slice_points_of(positions.size()));
+  header.shift = shift;
+  if (shift.empty())
+    header.shift = component_shifts(rows, functions_of(header), slice_points_of(positions.size()));
   field.components = to_components(std::move(rows), header.shift, settings.threads);
   field.positions = std::move(positions);
   return field;

@@ -82,7 +82,8 @@ LightField quantise_grid(const VoxelCloud& cloud, CaptureFit fit, const Vec3& or
 /// is little more than the components.
 /// @param fit  without its coefficients
 LightField quantise_rows(const Grid& grid, std::vector<Voxel> positions, FittedRows rows,
-                         const CaptureFit& fit, const EncoderSettings& settings);
+                         const CaptureFit& fit, const EncoderSettings& settings,
+                         const std::vector<int>& shift = {});
 
 /// Without cameras: the colours that the points have.
 /// @errors kInvalidInput: they have none

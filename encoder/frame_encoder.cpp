@@ -82,8 +82,9 @@ struct FrameEncoder::Impl {
   GroupCoding group;
   bool outgrown = false;  // a frame was more than the level promised: its group promises nothing
   FrameChain chain;
-  FrameColours before;  // as decoded
-  Motion motion;        // of the frame before
+  std::vector<std::uint8_t> first;  // bytes of the group's first frame: the chain goes back to them
+  FrameColours before;              // as decoded
+  Motion motion;                    // of the frame before
 
   Result<Done, InputError> check(const LightField& field, double at) const {
     if (parameters.quality_layers > 1 || !parameters.group_layers.empty())
@@ -113,6 +114,7 @@ struct FrameEncoder::Impl {
   }
 
   /// Is the frame what the level of its group promised?
+  /// @param bytes  of its largest unit at the most
   bool within_level(const LightField& field, const FrameHeader& frame, std::size_t bytes) const {
     const LevelLimits& most = level_limits(group.set.sps_level);
     const auto points = static_cast<double>(field.num_points());
@@ -130,15 +132,51 @@ struct FrameEncoder::Impl {
            before.codes.empty();
   }
 
+  /// Coded and decoded, with the unit that an application adds.
+  struct Coded {
+    std::vector<std::uint8_t> bytes;
+    std::size_t largest = 0;  // bytes of units, at the most
+    LightField decoded;
+  };
+
   /// A frame that is too much for the level of its group begins one that has none.
-  Result<std::vector<std::uint8_t>, InputError> code(const LightField& field, FrameHeader& frame) {
+  Result<Coded, InputError> code(const LightField& field, FrameHeader& frame,
+                                 const UnitOfFrame& unit) {
     if (number % static_cast<std::uint32_t>(group_length) == 0) outgrown = false;
-    if (field.num_points() == 0) return pack_empty(field, parameters, frame);
-    SLF_TRY(std::vector<std::uint8_t> bytes, code_in_level(field, frame));
-    if (within_level(field, frame, bytes.size())) return bytes;
+    SLF_TRY(Coded coded, code_once(field, frame, unit));
+    if (field.num_points() == 0 || within_level(field, frame, coded.largest)) return coded;
     outgrown = true;
     frame.frame_predicted_flag = 0;
-    return code_in_level(field, frame);
+    return code_once(field, frame, unit);
+  }
+
+  Result<Coded, InputError> code_once(const LightField& field, FrameHeader& frame,
+                                      const UnitOfFrame& unit) {
+    Coded coded;
+    SLF_TRY(coded.bytes, field.num_points() == 0 ? pack_empty(field, parameters, frame)
+                                                 : code_in_level(field, frame));
+    coded.largest = coded.bytes.size();
+    SLF_TRY(coded.decoded, decoded_of(coded.bytes));
+    const auto payload = unit ? unit(coded.decoded) : std::vector<std::uint8_t>{};
+    if (payload.empty()) return coded;
+    coded.largest = std::max(coded.largest, payload.size());
+    auto all = with_unit(coded.bytes, kApplicationUnit, payload);
+    if (!all) return invalid_frame("one is too large: " + to_string(all.error()));
+    coded.bytes = *std::move(all);
+    return coded;
+  }
+
+  Result<LightField, InputError> decoded_of(const std::vector<std::uint8_t>& bytes) {
+    const auto coded = read_frame(bytes, 0);
+    const bool begins = coded && !coded->header.predicted();
+    if (begins) first = bytes;
+    DecodeOptions options;
+    options.limits = DecodeLimits::none();
+    options.threads = parameters.threads;
+    auto decoded = coded ? chain.decode(begins ? first : bytes, *coded, options)
+                         : Result<LightField>(coded.error());
+    if (!decoded) return invalid_frame("one does not decode: " + to_string(decoded.error()));
+    return *std::move(decoded);
   }
 
   Result<std::vector<std::uint8_t>, InputError> code_in_level(const LightField& field,
@@ -166,7 +204,8 @@ FrameEncoder::FrameEncoder(const CodingParameters& parameters, int group, std::u
 }
 
 Result<std::vector<std::uint8_t>, InputError> FrameEncoder::add(const LightField& field,
-                                                                double time) {
+                                                                double time,
+                                                                const UnitOfFrame& unit) {
   Impl& self = *impl_;
   SLF_CHECK(self.check(field, time));
   SLF_TRY(std::vector<std::uint8_t> header, self.coded_header(field));
@@ -176,21 +215,12 @@ Result<std::vector<std::uint8_t>, InputError> FrameEncoder::add(const LightField
   frame.frame_number = self.number;
   frame.frame_time = time;
   frame.frame_predicted_flag = self.begins_group(field) ? 0 : 1;
-  SLF_TRY(std::vector<std::uint8_t> bytes, self.code(field, frame));
-  const auto coded = read_frame(bytes, 0);
-  DecodeOptions options;
-  options.limits = DecodeLimits::none();
-  options.threads = self.parameters.threads;
-  const auto decoded =
-      coded ? self.chain.decode(bytes, *coded, options) : Result<LightField>(coded.error());
-  if (!decoded)
-    return InputError{Errc::kInvalidArgument,
-                      "frames: one does not decode: " + to_string(decoded.error())};
-  self.before = colours_of(*decoded, self.parameters.threads);
+  SLF_TRY(Impl::Coded coded, self.code(field, frame, unit));
+  self.before = colours_of(coded.decoded, self.parameters.threads);
   self.header = std::move(header);
   self.time = time;
   ++self.number;
-  return bytes;
+  return std::move(coded.bytes);
 }
 
 FrameEncoder::FrameEncoder(FrameEncoder&&) noexcept = default;

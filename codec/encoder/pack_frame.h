@@ -51,6 +51,12 @@ Result<std::vector<std::uint8_t>, InputError> pack_empty(const LightField& field
 Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
                                                 FrameHeader& frame);
 
+/// The frame with one more unit, before its end unit.
+/// @param frame  its bytes alone, up to its end
+/// @errors those of split_units
+Result<std::vector<std::uint8_t>> with_unit(std::span<const std::uint8_t> frame, UnitType type,
+                                            std::span<const std::uint8_t> payload);
+
 /// pack of a field that nobody needs afterwards: its components are not held twice.
 Result<std::vector<std::uint8_t>, InputError> pack_taken(LightField field,
                                                          const CodingParameters& parameters);

@@ -37,7 +37,11 @@ Result<Done> apply_corrections(std::span<const std::uint8_t> payload, std::size_
 Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t> stream,
                                                    std::span<const std::uint8_t> payload);
 
+/// What FrameEncoder takes for the unit of a frame.
+std::vector<std::uint8_t> corrections_of_frame(std::span<const std::uint8_t> payload);
+
 /// The payload of the first unit of corrections; empty: there is none.
+/// @param stream  a file of one light field, or the bytes of a frame
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream);
 
 }  // namespace slf

@@ -5,6 +5,7 @@
 #include "bitstream/index.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/encoder/assemble.h"
+#include "codec/split_frames.h"
 #include "encoder/plenoptic/corrections.h"
 
 namespace slf {
@@ -38,8 +39,18 @@ Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t>
   return of_what_was_read(assemble(set, kept, boxes));
 }
 
+std::vector<std::uint8_t> corrections_of_frame(std::span<const std::uint8_t> payload) {
+  return with_identifier(kCorrections, payload);
+}
+
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
-  SLF_TRY(const Units units, split_units(stream));
+  Units units;
+  if (begins_intra(stream)) {
+    SLF_TRY(units, split_units(stream));
+  } else {
+    SLF_TRY(const FrameUnits frame, read_frame(stream, 0));
+    SLF_TRY(units, units_of_frame(stream, frame));
+  }
   for (const Unit& unit : units.units)
     if (is_of_application(unit, kCorrections)) return application_payload(unit);
   return std::span<const std::uint8_t>{};

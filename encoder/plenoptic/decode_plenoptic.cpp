@@ -14,6 +14,7 @@ namespace {
 Result<Done, InputError> correct(std::span<const std::uint8_t> stream, const LightField& field,
                                  int threads, std::vector<std::uint8_t>& bytes,
                                  std::vector<std::string>* warnings) {
+  if (field.num_points() == 0) return Done{};
   const auto payload = find_corrections(stream);
   if (!payload) return InputError{payload.error().code, in_words(payload.error())};
   if (field.partial || !corrects(*payload, field.num_points())) {

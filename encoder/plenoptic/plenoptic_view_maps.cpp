@@ -107,7 +107,8 @@ bool have_several_directions(const PlenopticCloud& cloud, const std::vector<std:
 
 Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const PlenopticRecord& record,
                                              EncoderSettings& settings, ChosenFit& chosen,
-                                             const Progress& progress) {
+                                             const Progress& progress,
+                                             const std::vector<int>& shift) {
   const auto views = fitted_views(record, cloud.views);
   if (!have_several_directions(cloud, views))
     return InputError{Errc::kInvalidInput,
@@ -128,7 +129,7 @@ Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const Plenop
   trim_heap();
   chosen = fit.chosen;
   return quantise_rows(cloud.grid, std::exchange(cloud.positions, {}), std::move(rows), fit,
-                       settings);
+                       settings, shift);
 }
 
 void look_from_views(const LightField& field, const PlenopticRecord& record, int threads,

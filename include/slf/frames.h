@@ -87,6 +87,11 @@ Result<std::vector<std::uint8_t>> truncate_frames(std::span<const std::uint8_t> 
                                                   std::size_t first, std::size_t last,
                                                   const DecodeOptions& options = {});
 
+/// What an application has to add to a frame, of what a decoder has of it: the payload of a unit of
+/// type 192 with its identifier in front (spec 7.1.1), which stands before the end of the frame.
+/// Empty: none.
+using UnitOfFrame = std::function<std::vector<std::uint8_t>(const LightField& decoded)>;
+
 /// Codes the frames of a stream, one after the other.
 class FrameEncoder {
  public:
@@ -102,10 +107,13 @@ class FrameEncoder {
   /// @param field  of the same functions, grid and basis as those before; its points are its own,
   ///               and may be none: that frame is a group of its own (format 1.2)
   /// @param time   seconds, more than that of the frame before
+  /// @param unit   or null
   /// @return the bytes of the frame, which follow those of the frame before
   /// @errors kInvalidArgument: a parameter that frames do not have, another header, time; those of
-  ///         pack(). The same bytes for any thread count. Holds one frame.
-  Result<std::vector<std::uint8_t>, InputError> add(const LightField& field, double time);
+  ///         pack(). The same bytes for any thread count. Holds one frame, and the coded bytes of
+  ///         the first of its group.
+  Result<std::vector<std::uint8_t>, InputError> add(const LightField& field, double time,
+                                                    const UnitOfFrame& unit = {});
 
  private:
   struct Impl;
@@ -174,6 +182,8 @@ struct EncodedFrames {
   double q = 0;          ///< of all of them
   bool trained = false;  ///< their points are splats that photographs trained
   std::vector<std::string> warnings;
+  std::string as;      ///< clouds of views: "planes" or "viewmaps"
+  bool exact = false;  ///< clouds of views: every byte comes back; q is that of planes
 };
 
 /// Codes frames: view maps of each are fitted by themselves, on one grid, in the settings that the

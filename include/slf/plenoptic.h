@@ -106,7 +106,7 @@ bool is_plenoptic(const Metadata& metadata);
 
 /// The cloud of a decoded file: planes to bytes, with the corrections of an exact file; view maps
 /// as they look from the positions of views.
-/// @param stream  the whole file, for its corrections
+/// @param stream  the whole file, or of a file of frames the bytes of this frame: for corrections
 /// @param warnings  or null; receives what is missing of an exact file
 /// @errors kInvalidInput: metadata or corrections that are damaged
 Result<PlenopticCloud, InputError> decode_plenoptic(std::span<const std::uint8_t> stream,
