@@ -113,17 +113,17 @@ struct FrameEncoder::Impl {
     return used ? kReferenceContexts : 0;
   }
 
-  /// Is the frame what the level of its group promised?
+  /// Is the frame more than the level of its group promised?
   /// @param bytes  of its largest unit at the most
-  bool within_level(const LightField& field, const FrameHeader& frame, std::size_t bytes) const {
+  bool exceeds_level(const LightField& field, const FrameHeader& frame, std::size_t bytes) const {
     const LevelLimits& most = level_limits(group.set.sps_level);
     const auto points = static_cast<double>(field.num_points());
     const bool slow = !frame.predicted() || points <= static_cast<double>(most.points_a_second) *
                                                           (frame.frame_time - time);
-    return group.set.sps_level == 0 ||
-           (slow && bytes <= most.unit_bytes &&
-            most.admits(field.num_points(),
-                        static_cast<std::uint64_t>(field.header.num_functions)));
+    return field.num_points() > 0 && group.set.sps_level != 0 &&
+           !(slow && bytes <= most.unit_bytes &&
+             most.admits(field.num_points(),
+                         static_cast<std::uint64_t>(field.header.num_functions)));
   }
 
   /// What begins a group: the first of so many, one without points and the one behind it.
@@ -132,7 +132,7 @@ struct FrameEncoder::Impl {
            before.codes.empty();
   }
 
-  /// Coded and decoded, with the unit that an application adds.
+  /// Coded and decoded, with the unit that an application adds; coded alone where that is too much.
   struct Coded {
     std::vector<std::uint8_t> bytes;
     std::size_t largest = 0;  // bytes of units, at the most
@@ -144,7 +144,7 @@ struct FrameEncoder::Impl {
                                  const UnitOfFrame& unit) {
     if (number % static_cast<std::uint32_t>(group_length) == 0) outgrown = false;
     SLF_TRY(Coded coded, code_once(field, frame, unit));
-    if (field.num_points() == 0 || within_level(field, frame, coded.largest)) return coded;
+    if (!exceeds_level(field, frame, coded.largest)) return coded;
     outgrown = true;
     frame.frame_predicted_flag = 0;
     return code_once(field, frame, unit);
@@ -156,6 +156,7 @@ struct FrameEncoder::Impl {
     SLF_TRY(coded.bytes, field.num_points() == 0 ? pack_empty(field, parameters, frame)
                                                  : code_in_level(field, frame));
     coded.largest = coded.bytes.size();
+    if (exceeds_level(field, frame, coded.largest)) return coded;
     SLF_TRY(coded.decoded, decoded_of(coded.bytes));
     const auto payload = unit ? unit(coded.decoded) : std::vector<std::uint8_t>{};
     if (payload.empty()) return coded;
