@@ -72,7 +72,7 @@ Result<PlenopticRows, InputError> read_rows(const std::string& name, const PlyEl
 
 /// The grid of the points. Whole coordinates keep theirs.
 Result<Grid, InputError> grid_of(const std::string& name, const PlenopticRows& rows,
-                                 const PlenopticColumns& columns, int grid_bits) {
+                                 const PlenopticColumns& columns, const PlenopticOptions& options) {
   Vec3 low = rows.positions[0], high = low;
   for (const Vec3& p : rows.positions)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -89,11 +89,14 @@ Result<Grid, InputError> grid_of(const std::string& name, const PlenopticRows& r
     grid.bits = std::max(1, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most))));
     return grid;
   }
+  const int grid_bits = options.one_of_several ? 0 : options.grid_bits;
   if (grid_bits == 0)
     return refused_cloud(
         name, "is taken for a plenoptic cloud of " + columns.taken +
-                  ". Its coordinates are not whole numbers that fit 21 bits: --grid-bits 12, or as "
-                  "many as it is to have, puts them on a grid" +
+                  ". Its coordinates are not whole numbers that fit 21 bits" +
+                  (options.one_of_several ? ", which is the one grid that frames can have"
+                                          : ": --grid-bits 12, or as many as it is to have, puts "
+                                            "them on a grid") +
                   (columns.own_colour ? "; --as colour takes red, green, blue alone" : ""));
   if (!(extent > 0)) return refused_cloud(name, "all points are in one place");
   grid.origin = low;
@@ -226,7 +229,7 @@ Result<PlenopticCloud, InputError> read_plenoptic(const std::filesystem::path& f
     SLF_CHECK(find_views(name, ply.header, options.views, cloud, said));
     SLF_TRY(PlenopticRows rows, read_rows(name, element, *columns, body));
     if (rows.positions.empty()) return refused_cloud(name, "no points");
-    SLF_TRY(cloud.grid, grid_of(name, rows, *columns, options.grid_bits));
+    SLF_TRY(cloud.grid, grid_of(name, rows, *columns, options));
     warn_of_rows(name, *columns, rows, said);
     sort_rows(std::move(rows), cloud);
     if (cloud.merged > 0)

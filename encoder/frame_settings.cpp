@@ -90,6 +90,19 @@ constexpr std::string_view kOfPhotographs[] = {"effort",
                                                "environment-degree",
                                                "environment-radius"};
 
+/// What clouds of views have, however they are coded.
+constexpr std::string_view kOfViews[] = {
+    "metres-per-unit", "quality", "target-bitrate", "klt", "reference-contexts", "predict", "rdo"};
+
+/// What their view maps have beyond that.
+constexpr std::string_view kOfViewMaps[] = {
+    "steps",         "colour",       "chroma-step",        "effort",
+    "fit",           "order",        "functions",          "scales",
+    "lambda",        "beta",         "iterations",         "penalise-dc",
+    "free-dc",       "basis",        "directions",         "cross-validate",
+    "degree",        "block-log2",   "block-strength",     "block-growth",
+    "point-penalty", "point-growth", "environment-degree", "environment-radius"};
+
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
@@ -99,6 +112,33 @@ const PartlyOfFrames* find_partly(std::string_view name) {
   for (const PartlyOfFrames& row : partly())
     if (row.name == name) return &row;
   return nullptr;
+}
+
+bool are_views(FrameKind kind) {
+  return kind == FrameKind::kPlanes || kind == FrameKind::kViewMaps;
+}
+
+/// A setting that some frames have.
+Result<Done, InputError> check_of_views(const SettingInfo& info, const std::string& value,
+                                        FrameKind kind) {
+  const std::string option = "--" + info.name;
+  const bool as_it_is = !info.frame_values.empty() && info.frames == SettingInfo::kAnyFrames &&
+                        value != "splats";  // points are taken as given, by the coders of frames
+  if (as_it_is || is_among(kOfViews, info.name)) return Done{};
+  if (is_among(kOfViewMaps, info.name)) {
+    if (kind == FrameKind::kViewMaps) return Done{};
+    return invalid_argument(option +
+                            " is for view maps (--as viewmaps), and these frames are planes");
+  }
+  if (info.frames == SettingInfo::kFramesOfPhotographs || value == "splats")
+    return invalid_argument(option +
+                            " is for photographs, and frames that are clouds of views have none");
+  if (info.name == "grid-bits" || info.name == "voxel-size")
+    return invalid_argument(option +
+                            " is not for clouds of views: whole coordinates are the grid of all");
+  return invalid_argument(option +
+                          " is not for clouds of views: --as colour takes red, green, blue alone, "
+                          "and has it");
 }
 
 Result<Done, InputError> check_one(const SettingInfo& info, const std::string& value,
@@ -111,6 +151,7 @@ Result<Done, InputError> check_one(const SettingInfo& info, const std::string& v
     return invalid_argument(
         given + " is not for frames: " + (row != nullptr ? row->instead : kTheirCoders));
   }
+  if (are_views(kind)) return check_of_views(info, value, kind);
   const bool trains = info.name == "surface" && value == "splats";
   if ((info.frames == SettingInfo::kFramesOfPhotographs || trains) && kind != FrameKind::kCaptures)
     return invalid_argument("--" + info.name + " is for photographs, and frames that are " +

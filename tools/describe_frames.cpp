@@ -102,6 +102,7 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
   if (given.common.json) {
     nlohmann::ordered_json json = {
         {"bytes", bytes}, {"q", encoded.q}, {"rate", rate}, {"trained", encoded.trained}};
+    if (!encoded.as.empty()) json.update({{"as", encoded.as}, {"exact", encoded.exact}});
     for (std::size_t f = 0; f < count; ++f) {
       json["frames"].push_back(frame_json(encoded.frames[f], inputs.frames[first + f].number));
       if (splats) json["frames"].back()["left_out"] = encoded.frames[f].left_out;
@@ -118,7 +119,9 @@ Outcome report_frames(const EncodeOptions& given, const FrameInputs& inputs,
     out += text("still         %.1f %% of %s of the frame before\n",
                 1e2 * static_cast<double>(held) / static_cast<double>(points),
                 encoded.trained ? "splats are those" : "points keep the view map");
-  out += text("quality       Q %.4g\n", encoded.q);
+  if (!encoded.as.empty())
+    out += text("coded as      %s\n", encoded.as == "planes" ? "planes" : "view maps");
+  out += encoded.exact ? text("quality       exact\n") : text("quality       Q %.4g\n", encoded.q);
   out += text("bytes         %s a frame that is not predicted, %s one that is\n",
               grouped((bytes - of_predicted) / std::max<std::size_t>(count - predicted, 1)).c_str(),
               grouped(of_predicted / std::max<std::size_t>(predicted, 1)).c_str());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/encode_frames.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -9,7 +10,7 @@
 #include "slf/frame_inputs.h"
 #include "slf/frames.h"
 #include "slf/gaussian_frames.h"
-#include "slf/plenoptic.h"
+#include "slf/plenoptic_frames.h"
 #include "tools/capture_input.h"
 #include "tools/describe_frames.h"
 #include "tools/frame_loader.h"
@@ -21,16 +22,16 @@
 namespace slf::tools {
 namespace {
 
-/// Colours of views are not left out without a word.
-Outcome check_one_colour(const FrameInputs& inputs, const FrameOptions& frames) {
-  if (inputs.kind != FrameKind::kClouds || frames.as == "colour") return Done{};
-  for (const FrameInput& frame : inputs.frames)
-    if (const std::size_t views = count_plenoptic_views(frame.path); views > 0)
-      return Failure{kUsage, "encode: " + frame.path.string() + " has colours of " +
-                                 std::to_string(views) +
-                                 " views, and frames one: --as colour takes red, green, blue; "
-                                 "alone, without --frames, it is coded whole"};
-  return Done{};
+/// Clouds may have colours of views.
+FrameKind kind_of(const FrameInputs& inputs, const PlenopticVerbOptions& plenoptic) {
+  if (inputs.kind != FrameKind::kClouds || plenoptic.as == "colour") return inputs.kind;
+  const bool views =
+      std::any_of(inputs.frames.begin(), inputs.frames.end(),
+                  [](const FrameInput& f) { return count_plenoptic_views(f.path) > 0; });
+  if (!views) return inputs.kind;
+  const bool maps =
+      plenoptic.as == "viewmaps" || (plenoptic.as == "auto" && !plenoptic.hold_out.empty());
+  return maps ? FrameKind::kViewMaps : FrameKind::kPlanes;
 }
 
 Result<FrameSettings, Failure> frame_settings(const FrameOptions& frames) {
@@ -51,24 +52,43 @@ Outcome add_metadata(const EncodeOptions& given, Metadata& metadata) {
   return Done{};
 }
 
+/// What there is to code, and how.
+struct FrameJob {
+  const FrameInputs& inputs;
+  PlenopticSettings settings;
+  FrameSettings frames;
+};
+
 /// By what the frames are.
-Result<PlannedFrames, InputError> plan_of(FrameLoader& loader, const FrameInputs& inputs,
-                                          const EncoderSettings& settings, const FrameSettings& own,
+Result<PlannedFrames, InputError> plan_of(FrameLoader& loader, const FrameJob& job,
                                           const Progress& progress) {
-  const std::size_t count = inputs.frames.size();
-  return inputs.kind == FrameKind::kSplats
-             ? plan_gaussian_frames(count, loader.splats(), settings, own, progress)
-             : plan_frames(count, loader.captures(), settings, own, progress);
+  const std::size_t count = job.inputs.frames.size();
+  const EncoderSettings& settings = job.settings.encoder;
+  switch (job.inputs.kind) {
+    case FrameKind::kSplats:
+      return plan_gaussian_frames(count, loader.splats(), settings, job.frames, progress);
+    case FrameKind::kPlanes:
+    case FrameKind::kViewMaps:
+      return plan_plenoptic_frames(count, loader.views(), job.settings, job.frames, progress);
+    default:
+      return plan_frames(count, loader.captures(), settings, job.frames, progress);
+  }
 }
 
-Result<EncodedFrames, InputError> encoded_of(FrameLoader& loader, const FrameInputs& inputs,
-                                             const EncoderSettings& settings,
-                                             const FrameSettings& own, const TakeFrame& take,
-                                             const Progress& progress) {
-  const std::size_t count = inputs.frames.size();
-  return inputs.kind == FrameKind::kSplats
-             ? encode_gaussian_frames(count, loader.splats(), settings, own, take, progress)
-             : encode_frames(count, loader.captures(), settings, own, take, progress);
+Result<EncodedFrames, InputError> encoded_of(FrameLoader& loader, const FrameJob& job,
+                                             const TakeFrame& take, const Progress& progress) {
+  const std::size_t count = job.inputs.frames.size();
+  const EncoderSettings& settings = job.settings.encoder;
+  switch (job.inputs.kind) {
+    case FrameKind::kSplats:
+      return encode_gaussian_frames(count, loader.splats(), settings, job.frames, take, progress);
+    case FrameKind::kPlanes:
+    case FrameKind::kViewMaps:
+      return encode_plenoptic_frames(count, loader.views(), job.settings, job.frames, take,
+                                     progress);
+    default:
+      return encode_frames(count, loader.captures(), settings, job.frames, take, progress);
+  }
 }
 
 }  // namespace
@@ -109,17 +129,18 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
   if (!frames.range.empty()) {
     SLF_TRY(range, from("--frames", parse_frame_range(frames.range)));
   }
-  SLF_TRY(const FrameInputs inputs, from(given.capture, list_frames(given.capture, range)));
+  SLF_TRY(FrameInputs inputs, from(given.capture, list_frames(given.capture, range)));
+  inputs.kind = kind_of(inputs, frames.plenoptic);
   SLF_CHECK(check_frame_options(frames.options, given, inputs.kind));
-  SLF_CHECK(check_one_colour(inputs, frames));
-  SLF_TRY(EncoderSettings settings, resolved(given));
-  SLF_CHECK(add_metadata(given, settings.metadata));
+  SLF_TRY(PlenopticSettings settings, plenoptic_settings(given, frames.plenoptic));
+  SLF_CHECK(add_metadata(given, settings.encoder.metadata));
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   SLF_TRY(const FrameSettings own, frame_settings(frames));
   ProgressLine line(given.common.quiet);
-  FrameLoader loader(given, inputs, line);
+  FrameLoader loader(given, inputs, frames.plenoptic.views, line);
+  const FrameJob job{inputs, std::move(settings), own};
   if (frames.dry_run) {
-    auto planned = plan_of(loader, inputs, settings, own, line.callback());
+    auto planned = plan_of(loader, job, line.callback());
     line.clear();
     SLF_TRY(const PlannedFrames plan, loader.from_frames(std::move(planned)));
     return report_plan(given, inputs, plan, own);
@@ -129,7 +150,7 @@ Outcome encode_frame_list(const EncodeOptions& given, const FrameOptions& frames
     stream.insert(stream.end(), bytes.begin(), bytes.end());
     return Result<Done, InputError>(Done{});
   };
-  auto encoded = encoded_of(loader, inputs, settings, own, take, line.callback());
+  auto encoded = encoded_of(loader, job, take, line.callback());
   line.clear();
   SLF_TRY(const EncodedFrames all, loader.from_frames(std::move(encoded)));
   warn(all.warnings, given.common.quiet);

@@ -7,6 +7,7 @@
 
 #include "tools/encode_options.h"
 #include "tools/frame_choices.h"
+#include "tools/plenoptic_options.h"
 
 namespace slf::tools {
 
@@ -14,10 +15,10 @@ struct FrameOptions {
   std::string range;  ///< A:B of the numbers in the names
   int group = 16;
   double rate = 30;
-  bool refit = false;       ///< points that stand still, too
-  std::string part;         ///< "i/n", from 1
-  std::string given;        ///< an option that means something for frames alone; or empty
-  std::string as = "auto";  ///< colours of plenoptic clouds
+  bool refit = false;  ///< points that stand still, too
+  std::string part;    ///< "i/n", from 1
+  std::string given;   ///< an option that means something for frames alone; or empty
+  PlenopticVerbOptions plenoptic;
   bool dry_run = false;
   std::vector<GivenOption> options;  ///< all that stand on the command line
 };

@@ -131,11 +131,8 @@ bool is_plenoptic_input(const EncodeOptions& given, const PlenopticVerbOptions& 
          count_plenoptic_views(given.capture) > 0;
 }
 
-Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic,
-                              std::uint64_t memory) {
-  if (given.common.json && given.output == "-")
-    return Failure{kUsage, "encode: --json and --output - both want standard output"};
-  SLF_CHECK(check_alone(given));
+Result<PlenopticSettings, Failure> plenoptic_settings(const EncodeOptions& given,
+                                                      const PlenopticVerbOptions& plenoptic) {
   PlenopticSettings settings;
   SLF_TRY(settings.encoder, resolved(given));
   settings.as = way_of(plenoptic.as);
@@ -143,9 +140,18 @@ Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOpt
   if (std::any_of(given.given.begin(), given.given.end(),
                   [](const auto& setting) { return setting.first == "degree"; }))
     settings.memory = 0;
-  settings.most_memory = memory;
   settings.hold_out = plenoptic.hold_out;
   std::sort(settings.hold_out.begin(), settings.hold_out.end());
+  return settings;
+}
+
+Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic,
+                              std::uint64_t memory) {
+  if (given.common.json && given.output == "-")
+    return Failure{kUsage, "encode: --json and --output - both want standard output"};
+  SLF_CHECK(check_alone(given));
+  SLF_TRY(PlenopticSettings settings, plenoptic_settings(given, plenoptic));
+  settings.most_memory = memory;
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));
   settings.encoder.metadata.insert(
       settings.encoder.metadata.begin(),

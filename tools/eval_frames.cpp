@@ -9,6 +9,7 @@
 #include "tools/eval_capture.h"
 #include "tools/frame_places.h"
 #include "tools/output.h"
+#include "tools/plenoptic_quality.h"
 #include "tools/progress.h"
 #include "tools/text.h"
 
@@ -242,15 +243,21 @@ Outcome eval_frames(const EvalOptions& options) {
   }
   const std::size_t count = given.frames->decoder->frames().size();
   SLF_CHECK(check_counts(given, inputs, count));
+  const bool of_views = is_plenoptic(given.frames->file.info.metadata);
+  if (of_views && inputs.kind != FrameKind::kClouds)
+    return Failure{kUsage, input_name(given.input) + ": was made of plenoptic clouds, and " +
+                               given.capture + " has none"};
   if (given.frame >= 0) {
     if (static_cast<std::size_t>(given.frame) >= count)
       return Failure{kUsage, input_name(given.input) + ": frame " + std::to_string(given.frame) +
                                  " is asked for, but it has " + std::to_string(count) +
                                  ", from 0 on"};
     const auto place = static_cast<std::size_t>(given.frame);
+    if (of_views) return eval_plenoptic_frames(given, {inputs.kind, {inputs.frames[place]}});
     SLF_TRY(const EvalOptions own, options_of(given, inputs.frames[place], place));
     return eval_capture(own);
   }
+  if (of_views) return eval_plenoptic_frames(given, inputs);
   Stopwatch watch;
   SLF_TRY(const std::vector<JudgedFrame> frames, judge_all(given, inputs));
   const std::vector<Measured> means = mean_measured(frames);

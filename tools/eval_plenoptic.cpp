@@ -4,25 +4,11 @@
 #include <cmath>
 
 #include "tools/describe.h"
-#include "tools/plenoptic_options.h"
+#include "tools/plenoptic_quality.h"
 #include "tools/text.h"
 
 namespace slf::tools {
 namespace {
-
-/// Views of one kind.
-struct ViewGroup {
-  const char* name;
-  std::vector<std::size_t> views;
-};
-
-/// Mean of decibels; infinite where all are exact, and NaN of none.
-double mean_of(const PlenopticQuality& quality, const std::vector<std::size_t>& views,
-               std::size_t channel) {
-  double sum = 0;
-  for (const std::size_t v : views) sum += quality.views[v].yuv[channel];
-  return sum / static_cast<double>(views.size());
-}
 
 nlohmann::ordered_json number_json(double psnr) {
   return std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nlohmann::ordered_json(nullptr);
@@ -67,6 +53,23 @@ std::string plenoptic_quality_text(const std::string& file, const PlenopticBits&
 
 }  // namespace
 
+std::vector<ViewGroup> view_groups(std::size_t views, const std::vector<int>& held_out) {
+  std::vector<ViewGroup> groups{{"coded", {}}, {"held out", {}}};
+  for (std::size_t v = 0; v < views; ++v) {
+    const bool out = std::find(held_out.begin(), held_out.end(), int(v)) != held_out.end();
+    groups[out ? 1 : 0].views.push_back(v);
+  }
+  if (groups[1].views.empty()) groups.pop_back();
+  return groups;
+}
+
+double mean_of(const PlenopticQuality& quality, const std::vector<std::size_t>& views,
+               std::size_t channel) {
+  double sum = 0;
+  for (const std::size_t v : views) sum += quality.views[v].yuv[channel];
+  return sum / static_cast<double>(views.size());
+}
+
 Outcome eval_plenoptic_file(const PlenopticEval& given) {
   SLF_TRY(const DecodedFile decoded, decode_file(given.input, {}, given.limits, given.common));
   if (!is_plenoptic(decoded.metadata))
@@ -85,18 +88,13 @@ Outcome eval_plenoptic_file(const PlenopticEval& given) {
           from(given.cloud, read_plenoptic(given.cloud, options, &warnings)));
   warn(warnings, given.common.quiet);
   SLF_TRY(const PlenopticQuality quality, from(given.cloud, measure_plenoptic(cloud, original)));
-  std::vector<ViewGroup> groups{{"coded", {}}, {"held out", {}}};
-  const std::vector<int> held_out = held_out_views(decoded.metadata);
-  for (std::size_t v = 0; v < quality.views.size(); ++v) {
-    const bool out = std::find(held_out.begin(), held_out.end(), int(v)) != held_out.end();
-    groups[out ? 1 : 0].views.push_back(v);
-  }
-  if (groups[1].views.empty()) groups.pop_back();
-  const PlenopticBits bits = plenoptic_bits(info, decoded.bytes);
+  const auto groups = view_groups(quality.views.size(), held_out_views(decoded.metadata));
+  const std::uint64_t size = decoded.stream.size();  // of a file of frames the first
+  const PlenopticBits bits = plenoptic_bits(info, size);
   if (!given.common.json)
     return print(plenoptic_quality_text(input_name(given.input), bits, quality, groups));
   nlohmann::ordered_json json = {
-      {"bytes", decoded.bytes},
+      {"bytes", size},
       {"points", quality.points},
       {"bits_per_point",
        {{"geometry", bits.geometry}, {"colour", bits.colour}, {"file", bits.file}}},

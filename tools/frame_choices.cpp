@@ -10,7 +10,7 @@ namespace {
 
 /// What frames have of an option that is no setting of the encoder.
 struct FrameChoice {
-  enum Of : std::uint8_t { kAll, kPhotographs, kClouds, kNone };
+  enum Of : std::uint8_t { kAll, kPhotographs, kClouds, kViews, kNotViews, kNone };
   std::string_view option;
   Of of = kAll;
   std::string_view instead = {};  ///< of kNone: what would do
@@ -18,8 +18,6 @@ struct FrameChoice {
 
 constexpr std::string_view kOneSlice =
     "--group and --part divide a sequence, and no more than a frame is held";
-constexpr std::string_view kOneColour =
-    "points of frames have one colour: encode a plenoptic cloud alone";
 
 constexpr std::array kChoices = {
     FrameChoice{"output"},
@@ -28,9 +26,9 @@ constexpr std::array kChoices = {
     FrameChoice{"images", FrameChoice::kPhotographs},
     FrameChoice{"split", FrameChoice::kPhotographs},
     FrameChoice{"refit-still", FrameChoice::kPhotographs},
-    FrameChoice{"crop"},
-    FrameChoice{"crs"},
-    FrameChoice{"up"},
+    FrameChoice{"crop", FrameChoice::kNotViews},
+    FrameChoice{"crs", FrameChoice::kNotViews},
+    FrameChoice{"up", FrameChoice::kNotViews},
     FrameChoice{"metadata"},
     FrameChoice{"notes"},
     FrameChoice{"threads"},
@@ -49,14 +47,18 @@ constexpr std::array kChoices = {
     FrameChoice{"resume", FrameChoice::kNone,
                 "nothing is kept between runs: --part codes groups that are done once"},
     FrameChoice{"log", FrameChoice::kNone, "--json tells of every frame"},
-    FrameChoice{"views", FrameChoice::kNone, kOneColour},
-    FrameChoice{"hold-out", FrameChoice::kNone, kOneColour},
+    FrameChoice{"views", FrameChoice::kViews},
+    FrameChoice{"hold-out", FrameChoice::kViews},
 };
 
 bool is_setting(const std::string& name) {
   const auto& settings = encoder_settings();
   return std::any_of(settings.begin(), settings.end(),
                      [&](const SettingInfo& setting) { return setting.name == name; });
+}
+
+bool are_views(FrameKind kind) {
+  return kind == FrameKind::kPlanes || kind == FrameKind::kViewMaps;
 }
 
 Outcome check_choice(const std::string& name, FrameKind kind) {
@@ -69,8 +71,14 @@ Outcome check_choice(const std::string& name, FrameKind kind) {
   if (found->of == FrameChoice::kPhotographs && kind != FrameKind::kCaptures)
     return Failure{kUsage, option + " is for photographs, and frames that are " + words_of(kind) +
                                " have none"};
-  if (found->of == FrameChoice::kClouds && kind != FrameKind::kClouds)
-    return Failure{kUsage, option + " is for clouds, and these frames are " + words_of(kind)};
+  const std::string these = ", and these frames are " + words_of(kind);
+  if (found->of == FrameChoice::kClouds && kind != FrameKind::kClouds && !are_views(kind))
+    return Failure{kUsage, option + " is for clouds" + these};
+  if (found->of == FrameChoice::kViews && !are_views(kind))
+    return Failure{kUsage, option + " is for clouds of views" + these};
+  if (found->of == FrameChoice::kNotViews && are_views(kind))
+    return Failure{kUsage, option + " is for photographs and clouds of one colour" + these +
+                               " (--as colour takes red, green, blue alone)"};
   return Done{};
 }
 
@@ -78,6 +86,7 @@ Outcome check_choice(const std::string& name, FrameKind kind) {
 
 std::string words_of(FrameKind kind) {
   if (kind == FrameKind::kSplats) return "splats";
+  if (kind == FrameKind::kPlanes || kind == FrameKind::kViewMaps) return "clouds of views";
   return kind == FrameKind::kClouds ? "clouds" : "captures";
 }
 
@@ -94,9 +103,10 @@ Outcome check_frame_options(const std::vector<GivenOption>& given, const EncodeO
                             FrameKind kind) {
   for (const GivenOption& option : given) {
     if (!is_setting(option.name)) SLF_CHECK(check_choice(option.name, kind));
-    if (option.name == "as" && option.value != "auto" && option.value != "colour")
-      return Failure{kUsage, "encode: --as " + option.value + " is not for frames: " +
-                                 std::string(kOneColour) + ", or take --as colour"};
+    if (option.name == "as" && kind == FrameKind::kClouds && option.value != "auto" &&
+        option.value != "colour")
+      return Failure{kUsage, "encode: --as " + option.value +
+                                 " is for clouds of views, and these frames have one colour"};
   }
   auto checked = check_frame_settings(encode.given, kind);
   if (!checked) return Failure{kUsage, "encode: " + checked.error().message};

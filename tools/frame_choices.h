@@ -16,7 +16,7 @@ struct GivenOption {
   std::string value;  ///< the first; none of a flag
 };
 
-/// "captures", "clouds" or "splats".
+/// "captures", "clouds", "splats" or "clouds of views".
 std::string words_of(FrameKind kind);
 
 /// What was given on the command line, but for positionals.

@@ -3,6 +3,7 @@
 
 #include "tools/encode_splats.h"
 #include "tools/frame_places.h"
+#include "tools/text.h"
 
 namespace slf::tools {
 
@@ -27,6 +28,13 @@ LoadGaussians FrameLoader::splats() {
   return [this](std::size_t f) -> Result<Gaussians, InputError> {
     if (inputs_.frames[f].is_empty) return Gaussians{};
     return kept(load_splats_of(inputs_.frames[f]));
+  };
+}
+
+LoadPlenoptic FrameLoader::views() {
+  return [this](std::size_t f) -> Result<PlenopticCloud, InputError> {
+    if (inputs_.frames[f].is_empty) return PlenopticCloud{};
+    return kept(load_views_of(inputs_.frames[f]));
   };
 }
 
@@ -61,6 +69,29 @@ Result<Gaussians, Failure> FrameLoader::load_splats_of(const FrameInput& frame) 
     return Failure{kInputInvalid, file + ": another axis is up than in " + kind_->file +
                                       "; --up says it for all frames"};
   return std::move(splats.gaussians);
+}
+
+Result<PlenopticCloud, Failure> FrameLoader::load_views_of(const FrameInput& frame) {
+  const std::string file = frame.path.string();
+  PlenopticOptions options;
+  options.views = views_;
+  options.one_of_several = true;
+  std::vector<std::string> warnings;
+  SLF_TRY(PlenopticCloud cloud, from(file, read_plenoptic(file, options, &warnings)));
+  line_.clear();
+  warn(warnings, given_.common.quiet || loaded_);
+  if (like_) {
+    auto same = check_same_views(*like_, cloud);
+    if (!same) return Failure{kInputInvalid, file + ": " + same.error().message};
+    return cloud;
+  }
+  PlenopticCloud points;
+  std::swap(points.positions, cloud.positions);
+  std::swap(points.colours, cloud.colours);
+  like_ = cloud;
+  cloud.positions = std::move(points.positions);
+  cloud.colours = std::move(points.colours);
+  return cloud;
 }
 
 }  // namespace slf::tools

@@ -10,6 +10,7 @@
 #include "slf/frame_inputs.h"
 #include "slf/frames.h"
 #include "slf/gaussian_frames.h"
+#include "slf/plenoptic_frames.h"
 #include "tools/capture_input.h"
 #include "tools/encode_options.h"
 #include "tools/progress.h"
@@ -19,11 +20,14 @@ namespace slf::tools {
 /// Frames are loaded by the program, with their warnings: the first one's alone, all are alike.
 class FrameLoader {
  public:
-  FrameLoader(const EncodeOptions& given, const FrameInputs& inputs, ProgressLine& line)
-      : given_(given), inputs_(inputs), line_(line) {}
+  /// @param views  a file of the positions of views, or empty
+  FrameLoader(const EncodeOptions& given, const FrameInputs& inputs, const std::string& views,
+              ProgressLine& line)
+      : given_(given), inputs_(inputs), views_(views), line_(line) {}
 
   LoadFrame captures();
   LoadGaussians splats();
+  LoadPlenoptic views();
 
   /// The result of a library call, which may have failed for what could not be loaded.
   template <class T>
@@ -42,15 +46,18 @@ class FrameLoader {
 
   Result<CaptureInput, Failure> load_capture_of(const FrameInput& frame);
   Result<Gaussians, Failure> load_splats_of(const FrameInput& frame);
+  Result<PlenopticCloud, Failure> load_views_of(const FrameInput& frame);
   template <class T>
   Result<T, InputError> kept(Result<T, Failure> loaded);
 
   const EncodeOptions& given_;
   const FrameInputs& inputs_;
+  std::string views_;
   ProgressLine& line_;
   bool loaded_ = false;
   std::optional<Kind> kind_;
-  std::optional<Failure> failure_;  // why a frame could not be loaded, with the exit code
+  std::optional<PlenopticCloud> like_;  // the first with views, without its points
+  std::optional<Failure> failure_;      // why a frame could not be loaded, with the exit code
 };
 
 }  // namespace slf::tools

@@ -4,12 +4,19 @@
 #include <algorithm>
 
 #include "slf/frame_inputs.h"
+#include "slf/plenoptic.h"
 #include "tools/output.h"
 #include "tools/text.h"
 
 namespace slf::tools {
 
 namespace {
+
+std::vector<std::uint8_t> bytes_of(const FrameInfo& frame,
+                                   const std::vector<std::uint8_t>& stream) {
+  const auto first = stream.begin() + static_cast<std::ptrdiff_t>(frame.offset);
+  return {first, first + static_cast<std::ptrdiff_t>(frame.bytes)};
+}
 
 Outcome open(FrameSource& source, const std::string& file, const PartOptions& part,
              const LimitOptions& given, const CommonOptions& common) {
@@ -37,8 +44,11 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
                                std::to_string(count) + ", from 0 on"};
   Stopwatch watch;
   SLF_TRY(LightField field, from(name, source->decoder->decode(frame)));
-  return DecodedFile{std::move(field), source->stream.bytes.size(), watch.lap(),
-                     source->stream.info.metadata};
+  DecodedFile decoded{std::move(field), source->stream.bytes.size(), watch.lap(),
+                      source->stream.info.metadata};
+  if (is_plenoptic(decoded.metadata))
+    decoded.stream = bytes_of(source->decoder->frames()[frame], source->stream.bytes);
+  return decoded;
 }
 
 Result<std::string, Failure> all_frames(const std::string& file, PartOptions& part,

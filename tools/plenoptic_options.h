@@ -24,6 +24,10 @@ void add_plenoptic(CLI::App& verb, PlenopticVerbOptions& options);
 /// Whether the capture is such a cloud, and is to be coded as one.
 bool is_plenoptic_input(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic);
 
+/// By its options.
+Result<PlenopticSettings, Failure> plenoptic_settings(const EncodeOptions& given,
+                                                      const PlenopticVerbOptions& plenoptic);
+
 /// slf encode, of such a cloud.
 /// @param memory  bytes that it may take; 0: any
 Outcome encode_plenoptic_file(const EncodeOptions& given, const PlenopticVerbOptions& plenoptic,

@@ -187,7 +187,12 @@ Result<DecodedFile, Failure> decode_file(const std::string& file, const PartOpti
   auto field = decode(stream.bytes, options);
   if (!field) return decode_failure(file, field.error(), stream, options);
   DecodedFile decoded{*std::move(field), stream.bytes.size(), watch.lap(), stream.info.metadata};
-  if (is_plenoptic(decoded.metadata)) decoded.stream = std::move(stream.bytes);
+  if (!is_plenoptic(decoded.metadata)) return decoded;
+  if (stream.frames > 1) {
+    SLF_TRY(const auto frames, from(input_name(file), list_frames(stream.bytes)));
+    stream.bytes.resize(static_cast<std::size_t>(frames.front().bytes));
+  }
+  decoded.stream = std::move(stream.bytes);
   return decoded;
 }
 

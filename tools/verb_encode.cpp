@@ -258,7 +258,7 @@ void add_encode(CLI::App& program, Run& run) {
     o->frames.options = given_options(*verb);
     run = [o]() -> Outcome {
       o->frames.part = o->scene.part;
-      o->frames.as = o->plenoptic.as;
+      o->frames.plenoptic = o->plenoptic;
       o->frames.dry_run = o->scene.dry_run;
       if (o->encode.capture != "-") return encode_any(*o);
       SLF_TRY(const SpooledInput input, SpooledInput::read());

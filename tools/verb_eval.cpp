@@ -4,14 +4,33 @@
 
 #include "slf/frame_inputs.h"
 #include "tools/eval_capture.h"
+#include "tools/eval_subject.h"
 #include "tools/output.h"
-#include "tools/plenoptic_options.h"
+#include "tools/plenoptic_quality.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
 namespace {
 
+/// A frame of a file against one cloud.
+Outcome eval_frame_of_views(EvalOptions given) {
+  SLF_TRY(given.frames, open_frames(given.input, given.limits, given.common));
+  const std::size_t count = given.frames->decoder->frames().size();
+  if (static_cast<std::size_t>(given.frame) >= count || !given.range.empty())
+    return Failure{kUsage, input_name(given.input) + ": has " + std::to_string(count) +
+                               " frames, from 0 on; of one cloud --frame N measures one"};
+  if (!is_plenoptic(given.frames->file.info.metadata))
+    return Failure{kInputInvalid, input_name(given.input) + ": was not made of plenoptic clouds, " +
+                                      given.capture + " is one"};
+  FrameInput cloud;
+  cloud.number = static_cast<std::uint32_t>(given.frame);
+  cloud.path = given.capture;
+  return eval_plenoptic_frames(given, {FrameKind::kClouds, {cloud}});
+}
+
 Outcome run_eval(const EvalOptions& given) {
+  if (given.frame >= 0 && !holds_frames(given.capture) && count_plenoptic_views(given.capture) > 0)
+    return eval_frame_of_views(given);
   if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)
     return eval_plenoptic_file({given.input, given.capture, given.limits, given.common});
   if (!given.range.empty() || holds_frames(given.capture)) return eval_frames(given);

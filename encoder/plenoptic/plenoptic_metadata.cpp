@@ -116,6 +116,11 @@ Result<PlenopticRecord, InputError> read_record(const Metadata& metadata) {
 
 bool is_plenoptic(const Metadata& metadata) { return !value_of(metadata, kCodingKey).empty(); }
 
+Result<std::size_t, InputError> count_views_of(const Metadata& metadata) {
+  SLF_TRY(const PlenopticRecord record, read_record(metadata));
+  return record.views;
+}
+
 std::vector<int> held_out_views(const Metadata& metadata) {
   std::vector<int> views;
   parse_numbers(value_of(metadata, kHoldOutKey), views);

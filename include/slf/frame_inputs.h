@@ -16,7 +16,9 @@ namespace slf {
 enum class FrameKind : std::uint8_t {
   kCaptures,
   kClouds,
-  kSplats,  ///< Gaussian splats, files of looks_like_gaussians()
+  kSplats,    ///< Gaussian splats, files of looks_like_gaussians()
+  kPlanes,    ///< clouds of views that are to be coded as planes; list_frames() says kClouds
+  kViewMaps,  ///< clouds of views that are to be coded as view maps; the same
 };
 
 struct FrameInput {

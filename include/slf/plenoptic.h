@@ -45,6 +45,7 @@ struct PlenopticCloud {
 struct PlenopticOptions {
   std::filesystem::path views;  ///< JSON of N positions; empty: comment lines of the PLY
   int grid_bits = 0;            ///< of a cloud whose coordinates are not whole; 0: it is refused
+  bool one_of_several = false;  ///< of frames: such a cloud is refused without a word of grid_bits
 };
 
 /// How many views the vertices of a PLY have: every triple of 8-bit properties in file order but
@@ -128,6 +129,10 @@ struct PlenopticQuality {
 /// @errors kInvalidInput: other points or another number of views
 Result<PlenopticQuality, InputError> measure_plenoptic(const PlenopticCloud& decoded,
                                                        const PlenopticCloud& original);
+
+/// How many views the cloud has that a file was made from.
+/// @errors kInvalidInput: metadata that are damaged
+Result<std::size_t, InputError> count_views_of(const Metadata& metadata);
 
 /// Indices of the views that a file's view maps were not fitted to.
 std::vector<int> held_out_views(const Metadata& metadata);
