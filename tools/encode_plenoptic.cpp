@@ -94,7 +94,7 @@ PlenopticBits plenoptic_bits(const StreamInfo& info, std::uint64_t bytes) {
   for (const UnitInfo& unit : info.units) {
     if (unit.type == "geometry") geometry += unit.bytes;
     if (unit.type == "coefficients" || unit.type == "refinement" || unit.type == "transform" ||
-        unit.type == "unknown")  // corrections
+        unit.type.rfind("type ", 0) == 0)  // corrections
       colour += unit.bytes;
   }
   return {bits_per_point(geometry, info.num_points), bits_per_point(colour, info.num_points),

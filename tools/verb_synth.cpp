@@ -67,17 +67,16 @@ Progress leaving_if_interrupted(const std::filesystem::path& directory, Progress
 /// A scene that moves: a directory with an entry for every frame.
 Outcome run_moving(const SynthOptions& given, synth::MovingSettings settings) {
   const synth::SynthSettings& s = given.settings;
-  if (given.plenoptic > 0 || s.mesh || s.disturb.any() || s.exposure_drift > 0 || s.houses != 0 ||
-      s.cameras != 0)
-    return Failure{kUsage,
-                   "synth: " + s.scene +
-                       " moves: it has no --plenoptic, --mesh, --noise, --hull, --exposure-drift, "
-                       "--houses, --cameras"};
+  if (s.mesh || s.disturb.any() || s.exposure_drift > 0 || s.houses != 0 || s.cameras != 0)
+    return Failure{kUsage, "synth: " + s.scene +
+                               " moves: it has no --mesh, --noise, --hull, --exposure-drift, "
+                               "--houses, --cameras"};
   settings.scene = s.scene;
   if (given.frames != 0) settings.frames = given.frames;
   settings.threads = given.common.threads;
   settings.force = s.force;
   settings.bits = given.bits;
+  settings.views = given.plenoptic;
   settings.points = s.points;
   settings.circles = given.circles;
   settings.per_circle = given.per_circle;
@@ -111,14 +110,15 @@ Outcome run_synth(const SynthOptions& given) {
   if (given.settings.scene.empty())
     return Failure{kUsage, "synth: SCENE is missing (see slf synth --list)"};
   if (given.output.empty()) return Failure{kUsage, "synth: --output is missing"};
-  if (given.plenoptic == 0) SLF_CHECK(check_directory(given.output));
+  const bool moves = synth::make_moving_scene(given.settings.scene).has_value();
+  if (given.plenoptic == 0 || moves) SLF_CHECK(check_directory(given.output));
   synth::SynthSettings settings = given.settings;
   synth::MovingSettings moving;
   if (!parse_size(given.size, settings.width, settings.height))
     return Failure{kUsage, "synth: --size " + given.size + " is not WxH"};
   moving.width = settings.width;
   moving.height = settings.height;
-  if (synth::make_moving_scene(settings.scene)) return run_moving(given, moving);
+  if (moves) return run_moving(given, moving);
   if (given.frames != 0 || given.bits != 0 || given.camera_turn != 0)
     return Failure{kUsage, "synth: " + settings.scene +
                                " does not move: --frames, --bits and --camera-turn are of " +
@@ -211,10 +211,11 @@ void add_synth(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(range(0, 0.5));
   verb->add_flag("--mesh", s.mesh, "Write mesh.obj too (can, vase), for --points of encode");
-  verb->add_option("--plenoptic", o->plenoptic,
-                   "Write one PLY whose points have the colours of so many views, a quarter of the "
-                   "voxels of the surface, in place of a capture (can, die, vase): "
-                   "docs/plenoptic.md")
+  verb->add_option(
+          "--plenoptic", o->plenoptic,
+          "Write one PLY whose points have the colours of so many views, a quarter of the "
+          "voxels of the surface, in place of a capture (can, die, vase); of clouds that move "
+          "one for each frame: docs/plenoptic.md")
       ->type_name("VIEWS")
       ->check(whole_range(2, 254));
   verb->add_flag("--force", s.force, "Write into a directory that holds something else");

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "tools/synth/capture_files.h"
-#include "tools/synth/moving_cloud.h"
+#include "tools/synth/moving_views.h"
 
 namespace slf::synth {
 namespace {
@@ -28,6 +28,7 @@ std::optional<InputError> check_moving(const MovingSettings& s, bool cloud) {
   };
   for (const Allowed& a : {Allowed{"frames", s.frames, 1, 9999},
                            {"bits", s.bits == 0 ? 8 : s.bits, 5, 12},
+                           {"views", s.views == 0 ? 2 : s.views, 2, 254},
                            {"width", s.width, 8, 4096},
                            {"height", s.height, 8, 4096},
                            {"points", s.points == 0 ? 100 : s.points, 100, 10'000'000},
@@ -40,6 +41,8 @@ std::optional<InputError> check_moving(const MovingSettings& s, bool cloud) {
   if (!(std::abs(s.camera_turn) <= 180)) return not_allowed("camera turn: -180 to 180 degrees");
   if (cloud && (s.points != 0 || s.circles != 0 || s.per_circle != 0 || s.camera_turn != 0))
     return not_allowed(s.scene + " is a cloud on a grid of --bits: it has no --points, no cameras");
+  if (!cloud && s.views != 0)
+    return not_allowed(s.scene + " is a capture: --plenoptic is of clouds");
   if (!cloud && s.bits != 0)
     return not_allowed(s.scene + " is a capture: it has --points, bits are of clouds");
   return std::nullopt;
@@ -111,8 +114,10 @@ Result<Done, InputError> write_clouds(const MovingSettings& s, const MovingScene
   const auto samples = material_samples(scene, kSampleSpacing * grid.step);
   for (int i = 0; i < s.frames; ++i) {
     if (progress) progress("frames", static_cast<double>(i) / s.frames);
-    const PointCloud cloud = voxel_frame(scene, grid, samples, i, s.threads);
-    SLF_CHECK(write_ply(directory / (frame_name(i + kFirstFrame) + ".ply"), cloud));
+    const fs::path file = directory / (frame_name(i + kFirstFrame) + ".ply");
+    SLF_CHECK(s.views > 0
+                  ? write_plenoptic(file, voxel_views(scene, grid, samples, i, s.views, s.threads))
+                  : write_ply(file, voxel_frame(scene, grid, samples, i, s.threads)));
   }
   return Done{};
 }

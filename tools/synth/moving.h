@@ -15,7 +15,8 @@ struct MovingSettings {
   int frames = 8;     ///< 1 .. 9999
   int threads = 0;    ///< 0: all cores. The result does not depend on it
   bool force = false;
-  int bits = 0;  ///< of the grid of clouds, 5 .. 12; 0: 8. Captures have none
+  int bits = 0;   ///< of the grid of clouds, 5 .. 12; 0: 8. Captures have none
+  int views = 0;  ///< of clouds: colours for so many, 2 .. 254; 0: one colour
   // Captures alone:
   int width = 256, height = 256;  ///< 8 .. 4096 pixels
   int points = 0;                 ///< about so many, 100 .. 10,000,000; 0: 40,000

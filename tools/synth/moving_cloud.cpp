@@ -20,18 +20,11 @@ Sampled sampled(const MovingScene& scene, const FrameGrid& grid, const MaterialS
                 int frame, std::uint32_t number) {
   const MovingPart& part = scene.parts[sample.part];
   const SurfacePoint now = placed(part, sample.at_rest, frame);
-  // What is seen does not shake with the noise: that is of the scanner.
   const Colour light =
       shade(now, sample.albedo, normalised(kEye - now.position), part.material, scene.lamps);
-  const double away = scene.noise * (2 * unit(static_cast<std::uint32_t>(frame), number) - 1);
-  const Vec3 at = now.position + (away * grid.step) * now.normal;
-  Sampled result{};
-  for (std::size_t k = 3; k-- > 0;) {
-    const double cell = std::floor((at[k] - grid.low) / grid.step);
-    const double most = static_cast<double>((1 << grid.bits) - 1);
-    result.voxel = result.voxel << 21 | static_cast<std::uint64_t>(std::clamp(cell, 0.0, most));
+  Sampled result{voxel_of(scene, grid, sample, frame, number), {}};
+  for (std::size_t k = 0; k < 3; ++k)
     result.colour[k] = static_cast<float>(255 * srgb_from_linear(light[k]));
-  }
   return result;
 }
 
@@ -40,6 +33,21 @@ Sampled sampled(const MovingScene& scene, const FrameGrid& grid, const MaterialS
 FrameGrid frame_grid(const MovingScene& scene, int bits) {
   const double half = kMargin * scene.radius;
   return {-half, 2 * half / static_cast<double>(1 << bits), bits};
+}
+
+std::uint64_t voxel_of(const MovingScene& scene, const FrameGrid& grid,
+                       const MaterialSample& sample, int frame, std::uint32_t number) {
+  const SurfacePoint now = placed(scene.parts[sample.part], sample.at_rest, frame);
+  // What is seen does not shake with the noise: that is of the scanner.
+  const double away = scene.noise * (2 * unit(static_cast<std::uint32_t>(frame), number) - 1);
+  const Vec3 at = now.position + (away * grid.step) * now.normal;
+  std::uint64_t voxel = 0;
+  for (std::size_t k = 3; k-- > 0;) {
+    const double cell = std::floor((at[k] - grid.low) / grid.step);
+    const double most = static_cast<double>((1 << grid.bits) - 1);
+    voxel = voxel << 21 | static_cast<std::uint64_t>(std::clamp(cell, 0.0, most));
+  }
+  return voxel;
 }
 
 PointCloud voxel_frame(const MovingScene& scene, const FrameGrid& grid,

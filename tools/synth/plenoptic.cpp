@@ -20,7 +20,7 @@ constexpr double kLift = 1e-6;         // rays begin so far above the surface
 constexpr double kBehind = 0.05;       // least cosine of a view that sees a voxel
 
 /// A number of 32 bits that looks random (Steele et al., SplitMix).
-std::uint32_t mixed(std::uint64_t x) {
+std::uint32_t mixed_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
   x = (x ^ x >> 27) * 0x94d049bb133111ebu;
@@ -46,7 +46,7 @@ void keep_row(const Scene& scene, const RayLattice& lattice, std::size_t axis, s
   for (std::size_t column = 0; column < columns; ++column) {
     // Lines that no voxel is kept of are not traced: each keeps all or none of its crossings.
     const std::uint64_t line = (std::uint64_t{axis} << 42) | (std::uint64_t{row} << 21) | column;
-    if (mixed(line ^ std::uint64_t{seed} << 45) % kShare != 0) continue;
+    if (mixed_bits(line ^ std::uint64_t{seed} << 45) % kShare != 0) continue;
     Ray ray;
     ray.origin[across] = lattice.low[across] + lattice.step * static_cast<double>(column);
     ray.origin[up] = lattice.low[up] + lattice.step * static_cast<double>(row);
@@ -100,22 +100,11 @@ std::vector<Kept> keep_voxels(const Scene& scene, double cells, std::uint32_t se
   return all;
 }
 
-/// Spread evenly (Fibonacci), z from top to bottom.
-std::vector<Vec3> view_places(int views) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < views; ++i) {
-    const double z = 1 - (2.0 * i + 1) / views;
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0)), across = std::sqrt(1 - z * z);
-    places.push_back(kCameraDistance * Vec3{across * std::cos(turn), across * std::sin(turn), z});
-  }
-  return places;
-}
-
 Vec3 to_double(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 /// A byte with noise of about one grey level.
 std::uint8_t noisy_byte(double display, std::uint64_t number) {
-  const std::uint32_t bits = mixed(number);
+  const std::uint32_t bits = mixed_bits(number);
   double noise = 0;  // of four uniform ones
   for (int i = 0; i < 4; ++i) noise += (bits >> 8 * i & 255) / 255.0 - 0.5;
   return static_cast<std::uint8_t>(
@@ -127,38 +116,21 @@ void colour_point(const Scene& scene, const Kept& kept, std::span<const Vec3> vi
                   std::uint64_t number, std::uint8_t* colours) {
   const Vec3 normal = to_double(kept.normal);
   const Vec3 at = to_double(kept.position) + kLift * normal;
-  std::vector<Vec3> seen(views.size());
-  std::vector<bool> sees(views.size());
-  Vec3 sum{0, 0, 0};
-  double count = 0;
+  std::vector<std::optional<Vec3>> seen(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     const Vec3 to_view = normalised(views[v] - at);
-    if (dot(to_view, normal) < kBehind) continue;
+    if (!sees(to_view, normal)) continue;
     Vec3 light{0, 0, 0};
     double through = 1;
     const Ray ray{at + 1e-4 * to_view, -1 * to_view};
     if (!scene.radiance(ray, light, through)) continue;
-    for (std::size_t c = 0; c < 3; ++c) seen[v][c] = srgb_from_linear(std::min(1.0, light[c]));
-    sees[v] = true;
-    sum = sum + seen[v];
-    ++count;
+    Vec3& colour = seen[v].emplace();
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = srgb_from_linear(std::min(1.0, light[c]));
   }
-  if (count == 0) {
-    const Colour albedo = scene.albedo({to_double(kept.position), normal});
-    for (std::size_t c = 0; c < 3; ++c) sum[c] = srgb_from_linear(albedo[c]);
-    count = 1;
-  }
-  std::array<unsigned, 3> total{};
-  for (std::size_t v = 0; v < views.size(); ++v)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = sees[v] ? seen[v][c] : sum[c] / count;
-      const std::uint8_t byte = noisy_byte(value, number * 3 * views.size() + 3 * v + c);
-      colours[3 + 3 * v + c] = byte;
-      total[c] += byte;
-    }
-  const auto n = static_cast<unsigned>(views.size());
-  for (std::size_t c = 0; c < 3; ++c)
-    colours[c] = static_cast<std::uint8_t>((total[c] + n / 2) / n);
+  const Colour albedo = scene.albedo({to_double(kept.position), normal});
+  Vec3 unseen{};
+  for (std::size_t c = 0; c < 3; ++c) unseen[c] = srgb_from_linear(albedo[c]);
+  write_views(seen, unseen, number, colours);
 }
 
 std::vector<PlenopticProperty> property_names(std::size_t views) {
@@ -171,6 +143,53 @@ std::vector<PlenopticProperty> property_names(std::size_t views) {
 }
 
 }  // namespace
+
+std::vector<Vec3> view_places(int views) {
+  std::vector<Vec3> places;  // Fibonacci
+  for (int i = 0; i < views; ++i) {
+    const double z = 1 - (2.0 * i + 1) / views;
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0)), across = std::sqrt(1 - z * z);
+    places.push_back(kCameraDistance * Vec3{across * std::cos(turn), across * std::sin(turn), z});
+  }
+  return places;
+}
+
+bool sees(const Vec3& to_view, const Vec3& normal) { return dot(to_view, normal) >= kBehind; }
+
+PlenopticCloud cloud_of_views(std::span<const Vec3> views, const Vec3& low, double step) {
+  PlenopticCloud cloud;
+  cloud.views = views.size();
+  cloud.own_colour = true;
+  cloud.properties = property_names(cloud.views);
+  for (const Vec3& view : views) cloud.view_positions.push_back((1 / step) * (view - low));
+  return cloud;
+}
+
+void write_views(std::span<const std::optional<Vec3>> seen, const Vec3& unseen,
+                 std::uint64_t number, std::uint8_t* colours) {
+  Vec3 sum{0, 0, 0};
+  double count = 0;
+  for (const auto& colour : seen) {
+    if (!colour) continue;
+    sum = sum + *colour;
+    ++count;
+  }
+  if (count == 0) {
+    sum = unseen;
+    count = 1;
+  }
+  std::array<unsigned, 3> total{};
+  for (std::size_t v = 0; v < seen.size(); ++v)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = seen[v] ? (*seen[v])[c] : sum[c] / count;
+      const std::uint8_t byte = noisy_byte(value, number * 3 * seen.size() + 3 * v + c);
+      colours[3 + 3 * v + c] = byte;
+      total[c] += byte;
+    }
+  const auto n = static_cast<unsigned>(seen.size());
+  for (std::size_t c = 0; c < 3; ++c)
+    colours[c] = static_cast<std::uint8_t>((total[c] + n / 2) / n);
+}
 
 Result<Done, InputError> synthesise_plenoptic(const PlenopticScene& settings,
                                               const std::filesystem::path& file,
@@ -191,12 +210,7 @@ Result<Done, InputError> synthesise_plenoptic(const PlenopticScene& settings,
   const std::vector<Kept> kept =
       keep_voxels(*scene, cells, settings.seed, settings.threads, lattice);
   const std::vector<Vec3> views = view_places(settings.views);
-  PlenopticCloud cloud;
-  cloud.views = views.size();
-  cloud.own_colour = true;
-  cloud.properties = property_names(cloud.views);
-  for (const Vec3& view : views)
-    cloud.view_positions.push_back((1 / lattice.step) * (view - lattice.low));
+  PlenopticCloud cloud = cloud_of_views(views, lattice.low, lattice.step);
   const std::size_t row = 3 * cloud.num_colours();
   cloud.positions.reserve(kept.size());
   for (const Kept& k : kept) cloud.positions.push_back(k.voxel);

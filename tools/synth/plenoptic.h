@@ -4,10 +4,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "slf/error.h"
+#include "slf/plenoptic.h"
 #include "slf/types.h"
+#include "tools/synth/vec.h"
 
 namespace slf::synth {
 
@@ -26,5 +31,19 @@ struct PlenopticScene {
 Result<Done, InputError> synthesise_plenoptic(const PlenopticScene& settings,
                                               const std::filesystem::path& file,
                                               const Progress& progress = {});
+
+/// So many, spread evenly, z from top to bottom.
+std::vector<Vec3> view_places(int views);
+/// Does a view see a surface that has this normal?
+bool sees(const Vec3& to_view, const Vec3& normal);
+/// Names and places of views; no points.
+/// @param low, step  of the voxels
+PlenopticCloud cloud_of_views(std::span<const Vec3> views, const Vec3& low, double step);
+/// The mean of views, then what each sees, with noise of about one grey level.
+/// @param seen    display colours; views that see nothing have the mean of those that do
+/// @param unseen  the colour that all have where none sees it
+/// @param number  what the noise is made of: another for every point
+void write_views(std::span<const std::optional<Vec3>> seen, const Vec3& unseen,
+                 std::uint64_t number, std::uint8_t* colours);
 
 }  // namespace slf::synth
