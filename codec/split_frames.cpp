@@ -130,9 +130,4 @@ Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameU
   return result;
 }
 
-Result<Units> units_of_frame(std::span<const std::uint8_t> stream, const FrameUnits& frame) {
-  return frame.header.predicted() ? predicted_units(stream, frame, ~std::uint64_t{0})
-                                  : split_units(stream);
-}
-
 }  // namespace slf

@@ -51,9 +51,4 @@ Result<Done> check_frame_bytes(const FrameUnits& frame, const Units& units);
 Result<Units> predicted_units(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                               std::uint64_t max_memory);
 
-/// The units of any frame.
-/// @param stream  of a frame that is not predicted: its bytes alone
-/// @errors those of split_units, or of predicted_units
-Result<Units> units_of_frame(std::span<const std::uint8_t> stream, const FrameUnits& frame);
-
 }  // namespace slf

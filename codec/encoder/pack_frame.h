@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "attributes/encoder/forward_transform.h"
+#include "bitstream/units.h"
 #include "codec/encoder/coded_unit.h"
 #include "codec/frame_header.h"
 #include "slf/encoder.h"
@@ -51,9 +52,14 @@ Result<std::vector<std::uint8_t>, InputError> pack_empty(const LightField& field
 Result<CodedUnit, InputError> frame_unit_before(std::span<const CodedUnit> units,
                                                 FrameHeader& frame);
 
+/// The units of a light field that does not move, or of a frame.
+/// @param stream  its bytes alone
+/// @errors those of split_units, or of a predicted frame
+Result<Units> units_alone(std::span<const std::uint8_t> stream);
+
 /// The frame with one more unit, before its end unit.
 /// @param frame  its bytes alone, up to its end
-/// @errors those of split_units
+/// @errors those of units_alone
 Result<std::vector<std::uint8_t>> with_unit(std::span<const std::uint8_t> frame, UnitType type,
                                             std::span<const std::uint8_t> payload);
 

@@ -6,10 +6,16 @@
 
 namespace slf {
 
+Result<Units> units_alone(std::span<const std::uint8_t> stream) {
+  if (begins_intra(stream)) return split_units(stream);
+  SLF_TRY(const FrameUnits frame, read_frame(stream, 0));
+  return predicted_units(stream, frame, ~std::uint64_t{0});
+}
+
 Result<std::vector<std::uint8_t>> with_unit(std::span<const std::uint8_t> bytes, UnitType type,
                                             std::span<const std::uint8_t> payload) {
   SLF_TRY(const FrameUnits frame, read_frame(bytes, 0));
-  SLF_TRY(const Units units, units_of_frame(bytes, frame));
+  SLF_TRY(const Units units, units_alone(bytes));
   const Unit& end = units.units.back();
   const auto behind = bytes.subspan(static_cast<std::size_t>(frame.unit.offset + frame.unit.bytes));
   std::vector<std::uint8_t> rest(behind.begin(),

@@ -5,7 +5,7 @@
 #include "bitstream/index.h"
 #include "bitstream/parameter_sets.h"
 #include "codec/encoder/assemble.h"
-#include "codec/split_frames.h"
+#include "codec/encoder/pack_frame.h"
 #include "encoder/plenoptic/corrections.h"
 
 namespace slf {
@@ -44,13 +44,7 @@ std::vector<std::uint8_t> corrections_of_frame(std::span<const std::uint8_t> pay
 }
 
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
-  Units units;
-  if (begins_intra(stream)) {
-    SLF_TRY(units, split_units(stream));
-  } else {
-    SLF_TRY(const FrameUnits frame, read_frame(stream, 0));
-    SLF_TRY(units, units_of_frame(stream, frame));
-  }
+  SLF_TRY(const Units units, units_alone(stream));
   for (const Unit& unit : units.units)
     if (is_of_application(unit, kCorrections)) return application_payload(unit);
   return std::span<const std::uint8_t>{};

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/input_error.h"
-#include "geometry/morton.h"
+#include "capture/plenoptic_order.h"
 #include "slf/plenoptic_frames.h"
 
 namespace slf {
@@ -99,20 +98,7 @@ Result<PlenopticCloud, InputError> on_grid_of_voxels(PlenopticCloud cloud, const
       v[k] = static_cast<std::int32_t>(at);
     }
   if (begin == Place{}) return cloud;
-  std::vector<std::uint64_t> codes;
-  for (const Voxel& v : cloud.positions) codes.push_back(morton(v));
-  std::vector<std::size_t> order(codes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return codes[a] < codes[b]; });
-  const auto row = static_cast<std::ptrdiff_t>(3 * cloud.num_colours());
-  const auto positions = std::exchange(cloud.positions, {});
-  const auto colours = std::exchange(cloud.colours, {});
-  for (const std::size_t p : order) {
-    cloud.positions.push_back(positions[p]);
-    const auto from = colours.begin() + static_cast<std::ptrdiff_t>(p) * row;
-    cloud.colours.insert(cloud.colours.end(), from, from + row);
-  }
+  sort_by_voxels(cloud);
   return cloud;
 }
 

@@ -203,20 +203,6 @@ TEST(Spec_8_12_Frames, WithNormalsDigestsAndTransforms) {
   }
 }
 
-TEST(Spec_8_12_Frames, TheEncoderNeedsNoBytesThatItGaveOut) {
-  const auto fields = fields_of(Moves::kTurn, 3, 12);
-  CodingParameters p = frame_parameters(4, 12);
-  p.transform = TransformMode::kFunctions;
-  const std::vector<Bytes> expected = coded_frames(fields, p);
-  FrameEncoder encoder(p);
-  for (std::size_t t = 0; t < 3; ++t) {
-    auto bytes = encoder.add(fields[t], 0.5 + static_cast<double>(t) / 30);
-    ASSERT_TRUE(bytes) << bytes.error().message;
-    EXPECT_TRUE(*bytes == expected[t]) << t;
-    std::fill(bytes->begin(), bytes->end(), std::uint8_t{0xAA});
-  }
-}
-
 TEST(Spec_8_12_Frames, FramesMayHaveGeometryAlone) {
   const auto fields = fields_of(Moves::kBend, 3, 0);
   const Bytes stream = joined(coded_frames(fields, frame_parameters(1, 0)));

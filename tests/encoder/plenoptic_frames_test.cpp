@@ -180,7 +180,7 @@ TEST(PlenopticFrames, HaveOneGridWhereverTheirsBegin) {
   }
 }
 
-TEST(PlenopticFrames, OfOtherViewsOrVoxelsAreRefusedByTheirPlace) {
+TEST(PlenopticFrames, WithOtherViewsOrVoxelsAreRefusedByTheirPlace) {
   const auto error_of = [](const PlenopticCloud& second) {
     return code({sphere_of_views(3), second}).error;
   };
@@ -211,7 +211,7 @@ TEST(PlenopticFrames, TakeABitrateInPlaceOfAStep) {
   EXPECT_GE(bitrate, 0.9 * 400000);
 }
 
-TEST(PlenopticFrames, OfViewMapsPredictTheViewsThatAreHeldOut) {
+TEST(PlenopticFrames, AsViewMapsPredictTheViewsThatAreHeldOut) {
   const Clouds clouds = moving(3, 12);
   PlenopticSettings settings = with_step(4);
   settings.hold_out = {3, 7};

@@ -29,6 +29,10 @@ TEST_F(PlenopticCli, APlyComesBackExactAsAFileOfTheSameProperties) {
   };
   EXPECT_EQ(header("b.ply"), header("a.ply"));
   const auto quality = parsed(slf("eval a.slf a.ply --json").out);
+  const auto& bits = quality["bits_per_point"];
+  EXPECT_GT(bits["geometry"].get<double>() + bits["colour"].get<double>(),
+            0.9 * bits["file"].get<double>())
+      << "corrections are colour";
   EXPECT_EQ(quality["coded"]["exact"], true);
   EXPECT_EQ(quality["views"].size(), 9u);
   // Exact files are the same again: points are in order now.

@@ -49,14 +49,16 @@ TEST_F(SequenceTest, ADryRunSaysWhatWouldBeDoneAndWritesNothing) {
                  "as they are given");
 }
 
-TEST_F(SequenceTest, ColoursOfViewsAreNotLeftOutWithoutAWord) {
+TEST_F(SequenceTest, ColoursOfViewsAreNotLeftOutUnlessAskedFor) {
   ASSERT_EQ(slf("synth can --plenoptic 5 --points 500 -o p_1.ply --quiet").code, 0);
   fs::copy_file(path("p_1.ply"), path("p_2.ply"));
-  expect_failure(slf("encode p_%d.ply -o x.slf --quiet"), 2, "p_1.ply",
-                 "has colours of 5 views, and frames one: --as colour");
-  EXPECT_FALSE(exists("x.slf"));
-  const Ran ran = slf("encode p_%d.ply -o x.slf --quiet --as colour");
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const bool all : {true, false}) {
+    const Ran ran =
+        slf("encode p_%d.ply -o x.slf --quiet" + std::string(all ? "" : " --as colour"));
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    ASSERT_EQ(slf("decode x.slf --frame 1 -o d.ply --quiet").code, 0);
+    EXPECT_EQ(read("d.ply").find("property uchar red_4\n") != std::string::npos, all);
+  }
 }
 
 TEST_F(SequenceTest, EvalJudgesEachFrameAndTheMeanOfAll) {
