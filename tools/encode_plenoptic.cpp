@@ -107,7 +107,7 @@ void add_plenoptic(CLI::App& verb, PlenopticVerbOptions& options) {
           "--as", options.as,
           "planes: each view a function of its own, exact without -q; viewmaps: functions of "
           "direction, fitted to the views; auto: planes, viewmaps with --hold-out; colour: "
-          "red, green, blue alone")
+          "red, green, blue alone. The same of frames in time")
       ->type_name("WAY")
       ->check(CLI::IsMember({"auto", "planes", "viewmaps", "colour"}))
       ->capture_default_str()
