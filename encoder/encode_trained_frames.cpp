@@ -2,6 +2,9 @@
 #include "encoder/encode_trained_frames.h"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -42,20 +45,27 @@ Result<LoadedFrame, InputError> with_start(LoadedFrame frame, const EncoderSetti
   return frame;
 }
 
-/// Splats that are what they were in the frame before, in the same order as there.
+/// Splats that are in their place, and look, as in the frame before. O(n log n)
 std::size_t count_still(const Gaussians& before, const Gaussians& now) {
+  using Coefficients = std::span<const float>;
+  const std::size_t count = now.harmonics.size() / std::max<std::size_t>(now.size(), 1);
+  const auto looks = [&](const Gaussians& splats, std::size_t i) {
+    return Coefficients(splats.harmonics).subspan(i * count, count);
+  };
+  std::vector<std::size_t> order(before.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto& places = before.positions;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
   std::size_t still = 0;
-  const std::size_t coefficients = now.harmonics.size() / std::max<std::size_t>(now.size(), 1);
-  for (std::size_t i = 0, j = 0; i < now.size(); ++i) {
-    std::size_t k = j;  // what went left a gap
-    while (k < before.size() && before.positions[k] != now.positions[i]) ++k;
-    if (k == before.size()) continue;
-    const auto row = [&](const Gaussians& g, std::size_t at) {
-      return g.harmonics.begin() + static_cast<std::ptrdiff_t>(at * coefficients);
-    };
-    still += std::equal(row(now, i), row(now, i + 1), row(before, k)) &&
-             before.logits[k] == now.logits[i];
-    j = k + 1;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const auto& place = now.positions[i];
+    const auto found =
+        std::lower_bound(order.begin(), order.end(), place,
+                         [&](std::size_t a, const auto& value) { return places[a] < value; });
+    if (found == order.end() || places[*found] != place) continue;
+    const Coefficients a = looks(before, *found), b = looks(now, i);
+    still += before.logits[*found] == now.logits[i] && std::equal(a.begin(), a.end(), b.begin());
   }
   return still;
 }

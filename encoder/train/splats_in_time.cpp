@@ -110,18 +110,17 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   cache_.normals.clear();  // those of the points of the first
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return Done{};
+  train_as_gaussians(false, start.views, start.settings);
   if (before_.empty()) {
     before_ = std::move(start.views);
     return Done{};
   }
   const ChangedViews changed(before_, std::move(start.views), settings.threads);
   if (changed.views().empty()) return Done{};
-  std::vector<TrainingView> views = changed.views();
-  train_as_gaussians(false, views, start.settings);
   SLF_CHECK(add_what_appears(capture, cameras, changed));
   start.settings.surfels = std::max(first_, surfels_.size());
   start.settings.changed = &changed;
-  SLF_CHECK(train_surfels(views, start.settings, surfels_));
+  SLF_CHECK(train_surfels(changed.views(), start.settings, surfels_));
   if (!cache_.outlined) return Done{};
   SLF_TRY(const std::vector<Outline> outlines, outlines_of(capture, cameras, settings.threads));
   if (are_outlined(outlines.size(), cameras.size()))
