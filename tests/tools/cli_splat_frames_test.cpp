@@ -58,7 +58,7 @@ TEST_F(SplatFramesTest, AreCodedToldDecodedAndWrittenAgainFrameByFrame) {
   for (int f = 0; f < kFrames; ++f) {
     const auto back = read_gaussians(path("e" + std::to_string(f) + ".ply"));
     ASSERT_TRUE(back);
-    EXPECT_EQ(back->gaussians.size(), report["frames"][f]["points"]);
+    EXPECT_EQ(back->gaussians.size(), report["frames"][static_cast<std::size_t>(f)]["points"]);
     EXPECT_EQ(back->gaussians.degree, 1);
   }
 }
