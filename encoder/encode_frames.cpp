@@ -237,12 +237,17 @@ Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFram
   plan.trained = are_trained(settings, plan.points, *first);
   if (!plan.trained && settings.surface == Surface::kSplats)
     return of_frames("splats are trained by photographs, and there are none");
-  if (!plan.trained && bare)
+  if (plan.trained) {
+    if (frame_settings.parts > 1)
+      return of_frames(
+          "splats of a frame go on from those of the one before, so there are no parts; "
+          "--surface given has them, of frames with points");
+    return plan;
+  }
+  SLF_TRY(plan.grid, shared.grid());
+  if (bare)
     return of_frames("the one at place " + std::to_string(*bare) +
                      " has no point cloud, and others have");
-  if (!plan.trained) {
-    SLF_TRY(plan.grid, shared.grid());
-  }
   return plan;
 }
 

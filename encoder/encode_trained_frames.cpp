@@ -122,10 +122,6 @@ Result<EncodedFrames, InputError> encode_trained_frames(std::size_t frames, cons
                                                         const FrameSettings& frame_settings,
                                                         const TakeFrame& take,
                                                         const Progress& progress) {
-  if (frame_settings.parts > 1)
-    return invalid_argument(
-        "frames: splats of a frame go on from those of the one before, so there are no parts; "
-        "--surface given has them, of frames with points");
   SLF_TRY(TrainedFrames trained, trained_frames(frames, load, settings, progress));
   EncoderSettings coding = settings;
   coding.metadata.insert(coding.metadata.begin(), trained.metadata.begin(), trained.metadata.end());

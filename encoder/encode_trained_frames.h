@@ -17,8 +17,8 @@ bool are_trained(const EncoderSettings& settings, const std::vector<std::size_t>
 
 /// Trains the splats of all frames (encoder/train/splats_in_time.h), then codes them. Every frame's
 /// splats are held, 150 bytes each.
-/// @errors kInvalidArgument: parts, since each frame goes on from the one before; kInvalidInput:
-///         photographs train nothing; those of load, take and encode_gaussian_frames
+/// @param frame_settings  without parts, since each frame goes on from the one before
+/// @errors kInvalidInput: photographs train nothing; those of load, take and encode_gaussian_frames
 Result<EncodedFrames, InputError> encode_trained_frames(std::size_t frames, const LoadFrame& load,
                                                         const EncoderSettings& settings,
                                                         const FrameSettings& frame_settings,

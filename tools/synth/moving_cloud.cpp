@@ -38,7 +38,7 @@ FrameGrid frame_grid(const MovingScene& scene, int bits) {
 std::uint64_t voxel_of(const MovingScene& scene, const FrameGrid& grid,
                        const MaterialSample& sample, int frame, std::uint32_t number) {
   const SurfacePoint now = placed(scene.parts[sample.part], sample.at_rest, frame);
-  // What is seen does not shake with the noise: that is of the scanner.
+  // The scanner's noise moves points, and not the surface whose colours are seen.
   const double away = scene.noise * (2 * unit(static_cast<std::uint32_t>(frame), number) - 1);
   const Vec3 at = now.position + (away * grid.step) * now.normal;
   std::uint64_t voxel = 0;

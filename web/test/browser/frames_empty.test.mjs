@@ -2,19 +2,13 @@
 // Frames without points in the viewer: the background alone, at the beginning and between others.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { listen, picture, shows, SIZE } from './frames_support.mjs';
+import { empty, listen, picture, shows, SIZE } from './frames_support.mjs';
 import { folder, launch, newPage, serve, settled, skip, slf } from './support.mjs';
 
 const FRAMES = 4, EMPTY = [0, 2];
 let dir, file, server, chrome;
-
-/** Makes a cloud of no vertex of it. */
-function empty(ply) {
-  const text = readFileSync(ply, 'latin1'), end = 'end_header\n';
-  writeFileSync(ply, text.slice(0, text.indexOf(end) + end.length).replace(/element vertex \d+/, 'element vertex 0'), 'latin1');
-}
 
 before(async () => {
   if (skip) return;

@@ -2,20 +2,13 @@
 // Gaussian splats that move, in the viewer's page and the one-file page: each frame is the picture of slf render.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { listen, picture, player, shows, SIZE } from './frames_support.mjs';
+import { empty, listen, picture, player, shows, SIZE } from './frames_support.mjs';
 import { folder, launch, newPage, psnr, rendered, serve, settled, skip, slf } from './support.mjs';
 
 const FRAMES = 5, GROUP = 3, EMPTY = 3, LEAST = 35; // dB, as of splats that stand still
 let dir, file, server, chrome;
-
-/** Makes splats of no vertex of them. */
-function empty(ply) {
-  const text = readFileSync(ply, 'latin1'), end = 'end_header\n';
-  writeFileSync(ply, text.slice(0, text.indexOf(end) + end.length).replace(/element vertex \d+/, 'element vertex 0'), 'latin1');
-}
 
 before(async () => {
   if (skip) return;

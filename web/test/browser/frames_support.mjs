@@ -70,3 +70,9 @@ export async function picture(page) {
   });
   return readPng(Buffer.from(base64, 'base64'));
 }
+
+/** Leaves a PLY without a vertex. */
+export function empty(ply) {
+  const text = readFileSync(ply, 'latin1'), end = 'end_header\n';
+  writeFileSync(ply, text.slice(0, text.indexOf(end) + end.length).replace(/element vertex \d+/, 'element vertex 0'), 'latin1');
+}
