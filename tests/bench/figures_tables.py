@@ -8,6 +8,7 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
+from figures_surfaces import surfaces
 from measured import Store, run
 
 # Figures of other programs, from the pages of docs/decisions that have their conditions.
@@ -225,6 +226,7 @@ def pages(place):
     return ['One page holds the file, the decoder, the viewer and one or two posters.', '', *table(['', 'bytes', 'gzip -9, bytes', 'brotli 11, bytes'], rows)]
 
 
-TABLES = {'pictures': ('Captures', pictures), 'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),
+TABLES = {'pictures': ('Captures', pictures), 'surfaces': ('Surfaces: given, mended, trained', surfaces),
+          'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),
           'speed': ('Decoding and drawing', speed), 'moving': ('Clouds that move', moving),
           'seeking': ('Any frame, and lost units', seeking), 'pages': ('In a browser', pages)}
