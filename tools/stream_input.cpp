@@ -55,9 +55,14 @@ std::string mebibytes(std::uint64_t bytes) { return grouped((bytes + (1 << 20) -
 void add_limits(CLI::App& verb, LimitOptions& options) {
   const char* group = "Limits (a file beyond them is refused by its headers, exit code 5)";
   DecodeLimits& limits = options.limits;
-  verb.add_option("--max-memory", limits.max_memory,
-                  "Bytes that decoding may take at most, all counted; K, M and G are powers of "
-                  "1024. slf info tells what a file takes")
+  const auto take = [&limits](std::uint64_t bytes) {
+    limits.max_memory = bytes;  // a file in it may be as large
+    limits.max_stream_bytes = std::max(DecodeLimits{}.max_stream_bytes, bytes);
+  };
+  verb.add_option_function<std::uint64_t>(
+          "--max-memory", take,
+          "Bytes that decoding may take at most, all counted; K, M and G are powers of "
+          "1024. slf info tells what a file takes")
       ->type_name("BYTES")
       ->default_str("1G")
       ->transform(byte_range(1, std::int64_t{1} << 60))
