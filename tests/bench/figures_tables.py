@@ -8,7 +8,6 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
-from figures_surfaces import surfaces
 from measured import Store, run
 
 # Figures of other programs, from the pages of docs/decisions that have their conditions.
@@ -49,8 +48,8 @@ class Place:
 
     def capture(self, name):
         """The directory of a capture; None where it is not there. Those of `slf synth` are drawn when they are needed."""
-        folder = self.store.folder / name if name in DRAWN else self.data / name
-        return folder if name in DRAWN or folder.exists() else None
+        own = self.store.folder / name
+        return next((folder for folder in (own, self.data / name) if folder.exists()), own if name in DRAWN else None)
 
     def draw(self, name, *options, folder=None):
         folder = self.store.folder / (folder or name)
@@ -224,9 +223,3 @@ def pages(place):
         if sizes:
             rows.append([f"`slf html`, {DRAWN.get(capture, capture)}, a file of {c['bytes']:,} B", *sizes])
     return ['One page holds the file, the decoder, the viewer and one or two posters.', '', *table(['', 'bytes', 'gzip -9, bytes', 'brotli 11, bytes'], rows)]
-
-
-TABLES = {'pictures': ('Captures', pictures), 'surfaces': ('Surfaces: given, mended, trained', surfaces),
-          'splats': ('Gaussian splats of others', splats), 'geometry': ('Geometry alone', geometry),
-          'speed': ('Decoding and drawing', speed), 'moving': ('Clouds that move', moving),
-          'seeking': ('Any frame, and lost units', seeking), 'pages': ('In a browser', pages)}
