@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "lightfield/component_colours.h"
 #include "lightfield/directions.h"
@@ -46,11 +47,17 @@ Result<ViewMaps, InputError> ViewMaps::of(const LightField& light_field, int thr
 }
 
 ViewMaps::ViewMaps(const LightField& light_field, int threads)
+    : ViewMaps(light_field,
+               mirror_normals(light_field.header.directions, light_field.positions,
+                              light_field.header.normal_cell_log2, threads),
+               threads) {}
+
+ViewMaps::ViewMaps(const LightField& light_field, std::vector<std::array<float, 3>> mirror_normals,
+                   int threads)
     : header_(light_field.header),
       positions_(light_field.positions),
       normals_(light_field.normals),
-      mirror_normals_(
-          mirror_normals(header_.directions, positions_, header_.normal_cell_log2, threads)),
+      mirror_normals_(std::move(mirror_normals)),
       mean_(mean_colours(light_field, threads)) {
   assert(header_.has_basis && header_.num_view_functions() == header_.basis.num_functions());
   std::span<const std::int32_t> components = light_field.components;

@@ -71,7 +71,7 @@ double mean_of(const PlenopticQuality& quality, const std::vector<std::size_t>& 
 }
 
 Outcome eval_plenoptic_file(const PlenopticEval& given) {
-  SLF_TRY(const DecodedFile decoded, decode_file(given.input, {}, given.limits, given.common));
+  SLF_TRY(DecodedFile decoded, decode_file(given.input, {}, given.limits, given.common));
   if (!is_plenoptic(decoded.metadata))
     return Failure{kInputInvalid, input_name(given.input) +
                                       ": was not made of a plenoptic cloud, " + given.cloud +
@@ -82,6 +82,7 @@ Outcome eval_plenoptic_file(const PlenopticEval& given) {
           from(input_name(given.input),
                decode_plenoptic(decoded.stream, decoded.field, decoded.metadata, &warnings,
                                 given.common.threads)));
+  decoded.field = {};  // room for the original
   PlenopticOptions options;
   options.grid_bits = cloud.grid.bits;
   SLF_TRY(const PlenopticCloud original,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/release.h"
@@ -16,6 +17,8 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kViewGrain = 4096;  // points
+/// Points whose view maps are made at a time: they take as much again as components.
+constexpr std::size_t kLookedAtOnce = std::size_t{1} << 17;
 /// Large enough that memory that is given up is the system's again.
 constexpr std::size_t kPieceBytes = std::size_t{64} << 20;
 constexpr double kSamePlace = 1e-6;  // of a view's distance from the origin
@@ -103,6 +106,32 @@ bool have_several_directions(const PlenopticCloud& cloud, const std::vector<std:
   });
 }
 
+/// Colours of the points from `first` on, of which there are maps, seen from every view.
+void look(const ViewMaps& maps, const PlenopticRecord& record, std::size_t first, int threads,
+          PlenopticCloud& cloud) {
+  const std::size_t own = cloud.own_colour ? 1 : 0, row = 3 * cloud.num_colours();
+  const auto set = [&](std::size_t point, std::size_t colour, std::size_t channel, float value) {
+    cloud.colours[point * row + 3 * colour + channel] =
+        static_cast<std::uint8_t>(std::lround(value));
+  };
+  parallel_ranges(maps.num_points(), kViewGrain, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> some(end - begin);
+    std::iota(some.begin(), some.end(), static_cast<std::uint32_t>(begin));
+    std::vector<std::array<float, 3>> colours(some.size()), sum(some.size());
+    for (std::size_t v = 0; v < cloud.views; ++v) {
+      maps.radiances(record.view_positions[v], some, colours);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          sum[i][c] += colours[i][c];
+          set(first + begin + i, own + v, c, colours[i][c]);
+        }
+    }
+    for (std::size_t i = 0; own == 1 && i < some.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        set(first + begin + i, 0, c, sum[i][c] / float(cloud.views));
+  });
+}
+
 }  // namespace
 
 Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const PlenopticRecord& record,
@@ -134,28 +163,24 @@ Result<LightField, InputError> fit_plenoptic(PlenopticCloud& cloud, const Plenop
 
 void look_from_views(const LightField& field, const PlenopticRecord& record, int threads,
                      PlenopticCloud& cloud) {
-  const std::size_t points = cloud.num_points(), own = cloud.own_colour ? 1 : 0;
-  const std::size_t row = 3 * cloud.num_colours();
-  cloud.colours.resize(points * row);
-  const ViewMaps maps(field, threads);
-  parallel_ranges(points, kViewGrain, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> some(end - begin);
-    for (std::size_t p = begin; p < end; ++p) some[p - begin] = static_cast<std::uint32_t>(p);
-    std::vector<std::array<float, 3>> colours(some.size()), sum(some.size());
-    for (std::size_t v = 0; v < cloud.views; ++v) {
-      maps.radiances(record.view_positions[v], some, colours);
-      for (std::size_t i = 0; i < some.size(); ++i)
-        for (std::size_t c = 0; c < 3; ++c) {
-          sum[i][c] += colours[i][c];
-          cloud.colours[(begin + i) * row + 3 * (own + v) + c] =
-              static_cast<std::uint8_t>(std::lround(colours[i][c]));
-        }
-    }
-    for (std::size_t i = 0; own == 1 && i < some.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        cloud.colours[(begin + i) * row + c] =
-            static_cast<std::uint8_t>(std::lround(sum[i][c] / float(cloud.views)));
-  });
+  const std::size_t points = cloud.num_points();
+  cloud.colours.resize(points * 3 * cloud.num_colours());
+  const LightFieldHeader& header = field.header;
+  const auto normals =
+      mirror_normals(header.directions, field.positions, header.normal_cell_log2, threads);
+  for (std::size_t first = 0; first < points; first += kLookedAtOnce) {
+    const std::size_t count = std::min(kLookedAtOnce, points - first);
+    const auto rows = [&](const auto& of_all, std::size_t width) {
+      const auto begin = of_all.begin() + static_cast<std::ptrdiff_t>(first * width);
+      return std::vector(begin, begin + static_cast<std::ptrdiff_t>(count * width));
+    };
+    LightField some;
+    some.header = header;
+    some.positions = rows(field.positions, 1);
+    some.components = rows(field.components, static_cast<std::size_t>(field.num_planes()));
+    const ViewMaps maps(some, normals.empty() ? normals : rows(normals, 1), threads);
+    look(maps, record, first, threads, cloud);
+  }
 }
 
 }  // namespace slf

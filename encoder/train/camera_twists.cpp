@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "capture/quantile.h"
 
@@ -112,6 +113,25 @@ void CameraTwists::centre() {
     double sum = 0;
     for (const CameraTwist& twist : twists_) sum += twist[k];
     for (CameraTwist& twist : twists_) twist[k] -= sum / double(twists_.size());
+  }
+}
+
+std::vector<double> CameraTwists::state() const {
+  std::vector<double> state;
+  for (std::size_t view = 0; view < twists_.size(); ++view) {
+    for (const auto* values : {&twists_[view], &mean_[view], &square_[view]})
+      state.insert(state.end(), values->begin(), values->end());
+    state.push_back(steps_[view]);
+  }
+  return state;
+}
+
+void CameraTwists::go_on_from(std::span<const double> state) {
+  const double* from = state.data();
+  for (std::size_t view = 0; view < twists_.size(); ++view) {
+    for (auto* values : {&twists_[view], &mean_[view], &square_[view]})
+      std::copy_n(std::exchange(from, from + values->size()), values->size(), values->begin());
+    steps_[view] = static_cast<int>(*from++);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "encoder/train/trained_surfel.h"
@@ -31,6 +32,11 @@ class CameraTwists {
             const std::vector<TrainedSurfel>& gradients);
   /// Takes off what all have in common: the scene is where cameras have it in the mean.
   void centre();
+
+  /// All that step() and centre() change, [views][19], for a checkpoint; none where it is empty.
+  std::vector<double> state() const;
+  /// @param state  of the same views
+  void go_on_from(std::span<const double> state);
 
   const CameraTwist& twist(std::size_t view) const { return twists_[view]; }
   const Vec3& pivot() const { return pivot_; }

@@ -39,8 +39,6 @@ Result<PoseReport, InputError> refine_cameras(const Capture& capture, std::span<
   PoseReport report;
   CameraTwists twists;
   settings.twists = &twists;
-  settings.work.clear();
-  settings.resume = false;
   SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, settings, progress));
   if (splats.size() == 0 || twists.empty()) return report;
   report.cameras = capture.cameras;

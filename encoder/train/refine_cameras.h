@@ -11,8 +11,7 @@ namespace slf {
 
 /// Trains splats and poses together, and gives up the splats. All cameras have one mean motion of
 /// none, so the scene stays where it is.
-/// @param settings  of the training; work and resume are not used
-/// @errors those of load_image
+/// @errors those of load_image; of a checkpoint
 /// The same for any number of threads. Time: that of a training.
 Result<PoseReport, InputError> refine_cameras(const Capture& capture, std::span<const int> cameras,
                                               TrainGeometrySettings settings,

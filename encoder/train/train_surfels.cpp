@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/sha256.h"
 #include "base/stopwatch.h"
 #include "encoder/train/adam.h"
 #include "encoder/train/camera_twists.h"
@@ -21,6 +20,7 @@
 #include "encoder/train/surface_pull.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/training_checkpoint.h"
+#include "encoder/train/training_digest.h"
 #include "slf/parallel.h"
 
 namespace slf {
@@ -119,36 +119,6 @@ void pull_opacities(float weight, const TrainedSurfels& surfels,
   }
 }
 
-/// Bytes of a training that decide what comes out of it.
-TrainingDigest digest_of_training(std::span<const TrainingView> views,
-                                  const TrainSettings& settings, const TrainedSurfels& surfels) {
-  Sha256 hash;
-  const auto add = [&](const auto* values, std::size_t count) {
-    hash.update({reinterpret_cast<const std::uint8_t*>(values), count * sizeof *values});
-  };
-  const std::array numbers = {double(settings.iterations),    settings.from,
-                              double(settings.surfels),       double(settings.levels),
-                              double(settings.structure),     double(settings.squared),
-                              double(settings.spread),        double(settings.together),
-                              double(settings.decided),       settings.coarse,
-                              double(settings.least_opacity), double(views.size()),
-                              double(surfels.size())};
-  add(numbers.data(), numbers.size());
-  for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
-  for (const TrainingView& view : views) {
-    const TrainingCamera& c = view.camera;
-    const std::array whole = {view.index, c.width, c.height, int(c.gaussian)};
-    const std::array lens = {c.fx, c.fy, c.cx, c.cy, c.depth};
-    add(whole.data(), whole.size());
-    add(lens.data(), lens.size());
-    for (const Float3& row : c.rotation) add(row.data(), row.size());
-    for (const Float3* at : {&c.translation, &c.centre, &view.background})
-      add(at->data(), at->size());
-    add(view.picture.value.data(), view.picture.value.size());
-  }
-  return hash.finish();
-}
-
 /// A training between two iterations.
 class Training {
  public:
@@ -168,13 +138,19 @@ class Training {
 
   int iteration() const { return iteration_; }
 
-  TrainingState state() const { return {iteration_, drawn_views_, surfels_, adam_, use_}; }
+  TrainingState state() const {
+    return {iteration_, drawn_views_, surfels_, adam_, use_, twists()};
+  }
+  std::vector<double> twists() const {
+    return settings_.twists != nullptr ? settings_.twists->state() : std::vector<double>{};
+  }
   void go_on_from(TrainingState state) {
     for (; iteration_ < state.iteration; ++iteration_) order_.next();
     drawn_views_ = state.drawn_views;
     surfels_ = std::move(state.surfels);
     adam_ = std::move(state.adam);
     use_ = std::move(state.use);
+    if (settings_.twists != nullptr) settings_.twists->go_on_from(state.twists);
   }
 
   /// @param done  share of the schedule, below 1
@@ -273,11 +249,12 @@ class Training {
 Result<Done, InputError> train_surfels(std::span<const TrainingView> views,
                                        const TrainSettings& settings, TrainedSurfels& surfels) {
   std::optional<TrainingCheckpoint> checkpoint;
-  if (!settings.work.empty() && settings.seconds == 0 && settings.twists == nullptr)
+  if (!settings.work.empty() && settings.seconds == 0)
     checkpoint.emplace(settings.work, digest_of_training(views, settings, surfels));
   Training training(views, settings, surfels);
   if (checkpoint && settings.resume)
-    if (auto state = checkpoint->read(settings.iterations)) training.go_on_from(*std::move(state));
+    if (auto state = checkpoint->read(settings.iterations, training.twists().size()))
+      training.go_on_from(*std::move(state));
   Stopwatch watch, saved;
   double unsaved = 0;           // seconds
   double late = settings.from;  // where the schedule is by the clock

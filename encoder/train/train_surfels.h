@@ -28,7 +28,7 @@ struct TrainSettings {
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
   float least_opacity = 0.02f;     ///< fainter ones make room for others while surfels grow
-  CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too; no checkpoints
+  CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too
   /// Surfels that nothing changed shows stay as they are, to the bit; nullptr: all are trained.
   const ChangedViews* changed = nullptr;
   double seconds = 0;  ///< > 0: the schedule is passed through in so long, if not sooner

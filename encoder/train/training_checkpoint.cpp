@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The file, little endian as the machine is: magic, digest of the training, iteration, views drawn,
 // steps of Adam, surfels (64 bits each); rows of surfels, of both moments, then what use says of
-// each; SHA-256 of all before it.
+// each; twists of cameras; SHA-256 of all before it.
 #include "encoder/train/training_checkpoint.h"
 
 #include <algorithm>
@@ -50,11 +50,12 @@ class Cursor {
     return value;
   }
   /// @return false where a value is not finite
-  bool floats(float* to, std::size_t count) {
+  template <class T>
+  bool floats(T* to, std::size_t count) {
     if (count == 0) return true;
-    std::memcpy(to, bytes_.data() + at_, count * sizeof(float));
-    at_ += count * sizeof(float);
-    return std::all_of(to, to + count, [](float x) { return std::isfinite(x); });
+    std::memcpy(to, bytes_.data() + at_, count * sizeof(T));
+    at_ += count * sizeof(T);
+    return std::all_of(to, to + count, [](T x) { return std::isfinite(x); });
   }
 
  private:
@@ -81,7 +82,7 @@ TrainingCheckpoint::TrainingCheckpoint(std::filesystem::path directory,
   file_ = directory_ / (name + ".checkpoint");
 }
 
-std::optional<TrainingState> TrainingCheckpoint::read(int iterations) const {
+std::optional<TrainingState> TrainingCheckpoint::read(int iterations, std::size_t twists) const {
   const auto bytes = read_file(file_, kMostBytes);
   if (!bytes || !is_of(*bytes, digest_)) return std::nullopt;
   const std::span<const std::uint8_t> whole = *bytes;
@@ -90,7 +91,9 @@ std::optional<TrainingState> TrainingCheckpoint::read(int iterations) const {
                       count = cursor.number();
   const auto most = std::uint64_t(std::max(iterations, 0));
   if (iteration > most || views > most || steps > most) return std::nullopt;
-  const std::size_t body = bytes->size() - kHeaderBytes - kDigestBytes;
+  const std::size_t behind = kHeaderBytes + kDigestBytes + twists * sizeof(double);
+  if (bytes->size() < behind) return std::nullopt;
+  const std::size_t body = bytes->size() - behind;
   if (count != body / kSurfelBytes || body % kSurfelBytes != 0) return std::nullopt;
   TrainingState state;
   state.iteration = int(iteration);
@@ -104,6 +107,8 @@ std::optional<TrainingState> TrainingCheckpoint::read(int iterations) const {
       if (!cursor.floats(row.value.data(), row.value.size())) return std::nullopt;
   for (auto* values : {&state.use.drawn, &state.use.pull})
     if (!cursor.floats(values->data(), values->size())) return std::nullopt;
+  state.twists.resize(twists);
+  if (!cursor.floats(state.twists.data(), twists)) return std::nullopt;
   return state;
 }
 
@@ -121,6 +126,7 @@ Result<Done, InputError> TrainingCheckpoint::write(const TrainingState& state) c
     for (const TrainedSurfel& row : *rows) put(bytes, row.value.data(), row.value.size());
   for (const auto* values : {&state.use.drawn, &state.use.pull})
     put(bytes, values->data(), values->size());
+  put(bytes, state.twists.data(), state.twists.size());
   const auto digest = digest_of(bytes);
   put(bytes, digest.data(), digest.size());
   std::error_code error;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "encoder/train/adam.h"
 #include "encoder/train/grow_surfels.h"
@@ -22,6 +23,7 @@ struct TrainingState {
   TrainedSurfels surfels;
   AdamState adam;
   SurfelUse use;
+  std::vector<double> twists;  ///< CameraTwists::state()
 };
 
 /// A digest of settings, photographs and first surfels: another training is never gone on with.
@@ -34,8 +36,8 @@ class TrainingCheckpoint {
   TrainingCheckpoint(std::filesystem::path directory, const TrainingDigest& digest);
 
   /// Nothing where there is no file, or it is damaged or of another training.
-  /// @param iterations  of the whole training
-  std::optional<TrainingState> read(int iterations) const;
+  /// @param iterations, twists  of the whole training; numbers of a state of twists
+  std::optional<TrainingState> read(int iterations, std::size_t twists = 0) const;
   /// The file is there whole or as it was before.
   /// @errors kUnwritable
   Result<Done, InputError> write(const TrainingState& state) const;

@@ -45,6 +45,10 @@ class ViewMaps {
   static Result<ViewMaps, InputError> of(const LightField& light_field, int threads = 0);
   /// The same for a light field of which all this is known; others give colours without a meaning.
   explicit ViewMaps(const LightField& light_field, int threads = 0);
+  /// Some points of a light field: their mirrors are given, since only all points tell them.
+  /// @param mirror_normals  [P] unit normals of these points; empty: directions of the world
+  ViewMaps(const LightField& some_points, std::vector<std::array<float, 3>> mirror_normals,
+           int threads);
 
   /// R, G, B of point p, 0 .. num_points() - 1, seen along (θ, γ) (from the point to the eye), of
   /// the header's transfer. γ is first clamped to the header's range; the result to 0 .. 255.

@@ -40,7 +40,7 @@ def trained_splats(place, folder):
 def measured_rows(place, capture, points):
     """(surface, bytes, dB inside, dB over all, SSIM, seconds) of what is known."""
     for surface, options in SURFACES.items():
-        c = coded(place, capture, [*options, *(['--points', '{data}/%s/%s' % (capture, points)] if points else [])])
+        c = coded(place, capture, [*options, *(['--points', place.capture(capture) / points] if points else [])])
         if c:
             out = c['held_out']
             yield surface, c['bytes'], out['psnr'], out['all']['psnr'], out['ssim'], c['encode']

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "encoder/train/camera_twists.h"
 #include "encoder/train/train_surfels.h"
 #include "traced_scene.h"
 
@@ -84,6 +85,28 @@ TEST_F(TrainingCheckpointTest, AnInterruptedTrainingComesToTheSameBytes) {
     EXPECT_EQ(trained(again, &steps), expected);
     EXPECT_EQ(steps, 0) << "what is done is not done again";
   }
+}
+
+TEST_F(TrainingCheckpointTest, PosesGoOnToTheSameTwists) {
+  const auto twists_of = [](TrainSettings s) {
+    CameraTwists twists(views_.size(), first_, 0.01);
+    s.twists = &twists;
+    trained(s);
+    return twists.state();
+  };
+  TrainSettings whole = settings();
+  whole.work.clear();
+  const auto expected = twists_of(whole);
+  EXPECT_NE(expected, CameraTwists(views_.size(), first_, 0.01).state());
+  TrainSettings cut = settings();
+  cut.progress = [](double done) { return done < 0.5; };
+  EXPECT_NE(twists_of(cut), expected);
+  TrainSettings again = settings();
+  again.resume = true;
+  EXPECT_EQ(twists_of(again), expected);
+  int steps = 0;
+  trained(again, &steps);
+  EXPECT_EQ(steps, kIterations / 50) << "without poses it is another training";
 }
 
 TEST_F(TrainingCheckpointTest, WithoutResumeItBeginsAnew) {
