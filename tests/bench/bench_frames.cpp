@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a moving cloud, each predicted and each by itself: bench_frames STEP DIR [DIR ...].
+// Frames of a moving cloud, each predicted and each by itself:
+//   bench_frames [--brightness] STEP DIR [DIR ...]       --brightness: the other channels are zero
 // A DIR is what `slf synth rot1 --frames N -o DIR` makes: integers on a grid of 8 bits and a
 // colour. STEP: grey levels of brightness, twice that of the other channels. Bytes by kind, PSNR of
 // brightness, milliseconds of a processor for encoding and decoding, over all frames but the first.
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <optional>
+#include <string_view>
 
 #include "bitstream/units.h"
 #include "geometry/morton.h"
@@ -33,7 +35,7 @@ T value_of(Result<T, E> result) {
 }
 
 /// Brightness, red against blue, green against both: of colours, in 1/16.
-LightField field_of(const FrameInput& input) {
+LightField field_of(const FrameInput& input, bool brightness_alone) {
   const PointCloud cloud = value_of(read_ply(input.path));
   const VoxelCloud voxels = value_of(voxelise(cloud, 0, 1));
   LightField field;
@@ -49,9 +51,11 @@ LightField field_of(const FrameInput& input) {
     std::array<int, 3> c{};
     for (std::size_t k = 0; k < 3; ++k)
       c[k] = static_cast<int>(std::lround(voxels.colours[i][k] * (1 << kShift)));
+    const int brightness = (c[0] + 2 * c[1] + c[2]) / 4 - 128 * (1 << kShift);
+    const int across[] = {(c[0] - c[2]) / 2, (2 * c[1] - c[0] - c[2]) / 4};
+    const int shown = brightness_alone ? 0 : 1;
     field.components.insert(field.components.end(),
-                            {(c[0] + 2 * c[1] + c[2]) / 4 - 128 * (1 << kShift), (c[0] - c[2]) / 2,
-                             (2 * c[1] - c[0] - c[2]) / 4});
+                            {brightness, shown * across[0], shown * across[1]});
   }
   return field;
 }
@@ -109,7 +113,7 @@ struct Sums {
   }
 };
 
-void measure(const char* directory, std::uint32_t step) {
+void measure(const char* directory, std::uint32_t step, bool brightness_alone) {
   CodingParameters parameters;
   parameters.base_levels = 0;
   parameters.index = false;
@@ -123,7 +127,7 @@ void measure(const char* directory, std::uint32_t step) {
   DecodeOptions options;
   options.threads = kThreads;
   for (std::size_t f = 0; f < inputs.frames.size(); ++f) {
-    fields.push_back(field_of(inputs.frames[f]));
+    fields.push_back(field_of(inputs.frames[f], brightness_alone));
     const LightField& field = fields.back();
     Seconds of_frame, of_alone;
     const auto frame =
@@ -155,12 +159,14 @@ void measure(const char* directory, std::uint32_t step) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "bench_frames STEP DIR [DIR ...]\n");
+  const bool brightness_alone = argc > 1 && std::string_view(argv[1]) == "--brightness";
+  const int first = brightness_alone ? 2 : 1;
+  if (argc < first + 2) {
+    std::fprintf(stderr, "bench_frames [--brightness] STEP DIR [DIR ...]\n");
     return 2;
   }
-  const auto step = static_cast<std::uint32_t>(std::max(std::atoi(argv[1]), 1)) << kShift;
+  const auto step = static_cast<std::uint32_t>(std::max(std::atoi(argv[first]), 1)) << kShift;
   std::printf("  %-10s %9s %9s %9s %8s %8s %8s\n", "", "bytes", "geometry", "values", "dB",
               "enc ms", "dec ms");
-  for (int i = 2; i < argc; ++i) measure(argv[i], step);
+  for (int i = first + 1; i < argc; ++i) measure(argv[i], step, brightness_alone);
 }

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plenoptic clouds: our planes and our view maps against RAHT-KLT as published.
 
-    plenoptic.py --slf build/bin/slf --out DIR [CLOUD.ply ...] [--points 300000] [--rates 4,8,16,32,64]
+    plenoptic.py --slf build/bin/slf --out DIR [CLOUD.ply ...] [--points 300000] [--rates 4,8,16,32,64] [--tmc3 PROGRAM]
 
 Without clouds the can, the die and the vase are drawn. Writes DIR/plenoptic.json and prints a table: bits per point of geometry
 (ours, for all) and colour, PSNR of Y, U, V (mean of the views' decibels; BT.709, peak 255), seconds of encoding, peak memory.
-The own colour of a point (red, green, blue) is not judged. Below stand figures of others on the clouds of 8i."""
+The own colour of a point (red, green, blue) is not judged. With the reference software of G-PCC (--tmc3) rows of one colour a point, the
+mean of its views, stand beside: another input than N views. Below stand figures of others on the clouds of 8i."""
 import argparse
 import json
 import multiprocessing
@@ -19,6 +20,7 @@ import time
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import one_colour  # noqa: E402
 from bd import NoFigure, bd_rate  # noqa: E402
 from raht_klt import YUV, RahtKlt  # noqa: E402
 
@@ -99,6 +101,18 @@ def raht_klt_rows(cloud, geometry, rates):
     return rows
 
 
+def tmc13_rows(program, cloud):
+    """One colour a point, the mean of its views."""
+    positions, colours = read_cloud(cloud)
+    mean = np.round(colours.mean(1)).astype(np.uint8)
+    rows = []
+    for qp in one_colour.QPS:
+        geometry, size, got, seconds = one_colour.coded(program, positions, mean, qp)
+        rows.append(row(cloud.stem, len(positions), "TMC13, one colour", f"QP {qp}", 8 * geometry / len(positions), 8 * size / len(positions),
+                        psnr_of(mean[:, None], got[:, None]), seconds, 0))
+    return rows
+
+
 def table(rows):
     lines = ["| cloud | points | codec | step | geometry, bits/point | colour, bits/point | Y | U | V | s | MiB |",
              "|---|---|---|---|---|---|---|---|---|---|---|"]
@@ -119,7 +133,7 @@ def bd_rates(rows):
             curve[0].append(r["colour_bits"])
             curve[1].append(r["psnr_yuv"][0])
     for (cloud, codec), curve in curves.items():
-        if codec == "RAHT-KLT":
+        if codec in ("RAHT-KLT", "TMC13, one colour"):
             continue
         try:
             figure = f"{bd_rate(*curves[cloud, 'RAHT-KLT'], *curve):+.1f} %"
@@ -156,6 +170,7 @@ def main():
     parser.add_argument("--points", type=int, default=300000)
     parser.add_argument("--views", type=int, default=13)
     parser.add_argument("--rates", default="4,8,16,32,64")
+    parser.add_argument("--tmc3", help="the reference software of G-PCC")
     parser.add_argument("--no-view-maps", action="store_true", help="they take ten times as long")
     given = parser.parse_args()
     out = pathlib.Path(given.out)
@@ -168,6 +183,7 @@ def main():
         if not given.no_view_maps:
             rows += [ours(given.slf, cloud, out, "viewmaps", rate) for rate in rates]
         rows += theirs(cloud, rows[-1]["geometry_bits"], rates)
+        rows += tmc13_rows(given.tmc3, cloud) if given.tmc3 else []
         (out / "plenoptic.json").write_text(json.dumps(rows, indent=1), encoding="utf-8")
     print(table(rows), bd_rates(rows), of_others(), sep="\n\n")
 

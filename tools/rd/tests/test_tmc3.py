@@ -6,6 +6,8 @@ import sys
 
 import numpy as np
 
+import frames_tmc3
+import one_colour
 import tmc3
 from tests.scratch import Scratch
 
@@ -48,6 +50,37 @@ class Planes(Scratch):
     def test_damaged_streams_are_refused(self):
         with self.assertRaises(ValueError):
             tmc3.units(b"\x02\x00\x00\x00\x09abc")
+
+
+class Colours(Scratch):
+    def test_colours_come_back_in_our_order_and_are_counted_apart(self):
+        random = np.random.default_rng(2)
+        positions = np.unique(random.integers(0, 16, (40, 3)), axis=0)
+        random.shuffle(positions)
+        colours = random.integers(0, 256, positions.shape)
+        geometry, size, back, _ = one_colour.coded(str(FAKE_TMC3), positions, colours, 22)
+        np.testing.assert_array_equal(back, colours)
+        self.assertEqual(size, (5 + 7) + (5 + 3 * len(positions)))
+        self.assertEqual(geometry, (5 + 16) + (5 + 1) + (5 + 12 * len(positions)))
+
+
+class Frames(Scratch):
+    CURVE = [(4000, 40.0), (1000, 30.0)]
+
+    def test_bytes_between_two_points_are_on_a_line_of_logarithms(self):
+        self.assertAlmostEqual(frames_tmc3.bytes_at(self.CURVE, 35), 2000)
+        self.assertIsNone(frames_tmc3.bytes_at(self.CURVE, 41))
+
+    def test_half_of_the_bytes_at_equal_decibels_is_half(self):
+        self.assertAlmostEqual(frames_tmc3.compared([(1000, 35), (500, 30), (1, 99)], self.CURVE), -0.5)
+        self.assertIsNone(frames_tmc3.compared([(1, 99)], self.CURVE))
+
+    def test_another_place_is_no_frame_that_came_back(self):
+        places, values = np.array([[1, 2, 3], [4, 5, 6]]), np.array([7, 8])
+        decoded = {"x": [4, 1], "y": [5, 2], "z": [6, 3], "reflectance": np.array([8, 5])}
+        self.assertAlmostEqual(frames_tmc3.error_of((places, values), decoded), 2)
+        with self.assertRaises(SystemExit):
+            frames_tmc3.error_of((places + 1, values), decoded)
 
 
 class Error(Scratch):
