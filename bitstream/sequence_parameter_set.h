@@ -10,17 +10,18 @@
 namespace slf {
 
 /// Spec 7.1.2: streams of this major version are read.
-inline constexpr int kVersionMajor = 1, kVersionMinor = 2;
+inline constexpr int kVersionMajor = 1, kVersionMinor = 3;
 
 /// Profiles that allow one tool more than the main one.
 inline constexpr std::uint32_t kDracoProfile = 1, kTextureProfile = 2;
 /// sps_coefficient_coder; 0 is the vector coder, 1 the independent one.
 inline constexpr std::uint32_t kTextureCoder = 2, kLayeredCoder = 3;
 
-/// sps_feature[1], 8.12.6, and sps_feature[2], 7.13. 0 has no meaning: a stream of 1.0 shows that
+/// sps_feature[1], 8.12.6, [2], 7.13, and [3], 8.12.7. 0 has no meaning: a stream of 1.0 shows that
 /// it is refused.
 inline constexpr std::uint32_t kReferenceContexts = 1u << 30, kEmptyFrame = 1u << 29,
-                               kKnownFeatures = kReferenceContexts | kEmptyFrame;
+                               kMovedPoints = 1u << 28,
+                               kKnownFeatures = kReferenceContexts | kEmptyFrame | kMovedPoints;
 
 inline constexpr std::uint32_t kMaxSlicePoints = 1u << 22;
 inline constexpr std::uint32_t kMaxSlices = 1u << 16;
@@ -82,10 +83,14 @@ struct SequenceParameterSet {
   bool predicted = false;
 
   /// The lowest minor version that has all of it. Spec 7.1.2
-  int version_minor() const { return is_empty_frame() ? 2 : features != 0 ? 1 : 0; }
+  int version_minor() const {
+    return has_moved_points() ? 3 : is_empty_frame() ? 2 : features != 0 ? 1 : 0;
+  }
   /// A frame without points, alone in its group of frames. Spec 7.13
   bool is_empty_frame() const { return (features & kEmptyFrame) != 0; }
   bool has_reference_contexts() const { return (features & kReferenceContexts) != 0; }
+  /// May predicted frames move the points of their reference one by one? Spec 8.12.7
+  bool has_moved_points() const { return (features & kMovedPoints) != 0; }
   std::uint32_t grid_bits() const { return sps_grid_bits_minus1 + 1; }
   bool has_draco() const { return sps_geometry_coder == 1; }
   bool has_texture() const { return sps_coefficient_coder == kTextureCoder; }

@@ -9,6 +9,7 @@
 
 #include "attributes/coefficient_models.h"
 #include "attributes/reference_means.h"
+#include "geometry/moved_points.h"
 #include "geometry/occupancy_states.h"
 #include "geometry/reference_cells.h"
 
@@ -40,13 +41,43 @@ struct FrameState {
   }
 };
 
+/// A frame whose points have moved one by one. Spec 8.12.7
+struct MovedFrame {
+  ReferenceCells cells;
+  LevelMeans means;
+  Motion still;  ///< they are where they belong
+
+  std::uint64_t bytes() const {  ///< of memory
+    std::uint64_t sum = cells.bytes();
+    for (const auto& level : means) sum += level.size() * sizeof(std::int32_t);
+    return sum;
+  }
+};
+
+/// @param moves   of every point
+/// @param planes  of values; the frame has means of all levels where there are some
+MovedFrame move_frame(const FrameState& state, const std::vector<PointMove>& moves,
+                      const Motion& motion, int bits, std::size_t planes);
+
 /// A frame that another is predicted from, and the motion between them.
 struct FrameReference {
+  /// terms: of the frame that is predicted, as far as they were found
+  FrameReference(const FrameState& from, const Motion& motion, int bits, LevelTerms& found)
+      : state(from), moved{from.cells, motion, bits}, terms(found), values(from.means) {}
+  FrameReference(const FrameState& from, const MovedFrame& points, int bits, LevelTerms& found)
+      : state(from),
+        moved{points.cells, points.still, bits},
+        terms(found),
+        values(points.means),
+        bytes_moved(points.bytes()) {}
+
   const FrameState& state;
   MovedReference moved;
-  LevelTerms& terms;  ///< of the frame that is predicted, as far as they were found
+  LevelTerms& terms;
+  const LevelMeans& values;
+  std::uint64_t bytes_moved = 0;  ///< of memory, beside those of the frame
 
-  ReferenceMeans means() const { return {moved, state.means, terms}; }
+  ReferenceMeans means() const { return {moved, values, terms}; }
 };
 
 }  // namespace slf

@@ -51,23 +51,25 @@ inline Case case_of_stream(std::string id, std::string purpose, std::vector<std:
 }
 
 std::vector<Case> valid_cases();
-std::vector<Case> component_cases();      ///< among them: what values there are
-std::vector<Case> header_cases();         ///< among them: slices, normals, what headers say
-std::vector<Case> scene_cases();          ///< among them
-std::vector<Case> apart_cases();          ///< among them
-std::vector<Case> small_cases();          ///< among them
-std::vector<Case> edited_cases();         ///< among them: units that no encoder writes
-std::vector<Case> transform_cases();      ///< among them: matrices that no encoder writes
-std::vector<Case> layer_cases();          ///< among them
-std::vector<Case> attribute_cases();      ///< among them
-std::vector<Case> texture_cases();        ///< among them: planes as pictures
-std::vector<Case> frame_cases();          ///< among them: light fields that move
-std::vector<Case> frame_context_cases();  ///< among them
-std::vector<Case> empty_frame_cases();    ///< among them
-std::vector<Case> limit_cases();          ///< among them: limits that are hard to come to
-std::vector<Case> ordinary_cases();       ///< among them: what small streams do not show
-std::vector<Case> growth_cases();         ///< among them: what later versions add
-std::vector<Case> level_cases();          ///< among them
+std::vector<Case> component_cases();        ///< among them: what values there are
+std::vector<Case> header_cases();           ///< among them: slices, normals, what headers say
+std::vector<Case> scene_cases();            ///< among them
+std::vector<Case> apart_cases();            ///< among them
+std::vector<Case> small_cases();            ///< among them
+std::vector<Case> edited_cases();           ///< among them: units that no encoder writes
+std::vector<Case> transform_cases();        ///< among them: matrices that no encoder writes
+std::vector<Case> layer_cases();            ///< among them
+std::vector<Case> attribute_cases();        ///< among them
+std::vector<Case> texture_cases();          ///< among them: planes as pictures
+std::vector<Case> frame_cases();            ///< among them: light fields that move
+std::vector<Case> frame_context_cases();    ///< among them
+std::vector<Case> empty_frame_cases();      ///< among them
+std::vector<Case> frame_attribute_cases();  ///< among them
+std::vector<Case> moved_frame_cases();      ///< among them: points that move one by one
+std::vector<Case> limit_cases();            ///< among them: limits that are hard to come to
+std::vector<Case> ordinary_cases();         ///< among them: what small streams do not show
+std::vector<Case> growth_cases();           ///< among them: what later versions add
+std::vector<Case> level_cases();            ///< among them
 
 /// A stream that must be refused, with the error this project's decoder gives. Empty where it takes
 /// a component that this build lacks.
@@ -93,5 +95,6 @@ std::vector<RefusedCase> refused_empty_frames();  ///< among them
 std::vector<RefusedCase> refused_frames();
 std::vector<RefusedCase> refused_behind_empty();  ///< among them
 RefusedCase refused_frame_rate();                 ///< among them
+std::vector<RefusedCase> refused_moves();         ///< among them
 
 }  // namespace slf::conformance

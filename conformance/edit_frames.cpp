@@ -16,7 +16,7 @@ bool is_intra(const Bytes& frame) { return frame[0] == kSignature[0]; }
 Bytes changed_header(const Bytes& payload, const std::function<void(FrameHeader&)>& edit) {
   std::span<const std::uint8_t> vectors;
   FrameHeader header = *parse_frame_header(payload, vectors);
-  if (header.frame_lattice_flag != 0)  // as they are coded
+  if (header.has_lattice())  // as they are coded
     for (auto& size : header.motion.lattice_size) --size;
   edit(header);
   BitWriter out;
@@ -39,29 +39,43 @@ FrameWriter::FrameWriter(const CodingParameters& parameters, std::uint32_t level
   parameters_.index = false;
 }
 
-void FrameWriter::add(const LightField& field) {
+FrameHeader FrameWriter::next_header() const {
   FrameHeader header;
   header.frame_number = static_cast<std::uint32_t>(frames_.size());
   header.frame_time = 0.25 * static_cast<double>(frames_.size());
+  return header;
+}
+
+void FrameWriter::add(const LightField& field) {
+  FrameHeader header = next_header();
   append(*pack_frame(field, parameters_, &header, &group_));
 }
 
 void FrameWriter::add(const LightField& field, const Motion& motion) {
-  FrameHeader header;
-  header.frame_number = static_cast<std::uint32_t>(frames_.size());
-  header.frame_time = 0.25 * static_cast<double>(frames_.size());
+  FrameHeader header = next_header();
   header.frame_predicted_flag = 1;
   header.motion = motion;
   append(*pack_predicted(field, parameters_, group_, chain_.state(), header));
+}
+
+void FrameWriter::add_moved(const LightField& field, const Motion& motion,
+                            const std::function<PointMove(std::size_t)>& of) {
+  FrameHeader header = next_header();
+  header.frame_predicted_flag = 1;
+  header.motion = motion;
+  const FrameState& state = chain_.state();
+  append(*pack_predicted(field, parameters_, group_, state, header, [&](auto, auto) {
+    std::vector<PointMove> moves(state.cells.codes(state.cells.levels()).size());
+    for (std::size_t p = 0; p < moves.size(); ++p) moves[p] = of(p);
+    return moves;
+  }));
 }
 
 void FrameWriter::add_empty(LightField field) {
   field.positions.clear();
   field.components.clear();
   field.normals.octahedral.clear();
-  FrameHeader header;
-  header.frame_number = static_cast<std::uint32_t>(frames_.size());
-  header.frame_time = 0.25 * static_cast<double>(frames_.size());
+  FrameHeader header = next_header();
   append(*pack_empty(field, parameters_, header));
 }
 

@@ -21,6 +21,9 @@ class FrameWriter {
   void add(const LightField& field);
   /// One that is, with this motion.
   void add(const LightField& field, const Motion& motion);
+  /// One whose reference's points move, each as a function says.
+  void add_moved(const LightField& field, const Motion& motion,
+                 const std::function<PointMove(std::size_t point)>& of);
   /// One without points, with the header of a field.
   void add_empty(LightField field);
 
@@ -28,6 +31,7 @@ class FrameWriter {
   Bytes stream() const;
 
  private:
+  FrameHeader next_header() const;
   void append(Bytes bytes);
 
   CodingParameters parameters_;

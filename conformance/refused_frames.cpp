@@ -191,6 +191,7 @@ std::vector<RefusedCase> refused_frames() {
   refused.add_references();
   for (RefusedCase& behind : refused_behind_empty()) cases.push_back(std::move(behind));
   cases.push_back(refused_frame_rate());
+  for (RefusedCase& move : refused_moves()) cases.push_back(std::move(move));
   return cases;
 }
 

@@ -63,7 +63,8 @@ std::vector<Case> valid_cases() {
   for (const auto& make :
        {component_cases, header_cases, scene_cases, apart_cases, layer_cases, small_cases,
         edited_cases, transform_cases, attribute_cases, frame_cases, frame_context_cases,
-        empty_frame_cases, growth_cases, level_cases, ordinary_cases, limit_cases})
+        empty_frame_cases, frame_attribute_cases, moved_frame_cases, growth_cases, level_cases,
+        ordinary_cases, limit_cases})
     append(make());
   add_cut_streams(cases);
   append(texture_cases());

@@ -11,6 +11,7 @@
 #include "codec/encoder/pack_frame.h"
 #include "codec/encoder/pack_parameters.h"
 #include "encoder/find_motion.h"
+#include "encoder/match_points.h"
 #include "geometry/morton.h"
 #include "slf/frames.h"
 #include "slf/gaussians.h"
@@ -85,6 +86,7 @@ struct FrameEncoder::Impl {
   std::vector<std::uint8_t> first;  // bytes of the group's first frame: the chain goes back to them
   FrameColours before;              // as decoded
   Motion motion;                    // of the frame before
+  Motion onward;                    // the same from its places: of points that move one by one
 
   Result<Done, InputError> check(const LightField& field, double at) const {
     if (parameters.quality_layers > 1 || !parameters.group_layers.empty())
@@ -110,7 +112,9 @@ struct FrameEncoder::Impl {
   std::uint32_t features_of(const LightField& field) const {
     const bool used =
         parameters.reference_contexts && group_length > 1 && field.header.num_functions > 0;
-    return used ? kReferenceContexts : 0;
+    return !used                         ? 0
+           : has_gaussians(field.header) ? kReferenceContexts | kMovedPoints
+                                         : kReferenceContexts;
   }
 
   /// Is the frame more than the level of its group promised?
@@ -185,7 +189,7 @@ struct FrameEncoder::Impl {
     if (!frame.predicted()) {
       group.features = features_of(field);
       group.level = outgrown ? 0 : level_of_group(field);
-      frame.motion = motion = {};
+      frame.motion = motion = onward = {};
       return pack_frame(field, parameters, &frame, &group);
     }
     const FrameColours now = colours_of(field, parameters.threads);
@@ -193,7 +197,28 @@ struct FrameEncoder::Impl {
     frame.motion = choose_motion(now.points(scattered), before.points(scattered),
                                  field.header.grid.bits, motion);
     motion = frame.motion;
-    return pack_predicted(field, parameters, group, chain.state(), frame);
+    SLF_TRY(auto bytes, pack_predicted(field, parameters, group, chain.state(), frame));
+    if (!group.set.has_moved_points()) return bytes;
+    FrameHeader other = frame;
+    SLF_TRY(auto moved, code_moved(field, now, other));
+    if (moved.size() >= bytes.size()) return bytes;
+    frame = std::move(other);
+    return moved;
+  }
+
+  /// The same by points of the reference that move one by one.
+  Result<std::vector<std::uint8_t>, InputError> code_moved(const LightField& field,
+                                                           const FrameColours& now,
+                                                           FrameHeader& frame) {
+    const int bits = field.header.grid.bits;
+    frame.motion = onward = choose_motion(before.points(true), now.points(true), bits, onward);
+    const FrameState& state = chain.state();
+    const auto choose = [&](std::span<const std::uint64_t> codes,
+                            std::span<const std::int32_t> components) {
+      return match_points({codes, components}, {state.cells.codes(bits), state.means.back()},
+                          group.steps, frame.motion, bits, parameters.threads);
+    };
+    return pack_predicted(field, parameters, group, state, frame, choose);
   }
 };
 

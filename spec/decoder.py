@@ -327,7 +327,7 @@ class Sequence:
         if left:
             for i in range(32):
                 if reader.u(1, f"sps_feature[{i}]"):
-                    require(i in (BY_REFERENCE, EMPTY), f"sps_feature[{i}]", Unsupported)
+                    require(i in (BY_REFERENCE, EMPTY, MOVED), f"sps_feature[{i}]", Unsupported)
                     features.add(i)
             require(left - 4 <= 1 << 16, "sps_extension")
         return features
@@ -540,11 +540,11 @@ class Frame:
         self.predicted = bool(reader.u(1, "frame_predicted_flag"))
         self.bytes = reader.ue("frame_bytes")
         require(self.bytes < 1 << 31, "frame_bytes")
-        self.matrix, self.shift, self.lattice_log2 = [[0] * 3 for _ in range(3)], [0] * 3, 0
+        self.matrix, self.shift, self.lattice_log2, self.moves = [[0] * 3 for _ in range(3)], [0] * 3, 0, False
         if self.predicted and reader.u(1, "frame_motion_flag"):
             self.read_motion(reader)
         self.codeword, self.vectors = reader.rest(), None
-        require(self.lattice_log2 or not self.codeword, "frame_vectors")
+        require(self.lattice_log2 or self.moves or not self.codeword, "frame_vectors")
 
     def read_motion(self, reader):
         """7.13: frame_motion( )."""
@@ -554,19 +554,45 @@ class Frame:
         require(all(abs(part) < 1 << 20 for part in self.shift), "frame_shift")
         if not reader.u(1, "frame_lattice_flag"):
             return
-        self.lattice_log2 = reader.u(4, "frame_lattice_log2")
-        require(3 <= self.lattice_log2 <= 8, "frame_lattice_log2", Unsupported)
+        says = reader.u(4, "frame_lattice_log2")
+        require(says == 0 or 3 <= says <= 14, "frame_lattice_log2", Unsupported)
+        self.moves, self.lattice_log2 = says == 0 or says > 8, says if says <= 8 else says - 6
+        if says == 0:
+            return
         self.first = [reader.ue("frame_lattice_first") for _ in range(3)]
         require(max(self.first) < 1 << 18, "frame_lattice_first")
         self.size = [reader.ue("frame_lattice_size_minus1") + 1 for _ in range(3)]
         require(math.prod(self.size) <= 1 << 18, "frame_lattice_size_minus1")
 
     def read_vectors(self, cells):
-        """7.13: the vectors of the lattice, by point; cells are those of the reference, of all levels."""
-        if not self.lattice_log2:
-            return
-        level = len(cells) - 1 - self.lattice_log2
-        decoder, self.vectors = ArithmeticDecoder(self.codeword), {}
+        """7.13: the codeword; cells are those of the reference, of all levels."""
+        decoder = ArithmeticDecoder(self.codeword)
+        if self.lattice_log2:
+            self.read_lattice(decoder, cells)
+        if self.moves:
+            self.read_points(decoder, len(cells[-1]))
+        if self.lattice_log2 or self.moves:
+            decoder.finish("frame_vectors")
+
+    def read_points(self, decoder, points):
+        """7.13: the vectors of the points of the reference."""
+        moving, nonzero = Contexts(3), [Contexts(3) for _ in range(3)]
+        magnitudes, self.vectors_of_points, before = [MagnitudeContexts() for _ in range(3)], [], [0, 0]
+        for _ in range(points):
+            before.append(decoder.adaptive(moving, sum(before[-2:]), 255))
+            vector, busy = [0] * 3, 0
+            if before[-1]:
+                for i in range(3):
+                    if decoder.adaptive(nonzero[i], busy, 255):
+                        size = decoder.magnitude(magnitudes[i], 255, "frame_vectors")
+                        require(size <= 1 << 21, "frame_vectors")
+                        vector[i] = -size if decoder.raw(1) else size
+                        busy += 1
+            self.vectors_of_points.append(vector)
+
+    def read_lattice(self, decoder, cells):
+        """7.13: the vectors of the lattice, by point."""
+        level, self.vectors = len(cells) - 1 - self.lattice_log2, {}
         nonzero, magnitudes = [Contexts(3) for _ in range(3)], [MagnitudeContexts() for _ in range(3)]
         for z, y, x in itertools.product(*map(range, self.size[::-1])):
             point = x, y, z
@@ -585,7 +611,6 @@ class Frame:
                     require(rest <= 1 << 16 and abs(value) <= 1 << 16, "frame_vectors")
                     busy += 1
                 self.vectors[point][i] = value
-        decoder.finish("frame_vectors")
 
 
 class Slices:
@@ -1390,7 +1415,7 @@ def cell_values(base_values, points, weights):
 
 # ---- 8.7 Coefficients
 
-BY_REFERENCE, EMPTY = 1, 2                  # the features of 8.12.6 and 7.13
+BY_REFERENCE, EMPTY, MOVED = 1, 2, 3        # the features of 8.12.6, 7.13 and 8.12.7
 SHARES = [2, 2, 1, 3, 3, 3, 1]              # of the rows around, 8.7.2
 
 
@@ -1846,15 +1871,39 @@ class Reference:
 class Moved:
     """8.12: a reference and the motion from it."""
 
-    def __init__(self, reference, frame, grid_bits):
+    def __init__(self, reference, frame, sequence):
         """8.12.1: the motion of a frame."""
         require(reference and reference.cells and reference.cells[-1], "frame_predicted_flag")
-        self.reference, self.frame, self.grid_bits = reference, frame, grid_bits
+        self.reference, self.frame, self.grid_bits = reference, frame, sequence.grid_bits
+        require(MOVED in sequence.features or not frame.moves, "frame_lattice_log2", Unsupported)
+        require(not frame.moves or sequence.cut_levels == sequence.grid_bits, "frame_predicted_flag")
         frame.read_vectors(reference.cells)
+        if frame.moves:
+            self.reference, self.frame = self.move_points(), None
+
+    def move_points(self):
+        """8.12.7: the reference with its points where they have moved."""
+        bits, before, frame = self.grid_bits, self.reference, self.frame
+        points = []                         # codes, and which point of the reference
+        for p, (voxel, vector) in enumerate(zip(before.cells[bits], frame.vectors_of_points)):
+            carried = [x + (d + 8 >> 4) + m for x, d, m in zip(voxel, self.displacement(voxel, bits), vector)]
+            points.append((morton(*[min(max(y, 0), (1 << bits) - 1) for y in carried]), p))
+        after = copied(before, cells=[], means=[])
+        for level in range(bits + 1):
+            held = {}
+            for code, p in sorted(points):
+                held.setdefault(code >> 3 * (bits - level), []).append(p)
+            after.cells.append({from_morton(code): i for i, code in enumerate(held)})
+            if before.means:
+                values = [before.means[bits][rows].sum(axis=0) for rows in held.values()]
+                after.means.append(np.array([(2 * v + len(rows)) // (2 * len(rows)) for v, rows in zip(values, held.values())]))
+        return after
 
     def displacement(self, node, level):
         """8.12.1: D of a node."""
         frame = self.frame
+        if not frame:                       # 8.12.7
+            return [0] * 3
         place = [2 * x + 1 << self.grid_bits - level for x in node]
         from_centre = [p - (1 << self.grid_bits) for p in place]
         moved = [shift + (sum(m * p for m, p in zip(row, from_centre)) + (1 << 12) >> 13)
@@ -2490,7 +2539,7 @@ class LightField:
         self.parts = [Part(sequence, self.slices, s, self.base) for s in range(len(self.slices.cells))]
         self.fresh_octree = OctreeState(sum(self.slices.points))
         if self.reference:
-            self.parts[0].moved = Moved(self.reference, self.frame, sequence.grid_bits)
+            self.parts[0].moved = Moved(self.reference, self.frame, sequence)
 
     def check_level(self):
         """9: the limits of table 9-1 that the slices unit is held to."""

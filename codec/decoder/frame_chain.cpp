@@ -6,6 +6,8 @@
 
 #include "bitstream/level.h"
 #include "codec/decoder/decode_units.h"
+#include "codec/decoder/frame_cost.h"
+#include "codec/frame_vectors.h"
 
 namespace slf {
 namespace {
@@ -67,16 +69,40 @@ Result<LightField> FrameChain::decode_predicted(std::span<const std::uint8_t> st
           open_predicted(stream, frame, *group_, options.limits.max_memory));
   if (!in_time(opened.scene.stream, frame.header.frame_time - time_))
     return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_time");
-  Motion motion = frame.header.motion;
+  FrameHeader header = frame.header;
   const int bits = opened.scene.stream.grid_bits();
   if (lacks_cells(state_, bits))
     return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, "frame_predicted_flag");
-  SLF_CHECK(in_unit(frame.unit, read_lattice(frame.vectors, state_.cells, bits, motion)));
+  if (header.moves_points) SLF_CHECK(check_moves(frame, opened.scene.stream.set, options.limits));
+  SLF_CHECK(in_unit(frame.unit, read_vectors(frame.vectors, state_.cells, bits, header)));
+  MovedFrame moved;
+  if (header.moves_points)
+    moved = move_frame(state_, header.moves, header.motion, bits, 3 * request_->coded.size());
   LevelTerms terms;
-  const FrameReference reference{state_, {state_.cells, motion, bits}, terms};
+  const FrameReference reference = header.moves_points
+                                       ? FrameReference(state_, moved, bits, terms)
+                                       : FrameReference(state_, header.motion, bits, terms);
   auto field = decode_units(opened, options, {&reference, &kept, &*request_, nullptr});
   error_is_of_group_ = !field && std::string_view(field.error().unit) == "sequence";
   return field;
+}
+
+/// Spec 7.13, 8.12.7: the group has such frames, all levels of its values, and memory is there.
+Result<Done> FrameChain::check_moves(const FrameUnits& frame, const SequenceParameterSet& set,
+                                     const DecodeLimits& limits) const {
+  const auto wrong = [&](Errc code, const char* element) {
+    return of_unit(UnitType::kFrame, frame.unit.offset, code, element);
+  };
+  const int bits = static_cast<int>(set.grid_bits());
+  const std::size_t planes = 3 * request_->coded.size();
+  if (!set.has_moved_points()) return wrong(Errc::kUnsupported, "frame_lattice_log2");
+  const bool cut = set.sps_cut_flag != 0 && set.sps_cut_levels < set.grid_bits();
+  const auto levels = static_cast<std::size_t>(bits) + 1;
+  if (cut || (planes > 0 && state_.means.size() != levels))
+    return wrong(Errc::kOutOfRange, "frame_predicted_flag");
+  if (cost_of_moving(state_, bits, planes) > static_cast<double>(limits.max_memory))
+    return Error{Errc::kLimitExceeded, "max_memory"};
+  return Done{};
 }
 
 Result<LightField> FrameChain::decode(std::span<const std::uint8_t> stream, const FrameUnits& frame,

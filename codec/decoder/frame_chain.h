@@ -36,6 +36,8 @@ class FrameChain {
                                   const DecodeOptions& options, FrameState& kept);
   Result<LightField> decode_predicted(std::span<const std::uint8_t> stream, const FrameUnits& frame,
                                       const DecodeOptions& options, FrameState& kept);
+  Result<Done> check_moves(const FrameUnits& frame, const SequenceParameterSet& set,
+                           const DecodeLimits& limits) const;
 
   std::optional<OpenStream> group_;      // the frame that others of its group go back to
   std::uint64_t group_offset_ = 0;       // of its first byte in the stream that errors are of

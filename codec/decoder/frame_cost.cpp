@@ -19,6 +19,8 @@ constexpr double kUsualTerms = 4 + 4 * 8, kMostTerms = 4 + 8 * 8;
 /// Nodes of all levels that have siblings, of a point: a merge joins two at the most.
 constexpr double kUsualSiblings = 1.33, kMostSiblings = 2;
 constexpr double kLatticePoint = 12;
+/// PointMove, sorting, MovedPoints; codes and numbers of points while means are found.
+constexpr double kMove = 12 + 16 + 12 + 8 + 8;
 constexpr std::uint64_t kStates = sizeof(VectorStates) + ReferenceStates::kBytes;  // of a group
 /// ReferenceCoefficients, of a row: places and nodes; codes, weights and marks of a level.
 constexpr double kRow = 4 + 4 + 8 + 4 + 1;
@@ -52,6 +54,7 @@ FrameCost frame_cost(const DecodeShape& shape, std::uint64_t points) {
   const FrameState& state = shape.reference->state;
   const double there =
       static_cast<double>(state.bytes(kStates)) +
+      static_cast<double>(shape.reference->bytes_moved) +
       kLatticePoint * static_cast<double>(shape.reference->moved.motion.lattice.size());
   const double values = shape.planes > 0 ? of_points : 0;
   double rows = 0;
@@ -63,6 +66,13 @@ FrameCost frame_cost(const DecodeShape& shape, std::uint64_t points) {
   cost.usual += there + kUsualTerms * kUsualSiblings * values + rows / 2;
   cost.most += there + kMostTerms * kMostSiblings * values + rows;
   return cost;
+}
+
+double cost_of_moving(const FrameState& state, int bits, std::size_t planes) {
+  const double values = static_cast<double>(planes);
+  const auto points = static_cast<double>(state.cells.codes(bits).size());
+  return static_cast<double>(state.bytes(kStates)) + points * (kMove + (8 + 4) * values) +
+         most_nodes(static_cast<std::uint64_t>(bits), points) * (kMostNode + 4 * values);
 }
 
 }  // namespace slf

@@ -16,4 +16,7 @@ struct FrameCost {
 /// What a frame of so many points leaves to the next, and what it has of the one before.
 FrameCost frame_cost(const DecodeShape& shape, std::uint64_t points);
 
+/// Bytes of a frame that has so many values a point, and of moving it: at the most.
+double cost_of_moving(const FrameState& state, int bits, std::size_t planes);
+
 }  // namespace slf

@@ -67,7 +67,7 @@ std::uint64_t most_values(const DecodeLimits& limits, std::uint64_t bytes) {
 }
 
 bool Request::wants(const UnitSlot& slot) const {
-  const auto most = static_cast<std::uint32_t>(levels);
+  const auto most = static_cast<std::uint32_t>(keeps_all_levels() ? stream.grid_bits() : levels);
   if (slot.owner == Owner::kSlice && base_alone()) return false;
   if (slot.type == UnitType::kGeometry)
     return needs_points() || kept != nullptr || stream.set.geometry_begin(slot.range) < most;

@@ -52,8 +52,12 @@ struct Request : GroupRequest {
     return !kept_levels_only() || kept != nullptr || planes() > 0 ||
            (stream.set.sps_normal_bits > 0 && !base_alone());
   }
+  /// Does the next frame need all levels of this one? Spec 8.12.7.
+  bool keeps_all_levels() const { return kept != nullptr && stream.set.has_moved_points(); }
   /// Are means kept of all levels of units that are decoded? Spec 8.12.6.
-  bool keeps_whole_units() const { return kept != nullptr && stream.set.has_reference_contexts(); }
+  bool keeps_whole_units() const {
+    return keeps_all_levels() || (kept != nullptr && stream.set.has_reference_contexts());
+  }
   /// Is the unit needed? Never a digest, which is of the whole.
   bool wants(const UnitSlot& slot) const;
   /// Does a box of nodes at `level`, ends included, meet the region?

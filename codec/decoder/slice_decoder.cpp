@@ -107,6 +107,7 @@ Result<Done> decode_nodes(const SliceToDecode& slice, OccupancyStates octree,
 /// The level of whose rows the units of slice 0 are decoded: others start from the states after a
 /// whole unit, also where fewer levels are kept.
 int levels_ahead(const SliceToDecode& slice) {
+  if (slice.request.keeps_all_levels()) return slice.stream().grid_bits();
   if (!slice.leads() && slice.request.kept == nullptr) return slice.request.levels;
   const SequenceParameterSet& set = slice.stream().set;
   std::uint32_t range = 0;

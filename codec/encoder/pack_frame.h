@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "attributes/encoder/forward_transform.h"
@@ -31,14 +33,17 @@ Result<std::vector<std::uint8_t>, InputError> pack_frame(const LightField& field
                                                          const CodingParameters& parameters,
                                                          FrameHeader* frame, GroupCoding* group);
 
+/// How the points of the reference move, given those of a frame and their components.
+using ChooseMoves = std::function<std::vector<PointMove>(std::span<const std::uint64_t> codes,
+                                                         std::span<const std::int32_t> components)>;
+
 /// A frame that is predicted.
-/// @param frame  its length is filled in, its motion becomes what a decoder has
+/// @param frame   its length is filled in, its motion becomes what a decoder has
+/// @param choose  points of the reference move one by one, its motion is from there; else nullptr
 /// @errors those of pack()
-Result<std::vector<std::uint8_t>, InputError> pack_predicted(const LightField& field,
-                                                             const CodingParameters& parameters,
-                                                             const GroupCoding& group,
-                                                             const FrameState& before,
-                                                             FrameHeader& frame);
+Result<std::vector<std::uint8_t>, InputError> pack_predicted(
+    const LightField& field, const CodingParameters& parameters, const GroupCoding& group,
+    const FrameState& before, FrameHeader& frame, const ChooseMoves& choose = nullptr);
 
 /// A frame without points, a group of frames of its own. Spec 7.13
 /// @param field  its header alone

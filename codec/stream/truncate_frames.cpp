@@ -31,6 +31,9 @@ class FrameCutter {
   Result<Bytes> cut_intra(const FrameUnits& frame) {
     SLF_TRY(group_, open_stream(bytes_of(frame), options_.limits));
     SLF_TRY(Request request, request_of(group_->units, group_->scene, options_));
+    // Every frame needs all levels of the one before: 8.12.7.
+    if (request.kept_levels_only() && group_->scene.stream.set.has_moved_points())
+      return Error{Errc::kInvalidArgument, "levels"};
     request.kept = &predicted_from_;
     SLF_CHECK(check_limits(request, options_));
     asked_ = request;

@@ -102,7 +102,7 @@ TEST_P(CApiFrames, DecodeAsTheLibraryDoesWhateverThePieces) {
 
 INSTANTIATE_TEST_SUITE_P(Spec_8_12, CApiFrames,
                          testing::Values("frames-affine", "frames-empty", "frames-groups",
-                                         "frames-lattice", "frames-normals", "frames-transform"),
+                                         "frames-lattice", "frames-moved", "frames-normals", "frames-transform"),
                          name_of);
 
 TEST(CApiFrames, TheFirstBytesOfAGroupSayWhatAStreamDoes) {

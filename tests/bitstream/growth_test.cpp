@@ -143,6 +143,9 @@ TEST(Spec_7_2_1_Features, ThoseThatAreKnownAreReadWrittenAndGivenTheirVersion) {
   set.features = kEmptyFrame;
   EXPECT_EQ(set.version_minor(), 2);
   EXPECT_TRUE(parse_sequence_parameter_set(sequence_as_is(set))->is_empty_frame());
+  set.features = kReferenceContexts | kMovedPoints;
+  EXPECT_EQ(set.version_minor(), 3);
+  EXPECT_TRUE(parse_sequence_parameter_set(sequence_as_is(set))->has_moved_points());
 }
 
 TEST(Spec_7_2_1_Features, EveryOtherIsUnsupportedByItsNumber) {
