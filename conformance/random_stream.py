@@ -37,16 +37,19 @@ def range_ends(rng, bits, base, most):
 class RandomStream:
     """A stream; its units without the index and the end unit are left in `units`."""
 
+    of_frames = False                       # 7.13: no base, one layer, vectors
+
     def __init__(self, seed):
         """Makes all units; text.Refused where chance broke a rule, such as a magnitude that is too great."""
         self.rng = rng = Chooser.random = random.Random(seed)
         Chooser.bias = rng.choice([0, 0, 0.15, 0.4])
         self.bits = rng.choice([2, 3, 4, 5, 6, 7, 8, 12, 21])
         self.base = rng.choice([0] + [rng.randrange(1, self.bits) for _ in range(3)])
+        self.base = 0 if self.of_frames else self.base
         self.codes = random_cloud(rng, self.bits)
         self.runs()
         later = random.Random(-seed - 1)
-        self.later = later.choice([b"", b"", bytes(4), bytes(4) + later.randbytes(later.randrange(300))])      # 7.2.1
+        self.later = self.later_elements(later)
         self.sequence_unit()
         self.units = [(text.SEQUENCE, self.sequence_payload(""))]
         self.sequence = text.Sequence(self.units[0][1])
@@ -59,6 +62,10 @@ class RandomStream:
             skipped = later.choice([64, 127, 192, 224, 255]), later.randbytes(later.randrange(200))
             self.units.insert(later.randrange(1, len(self.units) + 1), skipped)
         text.decode(stream_of(self.units), 0, 0, 0, [])        # refused where a coefficient is too great
+
+    def later_elements(self, rng):
+        """7.2.1: what stands behind the header."""
+        return rng.choice([b"", b"", bytes(4), bytes(4) + rng.randbytes(rng.randrange(300))])
 
     def runs(self):
         """8.2: base cells, and runs of them."""
@@ -86,6 +93,7 @@ class RandomStream:
         self.transform = rng.randrange(3) == 0 and functions > 0
         tail.ue(functions)
         self.layers, self.body, coder = [1] * self.groups, "", rng.choice([0, 0, 3, 3, 1])
+        coder = 0 if self.of_frames and coder == 1 else coder
         if functions:
             attributes = {3: [(2, 2)], 6: [(0, 2), (1, 1), (2, 2)]}.get(functions, [])      # 6.8: behind one function
             if attributes and rng.randrange(3) == 0:
@@ -96,7 +104,7 @@ class RandomStream:
                 tail.u(0, 1)
             tail.u(coder, 2).u(self.prediction, 1).u(self.groups - 1, 4)
             if coder == 3:
-                self.layers = [rng.choice([1, 2, 2, 3, 4]) for _ in self.layers]
+                self.layers = [1 if self.of_frames else rng.choice([1, 2, 2, 3, 4]) for _ in self.layers]
                 for layers in self.layers:
                     tail.u(layers - 1, 2)
             self.cut_layers_bits = 2 * (coder == 3)
@@ -167,11 +175,11 @@ class RandomStream:
         elif kind[0] == text.COEFFICIENTS:
             begin, end = ([0] + self.coefficients + [self.bits])[kind[1]:kind[1] + 2]
             for _ in range(end - begin if self.prediction else 0):
-                header.u(self.rng.randrange(4), 2)
+                header.u(*[(self.rng.randrange(4), 2), (self.rng.randrange(8), 3)][self.sequence.predicted])
             Chooser.empty = self.rng.random() < 0.12
         elif kind[0] == text.REFINEMENT:
             Chooser.empty = self.rng.random() < 0.12
-        with_matrix = kind[0] == text.COEFFICIENTS and kind[1] == 0 and self.transform
+        with_matrix = kind[0] == text.COEFFICIENTS and kind[1] == 0 and self.transform and not self.sequence.predicted
         bits = header.bits                          # the matrix is as long as it turns out
         self.field.read_unit(kind[0], text.BitReader((header.ue(0) if with_matrix else header).payload()))
         *matrix, body = [chooser.codeword for chooser in Chooser.made]

@@ -28,6 +28,10 @@ class BitWriter:
             self.bits += "0" * ((value + 1).bit_length() - 1) + format(value + 1, "b")
         return self
 
+    def se(self, value):
+        """3.3: se(v)."""
+        return self.ue(2 * value - 1 if value > 0 else -2 * value)
+
     def payload(self):
         """3.3: zero bits up to the next byte."""
         padded = self.bits + "0" * (-len(self.bits) % 8)
@@ -66,14 +70,14 @@ class Chooser(text.ArithmeticDecoder):
             self.codeword = self.low.to_bytes(self.bytes + 4, "big")
 
 
-def unit(unit_type, payload):
+def unit(unit_type, payload, minor=0):
     """7.1: a unit."""
     length, left = b"", len(payload)
     while left > 127 or not length:
         length += bytes([left & 127 | (128 if left > 127 else 0)])
         left >>= 7
     length += bytes([left]) if left else b""
-    version = bytes([1, 0]) if unit_type == text.SEQUENCE else b""      # 7.1.2
+    version = bytes([1, minor]) if unit_type == text.SEQUENCE else b""      # 7.1.2
     body = bytes([unit_type]) + version + length + payload
     return body + zlib.crc32(body).to_bytes(4, "big")
 
