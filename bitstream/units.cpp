@@ -53,8 +53,9 @@ constexpr std::array<NumberedName, 256> numbered_names() {
 }
 constexpr std::array<NumberedName, 256> kNumberedNames = numbered_names();
 
-/// The unit that begins at `offset`; its checksum is in the stream, and not looked at.
-Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
+/// The unit that begins at `offset`, without its payload: the stream may end before that does.
+Result<Unit> read_head(std::span<const std::uint8_t> stream, std::size_t offset) {
+  if (offset >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * offset};
   std::size_t at = offset;
   Unit unit{static_cast<UnitType>(stream[at++]), {}, offset, 0, offset + 1};
   if (unit.type == UnitType::kSequence) {
@@ -63,11 +64,17 @@ Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset)
   }
   SLF_TRY(const std::uint64_t length, in_unit(unit, read_length(stream, at)));
   unit.payload_offset = at;
-  const std::span<const std::uint8_t> rest = stream.subspan(at);
-  if (rest.size() < kCrcBytes || length > rest.size() - kCrcBytes)
+  unit.bytes = at - offset + length + kCrcBytes;
+  return unit;
+}
+
+/// The same with its payload; its checksum is in the stream, and not looked at.
+Result<Unit> find_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
+  SLF_TRY(Unit unit, read_head(stream, offset));
+  if (unit.bytes > stream.size() - offset)
     return in_unit(unit, Error{Errc::kTruncated, "unit_payload"});
-  unit.payload = rest.first(static_cast<std::size_t>(length));
-  unit.bytes = at + unit.payload.size() + kCrcBytes - offset;
+  const auto bytes = stream.subspan(offset, static_cast<std::size_t>(unit.bytes) - kCrcBytes);
+  unit.payload = bytes.subspan(static_cast<std::size_t>(unit.payload_offset) - offset);
   return unit;
 }
 
@@ -159,8 +166,12 @@ Error of_sequence(Errc code, const char* element) {
   return of_unit(UnitType::kSequence, kSignature.size(), code, element);
 }
 
+Result<std::uint64_t> end_of_unit(std::span<const std::uint8_t> stream, std::uint64_t offset) {
+  SLF_TRY(const Unit unit, read_head(stream, static_cast<std::size_t>(offset)));
+  return offset + unit.bytes;
+}
+
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset) {
-  if (offset >= stream.size()) return Error{Errc::kTruncated, "unit_type", 8 * offset};
   SLF_TRY(const Unit unit, find_unit(stream, offset));
   const auto bytes = stream.subspan(offset, static_cast<std::size_t>(unit.bytes));
   const auto checked = bytes.first(bytes.size() - kCrcBytes);
@@ -178,6 +189,22 @@ std::uint64_t listed_units(const Unit& unit) {
   return in.ok() ? std::min(count, in.bits_left() / kLeastIndexEntryBits) : 0;
 }
 
+Result<Unit> UnitWalk::next(std::span<const std::uint8_t> stream) const {
+  if (complete_) return Error{Errc::kOutOfRange, "end_of_stream", 8 * at_};
+  return read_unit(stream, static_cast<std::size_t>(at_));
+}
+
+Result<Done> UnitWalk::take(const Unit& unit) {
+  const std::uint64_t kept = 1 + listed_units(unit);
+  if (kept > left_) return Error{Errc::kLimitExceeded, "max_memory"};
+  left_ -= kept;
+  complete_ = unit.type == UnitType::kEnd;
+  if (complete_) SLF_CHECK(in_unit(unit, check_end(unit.payload, units_)));
+  ++units_;
+  at_ += unit.bytes;
+  return Done{};
+}
+
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes,
                           std::uint64_t max_memory) {
   if (stream.size() < kSignature.size() ||
@@ -189,28 +216,22 @@ Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t ma
     return Error{prefix && !stream.empty() ? Errc::kTruncated : Errc::kNotSlf, "signature", 0};
   }
   Units result;
-  std::uint64_t left = max_memory / kMemoryOfUnit;  // of units, and entries of indices
-  std::size_t at = kSignature.size();
-  while (at < stream.size()) {
-    if (result.complete) return Error{Errc::kOutOfRange, "end_of_stream", at * 8};
-    auto unit = read_unit(stream, at);
-    const bool cut = max_bytes != 0 && max_bytes < stream.size() &&
-                     (unit ? at + unit->bytes > max_bytes : unit.error().code == Errc::kTruncated);
+  UnitWalk walk(max_memory);
+  while (walk.at() < stream.size()) {
+    const auto unit = walk.next(stream);
+    const bool cut =
+        max_bytes != 0 && max_bytes < stream.size() &&
+        (unit ? walk.at() + unit->bytes > max_bytes : unit.error().code == Errc::kTruncated);
     if (cut) break;
     if (!unit) return unit.error();
-    const std::uint64_t kept = 1 + listed_units(*unit);
-    if (kept > left) return Error{Errc::kLimitExceeded, "max_memory"};
-    left -= kept;
-    if (unit->type == UnitType::kEnd)
-      SLF_CHECK(in_unit(*unit, check_end(unit->payload, result.units.size())));
     if (result.units.empty() && unit->type == UnitType::kSequence) {
-      result.version_major = stream[at + 1];
-      result.version_minor = stream[at + 2];
+      result.version_major = stream[kSignature.size() + 1];
+      result.version_minor = stream[kSignature.size() + 2];
     }
+    SLF_CHECK(walk.take(*unit));
     result.units.push_back(*unit);
-    result.complete = unit->type == UnitType::kEnd;
-    at += static_cast<std::size_t>(unit->bytes);
   }
+  result.complete = walk.complete();
   return result;
 }
 

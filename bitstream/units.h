@@ -79,6 +79,30 @@ struct Units {
 Result<Units> split_units(std::span<const std::uint8_t> stream, std::uint64_t max_bytes = 0,
                           std::uint64_t max_memory = ~std::uint64_t{0});
 
+/// The units of a stream one after the other, each checked against those before it.
+class UnitWalk {
+ public:
+  /// @param max_memory  of units and entries of indices, kMemoryOfUnit each
+  explicit UnitWalk(std::uint64_t max_memory) : left_(max_memory / kMemoryOfUnit) {}
+
+  /// The unit that comes.
+  /// @param stream  its beginning up to there, and more
+  /// @errors those of read_unit; kOutOfRange: the end unit was taken
+  Result<Unit> next(std::span<const std::uint8_t> stream) const;
+  /// Goes on behind it.
+  /// @errors kLimitExceeded: max_memory; those of check_end
+  Result<Done> take(const Unit& unit);
+
+  std::uint64_t at() const { return at_; }     ///< where the unit that comes begins
+  bool complete() const { return complete_; }  ///< the end unit was taken
+
+ private:
+  std::uint64_t at_ = kSignature.size();
+  std::uint64_t left_;     // units and entries of indices that there is memory for
+  std::size_t units_ = 0;  // that were taken
+  bool complete_ = false;
+};
+
 /// Spec 7.10  end_unit( ): no unit was lost.
 Result<Done> check_end(std::span<const std::uint8_t> payload, std::size_t units_before);
 
@@ -88,6 +112,10 @@ std::uint64_t listed_units(const Unit& unit);
 /// The unit whose first byte is stream[offset]. Its CRC-32 is checked.
 /// @errors kTruncated: the stream ends before it or within it; those of split_units
 Result<Unit> read_unit(std::span<const std::uint8_t> stream, std::size_t offset);
+
+/// Where the unit that begins at `offset` ends, by its length: the stream may end before.
+/// @errors kTruncated: the length is not all there; those of read_unit
+Result<std::uint64_t> end_of_unit(std::span<const std::uint8_t> stream, std::uint64_t offset);
 
 /// An error of a unit as a whole: at its first byte.
 Error of_unit(UnitType type, std::uint64_t offset, Errc code, const char* element);

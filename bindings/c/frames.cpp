@@ -34,6 +34,7 @@ slf_frame frame_of(const FrameInfo& info) {
   out.bytes = info.bytes;
   out.predicted = info.predicted;
   out.lost = info.lost;
+  out.arriving = info.arriving;
   return out;
 }
 
@@ -73,7 +74,9 @@ slf_code slf_frames_finish(slf_frames* frames, slf_error* error) {
 }
 
 size_t slf_frames_count(const slf_frames* frames) {
-  return frames == nullptr ? 0 : frames->reader.frames().size();
+  if (frames == nullptr || frames->reader.frames().empty()) return 0;
+  const auto& list = frames->reader.frames();
+  return list.size() - (list.back().arriving ? 1 : 0);
 }
 
 uint64_t slf_frames_held_bytes(const slf_frames* frames) {
@@ -109,6 +112,16 @@ slf_code slf_frames_decode(slf_frames* frames, size_t place, slf_field** field, 
   if (frames == nullptr) return invalid(error, "frames");
   if (!has(*frames, place)) return invalid(error, "place");
   return guarded(error, [&] { return decode_frame(*frames, place, field, error); });
+}
+
+slf_code slf_frames_set_options(slf_frames* frames, const slf_options* options, slf_error* error) {
+  if (frames == nullptr) return invalid(error, "frames");
+  return guarded(error, [&] {
+    const slf::DecodeOptions asked = options_of(take(options));
+    const auto set = frames->reader.set_options(asked);
+    if (set) frames->threads = asked.threads;
+    return result_code(error, set);
+  });
 }
 
 slf_code slf_frames_drop_before(slf_frames* frames, size_t place, slf_error* error) {

@@ -23,6 +23,19 @@ Error moved_by(Error error, std::uint64_t offset) {
   return error;
 }
 
+/// Bytes with which one more of the sequence and frame unit is whole, of a frame that lacks one.
+std::uint64_t end_of_next_head(std::span<const std::uint8_t> rest) {
+  const bool intra = begins_intra(rest);
+  if (!intra && rest[0] == kSignature[0]) return 0;  // the signature is not all there
+  std::uint64_t end = intra ? kSignature.size() : 0;
+  for (int unit = intra ? 0 : 1; unit < 2 && end <= rest.size(); ++unit) {
+    const auto next = end_of_unit(rest, end);
+    if (!next) return 0;  // its length is not there
+    end = *next;
+  }
+  return std::min<std::uint64_t>(end, kMostHead);
+}
+
 Error wrong_frame(const FrameUnits& frame, const char* element) {
   return of_unit(UnitType::kFrame, frame.unit.offset, Errc::kOutOfRange, element);
 }
@@ -31,7 +44,9 @@ Error wrong_frame(const FrameUnits& frame, const char* element) {
 
 Result<Done> ArrivingFrames::push(std::span<const std::uint8_t> bytes) {
   if (failed_) return *failed_;
-  pending_.insert(pending_.end(), bytes.begin(), bytes.end());
+  std::vector<std::uint8_t>& to = lists_units() ? frames_[0].bytes : pending_;
+  to.insert(to.end(), bytes.begin(), bytes.end());
+  if (lists_units()) held_ += bytes.size();
   return take_frames();
 }
 
@@ -48,6 +63,7 @@ void ArrivingFrames::begin_at(std::size_t place) {
   pending_ = {};
   at_ = 0;
   needed_ = 0;
+  units_.reset();
   looking_.reset();
   looked_to_ = 0;
   finished_ = false;
@@ -65,13 +81,22 @@ Result<Done> ArrivingFrames::take_frames() {
   for (bool more = true; more;) {
     const auto taken = take_next();
     if (!taken) {
-      failed_ = moved_by(taken.error(), offset());
+      fail(moved_by(taken.error(), offset()));
       return *failed_;
     }
     more = *taken;
   }
   leave_taken();
   return Done{};
+}
+
+/// For good. Of a frame that was listed before its end a decode says so, too.
+void ArrivingFrames::fail(const Error& error) {
+  failed_ = error;
+  if (!lists_units()) return;
+  frames_[0].lost = error;
+  infos_[0].lost = true;
+  infos_[0].arriving = false;
 }
 
 void ArrivingFrames::leave_taken() {
@@ -82,31 +107,57 @@ void ArrivingFrames::leave_taken() {
 
 /// @return whether there may be another. Errors count from rest()
 Result<bool> ArrivingFrames::take_next() {
+  if (units_) return take_units();
+  if (rest().size() < needed_ && !finished_) return false;
   if (looking_) return find_intra();
-  if (rest().empty() || (rest().size() < needed_ && !finished_)) return false;
+  if (rest().empty()) return false;
   return next_ == 0 ? take_first() : take_frame();
 }
 
 Result<bool> ArrivingFrames::take_first() {
-  if (moves(rest())) return take_frame();
   const std::size_t known = std::min(rest().size(), kSignature.size());
   if (!std::equal(kSignature.begin(), kSignature.begin() + static_cast<std::ptrdiff_t>(known),
                   rest().begin()))
     return Error{Errc::kNotSlf, "signature"};
-  if (!finished_) return false;  // one light field, or too few bytes to tell
-  SLF_TRY(const auto units, split_units(rest(), 0, DecodeLimits{}.max_memory));
-  ArrivedFrame frame;
-  frame.units.bytes = rest().size();
-  frame.bytes.assign(rest().begin(), rest().end());
-  const FrameInfo info = info_of(frame.units, offset());
-  SLF_CHECK(add(info, std::move(frame)));
+  if (known < kSignature.size() && finished_) return Error{Errc::kTruncated, "signature"};
+  const auto sequence = end_of_unit(rest(), kSignature.size());
+  const bool short_of_length = !sequence && sequence.error().code == Errc::kTruncated;
+  needed_ = sequence ? *sequence + 1 : 0;  // what follows the sequence unit tells
+  if ((short_of_length || rest().size() < needed_) && !finished_) return false;
+  if (moves(rest())) return take_frame();
+  units_.emplace();
+  return true;
+}
+
+/// A light field that does not move is listed with its headers, and grows by units.
+Result<bool> ArrivingFrames::take_units() {
+  const auto taken = units_->take(lists_units() ? frames_[0].bytes : pending_, finished_);
+  if (!lists_units() && (units_->has_headers() || (taken && finished_))) {
+    infos_.resize(1);
+    frames_.resize(1);
+    held_ += pending_.size();
+    frames_[0].bytes = std::exchange(pending_, {});
+    next_ = 1;
+  }
+  if (lists_units()) {
+    frames_[0].units.bytes = infos_[0].bytes = units_->bytes();
+    infos_[0].arriving = !finished_ && !units_->complete();
+  }
+  if (!taken) return taken.error();
   return false;
+}
+
+/// Sequence and frame unit are still to come: they are looked at again when one more is whole.
+bool ArrivingFrames::lacks_head(const Result<FrameUnits>& frame) {
+  if (frame || frame.error().code != Errc::kTruncated || finished_ || rest().size() >= kMostHead)
+    return false;
+  needed_ = end_of_next_head(rest());
+  return true;
 }
 
 Result<bool> ArrivingFrames::take_frame() {
   const auto frame = read_frame(rest(), 0);
-  if (!frame && frame.error().code == Errc::kTruncated && !finished_ && rest().size() < kMostHead)
-    return false;
+  if (lacks_head(frame)) return false;
   if (!frame && next_ == 0) return frame.error();
   if (!frame) return lose(frame.error());
   const auto ordered = check_order(*frame);
@@ -133,6 +184,7 @@ Result<Done> ArrivingFrames::check_order(const FrameUnits& frame) const {
 /// From here on no frame can be read until an intra frame begins: perhaps within the bytes that the
 /// frame before took, where some of its own are missing. Bytes are looked at twice at most.
 Result<bool> ArrivingFrames::lose(const Error& error) {
+  needed_ = 0;
   looking_ = moved_by(error, offset());
   looking_from_ = offset();
   const FrameInfo& before = infos_[next_ - 1];
@@ -157,12 +209,12 @@ Result<bool> ArrivingFrames::find_intra() {
   }
   at_ += static_cast<std::size_t>(found - bytes.begin());
   const auto frame = read_frame(rest(), 0);
-  if (!frame && frame.error().code == Errc::kTruncated && !finished_ && rest().size() < kMostHead)
-    return false;
+  if (lacks_head(frame)) return false;
   const FrameInfo& before = infos_[next_ - 1];
   if (!frame || frame->header.frame_number <= before.number ||
       frame->header.frame_time <= before.time) {
     ++at_;
+    needed_ = 0;
     return true;
   }
   if (frame->header.frame_number > before.number + 1) SLF_CHECK(add_lost(frame->header));

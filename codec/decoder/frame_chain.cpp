@@ -53,8 +53,9 @@ Result<LightField> FrameChain::decode_intra(std::span<const std::uint8_t> stream
                                             FrameState& kept) {
   const auto bytes =
       stream.subspan(static_cast<std::size_t>(frame.offset), static_cast<std::size_t>(frame.bytes));
-  SLF_TRY(group_, open_stream(bytes, options.limits, options.max_bytes));
-  if (!frame.moves()) return decode_units(*group_, options);  // none follows
+  SLF_TRY(OpenStream opened, open_stream(bytes, options.limits, options.max_bytes));
+  if (!frame.moves()) return decode_units(opened, options);  // none follows
+  group_ = std::move(opened);
   request_.emplace();
   FrameContext context;
   context.kept = &kept;

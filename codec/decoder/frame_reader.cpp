@@ -2,6 +2,7 @@
 // Frames of a stream that is still on its way. Spec 7.13, 8.12.
 #include "slf/frame_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "codec/decoder/arriving_frames.h"
@@ -23,10 +24,16 @@ struct FrameReader::Impl {
 };
 
 Result<FrameReader> FrameReader::open(const DecodeOptions& options) {
+  FrameReader reader(std::make_unique<Impl>());
+  SLF_CHECK(reader.set_options(options));
+  return reader;
+}
+
+Result<Done> FrameReader::set_options(const DecodeOptions& options) {
   if (options.max_bytes > 0) return Error{Errc::kInvalidArgument, "max_bytes"};
-  auto impl = std::make_unique<Impl>();
-  impl->options = options;
-  return FrameReader(std::move(impl));
+  impl_->options = options;
+  impl_->walk = {};
+  return Done{};
 }
 
 Result<Done> FrameReader::push(std::span<const std::uint8_t> bytes) {
@@ -68,7 +75,8 @@ Result<Done> FrameReader::seek(std::size_t frame) {
 const std::vector<FrameInfo>& FrameReader::frames() const { return impl_->arriving.infos(); }
 std::uint64_t FrameReader::held_bytes() const { return impl_->arriving.held_bytes(); }
 std::span<const std::uint8_t> FrameReader::bytes_of(std::size_t frame) const {
-  return impl_->arriving.frames()[frame].bytes;
+  const std::span bytes(impl_->arriving.frames()[frame].bytes);
+  return bytes.first(std::min<std::uint64_t>(bytes.size(), frames()[frame].bytes));
 }
 
 FrameReader::FrameReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

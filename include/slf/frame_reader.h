@@ -18,6 +18,11 @@ namespace slf {
 /// Takes the bytes of a stream as they come and decodes any frame that has arrived with its group.
 /// Damage costs a group: frames that cannot be found are one lost frame of the list, and reading
 /// goes on at the next intra frame. One thread at a time.
+///
+/// A light field that does not move is one frame, which is listed with its headers and grows by
+/// units: FrameInfo::arriving. decode(0) gives what they allow (spec 8.9), each time from the
+/// beginning: nothing is kept but its bytes. decode() of decoder.h is open, push, finish,
+/// decode(0).
 class FrameReader {
  public:
   /// @param options  of every frame, as of FrameDecoder. limits.max_stream_bytes: of bytes held
@@ -28,19 +33,23 @@ class FrameReader {
   ~FrameReader();
 
   /// Copies the bytes that follow those of the call before. O(bytes)
-  /// @errors kNotSlf; those of the first frame's sequence and frame unit, for good; kLimitExceeded:
-  ///         nothing was taken, and can be after drop_before(); kInvalidArgument: after finish()
+  /// @errors kNotSlf; those of the first frame's sequence and frame unit, and of the units of a
+  ///         light field that does not move, for good; kLimitExceeded: nothing was taken, and can
+  ///         be after drop_before(); kInvalidArgument: after finish()
   Result<Done> push(std::span<const std::uint8_t> bytes);
-  /// The stream ends here: lists a last frame that was cut short, and the one frame of a light
-  /// field that does not move.
-  /// @errors kNotSlf, kTruncated: no frame began
+  /// The stream ends here: lists a last frame that was cut short, and a light field that does not
+  /// move whose headers did not come.
+  /// @errors kNotSlf, kTruncated: no frame began, or one that does not move ends inside a unit;
+  ///         those of push()
   Result<Done> finish();
 
-  /// Frames that have arrived whole. They stay in the list when their bytes are dropped.
+  /// Frames that have arrived whole, and one that does not move as soon as its headers have. They
+  /// stay in the list when their bytes are dropped.
   const std::vector<FrameInfo>& frames() const;
   /// Bytes of memory that frames and what is not yet one take.
   std::uint64_t held_bytes() const;
-  /// Bytes of a frame; empty where they were dropped, or no frame was found.
+  /// Bytes of a frame, until the next call that is not const; empty where they were dropped, or no
+  /// frame was found. Of one that is arriving: units that are whole.
   std::span<const std::uint8_t> bytes_of(std::size_t frame) const;
   /// The intra frame that the group of `frame` begins with.
   std::size_t group_of(std::size_t frame) const;
@@ -51,6 +60,11 @@ class FrameReader {
   /// @errors as decode(); those of a frame that it is predicted from; of a lost frame what was
   ///         found in its place. kUnreadable: bytes of its group were dropped. kInvalidArgument
   Result<LightField> decode(std::size_t frame);
+
+  /// For frames that are decoded from here on. The next that is predicted is decoded from its intra
+  /// frame on.
+  /// @errors kInvalidArgument: max_bytes
+  Result<Done> set_options(const DecodeOptions& options);
 
   /// Drops the bytes of groups before that of `frame`.
   void drop_before(std::size_t frame);

@@ -31,6 +31,9 @@ struct FrameInfo {
   /// FrameReader could read no frame here. The entry stands for one or several; its number is that
   /// of the last of them, its time lies between its neighbours'.
   bool lost = false;
+  /// FrameReader has a light field that does not move, and its end unit has not come yet: `bytes`
+  /// are those of units that have, and a decode gives what they allow.
+  bool arriving = false;
 };
 
 /// The frames of a stream, by the lengths that their frame units say: units are not opened. A light

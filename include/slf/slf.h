@@ -46,7 +46,7 @@ extern "C" {
 /* Of this header. Minor: functions, codes and members of sized structs were added; major: a program
  * has to be changed. What is here stays until then: bindings/c/abi.txt has it line by line. */
 #define SLF_API_VERSION_MAJOR 1
-#define SLF_API_VERSION_MINOR 0
+#define SLF_API_VERSION_MINOR 1
 
 /* Of the library that is linked: SLF_API_VERSION_MAJOR << 16 | SLF_API_VERSION_MINOR. */
 SLF_API uint32_t slf_api_version(void);
@@ -251,8 +251,9 @@ SLF_API void slf_release_field(slf_field* field);
 
 /* ---- frames ---- */
 
-/* A light field that moves is a stream of frames (spec 7.13), which slf_open shows the first of.
- * Here their bytes are pushed as they come, and frames are pulled:
+/* A light field that moves is a stream of frames (spec 7.13), which slf_open shows the first of;
+ * one that does not move is one frame. Here their bytes are pushed as they come, and frames are
+ * pulled:
  *
  *     slf_open_frames(NULL, NULL, &frames, &error);
  *     while ((size = read(file, bytes, sizeof bytes)) > 0) {
@@ -262,8 +263,11 @@ SLF_API void slf_release_field(slf_field* field);
  *     }
  *     slf_frames_finish(frames, &error);  // and what is left of them
  *
- * A place is that of a frame in the list, from 0. One thread at a time may use an slf_frames; the
- * fields that it gives are as any others, and outlive it. */
+ * A place is that of a frame in the list, from 0. A light field that does not move can be pulled
+ * before it is whole, as soon as its headers have come: slf_frames_get of place 0 gives a frame
+ * that is `arriving`, slf_frames_decode what the units that have come allow, each time from the
+ * beginning, and slf_frames_count counts it when the last has. One thread at a time may use an
+ * slf_frames; the fields that it gives are as any others, and outlive it. */
 typedef struct slf_frames slf_frames;
 
 typedef struct slf_frame {
@@ -275,6 +279,8 @@ typedef struct slf_frame {
   uint32_t predicted; /* 1: from the frame before it */
   uint32_t lost;      /* 1: no frame could be read here, and slf_frames_decode says why; it stands
                          for one or several, its number is that of the last of them */
+  uint32_t arriving;  /* 1: it does not move, and its end unit has not come: `bytes` are those of
+                         units that have */
 } slf_frame;
 
 /* options: of every frame; NULL: all of it with the default limits. They are copied, `user` stays
@@ -287,12 +293,14 @@ SLF_API slf_code slf_open_frames(const slf_options* options, const slf_allocator
 SLF_API void slf_release_frames(slf_frames* frames);
 
 /* Copies the bytes that follow those of the call before. O(size), and none is decoded.
- * Errors: SLF_NOT_SLF, those of the first frame's headers, for good; SLF_LIMIT_EXCEEDED: nothing
- * was taken, and can be after slf_frames_drop_before; SLF_INVALID_ARGUMENT after the end. */
+ * Errors: SLF_NOT_SLF, those of the first frame's headers and of the units of a light field that
+ * does not move, for good; SLF_LIMIT_EXCEEDED: nothing was taken, and can be after
+ * slf_frames_drop_before; SLF_INVALID_ARGUMENT after the end. */
 SLF_API slf_code slf_frames_push(slf_frames* frames, const void* bytes, size_t size,
                                  slf_error* error);
 /* The stream ends here. Lists a last frame that was cut short, and the one frame of a light field
- * that does not move. Errors: SLF_NOT_SLF, SLF_TRUNCATED: no frame began. */
+ * that does not move. Errors: those of slf_frames_push; SLF_TRUNCATED: no frame began, or one that
+ * does not move ends inside a unit. */
 SLF_API slf_code slf_frames_finish(slf_frames* frames, slf_error* error);
 
 /* Frames that have arrived whole, dropped ones too. NULL: 0. O(1). */
@@ -302,9 +310,9 @@ SLF_API uint64_t slf_frames_held_bytes(const slf_frames* frames);
 /* Errors: SLF_INVALID_ARGUMENT "place". O(1). */
 SLF_API slf_code slf_frames_get(const slf_frames* frames, size_t place, slf_frame* frame,
                                 slf_error* error);
-/* The bytes of a frame, until they are dropped; those of one that is not predicted are what
- * slf_open takes: headers, metadata, slf_preflight. Errors: SLF_READ_FAILED: they were dropped.
- * O(1). */
+/* The bytes of a frame, until they are dropped, those of one that is arriving until more are
+ * pushed; those of one that is not predicted are what slf_open takes: headers, metadata,
+ * slf_preflight. Errors: SLF_READ_FAILED: they were dropped. O(1). */
 SLF_API slf_code slf_frames_get_bytes(const slf_frames* frames, size_t place, const void** bytes,
                                       size_t* size, slf_error* error);
 
@@ -315,6 +323,11 @@ SLF_API slf_code slf_frames_get_bytes(const slf_frames* frames, size_t place, co
  * bytes of its group were dropped. O(points * components) a frame. */
 SLF_API slf_code slf_frames_decode(slf_frames* frames, size_t place, slf_field** field,
                                    slf_error* error);
+
+/* As slf_open_frames, for frames that are decoded from here on: the next that is predicted is
+ * decoded from the frame on that its group begins with. Errors: SLF_INVALID_ARGUMENT. */
+SLF_API slf_code slf_frames_set_options(slf_frames* frames, const slf_options* options,
+                                        slf_error* error);
 
 /* Drops the bytes of groups before that of `place`: a group is a frame that is not predicted and
  * those that go back to it. */

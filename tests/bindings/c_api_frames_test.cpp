@@ -105,6 +105,39 @@ INSTANTIATE_TEST_SUITE_P(Spec_8_12, CApiFrames,
                                          "frames-lattice", "frames-moved", "frames-normals", "frames-transform"),
                          name_of);
 
+TEST(CApiFrames, AFieldThatDoesNotMoveIsPulledBeforeItIsCounted) {
+  const Bytes bytes = stream_of("scene-shared");
+  Frames frames;
+  slf_frame none{};
+  none.size = sizeof none;
+  EXPECT_EQ(slf_frames_get(frames.handle, 0, &none, nullptr), SLF_INVALID_ARGUMENT);
+  frames.push(Bytes(bytes.begin(), bytes.end() - 1), 64);
+  EXPECT_EQ(slf_frames_count(frames.handle), 0u);
+  const slf_frame early = frames.info(0);
+  EXPECT_EQ(early.arriving, 1u);
+  EXPECT_LT(early.bytes, bytes.size());
+  for (const std::uint32_t levels : {0u, 2u}) {
+    slf_options options = SLF_OPTIONS_INIT;
+    options.levels = levels;
+    ASSERT_EQ(slf_frames_set_options(frames.handle, &options, &frames.error), SLF_OK);
+    slf_field* field = nullptr;
+    ASSERT_EQ(slf_frames_decode(frames.handle, 0, &field, &frames.error), SLF_OK);
+    DecodeOptions same;
+    same.levels = static_cast<int>(levels);
+    same.max_bytes = early.bytes;
+    expect_same(field, *decode(bytes, same));
+    slf_release_field(field);
+  }
+  frames.push({bytes.back()}, 1);
+  EXPECT_EQ(slf_frames_count(frames.handle), 1u);
+  EXPECT_EQ(frames.info(0).arriving, 0u);
+  EXPECT_EQ(slf_frames_finish(frames.handle, &frames.error), SLF_OK);
+  slf_options refused = SLF_OPTIONS_INIT;
+  refused.max_bytes = 9;
+  EXPECT_EQ(slf_frames_set_options(frames.handle, &refused, nullptr), SLF_INVALID_ARGUMENT);
+  EXPECT_EQ(slf_frames_set_options(nullptr, nullptr, nullptr), SLF_INVALID_ARGUMENT);
+}
+
 TEST(CApiFrames, TheFirstBytesOfAGroupSayWhatAStreamDoes) {
   const Bytes bytes = stream_of("frames-groups");
   Frames frames;

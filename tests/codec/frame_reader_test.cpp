@@ -98,17 +98,6 @@ TEST(Spec_7_13_Arrival, EveryTruncationListsWhatTheDecoderOfTheWholeLists) {
   }
 }
 
-TEST(Spec_7_13_Arrival, ALightFieldThatDoesNotMoveIsOneFrameAtItsEnd) {
-  const auto packed = pack(small_fields(1)[0], small_parameters());
-  ASSERT_TRUE(packed);
-  FrameReader read = reader();
-  push_in_pieces(read, *packed, 64);
-  EXPECT_TRUE(read.frames().empty());
-  ASSERT_TRUE(read.finish());
-  ASSERT_EQ(read.frames().size(), 1u);
-  expect_same(decoded(read, 0), *decode(*packed));
-}
-
 TEST(Spec_8_12_Arrival, ErrorsNameTheirPlaceInTheWholeStream) {
   auto f = small_frames();
   f[1][f[1].size() / 2] ^= 1;
@@ -274,6 +263,21 @@ TEST(FrameReader, TakesNothingAfterTheEnd) {
   FrameReader read = read_whole(joined(small_frames()));
   EXPECT_EQ(read.push({}).error().code, Errc::kInvalidArgument);
   EXPECT_EQ(read.decode(5).error().code, Errc::kInvalidArgument);
+}
+
+TEST(FrameReader, OtherOptionsAreThoseOfFramesDecodedFromThenOn) {
+  const Bytes stream = joined(small_frames());
+  DecodeOptions options;
+  options.levels = 3;
+  FrameReader read = read_whole(stream);
+  FrameDecoder whole = opened(stream), coarse = opened(stream, options);
+  expect_same(decoded(read, 1), decoded_frame(whole, 1));
+  ASSERT_TRUE(read.set_options(options));
+  expect_same(decoded(read, 2), decoded_frame(coarse, 2));
+  ASSERT_TRUE(read.set_options({}));
+  expect_same(decoded(read, 2), decoded_frame(whole, 2));
+  options.max_bytes = 1;
+  EXPECT_EQ(read.set_options(options).error().code, Errc::kInvalidArgument);
 }
 
 TEST(Spec_8_12_Arrival, FewerLevelsAreThoseOfTheWholeStream) {

@@ -25,8 +25,11 @@ void read_frames(std::span<const std::uint8_t> stream, const slf::DecodeOptions&
   auto reader = slf::FrameReader::open(options);
   if (!reader || stream.empty()) return;
   const std::size_t piece = 1 + std::size_t{stream.back()} * 16;
-  for (std::size_t at = 0; at < stream.size(); at += piece)
+  for (std::size_t at = 0; at < stream.size(); at += piece) {
     (void)reader->push(stream.subspan(at, std::min(piece, stream.size() - at)));
+    const bool halfway = at < stream.size() / 2 && at + piece >= stream.size() / 2;
+    if (halfway && !reader->frames().empty()) (void)reader->decode(0);
+  }
   (void)reader->finish();
   const std::size_t frames = std::min(reader->frames().size(), kMostFrames);
   for (std::size_t frame = 0; frame < frames; ++frame) (void)reader->decode(frame);
