@@ -227,16 +227,31 @@ export interface SlfFrame {
   bytes: number;
 }
 
-/** A reader of frames. Its memory is WebAssembly's until release(). Damage costs a group: the next frame that is not predicted is sound. */
+/**
+ * A reader of what arrives: frames, or a light field that does not move. Its memory is WebAssembly's until release(). Damage
+ * costs a group: the next frame that is not predicted is sound.
+ */
 export class SlfFrames {
   private constructor();
   /** Those that have arrived whole; they stay when their bytes are dropped. */
   readonly list: readonly SlfFrame[];
+  /**
+   * A light field that does not move whose headers have arrived, and not its end: info(0) and decode(0) give what its units
+   * allow, each time from the beginning; `bytes` are theirs. null: there is none, or it is in the list.
+   */
+  readonly arriving: SlfFrame | null;
   /** Memory that bytes of the stream take. */
   readonly heldBytes: number;
   /** finish() was called. */
   readonly ended: boolean;
-  /** Copies the bytes that follow those of the call before. NOT_SLF and errors of the first frame's headers are for good. */
+  /** Its memory failed, or it was released. */
+  readonly dead: boolean;
+  /** Levels, groups, layers, region, limits of frames that are decoded from here on. */
+  setOptions(options?: SlfOptions): void;
+  /**
+   * Copies the bytes that follow those of the call before. NOT_SLF and errors of the first frame's headers, and of units of a
+   * light field that does not move, are for good.
+   */
   push(bytes: Bytes): void;
   /** No bytes follow: a frame that was cut short is listed, and the one of a light field that does not move. */
   finish(): void;
@@ -246,6 +261,8 @@ export class SlfFrames {
   groupOf(place: number): number;
   /** Headers of the group of a frame. */
   info(place?: number): SlfInfo;
+  /** What decode(place) gives and takes with these options; of a frame that is not predicted. */
+  preflight(place: number, options?: SlfOptions): SlfEstimate;
   /** In order each frame is decoded once; elsewhere from the beginning of its group. READ_FAILED where bytes were dropped. */
   decode(place: number): SlfField;
   dropBefore(place: number): void;
@@ -305,6 +322,8 @@ export class SlfFrameStream {
   /** Bytes that have come, those that came again too. */
   readonly received: number;
   info(place?: number): SlfInfo;
+  /** Levels, groups, limits of frames that are decoded from here on. */
+  setOptions(options?: SlfOptions): void;
   /** Reads until a frame is here, with its group. false: the stream ends before it. */
   arrive(place: number): Promise<boolean>;
   /** Reads a piece of what comes. false: the list is complete, or half of keepBytes is held. */

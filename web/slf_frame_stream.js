@@ -69,6 +69,9 @@ export class SlfFrameStream {
   /** Headers of the group of a frame that is here. */
   info(place = 0) { return this.#frames.info(place); }
 
+  /** Levels, groups, limits of frames that are decoded from here on. */
+  setOptions(options) { this.#frames.setOptions(options); }
+
   /** Reads until a frame is here, with its group. @returns {Promise<boolean>} false: the stream ends before it */
   arrive(place) { return this.#inTurn(() => this.#arrive(place)); }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a light field that moves, from bytes that are pushed as they come. slf_frame_stream.js fetches them.
+// Frames of a light field that moves, or one that does not, from bytes that are pushed as they come.
+// slf_frame_stream.js fetches them.
 import { SlfError } from './slf_error.js';
 import { SlfField } from './slf_field.js';
-import { bytesOf, readInfo, setOptions } from './slf_headers.js';
+import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 22; // of what is copied into the instance at a time
 
@@ -24,20 +25,40 @@ export class SlfFrames {
     });
   }
 
+  /** Of frames that are decoded from here on. */
+  setOptions(options) {
+    this.#call((w, instance) => {
+      setOptions(instance, options);
+      if (w.slfw_frames_set_options(this.#frames) !== 0) instance.fail();
+    });
+  }
+
   /** [{place, number, time, predicted, lost, offset, bytes}] of the frames that have arrived whole. */
   get list() { return this.#list; }
+
+  /** A light field that does not move whose headers have arrived, and not all of it; its place is 0. Else null. */
+  get arriving() {
+    const found = this.#list.length === 0 && this.#call((w) => w.slfw_frame(this.#frames, 0) === 0) && this.#about(0);
+    return found && found.arriving ? found.frame : null;
+  }
+
+  /** It can be used no more: its memory failed, or it was released. */
+  get dead() { return this.#instance?.dead ?? true; }
 
   /** Memory that bytes of the stream take. */
   get heldBytes() { return this.#call((w) => w.slfw_frames_held(this.#frames)); }
 
   push(bytes) {
     const source = bytesOf(bytes);
-    for (let at = 0; at < source.byteLength; at += CHUNK_BYTES)
-      this.#call((w, instance) => {
-        const piece = source.subarray(at, at + CHUNK_BYTES);
-        if (w.slfw_frames_push(this.#frames, instance.put(piece), piece.byteLength) !== 0) instance.fail();
-      });
-    this.#update();
+    try {
+      for (let at = 0; at < source.byteLength; at += CHUNK_BYTES)
+        this.#call((w, instance) => {
+          const piece = source.subarray(at, at + CHUNK_BYTES);
+          if (w.slfw_frames_push(this.#frames, instance.put(piece), piece.byteLength) !== 0) instance.fail();
+        });
+    } finally {
+      if (!this.dead) this.#update();
+    }
   }
 
   /** No bytes follow. */
@@ -52,7 +73,7 @@ export class SlfFrames {
 
   /** The frame that the group of `place` begins with. */
   groupOf(place) {
-    while (this.#list[place].predicted && !this.#list[place].lost) --place;
+    while (this.#list[place]?.predicted && !this.#list[place].lost) --place;
     return place;
   }
 
@@ -60,17 +81,19 @@ export class SlfFrames {
   info(place = 0) {
     const first = this.groupOf(this.#known(place));
     if (this.#info.place === first) return this.#info.value;
-    const value = this.#call((w, instance) => {
-      const stream = w.slfw_frame_headers(this.#frames, first);
-      if (stream === 0) instance.fail();
-      try {
-        return readInfo(instance, stream);
-      } finally {
-        w.slfw_release_stream(stream);
-      }
-    });
-    this.#info = { place: first, value };
+    const value = this.#headers(first, readInfo);
+    if (!this.arriving) this.#info = { place: first, value };
     return value;
+  }
+
+  /** What decode(place) takes and gives with these options, as SlfDecoder.preflight has it; of a frame that is not predicted. */
+  preflight(place, options) {
+    return this.#headers(this.#known(place), (instance, stream) => {
+      const { onProgress } = instance; // of decodes
+      setOptions(instance, options);
+      instance.onProgress = onProgress;
+      return preflight(instance, stream);
+    });
   }
 
   /** @returns {SlfField} whose release() leaves the frames as they are */
@@ -101,9 +124,23 @@ export class SlfFrames {
   }
 
   #known(place) {
+    if (place === 0 && this.arriving) return place;
     if (!Number.isInteger(place) || place < 0 || place >= this.#list.length)
       throw invalid(`place must be a whole number below ${this.#list.length}`);
     return place;
+  }
+
+  /** read(instance, stream) of a frame that is not predicted. */
+  #headers(place, read) {
+    return this.#call((w, instance) => {
+      const stream = w.slfw_frame_headers(this.#frames, place);
+      if (stream === 0) instance.fail();
+      try {
+        return read(instance, stream);
+      } finally {
+        w.slfw_release_stream(stream);
+      }
+    });
   }
 
   #update() {
@@ -114,9 +151,9 @@ export class SlfFrames {
   #about(place) {
     return this.#call((w, instance) => {
       if (w.slfw_frame(this.#frames, place) !== 0) instance.fail();
-      const [number, time, offset, bytes, predicted, lost, held] = instance.numbers(7);
+      const [number, time, offset, bytes, predicted, lost, arriving, held] = instance.numbers(8);
       const frame = { place, number, time, predicted: predicted !== 0, lost: lost !== 0, offset, bytes };
-      return { frame, held: held !== 0 };
+      return { frame, arriving: arriving !== 0, held: held !== 0 };
     });
   }
 

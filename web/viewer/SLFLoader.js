@@ -92,6 +92,8 @@ export class SLFLoader extends Loader {
       return new SurfaceLightField(packed, info);
     } catch (error) {
       throw ViewerError.from(plainError(error));
+    } finally {
+      session.reset();
     }
   }
 

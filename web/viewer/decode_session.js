@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a decoding worker does; apart from it so that a page without workers can do it as well.
 import { buffersOf, packField, ViewerError } from './packed_field.js';
-import { walkUnits } from './stream_units.js';
 
 /**
  * Lets `port` (a worker's scope, or one end of a MessageChannel) hold a file and decode it.
@@ -43,6 +42,9 @@ export class DecodeSession {
     this.bytes = new Uint8Array(1 << 16);
     this.length = 0;
     this.info = undefined; // what the headers say, as soon as they could be read
+    this.reader?.release();
+    this.reader = null; // SlfFrames that has `read` of the bytes
+    this.read = 0;
   }
 
   append(chunk) {
@@ -63,33 +65,40 @@ export class DecodeSession {
   }
 
   /**
-   * @param {object} options  prefix: only what whole units of the first `prefix` bytes show; levels, groups, layers: 0 is
-   *   all, and so is more than there are; maxMemory: bytes that a decode may take;
+   * @param {object} options  prefix: what units of the first `prefix` bytes show, or of more that were read before; 0: the
+   *   file is all here; levels, groups, layers: 0 is all, and so is more than there are; maxMemory: bytes that a decode may take;
    *   mayBeCoarser: what takes more is decoded with fewer levels, else refused; tableSize
    * @returns {{packed?: object, info?: object, end?: number, coarser?: number}} without `packed` where a prefix shows
    *   nothing yet; coarser: the levels that were decoded, where those that were asked for take too much memory
    */
   async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, mayBeCoarser = false, tableSize = 65 }) {
-    let bytes = this.bytes.subarray(0, this.length);
-    const units = walkUnits(prefix ? bytes.subarray(0, prefix) : bytes);
-    if (units.foreign || this.length === 0) throw new ViewerError('damaged', 'This is not an .slf file.');
-    if (prefix) {
-      if (units.pictures === 0) return {};
-      bytes = bytes.subarray(0, units.pictures);
-    }
-    const decoder = await this.loadDecoder();
-    const info = (this.info = plainInfo(decoder.info(bytes))),
+    const reader = this.readerOf(await this.loadDecoder(), prefix || this.length);
+    if (prefix && !reader.arriving) return {};
+    if (!prefix && !reader.ended) reader.finish();
+    const info = (this.info = plainInfo(reader.info())),
       asked = partOf(info, { levels, groups, layers });
     const least = mayBeCoarser ? info.levels - MOST_LEVELS_LESS : info.levels;
-    const part = partWithin(maxMemory, asked, least, info.levels, (one) => decoder.preflight(bytes, one).memoryBytes);
+    const part = partWithin(maxMemory, asked, least, info.levels, (one) => reader.preflight(0, one).memoryBytes);
     checkColours(info);
-    const field = this.run(decoder, bytes, { ...part, maxMemory });
+    const field = this.run(reader, { ...part, maxMemory });
     try {
+      if (prefix && !hasColours(field)) return {};
       const coarser = part === asked ? undefined : part.levels;
-      return { packed: packField(field, tableSize, prefix > 0), info, end: bytes.length, coarser };
+      return { packed: packField(field, tableSize, prefix > 0), info, coarser };
     } finally {
       field.release();
     }
+  }
+
+  /** One that has read as much of the file, or more; where the memory of the one before failed, another. */
+  readerOf(decoder, length) {
+    if (this.reader?.dead ?? true) {
+      this.reader = decoder.frames();
+      this.read = 0;
+    }
+    if (this.read < length) this.reader.push(this.bytes.subarray(this.read, length));
+    this.read = Math.max(this.read, length);
+    return this.reader;
   }
 
   /** One that did not arrive is asked for again by the next decode. */
@@ -103,9 +112,10 @@ export class DecodeSession {
   }
 
   /** A decoder whose memory failed is not asked again. */
-  run(decoder, bytes, options) {
+  run(reader, options) {
     try {
-      return decoder.decode(bytes, options);
+      reader.setOptions(options);
+      return reader.decode(0);
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) this.decoder = undefined;
       throw error;
@@ -139,6 +149,12 @@ export const partOf = (info, { levels, groups, layers }) => ({
 export function checkColours(info) {
   if (info.hasBasis === false)
     throw new ViewerError('no-view-maps', 'This file has no view maps: its planes have no colour.');
+}
+
+/** Not where coefficients are still to come: all points are alike then. */
+function hasColours(field) {
+  const means = field.meanColours();
+  return means.some((value, i) => value !== means[i % 3]);
 }
 
 /** That can be posted. */

@@ -11,7 +11,7 @@ import { moves } from './stream_units.js';
 
 const MOST_BYTES = 2 ** 30;
 const FIRST_LOOK = 4096,
-  GROWTH = 1.6; // bytes at which a prefix is decoded, and how much later the next
+  GROWTH = 2; // bytes at which a prefix is decoded, and how much later the next
 const LARGE = 200_000,
   LOOK = 65_536; // bytes of a file that came at once, and of its first picture
 
@@ -80,15 +80,21 @@ export class FieldLoader {
     if (stream.total > MOST_BYTES) throw new ViewerError('too-large', `This file has ${stream.total} bytes.`);
     let received = 0,
       look = FIRST_LOOK,
-      looking = null;
+      looking = null,
+      pace = 0; // milliseconds a byte of the prefix before
+    const begin = performance.now();
     const showPrefix = (prefix) => {
+      const from = performance.now();
       looking = this.decode({ ...options, prefix })
         .then(({ packed, info }) => packed && current() && on.field(packed, info, false))
         .catch(() => {}) // what is wrong with a prefix is said of the whole file
         .finally(() => {
           looking = null;
+          pace = (performance.now() - from) / prefix;
         });
     };
+    // Each is decoded from the beginning: one that may be done after the rest has come would delay the whole.
+    const inTime = () => !(stream.total > 0) || pace * received <= (performance.now() - begin) * (stream.total / received - 1);
     let head = new Uint8Array(0),
       moving = on.moving ? null : false;
     for await (const chunk of stream.chunks) {
@@ -99,7 +105,7 @@ export class FieldLoader {
       if (received > MOST_BYTES) throw new ViewerError('too-large', `This file has more than ${MOST_BYTES} bytes.`);
       this.worker.postMessage({ append: chunk });
       on.progress?.(received, received > stream.total ? 0 : stream.total);
-      if (!on.field || looking || received < look || received === stream.total) continue;
+      if (!on.field || looking || received < look || received === stream.total || !inTime()) continue;
       look = received * GROWTH;
       showPrefix(received);
     }

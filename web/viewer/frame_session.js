@@ -25,13 +25,10 @@ export class FrameSession {
   async open({ source, levels = 0, groups = 0, layers = 0, maxMemory, tableSize = 65, ...request }) {
     const decoder = await this.#load();
     await this.close();
-    let stream = await SlfFrameStream.open(source, { ...request, decoder, maxMemory });
+    const stream = await SlfFrameStream.open(source, { ...request, decoder });
     const info = plainInfo(stream.info());
     checkColours(info);
-    if (levels || groups || layers) { // how many there are is known now
-      await stream.close();
-      stream = await SlfFrameStream.open(source, { ...request, decoder, maxMemory, ...partOf(info, { levels, groups, layers }) });
-    }
+    stream.setOptions({ maxMemory, ...partOf(info, { levels, groups, layers }) }); // how many there are is known now
     this.#stream = stream;
     this.#told = 0;
     this.#ended = false;

@@ -139,7 +139,7 @@ slf_field* EXPORT(slfw_decode)(const slf_stream* stream) {
 }
 void EXPORT(slfw_release_field)(slf_field* field) { slf_release_field(field); }
 
-/* Streams of frames. Options are those set before. */
+/* Streams, frame by frame as they come. Options are those set before. */
 slf_frames* EXPORT(slfw_frames_open)(void) {
   slf_frames* frames = NULL;
   slf_open_frames(&options, NULL, &frames, error());
@@ -157,7 +157,7 @@ double EXPORT(slfw_frames_held)(const slf_frames* frames) {
   return (double)slf_frames_held_bytes(frames);
 }
 
-/* number, time, offset, bytes, predicted, lost, whether its bytes are held */
+/* number, time, offset, bytes, predicted, lost, arriving, whether its bytes are held */
 int EXPORT(slfw_frame)(const slf_frames* frames, uint32_t place) {
   slf_frame f = {sizeof f};
   const slf_code code = slf_frames_get(frames, place, &f, error());
@@ -165,7 +165,7 @@ int EXPORT(slfw_frame)(const slf_frames* frames, uint32_t place) {
   size_t size = 0;
   slf_frames_get_bytes(frames, place, &bytes, &size, NULL);
   const double all[] = {f.number, f.time, (double)f.offset, (double)f.bytes,
-                        f.predicted, f.lost, bytes != NULL};
+                        f.predicted, f.lost, f.arriving, bytes != NULL};
   for (size_t k = 0; k < sizeof all / sizeof *all; ++k) numbers[k] = all[k];
   return code;
 }
@@ -181,6 +181,9 @@ slf_field* EXPORT(slfw_frame_decode)(slf_frames* frames, uint32_t place) {
   slf_field* field = NULL;
   slf_frames_decode(frames, place, &field, error());
   return field;
+}
+int EXPORT(slfw_frames_set_options)(slf_frames* frames) {
+  return slf_frames_set_options(frames, &options, error());
 }
 int EXPORT(slfw_frames_drop_before)(slf_frames* frames, uint32_t place) {
   return slf_frames_drop_before(frames, place, error());

@@ -77,6 +77,53 @@ test('a light field that does not move is one frame', () => {
   assert.equal(reader.info().points, decoder.info(still).points);
 });
 
+test('a light field that does not move is decoded while it arrives: each time what decode() makes of its units', () => {
+  for (const { id, bytes } of cases('streams').filter((one) => ['basis', 'scene-shared', 'layers-four', 'harmonics'].includes(one.id))) {
+    const reader = decoder.frames();
+    let shown = 0;
+    for (let at = 0, before = 0; at < bytes.length - 1; ++at) {
+      reader.push(bytes.subarray(at, at + 1));
+      const end = reader.arriving?.bytes ?? 0;
+      if (end === before) continue;
+      assert.equal(end, at + 1, id); // with its last byte, and not before
+      assert.equal(reader.info().complete, false);
+      assert.equal(reader.preflight(0).memoryBytes, decoder.preflight(bytes.subarray(0, end)).memoryBytes);
+      assert.deepEqual(digestsOf(reader.decode(0)), digestsOf(decoder.decode(bytes.subarray(0, end))), `${id} ${end}`);
+      before = end;
+      ++shown;
+    }
+    assert.ok(shown > 4);
+    assert.deepEqual(reader.list, []);
+    reader.push(bytes.subarray(bytes.length - 1));
+    assert.equal(reader.arriving, null);
+    assert.equal(reader.list.length, 1); // its end unit says that it is all here
+    reader.finish();
+    assert.deepEqual(digestsOf(reader.decode(0)), digestsOf(decoder.decode(bytes)));
+    reader.release();
+    assert.ok(reader.dead);
+  }
+});
+
+test('damage of a light field that does not move is said when its unit has come', () => {
+  const reader = decoder.frames(), at = still.length - 60;
+  reader.push(still.subarray(0, at));
+  assert.ok(reader.arriving);
+  assert.throws(() => reader.push(damaged(still, at).subarray(at)), SlfError);
+  assert.equal(reader.arriving, null);
+  assert.throws(() => reader.decode(0), SlfError);
+  assert.throws(() => reader.finish(), SlfError);
+  reader.release();
+});
+
+test('other options are those of frames decoded from then on', () => {
+  const reader = readerOf(groups), coarse = readerOf(groups, { levels: 3 });
+  assert.deepEqual(digestsOf(reader.decode(1)), whole[1]);
+  reader.setOptions({ levels: 3 });
+  assert.deepEqual(digestsOf(reader.decode(1)), digestsOf(coarse.decode(1)));
+  reader.setOptions();
+  assert.deepEqual(digestsOf(reader.decode(2)), whole[2]);
+});
+
 test('places are checked, and what is no stream is refused for good', () => {
   for (const place of [-1, 3, 1.5, '0', undefined])
     assert.throws(() => expected.decode(place), { code: 'INVALID_ARGUMENT' });

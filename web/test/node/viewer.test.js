@@ -132,6 +132,69 @@ test('what takes too much memory is decoded with as many levels as there is memo
   assert.throws(() => within(3, -1), { kind: 'too-large' });
 });
 
+test('what has arrived of a file shows as soon as it has colours, and every byte is read once', async () => {
+  let pushed = 0;
+  const session = new DecodeSession(async () => ({
+    frames() {
+      const reader = decoder.frames(), { push } = reader;
+      return Object.assign(reader, { push(piece) { pushed += piece.length; push.call(reader, piece); } });
+    },
+  }));
+  session.append(bytes);
+  const shown = [];
+  for (let prefix = 16; prefix < bytes.length; prefix += 16) {
+    const { packed, info } = await session.decode({ prefix });
+    if (!packed) continue;
+    assert.equal(info.complete, false);
+    assert.ok(packed.partial && new Set(packed.means).size > 2);
+    shown.push(packed.points);
+  }
+  assert.ok(shown.length > 0 && shown.every((points, i) => i === 0 || points >= shown[i - 1]));
+  const { packed } = await session.decode({});
+  assert.equal(packed.points, expected.points);
+  assert.ok(!packed.partial);
+  assert.equal(pushed, bytes.length);
+});
+
+test('a reader whose memory failed is followed by another', async () => {
+  const session = sessionOf();
+  await session.decode({});
+  const { reader } = session;
+  session.decoder = undefined; // as of a decode that trapped
+  reader.release();
+  assert.equal((await session.decode({ levels: 2 })).packed.levels, 2);
+  assert.notEqual(session.reader, reader);
+});
+
+test('a picture that would be done later than the rest is here is not decoded', async () => {
+  const { fetch } = globalThis, size = 200_000, chunk = 2000;
+  const looks = async (wait, takes) => {
+    globalThis.fetch = async () => new Response(new ReadableStream({
+      async pull(controller) {
+        if (wait) await new Promise((done) => setTimeout(done, wait));
+        if ((this.sent = (this.sent ?? 0) + chunk) > size) controller.close();
+        else controller.enqueue(new Uint8Array(chunk));
+      },
+    }), { headers: { 'Content-Length': String(size) } });
+    const loader = silentLoader(), prefixes = [];
+    loader.decode = async ({ prefix }) => {
+      if (!prefix) return { packed: {}, info: {} };
+      prefixes.push(prefix);
+      await new Promise((done) => setTimeout(done, takes));
+      return {};
+    };
+    await loader.load('http://nowhere.test/a', { field() {} });
+    return prefixes;
+  };
+  try {
+    const slow = await looks(5, 1), late = await looks(5, 400);
+    assert.ok(slow.length >= 4 && slow.every((prefix, i) => i === 0 || prefix >= 2 * slow[i - 1]), `${slow}`);
+    assert.equal(late.length, 1, `${late}`);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
 test('a decoder that did not arrive is asked for again, and is no fault of the file', async () => {
   let asked = 0;
   const session = sessionOf(async () => {
