@@ -169,8 +169,8 @@ export class SlfField {
   /** Of splats, else null: [P] share of what is behind it that a splat hides at its centre, 0 .. 1. */
   readonly opacities: Float32Array | null;
 
-  /** [P][W][3]: radiance = sum over W of weight times function, clamped to 0 .. 255. */
-  weights(out?: Float32Array): Float32Array;
+  /** [P][W][3]: radiance = sum over W of weight times function, clamped to 0 .. 255. Of `count` points from `first` on; all. */
+  weights(out?: Float32Array, first?: number, count?: number): Float32Array;
   /** [P][3] R, G, B averaged over all directions. */
   meanColours(): Uint8Array;
   /** side: 2 .. 1024 [65]. Linear interpolation is off by what docs/decisions/028 lists. */

@@ -64,7 +64,11 @@ export class SlfField {
   }
 
   meanColours() { return this.#read(MEANS, Uint8Array, 3); }
-  weights(out) { return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out); }
+  weights(out, first = 0, count = this.points - first) {
+    if (!(Number.isInteger(first) && Number.isInteger(count) && first >= 0 && count >= 0 && first + count <= this.points))
+      throw invalid(`points from 0 to ${this.points}`);
+    return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out, first, count);
+  }
 
   functionTable({ side = 65 } = {}) {
     if (!Number.isInteger(side) || side < 2 || side > MOST_SIDE)
@@ -122,13 +126,13 @@ export class SlfField {
   }
 
   /** read(first, count, at) for a few points at a time, so that the instance need not hold an array twice. */
-  #chunks(rowBytes, use) {
+  #chunks(rowBytes, use, from = 0, count = this.points) {
     return this.#call((w, instance) => {
-      const most = Math.max(1, Math.floor(CHUNK_BYTES / Math.max(rowBytes, 1)));
+      const most = Math.max(1, Math.floor(CHUNK_BYTES / Math.max(rowBytes, 1))), end = from + count;
       const at = instance.alloc(most * rowBytes + 4);
       let good = true;
-      for (let first = 0; good && first < this.points; first += most)
-        good = use(w, first, Math.min(most, this.points - first), at);
+      for (let first = from; good && first < end; first += most)
+        good = use(w, first, Math.min(most, end - first), at);
       return good;
     });
   }
@@ -137,14 +141,15 @@ export class SlfField {
     if (w.slfw_read(this.#field, what, first, count, at) !== 0) this.#instance.fail();
   }
 
-  #read(what, Type, width, out = new Type(this.points * width)) {
-    if (!(out instanceof Type) || out.length < this.points * width)
-      throw invalid(`a ${Type.name} of ${this.points * width} or more`);
-    this.#chunks(width * Type.BYTES_PER_ELEMENT, (w, first, count, at) => {
-      this.#fetch(w, what, first, count, at);
-      out.set(new Type(w.memory.buffer, at, count * width), first * width);
+  #read(what, Type, width, out, from = 0, count = this.points) {
+    out ??= new Type(count * width);
+    if (!(out instanceof Type) || out.length < count * width)
+      throw invalid(`a ${Type.name} of ${count * width} or more`);
+    this.#chunks(width * Type.BYTES_PER_ELEMENT, (w, first, some, at) => {
+      this.#fetch(w, what, first, some, at);
+      out.set(new Type(w.memory.buffer, at, some * width), (first - from) * width);
       return true;
-    });
+    }, from, count);
     return out;
   }
 

@@ -2,8 +2,9 @@
 // A decoded light field as the texels that the pipeline uploads: no DOM, no WebGL, so that a worker
 // does it.
 
-import { packTable, packWeights } from './packed_functions.js';
-import { boxOfSplats, packSplats } from './packed_splats.js';
+import { packFunctions } from './packed_functions.js';
+import { packSplats } from './packed_splats.js';
+import { toMirror, writeDisc } from './packed_texels.js';
 
 const COLUMNS = 1024;
 
@@ -27,12 +28,13 @@ export class ViewerError extends Error {
 }
 
 /**
- * Texels of a light field, lengths in voxels from the middle of its box.
+ * Texels of a light field, lengths in voxels.
  * @param field  of SlfDecoder.decode()
  * @param {number} tableSize  samples along a side of a face of the function table
  * @param {boolean} arriving  more of the file will come
  * @param {FrameFunctions|null} shared  what frames of one light field have in common
- * @returns {PackedField} typed arrays that can be transferred, and plain numbers
+ * @returns {PackedField} typed arrays that can be transferred, and plain numbers; middle: of the box, which what draws has
+ *   as the origin
  */
 export function packField(field, tableSize = 65, arriving = false, shared = null) {
   const points = field.points,
@@ -40,18 +42,14 @@ export function packField(field, tableSize = 65, arriving = false, shared = null
   const rows = Math.max(1, Math.ceil(points / columns)),
     texels = columns * rows;
   const ball = boundingBall(field);
-  const unit = packWeights(field.weights(), points, field.functions, texels, shared);
-  const own = field.hasSplats ? packSplats(field, ball, texels, arriving) : packPlaces(field, ball.centre, texels);
-  const box = field.hasSplats ? boxOfSplats(own, points) : boxOfDiscs(own, points);
+  const { box, ...own } = field.hasSplats ? packSplats(field, ball, texels, arriving) : packPlaces(field, ball.centre, texels);
   const toWorld = (place) => place.map((v, k) => field.grid.origin[k] + field.grid.step * (ball.centre[k] + v));
   return {
     points,
     columns,
     rows,
     components: field.components,
-    layers: Math.ceil(field.functions / 4),
-    weights: unit.texels,
-    functions: shared ? shared.packed(field, tableSize) : packTable(field.functionTable({ side: tableSize }), unit.scales),
+    ...packFunctions(field, texels, tableSize, shared),
     moving: shared !== null,
     gamma: Array.from(field.gamma),
     linear: field.transfer === 'linear',
@@ -59,6 +57,7 @@ export function packField(field, tableSize = 65, arriving = false, shared = null
     partial: Boolean(field.partial),
     levels: field.grid.bits,
     step: field.grid.step,
+    middle: ball.centre,
     radius: ball.radius * field.grid.step,
     reach: (field.hasSplats ? farthestOf(box) : ball.reach) * field.grid.step,
     size: ball.size.map((v) => v * field.grid.step),
@@ -66,21 +65,6 @@ export function packField(field, tableSize = 65, arriving = false, shared = null
     ...own,
     box: box.map(toWorld),
   };
-}
-
-/** The box of all discs, each as far as it reaches along an axis; voxels from the middle. */
-function boxOfDiscs({ places, discs }, points) {
-  const low = [0, 0, 0].fill(points ? Infinity : 0),
-    high = [0, 0, 0].fill(points ? -Infinity : 0);
-  for (let p = 0; p < 4 * points; p += 4)
-    for (let k = 0; k < 3; ++k) {
-      const n = discs[p + k],
-        at = places[p + k] + places[p + 3] * n,
-        reach = discs[p + 3] * Math.sqrt(Math.max(0, 1 - n * n));
-      if (at - reach < low[k]) low[k] = at - reach;
-      if (at + reach > high[k]) high[k] = at + reach;
-    }
-  return [low, high];
 }
 
 /** Of all that can be transferred to another thread without a copy. */
@@ -162,26 +146,38 @@ export function boundingBall({ positions, grid, hasSplats }) {
   return { centre, radius: Math.sqrt(square), reach: Math.sqrt(farthest), size: high.map((v, k) => v - low[k]) };
 }
 
+/** Box: of all discs, each as far as it reaches along an axis; voxels from the middle. Widest: of all radii. */
 function packPlaces(field, centre, texels) {
   const { points, positions, normals, mirrorNormals, radii, areas, centres, grid } = field;
-  const means = field.meanColours();
+  const means = field.meanColours(),
+    low = [0, 0, 0].fill(points ? Infinity : 0),
+    high = [0, 0, 0].fill(points ? -Infinity : 0);
+  let widest = 0;
   const out = {
-    places: new Float32Array(4 * texels),
-    discs: new Float32Array(4 * texels),
-    directions: new Float32Array(4 * texels),
+    places: new Uint32Array(4 * texels),
+    directions: mirrorNormals && new Uint32Array(texels),
     means: new Uint8Array(4 * texels),
   };
   for (let p = 0; p < points; ++p) {
+    const three = 3 * p,
+      place = positions.subarray(three, three + 3),
+      normal = normals.subarray(three, three + 3),
+      radius = radii[p] / grid.step;
+    let shift = 0;
+    if (radius > widest) widest = radius;
     for (let k = 0; k < 3; ++k) {
-      out.places[4 * p + k] = positions[3 * p + k] - centre[k];
-      out.discs[4 * p + k] = normals[3 * p + k];
-      if (mirrorNormals) out.directions[4 * p + k] = mirrorNormals[3 * p + k];
-      out.means[4 * p + k] = means[3 * p + k];
-      out.places[4 * p + 3] += (centres[3 * p + k] - positions[3 * p + k]) * normals[3 * p + k];
+      shift += (centres[three + k] - place[k]) * normal[k];
+      out.means[4 * p + k] = means[three + k];
     }
-    out.discs[4 * p + 3] = radii[p] / grid.step;
-    out.directions[4 * p + 3] = areas[p] / radii[p] ** 2;
+    for (let k = 0; k < 3; ++k) {
+      const at = place[k] - centre[k] + shift * normal[k],
+        reach = radius * Math.sqrt(Math.max(0, 1 - normal[k] ** 2));
+      if (at - reach < low[k]) low[k] = at - reach;
+      if (at + reach > high[k]) high[k] = at + reach;
+    }
+    writeDisc(out.places, p, place, normal, shift, radius, areas[p] / radii[p] ** 2);
+    if (mirrorNormals) out.directions[p] = toMirror(mirrorNormals[three], mirrorNormals[three + 1], mirrorNormals[three + 2]);
     out.means[4 * p + 3] = 255;
   }
-  return out;
+  return { ...out, widest, box: [low, high] };
 }

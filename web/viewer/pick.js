@@ -2,10 +2,11 @@
 // Where a ray meets a light field, and the colour that is seen that way: on the processor, from the texels that the
 // pipeline uploads. Lengths in voxels from `packed.centre`, as these texels are.
 
+import { MOST_SHARE } from './packed_functions.js';
+import { fromHalf, fromMirror, normalOf, placeOf, radiusOf, shiftOf } from './packed_texels.js';
 import { pickSplat } from './pick_splats.js';
 
-const CORE = 0.4, // squared share of a disc's radius within which it fixes the depth: spec E.4
-  FLAT = 0.5; // squared length of a normal that is there
+const CORE = 0.4; // squared share of a disc's radius within which it fixes the depth: spec E.4
 
 /**
  * @param {number[]} from  @param {number[]} along  of length 1
@@ -16,21 +17,20 @@ export function pick(packed, from, along, share = 1) {
   if (packed.splats) return pickSplat(packed, from, along, share);
   const drawn = Math.max(1, Math.round(packed.points * Math.min(1, share))),
     thinning = packed.points / drawn,
-    { places, discs } = packed;
+    eye = from.map((v, k) => v + packed.middle[k]);
   let core = null,
     rim = null;
-  for (let i = 0; i < drawn; ++i) {
-    const p = 4 * Math.floor(i * thinning),
-      square = discs[p + 3] ** 2 * thinning;
-    const x = places[p] + places[p + 3] * discs[p] - from[0],
-      y = places[p + 1] + places[p + 3] * discs[p + 1] - from[1],
-      z = places[p + 2] + places[p + 3] * discs[p + 2] - from[2];
-    const near = x * along[0] + y * along[1] + z * along[2];
-    if (near < 0 || x * x + y * y + z * z - near * near > square) continue; // not even its ball
-    const met = meetDisc(discs, p, [x, y, z], along, near);
+  for (let i = 0; i < drawn && packed.points > 0; ++i) {
+    const index = Math.floor(i * thinning),
+      square = radiusOf(packed, index) ** 2 * thinning,
+      centre = placeOf(packed, index).map((v, k) => v - eye[k]),
+      near = dot(centre, along),
+      shift = Math.abs(shiftOf(packed, index));
+    if (near < -shift || dot(centre, centre) - near * near > (Math.sqrt(square) + shift) ** 2) continue; // not even its ball
+    const met = meetDisc(packed, index, centre, along);
     if (!met || met.square >= square) continue;
-    if (met.square < CORE * square && !(core?.distance <= met.distance)) core = { index: p / 4, ...met };
-    else if (!(rim?.distance <= met.distance)) rim = { index: p / 4, ...met };
+    if (met.square < CORE * square && !(core?.distance <= met.distance)) core = { index, ...met };
+    else if (!(rim?.distance <= met.distance)) rim = { index, ...met };
   }
   const found = core ?? rim;
   return found && { index: found.index, distance: found.distance, normal: found.normal };
@@ -48,9 +48,13 @@ export function placeAt(stage, x, y) {
 }
 
 /** Where a ray from the origin meets the plane of a disc: how far, and how far from its centre, squared. */
-function meetDisc(discs, p, centre, along, near) {
-  let normal = [discs[p], discs[p + 1], discs[p + 2]];
-  if (dot(normal, normal) < FLAT) normal = along.map((x) => -x);
+function meetDisc(packed, index, place, along) {
+  const own = normalOf(packed, index),
+    shift = shiftOf(packed, index),
+    centre = own ? place.map((v, k) => v + shift * own[k]) : place,
+    near = dot(centre, along);
+  if (near < 0) return null;
+  let normal = own ?? along.map((x) => -x);
   const slope = dot(normal, along);
   if (slope > 0) normal = normal.map((x) => -x);
   const distance = Math.abs(slope) < 1e-6 ? near : dot(normal, centre) / -Math.abs(slope);
@@ -60,24 +64,30 @@ function meetDisc(discs, p, centre, along, near) {
 
 /** RGB 0 .. 1 of a point from `eye`, in the file's own transfer: the colour pass of shaders.js. Spec 6.4, 6.7. */
 export function colourFrom(packed, index, eye, meanOnly = false) {
-  const { places, directions, means, weights, functions, layers, columns, rows } = packed;
+  const { means, functions, layers, fine } = packed;
   if (meanOnly) return [0, 1, 2].map((k) => means[4 * index + k] / 255);
-  const texels = columns * rows,
-    at = tableAt(functions, direction(packed, places, directions, 4 * index, eye));
-  const sum = [0, 0, 0];
-  for (let layer = 0; layer < layers; ++layer)
-    for (let f = 0; f < 4; ++f) {
-      const value = at(layer, f);
-      for (let c = 0; c < 3; ++c) sum[c] += value * weights[((3 * layer + c) * texels + index) * 4 + f];
+  const at = tableAt(functions, direction(packed, index, eye)),
+    sum = [0, 0, 0];
+  for (let f = 0; f < 4 * layers; ++f) {
+    const value = at(f >> 2, f & 3);
+    for (let c = 0; c < 3; ++c) {
+      sum[c] += value * 256 * weightByte(packed, index, 3 * (f >> 2) + c, f & 3);
+      if (f < fine) sum[c] += value * weightByte(packed, index, 3 * layers + f, c);
     }
-  return sum.map((x) => Math.max(0, Math.min(1, x / 32767)));
+  }
+  return sum.map((x) => Math.max(0, Math.min(1, x / MOST_SHARE)));
 }
 
+const weightByte = ({ weights, columns, rows }, index, word, byte) =>
+  (weights[((word >> 2) * columns * rows + index) * 4 + (word & 3)] << (24 - 8 * byte)) >> 24;
+
 /** The direction to the eye in the point's frame, within what cameras saw. */
-function direction({ gamma }, places, directions, p, eye) {
-  let w = normalised([0, 1, 2].map((k) => eye[k] - places[p + k])) ?? [1, 0, 0];
-  const n = directions ? [directions[p], directions[p + 1], directions[p + 2]] : [0, 0, 0];
-  if (dot(n, n) > FLAT) {
+function direction(packed, index, eye) {
+  const { gamma, directions, middle } = packed,
+    place = placeOf(packed, index);
+  let w = normalised([0, 1, 2].map((k) => eye[k] + middle[k] - place[k])) ?? [1, 0, 0];
+  const n = directions && fromMirror(directions[index]);
+  if (n) {
     const twice = 2 * dot(n, w);
     w = w.map((x, k) => twice * n[k] - x);
   }
@@ -101,7 +111,7 @@ function tableAt({ texels, width, height, faceSize }, w) {
   const column = (face % 3) * faceSize + low[0],
     row = Math.floor(face / 3) * faceSize + low[1];
   return (layer, f) => {
-    const value = (x, y) => texels[((layer * height + row + y) * width + column + x) * 4 + f];
+    const value = (x, y) => fromHalf(texels[((layer * height + row + y) * width + column + x) * 4 + f]);
     return (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) + v * ((1 - u) * value(0, 1) + u * value(1, 1));
   };
 }

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets splats: where half of what is behind is hidden, on the processor. Lengths as in packed_splats.js.
+// Where a ray meets splats: where half of what is behind is hidden, on the processor. Lengths as in pick.js.
+
+import { reachOf } from './packed_splats.js';
+import { placeOf, splatOf } from './packed_texels.js';
 
 const HALF = 0.5, // of what is behind, as the depth of the C++ renderer
   THINNEST = 0.01; // variance that a splat has at least, voxels squared: a disc's inverse stays a number
 
 /** As pick() of pick.js; the normal is that of the splat's plane through its greatest share along the ray. */
-export function pickSplat({ points, places, spreads, tilts }, from, along, share = 1) {
-  const drawn = Math.max(1, Math.round(points * Math.min(1, share))),
-    thinning = points / drawn,
+export function pickSplat(packed, from, along, share = 1) {
+  const drawn = Math.max(1, Math.round(packed.points * Math.min(1, share))),
+    thinning = packed.points / drawn,
+    eye = from.map((v, k) => v + packed.middle[k]),
     met = [];
-  for (let i = 0; i < drawn; ++i) {
+  for (let i = 0; i < drawn && packed.points > 0; ++i) {
     const index = Math.floor(i * thinning),
-      p = 4 * index;
-    if (!(places[p + 3] > 0)) continue;
-    const x = [0, 1, 2].map((k) => places[p + k] - from[k]),
+      x = placeOf(packed, index).map((v, k) => v - eye[k]),
       near = dot(x, along);
+    if (near < 0) continue;
+    const { covariance, opacity } = splatOf(packed, index),
+      reach = reachOf(opacity);
     const square = dot(x, x) - near * near, // no farther than its longest axis shows
-      widest = thinning * places[p + 3] * (spreads[p] + spreads[p + 1] + spreads[p + 2] + 3 * THINNEST);
-    if (near < 0 || square > widest) continue;
-    const found = meetSplat(spreads, tilts, p, thinning, x, along);
-    if (found.distance > 0 && found.square < places[p + 3]) met.push({ index, ...found });
+      widest = thinning * reach * (covariance[0] + covariance[3] + covariance[5] + 3 * THINNEST);
+    if (!(square <= widest)) continue;
+    const found = meetSplat(covariance, opacity, thinning, x, along);
+    if (found.distance > 0 && found.square < reach) met.push({ index, ...found });
   }
   let clear = 1;
   for (const { index, distance, normal, hides } of met.sort((a, b) => a.distance - b.distance)) {
@@ -30,9 +35,9 @@ export function pickSplat({ points, places, spreads, tilts }, from, along, share
 }
 
 /** Where a splat about x is densest along a ray from the origin. */
-function meetSplat(spreads, tilts, p, thinning, x, along) {
-  const [a, d, f] = [0, 1, 2].map((k) => thinning * spreads[p + k] + THINNEST),
-    [b, c, e] = [0, 1, 2].map((k) => thinning * tilts[p + k]);
+function meetSplat(covariance, opacity, thinning, x, along) {
+  const [a, d, f] = [0, 3, 5].map((k) => thinning * covariance[k] + THINNEST),
+    [b, c, e] = [1, 2, 4].map((k) => thinning * covariance[k]);
   const rows = [
     [d * f - e * e, c * e - b * f, b * e - c * d],
     [c * e - b * f, a * f - c * c, b * c - a * e],
@@ -45,7 +50,7 @@ function meetSplat(spreads, tilts, p, thinning, x, along) {
     rest = x.map((v, k) => v - distance * along[k]),
     length = -Math.hypot(...across);
   const square = Math.max(0, dot(rest, times(rest)));
-  return { distance, square, normal: across.map((v) => v / length), hides: Math.min(0.99, spreads[p + 3] * Math.exp(-square / 2)) };
+  return { distance, square, normal: across.map((v) => v / length), hides: Math.min(0.99, opacity * Math.exp(-square / 2)) };
 }
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -43,7 +43,7 @@ export class PointPipeline {
     const { gl } = this;
     const side = gl.getParameter(gl.MAX_TEXTURE_SIZE),
       layers = gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS);
-    if (packed.rows > side || 3 * packed.layers > layers || packed.functions.width > side)
+    if (packed.rows > side || Math.max(packed.layers, packed.weightLayers) > layers || packed.functions.width > side)
       throw new ViewerError(
         'too-large',
         `${packed.points} points with ${packed.components} components are more than this device's textures hold.`,
@@ -61,39 +61,39 @@ export class PointPipeline {
   imagesOf(packed) {
     const { gl } = this;
     return {
-      places: [gl.RGBA32F, gl.RGBA, gl.FLOAT, packed.places],
+      places: [gl.RGBA32UI, gl.RGBA_INTEGER, gl.UNSIGNED_INT, packed.places],
       means: [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, packed.means],
-      colours: [gl.RGBA16F, gl.RGBA, gl.HALF_FLOAT, null],
       ...this.ownTexels(packed),
     };
   }
 
   /** Whether a frame fits into the textures of the one before. */
-  holds({ columns, rows, layers, functions: f, moving }) {
+  holds({ columns, rows, weightLayers, directions, functions: f, moving }) {
     const has = this.allocated;
-    return Boolean(moving && has && has.columns === columns && has.rows >= rows && has.layers === layers
+    return Boolean(moving && has && has.columns === columns && has.rows >= rows && has.weightLayers === weightLayers
+      && !directions === !this.textures.directions
       && has.width === f.width && has.height === f.height && has.functionLayers === f.layers);
   }
 
-  allocate({ columns, rows, layers, functions: f, moving }, images) {
+  allocate({ columns, rows, weightLayers, functions: f, moving }, images) {
     const { gl } = this,
       most = Math.min(gl.getParameter(gl.MAX_TEXTURE_SIZE), rows + (moving ? Math.ceil(SPARE * rows) : 0));
     this.clearField();
     for (const [name, [internal, format, type]] of Object.entries(images))
       this.textures[name] = image(gl, internal, columns, most, format, type, null);
-    this.textures.weights = layered(gl, gl.RGBA16I, columns, most, 3 * layers, gl.NEAREST);
+    this.textures.weights = layered(gl, gl.RGBA32UI, columns, most, weightLayers, gl.NEAREST);
     this.textures.functions = layered(gl, gl.RGBA16F, f.width, f.height, f.layers, gl.LINEAR);
     this.colourTarget = target(gl, [this.textures.colours], null);
-    this.allocated = { columns, rows: most, layers, width: f.width, height: f.height, functionLayers: f.layers, uploaded: null };
+    this.allocated = { columns, rows: most, weightLayers, width: f.width, height: f.height, functionLayers: f.layers, uploaded: null };
   }
 
-  upload({ columns, rows, layers, weights, functions: f, moving }, images) {
+  upload({ columns, rows, weightLayers, weights, functions: f, moving }, images) {
     const { gl, textures: t } = this;
     for (const [name, [, format, type, texels]] of Object.entries(images))
       if (texels) putImage(gl, t[name], columns, rows, format, type, texels);
-    putLayers(gl, t.weights, columns, rows, 3 * layers, gl.RGBA_INTEGER, gl.SHORT, weights);
+    putLayers(gl, t.weights, columns, rows, weightLayers, gl.RGBA_INTEGER, gl.UNSIGNED_INT, weights);
     if (moving && this.allocated.uploaded === f.key) return;
-    putLayers(gl, t.functions, f.width, f.height, f.layers, gl.RGBA, gl.FLOAT, f.texels);
+    putLayers(gl, t.functions, f.width, f.height, f.layers, gl.RGBA, gl.HALF_FLOAT, f.texels);
     this.allocated.uploaded = f.key;
   }
 
@@ -137,12 +137,17 @@ export class PointPipeline {
     if (this.coloured === key) return;
     this.coloured = key;
     const uniforms = use(gl, this.programs.colour);
-    bind(gl, uniforms, { places: t.places, directions: t.directions, means: t.means });
+    // Samplers of a kind share a unit with others of it, where there is no texture of their own.
+    bind(gl, uniforms, { places: t.places, directions: t.directions ?? t.places, means: t.means });
     bind(gl, uniforms, { weights: t.weights, functions: t.functions }, gl.TEXTURE_2D_ARRAY, 3);
+    gl.uniform3fv(uniforms.middle, field.middle);
     gl.uniform3fv(uniforms.eye, eye);
     gl.uniform2fv(uniforms.gamma, field.gamma);
     gl.uniform1i(uniforms.points, field.points);
     gl.uniform1i(uniforms.layers, field.layers);
+    gl.uniform1i(uniforms.fine, field.fine);
+    gl.uniform1i(uniforms.mirrored, t.directions ? 1 : 0);
+    gl.uniform1i(uniforms.rooted, field.linear && !field.splats ? 1 : 0);
     gl.uniform1f(uniforms.faceSize, field.faceSize);
     gl.uniform1i(uniforms.meanOnly, meanOnly ? 1 : 0);
     gl.uniform1f(uniforms.brightest, field.brightest);
@@ -151,7 +156,7 @@ export class PointPipeline {
     gl.disable(gl.BLEND);
     gl.disable(gl.DEPTH_TEST);
     this.drawScreen();
-    this.statistics.colourFetches = meanOnly ? 1 : 2 + 4 * field.layers;
+    this.statistics.colourFetches = meanOnly ? 1 : fetchesOf(field, t);
   }
 
   /** The camera of a view, for a vertex shader of points. */
@@ -159,6 +164,7 @@ export class PointPipeline {
     const { gl } = this,
       r = view.rotation;
     gl.uniformMatrix3fv(uniforms.rotation, false, [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]]);
+    gl.uniform3fv(uniforms.middle, this.field.middle);
     gl.uniform3fv(uniforms.eye, eye);
     gl.uniform2f(uniforms.focal, view.fx, -view.fy);
     gl.uniform2f(uniforms.centre, view.cx, view.height - view.cy);
@@ -220,28 +226,37 @@ export class PointPipeline {
   }
 }
 
+/** Texels that the colour of a point takes: its own, and those of its weights and functions. */
+const fetchesOf = ({ layers, weightLayers, fine }, { directions }) => (directions ? 2 : 1) + layers + weightLayers + fine;
+
 /** What drawing needs of a packed light field; its texels are the device's now. */
 export function summary(packed) {
-  const { points, columns, rows, layers, components, gamma, linear, step, radius, centre, up, partial, levels, splats } =
-    packed;
+  const { points, columns, rows, layers, weightLayers, fine, components, gamma, linear, step, middle, radius, centre } = packed,
+    { up, partial, levels, splats, nearest, places, directions, tails, means, weights, functions, widest, reach } = packed;
+  const held = [places, directions, tails, means, weights, functions.texels].reduce((sum, each) => sum + (each?.byteLength ?? 0), 0);
   return {
     points,
     columns,
     rows,
     layers,
+    weightLayers,
+    fine,
     components,
     gamma,
     linear,
     step,
+    middle,
     centre,
     up,
     partial,
     levels,
     radius,
     splats,
-    nearest: packed.nearest,
+    widest,
+    reach,
+    nearest,
     brightest: splats ? 65504 : 1, // of a colour, display white 1: the most of a half float
-    faceSize: packed.functions.faceSize,
-    bytes: 4 * points * (4 + 4 + 4 + 1 + 2) + packed.weights.byteLength + packed.functions.texels.byteLength / 2,
+    faceSize: functions.faceSize,
+    bytes: held + columns * rows * (splats ? 12 : 4), // with colours, and the order of splats
   };
 }

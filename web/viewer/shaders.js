@@ -2,12 +2,15 @@
 // GLSL of the reference reconstruction, spec annex E. Lengths are voxels, colours 0 .. 1, images have
 // their first row at the bottom, as WebGL has it. The constants are those of lightfield/render/reference_kernel.h.
 
+import { UNPACK } from './texel_shaders.js';
+
 export const HEAD = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp sampler2DArray;
-precision highp isampler2DArray;
+precision highp usampler2D;
+precision highp usampler2DArray;
 `;
 
 /** Of colours: spec 6.5. */
@@ -26,17 +29,18 @@ void main() {
 }`;
 
 /** One fragment a point: its colour along the direction to the eye. Spec 6.4, 6.7. */
-export const COLOUR_FRAGMENT = `${HEAD}
-uniform sampler2D places;         // x, y, z, shift along the normal
-uniform sampler2D directions;     // normal that mirrors the direction (0: none, directions of the world), area share
+export const COLOUR_FRAGMENT = `${HEAD}${UNPACK}
+uniform usampler2D places;
+uniform usampler2D directions;    // normal that mirrors the direction; all ones: none, as of directions of the world
 uniform sampler2D means;          // mean colour
-uniform isampler2DArray weights;  // layer 3 l + c: weights in channel c of functions 4 l .. 4 l + 3
+uniform usampler2DArray weights;  // words of packed_functions.js
 uniform sampler2DArray functions; // layer l: functions 4 l .. 4 l + 3, scaled to the weights
 uniform vec3 eye;
 uniform vec2 gamma;
 uniform int points, layers;
+uniform int fine;        // functions with a second byte
 uniform float faceSize;  // texels along a face of the table
-uniform bool meanOnly;
+uniform bool meanOnly, mirrored, rooted;
 uniform float brightest;  // splats are not clamped from above: E.6
 out vec4 colour;
 
@@ -60,41 +64,65 @@ vec2 tablePlace(vec3 w) {
 }
 
 /** The direction to the eye in the point's frame, gamma within what cameras saw. */
-vec3 direction(vec3 place, vec3 n) {
+vec3 direction(vec3 place, uint mirror) {
   vec3 to = eye - place;
   vec3 w = dot(to, to) > 0.0 ? normalize(to) : vec3(1, 0, 0);
-  if (dot(n, n) > 0.5) w = 2.0 * dot(n, w) * n - w;
+  if (mirror != 0xffffffffu) {
+    vec3 n = octahedral(mirror, 16);
+    w = 2.0 * dot(n, w) * n - w;
+  }
   float g = clamp(w.z, gamma.x, gamma.y);
   if (g == w.z) return w;
   float across = length(w.xy), rest = sqrt(max(0.0, 1.0 - g * g));
   return across > 0.0 ? vec3(w.xy * (rest / across), g) : vec3(rest, 0, g);
 }
 
+ivec2 at;
+int words = 0;
+uvec4 texel;
+/** The next four bytes of weights, as numbers. */
+vec4 next() {
+  texel = (words & 3) == 0 ? texelFetch(weights, ivec3(at, words >> 2), 0) : texel.yzwx;
+  ++words;
+  return vec4(ivec4(uvec4(texel.x) << uvec4(24, 16, 8, 0)) >> 24);
+}
+
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
+  at = ivec2(gl_FragCoord.xy);
   if (at.y * textureSize(places, 0).x + at.x >= points) discard;
   if (meanOnly) {
     colour = texelFetch(means, at, 0);
+    if (rooted) colour = sqrt(colour);
     return;
   }
-  vec2 place = tablePlace(direction(texelFetch(places, at, 0).xyz, texelFetch(directions, at, 0).xyz));
-  vec3 sum = vec3(0);
+  uint mirror = mirrored ? texelFetch(directions, at, 0).x : 0xffffffffu;
+  vec2 place = tablePlace(direction(placeOf(texelFetch(places, at, 0)), mirror));
+  vec3 sum = vec3(0), rest = vec3(0);
   for (int l = 0; l < layers; ++l) {
     vec4 e = textureLod(functions, vec3(place, float(l)), 0.0);
-    sum += vec3(dot(vec4(texelFetch(weights, ivec3(at, 3 * l), 0)), e),
-                dot(vec4(texelFetch(weights, ivec3(at, 3 * l + 1), 0)), e),
-                dot(vec4(texelFetch(weights, ivec3(at, 3 * l + 2), 0)), e));
+    sum.x += dot(next(), e);
+    sum.y += dot(next(), e);
+    sum.z += dot(next(), e);
   }
-  colour = vec4(clamp(sum / 32767.0, 0.0, brightest), 1);
+  for (int f = 0; f < fine; ++f) rest += next().xyz * textureLod(functions, vec3(place, float(f >> 2)), 0.0)[f & 3];
+  vec3 c = clamp(sum / 127.0 + rest / 32512.0, 0.0, brightest);
+  colour = vec4(rooted ? sqrt(c) : c, 1);
 }`;
 
-const DISC_VERTEX = (blending) => `${HEAD}
-uniform sampler2D places, discs, directions, colours;
+/**
+ * A disc is a sprite, one vertex and no triangle, where it is small and its centre in the picture: what draws sprites and
+ * what draws quads share the discs out among them. A sprite is as wide as it is high.
+ */
+const DISC_VERTEX = (blending, sprites) => `${HEAD}${UNPACK}
+uniform usampler2D places;
+uniform sampler2D colours;
+uniform bool rooted;     // colours are square roots
 uniform mat3 rotation;   // world to camera: right, down, forward
 uniform vec3 eye;
 uniform vec2 focal, centre, size;  // pixels; rows upwards
 uniform int first;       // of this draw
 uniform float thinning;  // every how many-th point is drawn
+uniform float largestSprite;  // pixels; 0: there are none
 flat out vec2 at;        // of the disc's centre, pixels
 flat out vec4 ellipse;   // a, b, c of a x^2 + 2 b x y + c y^2 < 1, weight at the centre
 flat out vec4 plane;     // inverse depth, its gradient in the image, 1 / the inverse depth of the band
@@ -106,23 +134,35 @@ flat out vec2 cover;     // squared radius that is wholly covered; share at the 
 }
 
 const float FLATTEST = 0.1, STEEPEST = 0.3, BAND = 0.8, FILTER = 1.0, SHARE = 0.85;
-const float LARGEST = 512.0, STEEPEST_PLANE = 0.75;
+const float LARGEST = 512.0, STEEPEST_PLANE = 0.75, MOST_SHIFT = 0.6;
 
 void main() {
   gl_Position = vec4(2, 2, 0, 1);  // outside, until it is known to show
-  int point = int(float(first + (gl_VertexID >> 2)) * thinning);
+  int point = int(float(first + (gl_VertexID${sprites ? '' : ' >> 2'})) * thinning);
   int columns = textureSize(places, 0).x;
   ivec2 texel = ivec2(point % columns, point / columns);
-  vec4 disc = texelFetch(discs, texel, 0), place = texelFetch(places, texel, 0);
-  float radius = disc.w * sqrt(thinning);
-  vec3 p = rotation * (place.xyz + place.w * disc.xyz - eye);
+  uvec4 disc = texelFetch(places, texel, 0);
+  vec2 radiusShare = unpackHalf2x16(disc.w);
+  float radius = radiusShare.x * sqrt(thinning);
+  vec3 place = placeOf(disc), normal = vec3(0);
+  if (disc.y >> 31 == 1u) {
+    normal = octahedral(disc.z, 12);
+    place += float(int(disc.z) >> 24) * (MOST_SHIFT / 127.0) * normal;
+  }
+  vec3 p = rotation * (place - eye);
   if (!(p.z > radius)) return;
+  float near = 1.0 / p.z;
+  at = centre + focal * p.xy * near;
+  vec2 most = radius * abs(focal) * near;  // no disc reaches farther, a pixel more and its slant apart
+  float width = 2.0 * max(most.x, most.y) * (1.0 + dot(p.xy, p.xy) * near * near) + 4.0;
+  bool sprite = width <= largestSprite && all(greaterThanEqual(at, vec2(0))) && all(lessThan(at, size));
+  if (sprite != ${sprites}) return;
 
   // E.3: the normal is turned to the eye, no flatter than a voxel is thick.
   vec3 toEye = -normalize(p), n = toEye;
   float cosine = 1.0;
-  if (dot(disc.xyz, disc.xyz) > 0.5) {
-    n = rotation * disc.xyz;
+  if (dot(normal, normal) > 0.5) {
+    n = rotation * normal;
     cosine = dot(n, toEye);
     if (cosine < 0.0) {
       n = -n;
@@ -134,13 +174,12 @@ void main() {
       cosine = FLATTEST;
     }
   }
-  float near = 1.0 / p.z, square = radius * radius;
+  float square = radius * radius;
   vec3 ju = focal.x * near * vec3(1, 0, -p.x * near), jv = focal.y * near * vec3(0, 1, -p.y * near);
   float nu = dot(ju, n), nv = dot(jv, n), area = square * dot(n, cross(ju, jv));
   float uu = square * (dot(ju, ju) - nu * nu) + FILTER, vv = square * (dot(jv, jv) - nv * nv) + FILTER;
   float uv = square * (dot(ju, jv) - nu * nv);
   vec2 reach = sqrt(vec2(uu, vv));
-  at = centre + focal * p.xy * near;
   if (max(reach.x, reach.y) >= LARGEST || any(lessThan(at + reach, vec2(0))) ||
       any(greaterThan(at - reach, size))) return;
 
@@ -153,11 +192,12 @@ void main() {
   float inverse = 1.0 / (uu * vv - uv * uv);
   plane = vec4(near, slope, p.z * p.z / band);
   ellipse = vec4(vv, -uv, uu, 0) * inverse;
-  ellipse.w = texelFetch(directions, texel, 0).w * max(abs(area) * sqrt(inverse), 3.2e-5);
+  ellipse.w = radiusShare.y * max(abs(area) * sqrt(inverse), 3.2e-5);
 ${
   blending
     ? `
   colour = texelFetch(colours, texel, 0).rgb;
+  if (rooted) colour *= colour;
   // E.5: within this radius the disc covers pixels in every direction.
   float mean = 0.5 * (ellipse.x + ellipse.z), half_ = 0.5 * (ellipse.x - ellipse.z);
   float minor = 1.0 / (mean + sqrt(half_ * half_ + ellipse.y * ellipse.y));
@@ -167,13 +207,19 @@ ${
 `
     : ''
 }
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
-  float span = ${blending ? '1.0' : '0.6324556'};  // the depth of a pixel is fixed by cores: r^2 < 0.4
-  gl_Position = vec4((at + span * reach * corner) / size * 2.0 - 1.0, 0, 1);
+  reach *= ${blending ? '1.0' : '0.6324556'};  // the depth of a pixel is fixed by cores: r^2 < 0.4
+  ${
+    sprites
+      ? `gl_PointSize = 2.0 * max(reach.x, reach.y) + 1.0;
+  vec2 corner = vec2(0);`
+      : 'vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;'
+  }
+  gl_Position = vec4((at + reach * corner) / size * 2.0 - 1.0, 0, 1);
 }`;
 
-export const DEPTH_VERTEX = DISC_VERTEX(false);
-export const BLEND_VERTEX = DISC_VERTEX(true);
+/** @param {'quads'|'sprites'} kind */
+export const depthVertex = (kind) => DISC_VERTEX(false, kind === 'sprites');
+export const blendVertex = (kind) => DISC_VERTEX(true, kind === 'sprites');
 
 /** Greatest inverse depth of cores, by the depth test. */
 export const DEPTH_FRAGMENT = `${HEAD}

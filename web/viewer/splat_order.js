@@ -2,14 +2,16 @@
 // Splats from the farthest to the nearest along a view: a counting sort of 16 bits, twice, over the bits of a float,
 // so that the order is that of the C++ renderer. In slices of time, for what is too much for a frame.
 
+import { placeOf } from './packed_texels.js';
+
 const AT_ONCE = 100_000, // splats that are sorted within a frame: some milliseconds
   SLICE = 1 << 14, // splats between looks at the clock
   BUDGET_MS = 4; // of a frame
 
 export class SplatOrder {
-  /** @param {Float32Array} places  [4 P], x, y, z first  @param {number} nearest  depth that is left out */
-  constructor(places, points, nearest) {
-    Object.assign(this, { places, points, nearest });
+  /** @param packed  of packSplats(): its places are kept */
+  constructor({ places, points, middle, nearest }) {
+    Object.assign(this, { places, points, middle, nearest });
     this.order = new Uint32Array(points);
     this.other = new Uint32Array(points);
     this.half = new Uint32Array(points);
@@ -52,7 +54,7 @@ export class SplatOrder {
 
   /** Stable; splats of one depth are drawn with the first of the file before the others. */
   *sort(eye, forward, drawn) {
-    const { places, points, keys, depths, counts } = this,
+    const { points, middle, keys, depths, counts } = this,
       offset = -(eye[0] * forward[0] + eye[1] * forward[1] + eye[2] * forward[2]),
       thinning = points / drawn;
     const found = this.other,
@@ -60,7 +62,8 @@ export class SplatOrder {
     let count = 0;
     for (let i = 0; i < drawn; ++i) {
       const p = Math.floor(i * thinning),
-        depth = places[4 * p] * forward[0] + places[4 * p + 1] * forward[1] + places[4 * p + 2] * forward[2] + offset;
+        [x, y, z] = placeOf(this, p),
+        depth = (x - middle[0]) * forward[0] + (y - middle[1]) * forward[1] + (z - middle[2]) * forward[2] + offset;
       if (depth > this.nearest) {
         depths[p] = depth;
         found[count++] = p;

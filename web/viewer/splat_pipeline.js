@@ -13,24 +13,18 @@ export class SplatPipeline extends PointPipeline {
     this.sorting = null;
   }
 
-  ownTexels({ spreads, tilts }) {
-    const { gl } = this;
+  ownTexels({ tails }) {
+    const { gl } = this; // colours are not clamped from above
     return {
-      spreads: [gl.RGBA32F, gl.RGBA, gl.FLOAT, spreads],
-      tilts: [gl.RGBA32F, gl.RGBA, gl.FLOAT, tilts],
+      tails: [gl.RG32UI, gl.RG_INTEGER, gl.UNSIGNED_INT, tails],
+      colours: [gl.RGBA16F, gl.RGBA, gl.HALF_FLOAT, null],
       order: [gl.R32UI, gl.RED_INTEGER, gl.UNSIGNED_INT, null],
     };
   }
 
-  allocate(packed, images) {
-    super.allocate(packed, images);
-    const { gl } = this; // no direction is mirrored
-    this.textures.directions = image(gl, gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-  }
-
   upload(packed, images) {
     super.upload(packed, images);
-    this.sorting = new SplatOrder(packed.places, packed.points, packed.nearest);
+    this.sorting = new SplatOrder(packed);
     this.ordered = new Uint32Array(packed.columns * packed.rows);
   }
 
@@ -55,7 +49,7 @@ export class SplatPipeline extends PointPipeline {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
     if (withDepth) gl.clearBufferfv(gl.COLOR, 1, [0, 0, 0, 0]);
-    const own = { places: t.places, spreads: t.spreads, tilts: t.tilts, colours: t.colours, order: t.order };
+    const own = { places: t.places, tails: t.tails, colours: t.colours, order: t.order };
     const set = (uniforms) => {
       this.setCamera(uniforms, view, eye);
       gl.uniform1f(uniforms.thinning, field.points / Math.max(1, drawn));

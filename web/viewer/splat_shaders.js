@@ -2,10 +2,11 @@
 // GLSL of Gaussian splats, spec annex E.6. Lengths are voxels, colours 0 .. 1 and more, images have their first row at
 // the bottom. The constants are those of lightfield/render/gaussian_cloud.h.
 import { HEAD, TRANSFERS } from './shaders.js';
+import { UNPACK } from './texel_shaders.js';
 
-export const SPLAT_VERTEX = `${HEAD}
-precision highp usampler2D;
-uniform sampler2D places, spreads, tilts, colours;  // of packed_splats.js
+export const SPLAT_VERTEX = `${HEAD}${UNPACK}
+uniform usampler2D places, tails;  // of packed_texels.js
+uniform sampler2D colours;
 uniform usampler2D order;  // from the farthest to the nearest
 uniform mat3 rotation;     // world to camera: right, down, forward
 uniform vec3 eye;
@@ -25,33 +26,35 @@ void main() {
   int turn = first + (gl_VertexID >> 2), columns = textureSize(places, 0).x;
   int point = int(texelFetch(order, ivec2(turn % columns, turn / columns), 0).x);
   ivec2 texel = ivec2(point % columns, point / columns);
-  vec4 place = texelFetch(places, texel, 0);
-  vec3 p = rotation * (place.xyz - eye);
-  if (!(place.w > 0.0 && p.z > nearest)) return;
+  uvec4 splat = texelFetch(places, texel, 0);
+  vec3 p = rotation * (placeOf(splat) - eye);
+  if (!(p.z > nearest)) return;
+  uvec2 tail = texelFetch(tails, texel, 0).xy;
+  float opacity = unpackHalf2x16(tail.y).x, ending = 2.0 * log(255.0 * opacity);
+  if (!(opacity > 0.0 && ending > 0.0)) return;
 
   float z = 1.0 / p.z;
   vec2 limit = FRUSTUM_SHARE * 0.5 * size / abs(focal), tangent = clamp(p.xy * z, -limit, limit);
-  // Rows of the derivative of the projection, in world axes.
-  vec3 ju = focal.x * z * (vec3(1, 0, -tangent.x) * rotation), jv = focal.y * z * (vec3(0, 1, -tangent.y) * rotation);
-  vec4 spread = texelFetch(spreads, texel, 0);
-  vec3 tilt = texelFetch(tilts, texel, 0).xyz;
-  mat3 covariance = thinning * mat3(spread.x, tilt.x, tilt.y, tilt.x, spread.y, tilt.z, tilt.y, tilt.z, spread.z);
-  vec3 mu = covariance * ju;
-  float uu = dot(ju, mu) + FILTER, uv = dot(jv, mu), vv = dot(jv, covariance * jv) + FILTER;
+  // Rows of the derivative of the projection, in world axes, along the triangle L: the covariance is L L'.
+  vec2 one = unpackHalf2x16(splat.z), two = unpackHalf2x16(splat.w), three = unpackHalf2x16(tail.x);
+  mat3 triangle = mat3(one, two.y, 0, two.x, three.y, 0, 0, three.x);
+  vec3 ju = focal.x * z * (vec3(1, 0, -tangent.x) * rotation) * triangle;
+  vec3 jv = focal.y * z * (vec3(0, 1, -tangent.y) * rotation) * triangle;
+  float uu = thinning * dot(ju, ju) + FILTER, uv = thinning * dot(ju, jv), vv = thinning * dot(jv, jv) + FILTER;
   float inverse = 1.0 / (uu * vv - uv * uv);
   if (!(inverse > 0.0 && inverse < 1e30)) return;
   at = centre + focal * p.xy * z;
-  vec2 box = sqrt(place.w * vec2(uu, vv));
+  vec2 box = sqrt(ending * vec2(uu, vv));
   if (any(lessThan(at + box, vec2(0))) || any(greaterThan(at - box, size))) return;
-  ellipse = vec4(vec3(vv, -uv, uu) * inverse, spread.w);
-  ends = vec2(place.w, nearest * z);
+  ellipse = vec4(vec3(vv, -uv, uu) * inverse, opacity);
+  ends = vec2(ending, nearest * z);
   colour = texelFetch(colours, texel, 0).rgb;
 
   // A rectangle along the axes of the ellipse.
   float mean = 0.5 * (uu + vv), differ = 0.5 * (uu - vv), root = length(vec2(differ, uv));
   vec2 axis = root > 1e-6 * mean ? normalize(differ > 0.0 ? vec2(root + differ, uv) : vec2(uv, root - differ)) : vec2(1, 0);
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
-  corner *= sqrt(place.w * vec2(mean + root, max(mean - root, 0.0))) + 0.01;
+  corner *= sqrt(ending * vec2(mean + root, max(mean - root, 0.0))) + 0.01;
   gl_Position = vec4((at + corner.x * axis + corner.y * vec2(-axis.y, axis.x)) / size * 2.0 - 1.0, 0, 1);
 }`;
 

@@ -5,18 +5,26 @@ import { bind, image, sample, target, use } from './gl_objects.js';
 import { PointPipeline } from './point_pipeline.js';
 import * as shaders from './shaders.js';
 
+const LARGEST_SPRITE = 32; // pixels; sides of larger discs differ by more pixels than corners are worth
+
 export class SurfelPipeline extends PointPipeline {
   constructor(gl) {
     super(gl, {
-      depth: [shaders.DEPTH_VERTEX, shaders.DEPTH_FRAGMENT],
-      blend: [shaders.BLEND_VERTEX, shaders.BLEND_FRAGMENT],
+      depth: [shaders.depthVertex('quads'), shaders.DEPTH_FRAGMENT],
+      depthSprites: [shaders.depthVertex('sprites'), shaders.DEPTH_FRAGMENT],
+      blend: [shaders.blendVertex('quads'), shaders.BLEND_FRAGMENT],
+      blendSprites: [shaders.blendVertex('sprites'), shaders.BLEND_FRAGMENT],
       resolve: [shaders.SCREEN_VERTEX, shaders.RESOLVE_FRAGMENT],
     });
+    const widest = gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1];
+    this.largestSprite = widest < LARGEST_SPRITE ? 0 : LARGEST_SPRITE;
   }
 
-  ownTexels({ discs, directions }) {
-    const { gl } = this;
-    return { discs: [gl.RGBA32F, gl.RGBA, gl.FLOAT, discs], directions: [gl.RGBA32F, gl.RGBA, gl.FLOAT, directions] };
+  ownTexels({ directions }) {
+    const { gl } = this,
+      own = { colours: [gl.RGB10_A2, gl.RGBA, gl.UNSIGNED_INT_2_10_10_10_REV, null] };
+    if (directions) own.directions = [gl.R32UI, gl.RED_INTEGER, gl.UNSIGNED_INT, directions];
+    return own;
   }
 
   drawPoints(view, eye, share) {
@@ -28,8 +36,14 @@ export class SurfelPipeline extends PointPipeline {
       this.setCamera(uniforms, view, eye);
       gl.uniform1f(uniforms.thinning, field.points / Math.max(1, drawn));
       gl.uniform1f(uniforms.nearest, this.nearest);
+      gl.uniform1i(uniforms.rooted, field.linear ? 1 : 0);
+      gl.uniform1f(uniforms.largestSprite, this.largestSprite);
     };
-    const own = { places: t.places, discs: t.discs, directions: t.directions, colours: t.colours, depth: sums.depth };
+    const draw = (name) => {
+      if (this.largestSprite > 0) this.drawSprites(this.programs[`${name}Sprites`], own, set, drawn);
+      if (!this.allSprites(view, eye, field.points / Math.max(1, drawn))) this.drawQuads(this.programs[name], own, set, drawn);
+    };
+    const own = { places: t.places, colours: t.colours, depth: sums.depth };
     gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.depthTarget);
     gl.enable(gl.DEPTH_TEST);
@@ -37,7 +51,7 @@ export class SurfelPipeline extends PointPipeline {
     gl.depthMask(true);
     gl.clearDepth(0);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.drawQuads(this.programs.depth, own, set, drawn);
+    draw('depth');
 
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.blendTarget);
     gl.disable(gl.DEPTH_TEST);
@@ -46,10 +60,34 @@ export class SurfelPipeline extends PointPipeline {
     gl.blendFunc(gl.ONE, gl.ONE);
     gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
     gl.clearBufferfv(gl.COLOR, 1, [0, 0, 0, 0]);
-    this.drawQuads(this.programs.blend, own, set, drawn);
+    draw('blend');
     gl.disable(gl.BLEND);
     gl.blendEquation(gl.FUNC_ADD);
     this.statistics.discs = drawn;
+  }
+
+  drawSprites(program, textures, set, drawn) {
+    const { gl } = this,
+      uniforms = use(gl, program);
+    bind(gl, uniforms, textures);
+    set(uniforms);
+    gl.uniform1i(uniforms.first, 0);
+    gl.bindVertexArray(this.nothing);
+    gl.drawArrays(gl.POINTS, 0, drawn);
+  }
+
+  /** Whether every disc of a view is a sprite: the ball of all is in the picture, and the widest would be no wider. */
+  allSprites({ width, height, fx, fy, cx, cy, rotation }, eye, thinning) {
+    const { widest, reach, step } = this.field,
+      ball = reach / step + 1,
+      radius = widest * Math.sqrt(thinning),
+      [x, y, z] = [0, 3, 6].map((row) => -rotation[row] * eye[0] - rotation[row + 1] * eye[1] - rotation[row + 2] * eye[2]),
+      near = z - ball;
+    const within = (along, focal, side) => focal * along + side * z > ball * Math.hypot(focal, side);
+    const inside = within(x, fx, cx) && within(x, -fx, width - cx) && within(y, fy, cy) && within(y, -fy, height - cy);
+    if (!(near > radius && inside)) return false;
+    const slant = 1 + (Math.max(cx, width - cx) / fx) ** 2 + (Math.max(cy, height - cy) / fy) ** 2;
+    return 2 * radius * (Math.max(fx, fy) / near) * slant + 5 < this.largestSprite;
   }
 
   /**

@@ -59,12 +59,16 @@ test('a file of splats does not stand in the way: any kind of points may move', 
   const page = await here.open('src=/files/tube.slf&paused=1');
   const uploaded = await page.evaluate(async () => {
     const { viewer } = window, { stage } = viewer, parts = (name) => import(new URL(name, document.baseURI));
-    const { SplatPipeline } = await parts('splat_pipeline.js');
+    const { SplatPipeline } = await parts('splat_pipeline.js'), { writeSplat } = await parts('packed_texels.js');
     const splats = (points, radius) => {
-      const rows = Math.ceil(points / 64), texels = 64 * rows, one = (v) => Float32Array.from({ length: 4 * texels }, (_, i) => v(i >> 2, i & 3));
-      return { ...stage.packed, splats: true, moving: true, points, columns: 64, rows, nearest: 0.001,
-        places: one((p, k) => (k === 3 ? 8 : Math.sin(p * (k + 1)) * radius)), spreads: one(() => 0.5), tilts: one(() => 0),
-        means: new Uint8Array(4 * texels).fill(200), weights: new Int16Array(12 * stage.packed.layers * texels) };
+      const rows = Math.ceil(points / 64), texels = 64 * rows, words = (n) => new Uint32Array(n * texels),
+        [places, tails] = [words(4), words(2)];
+      for (let p = 0; p < points; ++p) {
+        const place = [1, 2, 3].map((k) => 512 + Math.round(Math.sin(p * k) * radius));
+        writeSplat(places, tails, p, place, [0.5, 0, 0, 0.5, 0, 0.5], 0.5);
+      }
+      return { ...stage.packed, splats: true, moving: true, points, columns: 64, rows, nearest: 0.001, middle: [512, 512, 512],
+        places, tails, directions: null, means: new Uint8Array(4 * texels).fill(200), weights: words(4 * stage.packed.weightLayers) };
     };
     const shows = (packed) => {
       stage.setField(packed);

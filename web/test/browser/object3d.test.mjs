@@ -44,11 +44,12 @@ async function scenePage() {
 
 test('its bounds are those of its discs, as they stand in the scene', { skip }, async () => {
   const page = await scenePage();
-  const { box, exact, centre, packed, outside } = await page.evaluate(() => {
+  const { box, exact, centre, packed, outside } = await page.evaluate(async () => {
+    const { placeOf } = await import(new URL('packed_texels.js', document.baseURI));
     const { THREE, field } = window, box = new THREE.Box3().setFromObject(field), { packed } = field;
     let outside = 0;
     for (let p = 0; p < packed.points; ++p) {
-      const at = new THREE.Vector3(...[0, 1, 2].map((k) => packed.centre[k] + packed.step * packed.places[4 * p + k]));
+      const at = new THREE.Vector3(...placeOf(packed, p).map((v, k) => packed.centre[k] + packed.step * (v - packed.middle[k])));
       outside += !box.clone().expandByScalar(packed.step).containsPoint(at.applyMatrix4(field.matrixWorld));
     }
     const list = (b) => [...b.min.toArray(), ...b.max.toArray()];

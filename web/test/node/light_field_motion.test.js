@@ -6,6 +6,7 @@ import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 import { SlfDecoder } from '../../slf_node.js';
 import { packField } from '../../viewer/packed_field.js';
+import { normalOf, placeOf, shiftOf } from '../../viewer/packed_texels.js';
 import { aborted } from '../../viewer/source_stream.js';
 import { caseOf } from './support.js';
 
@@ -172,7 +173,7 @@ test('bounds and rays are those of the frame that shows', { skip }, async () => 
   for (const place of [0, 2, 0]) {
     await field.setFrame(place);
     field.updateMatrixWorld(true);
-    const { box: [low, high], centre, step, places, discs } = whole[place], box = new Box3().setFromObject(field);
+    const { box: [low, high], centre, middle, step } = whole[place], box = new Box3().setFromObject(field);
     const near = (a, b) => a.forEach((v, k) => assert.ok(Math.abs(v - b[k]) < 1e-5 * (1 + Math.abs(b[k])), `${a} ${b}`));
     near(box.min.toArray(), low);
     near(box.max.toArray(), high);
@@ -180,8 +181,9 @@ test('bounds and rays are those of the frame that shows', { skip }, async () => 
     near(field.geometry.boundingSphere.center.toArray(), centre);
     boxes.push(box);
     // From outside, along the normal of a disc whose core nothing hides: it is met where this frame has it.
-    const p = 4 * 7, at = [0, 1, 2].map((k) => centre[k] + step * (places[p + k] + places[p + 3] * discs[p + k]));
-    const ray = new Raycaster(new Vector3(...at), new Vector3(...[0, 1, 2].map((k) => -discs[p + k])));
+    const normal = normalOf(whole[place], 7), shift = shiftOf(whole[place], 7),
+      at = placeOf(whole[place], 7).map((v, k) => centre[k] + step * (v - middle[k] + shift * normal[k]));
+    const ray = new Raycaster(new Vector3(...at), new Vector3(...normal.map((v) => -v)));
     ray.ray.origin.addScaledVector(ray.ray.direction, -1e-3 * STEP);
     const [met] = ray.intersectObject(field);
     assert.ok(met && met.distance < step, `frame ${place}`);

@@ -4,19 +4,17 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { SlfDecoder } from '../../slf_node.js';
 import { packField } from '../../viewer/packed_field.js';
+import { placeOf, writeDisc } from '../../viewer/packed_texels.js';
 import { colourFrom, pick } from '../../viewer/pick.js';
 import { caseOf } from './support.js';
 
 const { bytes } = caseOf('harmonics');
 const field = (await SlfDecoder.create()).decode(bytes), packed = packField(field);
 
-/** A field of discs of radius 1 with these places and normals. */
+/** A field of discs of radius 10 with these places and normals. */
 function discs(...list) {
-  const out = { points: list.length, places: new Float32Array(4 * list.length), discs: new Float32Array(4 * list.length) };
-  list.forEach(([place, normal], i) => {
-    out.places.set([...place, 0], 4 * i);
-    out.discs.set([...normal, 1], 4 * i);
-  });
+  const out = { points: list.length, middle: [100, 100, 100], places: new Uint32Array(4 * Math.max(1, list.length)) };
+  list.forEach(([place, normal], i) => writeDisc(out.places, i, place.map((v) => v + 100), normal, 0, 10, 1));
   return out;
 }
 
@@ -26,7 +24,7 @@ test('the colour of a point along a way is its radiance there', () => {
   for (const eye of eyes) {
     const points = Uint32Array.from({ length: Math.min(200, field.points) }, (_, i) => Math.floor((i * field.points) / 200) % field.points);
     const ways = Float64Array.from([...points].flatMap((p) => {
-      const way = [0, 1, 2].map((k) => eye[k] - packed.places[4 * p + k]), length = Math.hypot(...way);
+      const place = placeOf(packed, p), way = [0, 1, 2].map((k) => eye[k] + packed.middle[k] - place[k]), length = Math.hypot(...way);
       return way.map((x) => x / length);
     }));
     const exact = field.radiance(points, ways);
@@ -38,23 +36,23 @@ test('the colour of a point along a way is its radiance there', () => {
 });
 
 test('the nearest disc is met, from either side, and none behind the eye or beside the ray', () => {
-  const two = discs([[0, 0, 5], [0, 0, 1]], [[0, 0, 9], [0, 0, -1]]);
+  const two = discs([[0, 0, 50], [0, 0, 1]], [[0, 0, 90], [0, 0, -1]]);
   const met = pick(two, [0, 0, 0], [0, 0, 1]);
-  assert.deepEqual([met.index, met.distance, met.normal.map((x) => x + 0)], [0, 5, [0, 0, -1]]);
-  assert.equal(pick(two, [0, 0, 7], [0, 0, 1]).index, 1);
-  assert.equal(pick(two, [0, 0, 10], [0, 0, 1]), null);
-  assert.equal(pick(two, [1.01, 0, 0], [0, 0, 1]), null);
+  assert.deepEqual([met.index, met.distance, met.normal.map((x) => x + 0)], [0, 50, [0, 0, -1]]);
+  assert.equal(pick(two, [0, 0, 70], [0, 0, 1]).index, 1);
+  assert.equal(pick(two, [0, 0, 100], [0, 0, 1]), null);
+  assert.equal(pick(two, [10.1, 0, 0], [0, 0, 1]), null);
 });
 
 test('a core that is behind a rim fixes the depth, a rim alone does', () => {
-  const shifted = discs([[0.9, 0, 4], [0, 0, 1]], [[0, 0, 5], [0, 0, 1]]);
+  const shifted = discs([[9, 0, 40], [0, 0, 1]], [[0, 0, 50], [0, 0, 1]]);
   assert.equal(pick(shifted, [0, 0, 0], [0, 0, 1]).index, 1);
-  assert.equal(pick(discs([[0.9, 0, 4], [0, 0, 1]]), [0, 0, 0], [0, 0, 1]).index, 0);
+  assert.equal(pick(discs([[9, 0, 40], [0, 0, 1]]), [0, 0, 0], [0, 0, 1]).index, 0);
 });
 
 test('a disc without a normal looks at the eye, one on edge is met where it is nearest, no point is no hit', () => {
-  const met = pick(discs([[0, 0.2, 5], [0, 0, 0]]), [0, 0, 0], [0, 0, 1]);
-  assert.deepEqual([met.distance, met.normal.map((x) => x + 0)], [5, [0, 0, -1]]);
-  assert.equal(pick(discs([[0, 0, 5], [0, 1, 0]]), [0, 0, 0], [0, 0, 1]).distance, 5);
-  assert.equal(pick({ points: 0, places: new Float32Array(4), discs: new Float32Array(4) }, [0, 0, 0], [0, 0, 1]), null);
+  const met = pick(discs([[0, 2, 50], [0, 0, 0]]), [0, 0, 0], [0, 0, 1]);
+  assert.deepEqual([met.distance, met.normal.map((x) => x + 0)], [50, [0, 0, -1]]);
+  assert.equal(pick(discs([[0, 0, 50], [0, 1, 0]]), [0, 0, 0], [0, 0, 1]).distance, 50);
+  assert.equal(pick(discs(), [0, 0, 0], [0, 0, 1]), null);
 });

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { SlfDecoder } from '../../slf_node.js';
 import { buffersOf, packField } from '../../viewer/packed_field.js';
+import { placeOf, splatOf, writeSplat } from '../../viewer/packed_texels.js';
 import { pick } from '../../viewer/pick.js';
 import { SplatOrder } from '../../viewer/splat_order.js';
 import { axesOf, cross, dot, upAxes } from '../../viewer/view.js';
@@ -43,18 +44,20 @@ test('shapes are packed in voxels; those that never show or are no numbers are l
   field.opacities[1] = 0.003; // less than 1/255
   field.covariances[12] = Infinity;
   const packed = packField(field, 2);
-  assert.deepEqual([...packed.spreads.subarray(0, 3)].map((v) => Math.fround(v)), [16, 16, Math.fround(0.04)]);
-  assert.deepEqual([3, 7, 11].map((i) => packed.places[i] > 0), [true, false, false]);
-  assert.equal(new Set(buffersOf(packed)).size, 6, 'all that can be handed over');
+  const { covariance } = splatOf(packed, 0);
+  [16, 0, 0, 16, 0, 0.04].forEach((v, i) => assert.ok(Math.abs(covariance[i] - v) <= v / 1024));
+  assert.deepEqual([0, 1, 2].map((p) => splatOf(packed, p).opacity > 0), [true, false, false]);
+  assert.equal(new Set(buffersOf(packed)).size, 5, 'all that can be handed over');
   assert.ok(packed.reach >= packed.radius && packed.box[0][0] < 0 && packed.box[1][0] >= 8);
 });
 
 test('means of splats that are on their way are widened, the whole file is as it is', () => {
   const field = fieldOf([[0, 0, 0], [8, 0, 0]], FLAT);
-  assert.equal(packField(field, 2, true).spreads[0], 4);
+  const variance = (arriving) => Math.round(splatOf(packField(field, 2, arriving), 0).covariance[0]);
+  assert.equal(variance(true), 4);
   field.info.points = 20;
-  assert.equal(packField(field, 2, true).spreads[0], 34);
-  assert.equal(packField(field, 2, false).spreads[0], 4);
+  assert.equal(variance(true), 34);
+  assert.equal(variance(false), 4);
 });
 
 test('nothing is drawn nearer than the lesser of 0.2 and a fiftieth of the radius: spec E.6', () => {
@@ -64,16 +67,20 @@ test('nothing is drawn nearer than the lesser of 0.2 and a fiftieth of the radiu
 
 /** Places all around, and the order that any sort has. */
 function crowd(points, eye, forward, nearest) {
-  const places = Float32Array.from({ length: 4 * points }, (_, i) => Math.round(40 * Math.sin(i * i + 1)));
-  const depth = (p) => Math.fround([0, 1, 2].reduce((sum, k) => sum + (places[4 * p + k] - eye[k]) * forward[k], 0));
-  const sorted = Array.from({ length: points }, (_, p) => p).filter((p) => depth(p) > nearest)
-    .sort((a, b) => depth(a) - depth(b) || a - b).reverse();
-  return { places, sorted };
+  const packed = { points, nearest, middle: [64, 64, 64], places: new Uint32Array(4 * points) }, tails = new Uint32Array(2 * points);
+  const wave = (i) => 64 + Math.round(40 * Math.sin(i * i + 1));
+  for (let p = 0; p < points; ++p)
+    writeSplat(packed.places, tails, p, [wave(4 * p), wave(4 * p + 1), wave(4 * p + 2)], [1, 0, 0, 1, 0, 1], 0.5);
+  const depth = (p) => Math.fround(placeOf(packed, p).reduce((sum, v, k) => sum + (v - 64 - eye[k]) * forward[k], 0));
+  const depths = Float32Array.from({ length: points }, (_, p) => depth(p));
+  const sorted = Array.from({ length: points }, (_, p) => p).filter((p) => depths[p] > nearest)
+    .sort((a, b) => depths[a] - depths[b] || a - b).reverse();
+  return { packed, sorted };
 }
 
 test('splats are in the order of depth, the farthest first, those of one depth as in the file', () => {
-  const eye = [-50, 3, 1], forward = [0.6, 0, 0.8], { places, sorted } = crowd(5000, eye, forward, 7);
-  const order = new SplatOrder(places, 5000, 7);
+  const eye = [-50, 3, 1], forward = [0.6, 0, 0.8], { packed, sorted } = crowd(5000, eye, forward, 7);
+  const order = new SplatOrder(packed);
   assert.equal(order.towards(eye, forward, 5000), true);
   assert.deepEqual([...order.order.subarray(0, order.count)], sorted);
   assert.ok(sorted.length < 5000, 'some are too near');
@@ -83,8 +90,8 @@ test('splats are in the order of depth, the farthest first, those of one depth a
 
 test('many are sorted in slices of time, with the order before them meanwhile', () => {
   const points = 400_000, eye = [-90, 0, 0], forward = [1, 0, 0];
-  const { places, sorted } = crowd(points, eye, forward, 1), other = crowd(points, [90, 0, 0], [-1, 0, 0], 1).sorted;
-  const order = new SplatOrder(places, points, 1);
+  const { packed, sorted } = crowd(points, eye, forward, 1), other = crowd(points, [90, 0, 0], [-1, 0, 0], 1).sorted;
+  const order = new SplatOrder(packed);
   order.towards(eye, forward, points); // the first is wanted at once
   const turn = (patient) => order.towards([90, 0, 0], [-1, 0, 0], points, patient);
   let calls = 1;
