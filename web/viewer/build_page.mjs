@@ -5,6 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { readFile, writeFile, mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { build, transform } from 'esbuild';
+import { toText } from './base85.js';
 
 const here = new URL('./', import.meta.url),
   web = new URL('../', here);
@@ -79,7 +80,7 @@ html = replace(
   '</body>',
   [
     '<script type="application/json" id="slf-options">{{slf:options}}</script>',
-    `<script type="text/plain" id="slf-code">${packed.toString('base64')}</script>`,
+    `<script type="text/plain" id="slf-code">${toText(packed)}</script>`,
     '<script type="text/plain" id="slf-file">{{slf:file}}</script>\n</body>',
   ].join('\n'),
 );
@@ -91,5 +92,5 @@ row('page, minified', page.length);
 row('worker, minified', worker.length);
 row('decoder', wasm.length);
 row('the three, packed', packed.length);
-row('the same in base64', Math.ceil(packed.length / 3) * 4);
+row('the same as text', toText(packed).length);
 row('dist/one_file.html', html.length);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only code of a one-file page that stands in it as it is: unpacks the rest. The packed bytes stand after the
 // length of what they pack: three parts, each after its own (4 bytes, least significant first): page, worker, decoder.
+import { fromText } from './base85.js';
 import { unpack } from './lzma.js';
 
 addEventListener('DOMContentLoaded', async () => {
   try {
     const text = document.getElementById('slf-code');
-    const packed = Uint8Array.from(atob(text.textContent), (c) => c.charCodeAt(0));
+    const packed = fromText(text.textContent);
     text.remove();
     const lengthAt = (bytes, at) => new DataView(bytes.buffer).getUint32(at, true);
     const bytes = unpack(packed.subarray(4), lengthAt(packed, 0)),
