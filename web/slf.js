@@ -9,7 +9,7 @@
 // Types and documentation: slf.d.ts.
 import { SlfField } from './slf_field.js';
 import { SlfFrames } from './slf_frames.js';
-import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
+import { bytesOf, preflight, readCost, readInfo, setOptions } from './slf_headers.js';
 import { Instance, compile } from './slf_instance.js';
 
 /**
@@ -17,9 +17,6 @@ import { Instance, compile } from './slf_instance.js';
  * giving it memory; one beyond SMALL_BYTES for KEPT_MS, which covers the prefixes of a file that is still on its way.
  */
 const KEPT_BYTES = 512 << 20, SMALL_BYTES = 32 << 20, KEPT_MS = 5000;
-
-const UNLIMITED = { maxPoints: Number.MAX_SAFE_INTEGER, maxMemory: Number.MAX_SAFE_INTEGER,
-  maxWork: Number.MAX_SAFE_INTEGER };
 
 export class SlfDecoder {
   #module; #idle = null; #timer;
@@ -33,12 +30,7 @@ export class SlfDecoder {
   get module() { return this.#module; }
 
   info(bytes) {
-    return this.#withStream(bytes, (instance, stream) => {
-      const info = readInfo(instance, stream);
-      setOptions(instance, UNLIMITED); // what it takes is said, whatever may be allowed
-      info.decodeBytes = preflight(instance, stream).memoryBytes;
-      return info;
-    });
+    return this.#withStream(bytes, readCost);
   }
 
   preflight(bytes, options) {

@@ -3,7 +3,7 @@
 // slf_frame_stream.js fetches them.
 import { SlfError } from './slf_error.js';
 import { SlfField } from './slf_field.js';
-import { bytesOf, preflight, readInfo, setOptions } from './slf_headers.js';
+import { bytesOf, preflight, readCost, setOptions } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 22; // of what is copied into the instance at a time
 
@@ -81,7 +81,7 @@ export class SlfFrames {
   info(place = 0) {
     const first = this.groupOf(this.#known(place));
     if (this.#info.place === first) return this.#info.value;
-    const value = this.#headers(first, readInfo);
+    const value = this.#headers(first, readCost);
     if (!this.arriving) this.#info = { place: first, value };
     return value;
   }
@@ -89,9 +89,7 @@ export class SlfFrames {
   /** What decode(place) takes and gives with these options, as SlfDecoder.preflight has it; of a frame that is not predicted. */
   preflight(place, options) {
     return this.#headers(this.#known(place), (instance, stream) => {
-      const { onProgress } = instance; // of decodes
       setOptions(instance, options);
-      instance.onProgress = onProgress;
       return preflight(instance, stream);
     });
   }
@@ -135,9 +133,11 @@ export class SlfFrames {
     return this.#call((w, instance) => {
       const stream = w.slfw_frame_headers(this.#frames, place);
       if (stream === 0) instance.fail();
+      const { onProgress } = instance; // of decodes
       try {
         return read(instance, stream);
       } finally {
+        instance.onProgress = onProgress;
         w.slfw_release_stream(stream);
       }
     });

@@ -57,6 +57,17 @@ export function readInfo(instance, stream) {
   };
 }
 
+const UNLIMITED = { maxPoints: Number.MAX_SAFE_INTEGER, maxMemory: Number.MAX_SAFE_INTEGER,
+  maxWork: Number.MAX_SAFE_INTEGER };
+
+/** The same, and what a decode of all of it takes. */
+export function readCost(instance, stream) {
+  const info = readInfo(instance, stream);
+  setOptions(instance, UNLIMITED); // that is said, whatever may be allowed
+  info.decodeBytes = preflight(instance, stream).memoryBytes;
+  return info;
+}
+
 export function preflight(instance, stream) {
   if (instance.wasm.slfw_preflight(stream) !== 0) instance.fail();
   const [components, points, readBytes, fieldBytes, memoryBytes] = instance.numbers(5);

@@ -87,6 +87,7 @@ test('a light field that does not move is decoded while it arrives: each time wh
       if (end === before) continue;
       assert.equal(end, at + 1, id); // with its last byte, and not before
       assert.equal(reader.info().complete, false);
+      assert.equal(reader.info().decodeBytes, decoder.info(bytes.subarray(0, end)).decodeBytes);
       assert.equal(reader.preflight(0).memoryBytes, decoder.preflight(bytes.subarray(0, end)).memoryBytes);
       assert.deepEqual(digestsOf(reader.decode(0)), digestsOf(decoder.decode(bytes.subarray(0, end))), `${id} ${end}`);
       before = end;
