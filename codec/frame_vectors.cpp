@@ -37,7 +37,7 @@ bool code_part(Coder& coder, PartContexts& contexts, std::size_t axis, std::uint
     return true;
   }
   m = code_magnitude(coder, contexts.magnitude[axis], kLimit, m);
-  if (m == 0 || m > most) return false;
+  if (Coder::kDecodes && (m == 0 || m > most)) return false;
   negative = coder.raw(1, negative) != 0;
   given = negative ? -static_cast<std::int32_t>(m) : static_cast<std::int32_t>(m);
   ++busy;

@@ -147,7 +147,11 @@ std::vector<RefusedCase> refused_moves() {
   FrameWriter writer = moved_writer(parameters);
   writer.add(still(1));
   const std::size_t points = still(1).num_points();
-  writer.add_moved(still(1), {}, none);
+  // One point leaves the grid, whether by the most that a vector has or by more.
+  const auto away = [](std::int32_t by) {
+    return [by](std::size_t point) { return PointMove{point == 7 ? by : 0, 0, 0}; };
+  };
+  writer.add_moved(still(1), {}, away(1 << 21));
   const Bytes first = writer.frames()[0];
   const auto add = [&](const char* id, const char* purpose, const MovesOf& of,
                        const Bytes& behind = {}) {
@@ -169,10 +173,8 @@ std::vector<RefusedCase> refused_moves() {
     for (const EditableUnit& unit : units) append_unit(stream, unit.type, unit.payload);
     cases.push_back({id, purpose, {"8.12.7", "7.13"}, std::move(stream), 1});
   };
-  add("frames-moves-too-far", "a point moves by 2^21 + 1", [](auto p) {
-    return PointMove{p == 7 ? (1 << 21) + 1 : 0, 0, 0};
-  });
-  add("frames-moves-longer", "bytes behind the vectors of points", none, Bytes(40, 0x55));
+  add("frames-moves-too-far", "a point moves by 2^21 + 1", away((1 << 21) + 1));
+  add("frames-moves-longer", "bytes behind the vectors of points", away(1 << 21), Bytes(40, 0x55));
   Bytes plain = edited_frame(first, [](UnitList& units) {
     edit_sequence(units, [](SequenceParameterSet& set) { set.features = kReferenceContexts; });
   });
