@@ -55,6 +55,16 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+bool is_metadata(const Metadata& metadata) {
+  std::size_t bytes = 0;
+  for (const auto& [key, value] : metadata) {
+    if (key.empty() || (key + value).find('\0') != std::string::npos) return false;
+    if (!is_utf8(key) || !is_utf8(value)) return false;
+    bytes += key.size() + value.size() + 2;
+  }
+  return bytes <= kMaxBytes;
+}
+
 Result<Metadata> parse_metadata(std::span<const std::uint8_t> payload) {
   BitReader in(payload);
   const std::uint64_t size = in.ue("metadata_bytes");

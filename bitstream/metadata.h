@@ -15,6 +15,9 @@ namespace slf {
 /// Well-formed: no character in more bytes than it needs, no half of a surrogate pair.
 bool is_utf8(std::string_view text);
 
+/// What write_metadata may be given: names, UTF-8, no zero byte, no more than a reader takes.
+bool is_metadata(const Metadata& metadata);
+
 /// @errors kOutOfRange: damaged, not sized as said, not UTF-8, more than 1 MiB when inflated.
 Result<Metadata> parse_metadata(std::span<const std::uint8_t> payload);
 std::vector<std::uint8_t> write_metadata(const Metadata& metadata);

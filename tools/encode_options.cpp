@@ -13,7 +13,6 @@ namespace slf::tools {
 namespace {
 
 /// Metadata are 2^20 bytes at most (spec 7.8), and other keys are among them.
-constexpr std::size_t kMostNotesOfFile = std::size_t{1} << 19;
 
 void add_input_options(CLI::App& verb, EncodeOptions& o, const char* file) {
   verb.add_option("CAPTURE", o.capture,
@@ -119,10 +118,7 @@ Outcome resolve_metadata(const EncodeOptions& given, Metadata& metadata) {
   }
   if (given.notes.empty()) return Done{};
   SLF_TRY(std::string notes, read_notes(given.notes));
-  if (notes.size() > kMostNotesOfFile)
-    return Failure{kUsage, std::string(given.verb) + ": --notes " + given.notes + " is more than " +
-                               std::to_string(kMostNotesOfFile) +
-                               " bytes: slf html takes them, or the viewer beside the file"};
+  SLF_CHECK(check_notes_of_file(std::string(given.verb) + ": --notes", given.notes, notes));
   metadata.emplace_back(kNotesKey, std::move(notes));
   return Done{};
 }

@@ -95,6 +95,7 @@ int run(int argc, char** argv) {
   add_export(program, verb);
   add_info(program, verb);
   add_truncate(program, verb);
+  add_annotate(program, verb);
   add_html(program, verb);
   add_igc(program, verb);
   add_settings_verb(program, verb);

@@ -22,6 +22,8 @@ DESCRIPTIONS = {
     'export': 'Writes a file that other programs draw. Colours are fitted by harmonics, so something is lost; the report says how much.',
     'info': 'Shows headers, sizes and settings of a file, and what a decode of it takes. No points are decoded.',
     'truncate': 'Leaves parts of a file out: what is left is decoded to the same integers as before.',
+    'annotate': 'Writes notes or the scale of the world into a file. All else stays byte for byte but for the index, and is decoded to the same '
+                'integers.',
     'html': 'Writes one page that holds the file, its decoder and a viewer. It is opened by a double click, without a server and without a '
             'network.',
     'igc': 'Codes the photographs by a video codec and the points by slf, to compare with. Readers of .slf do not read such files.',
@@ -51,6 +53,8 @@ EXAMPLES = {
     'info': [('slf info can.slf', 'For people'), ('slf info can.slf --json', 'For programs')],
     'truncate': [('slf truncate can.slf --max-bytes 20000 -o small.slf', 'As much as fits'),
                  ('slf truncate can.slf --levels 7 -o coarse.slf', 'A coarser cloud')],
+    'annotate': [('slf annotate can.slf notes.json -o noted.slf', 'Notes from the editor of the viewer'),
+                 ('slf annotate can.slf none --metres-per-unit 0.001 -o bare.slf', 'Without notes, in millimetres')],
     'html': [('slf html can.slf -o can.html', 'A page'), ('slf html can.slf --autorotate 10 --title Can -o can.html', 'One that turns')],
     'igc': [('slf igc can -o can.igc --qp 30', 'At one quality'), ('slf eval can.igc can', 'What it is worth')],
     'settings': [('slf settings', 'For people'), ('slf settings --json', 'For programs')],

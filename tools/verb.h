@@ -28,5 +28,6 @@ void add_eval(CLI::App& program, Run& run);
 void add_export(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_truncate(CLI::App& program, Run& run);
+void add_annotate(CLI::App& program, Run& run);
 
 }  // namespace slf::tools

@@ -8,6 +8,7 @@
 #include "failure.h"
 #include "module.h"
 #include "reporter.h"
+#include "slf/annotate.h"
 #include "slf/gaussian_files.h"
 #include "slf/jpeg.h"
 #include "slf/notes.h"
@@ -118,6 +119,15 @@ void add_files(py::module_& m) {
             checked_notes(file, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()}));
       },
       py::arg("file"), py::arg("json"));
+  m.def(
+      "annotate",
+      [](const py::object& source,
+         const std::vector<std::pair<std::string, std::optional<std::string>>>& metadata,
+         std::optional<double> metres) {
+        const BytesView view(source);
+        return bytes_of(value_of(annotate(view.bytes(), {metadata, metres})));
+      },
+      py::arg("source"), py::arg("metadata"), py::arg("metres_per_unit"));
   m.def("jpeg", &jpeg_of, py::arg("picture"), py::arg("quality"));
   m.def("named_view", &view_of, py::arg("metadata"), py::arg("up"), py::arg("width"),
         py::arg("height"));

@@ -12,16 +12,6 @@
 namespace slf {
 namespace {
 
-bool valid_metadata(const Metadata& metadata) {
-  std::size_t bytes = 0;
-  for (const auto& [key, value] : metadata) {
-    if (key.empty() || (key + value).find('\0') != std::string::npos) return false;
-    if (!is_utf8(key) || !is_utf8(value)) return false;
-    bytes += key.size() + value.size() + 2;
-  }
-  return bytes <= 1u << 20;
-}
-
 /// There is one of everything for every point and function.
 Result<Done, InputError> check_shapes(const LightField& field, const CodingParameters& p) {
   const LightFieldHeader& h = field.header;
@@ -90,7 +80,7 @@ Result<Done, InputError> check_parameters(const LightField& field, const CodingP
   if (least < 1) return invalid_argument("quality layers: 1 to 4");
   if (most_layers(p) > 1 && p.coefficients != CoefficientCoder::kVector)
     return invalid_argument("quality layers: of the vector coder alone");
-  if (!valid_metadata(p.metadata))
+  if (!is_metadata(p.metadata))
     return invalid_argument("metadata: keys without a name, zero bytes, not UTF-8, or over 1 MiB");
   static_assert(kMostSlicePoints == kMaxSlicePoints);
   if (p.max_slice_points < 1 || p.max_slice_points > kMaxSlicePoints)

@@ -36,6 +36,22 @@ TEST_F(CliNotesTest, NotesOfEncodeAreInTheMetadata) {
   EXPECT_EQ(metadata("notes"), "");
 }
 
+TEST_F(CliNotesTest, AnnotateWritesNotesAndScaleIntoAFileThatIsThere) {
+  ASSERT_EQ(encode("").code, 0);
+  const std::string before = read("x.slf");
+  const Ran made = slf("annotate x.slf notes.json -o y.slf --metres-per-unit 0.5");
+  ASSERT_EQ(made.code, 0) << made.err;
+  ASSERT_EQ(slf("annotate x.slf notes.json -o x.slf --metres-per-unit 0.5 --quiet").code, 0);
+  EXPECT_EQ(read("x.slf"), read("y.slf")) << "in place, too";
+  EXPECT_EQ(metadata("notes"), kKept);
+  EXPECT_EQ(info()["header"]["metres_per_unit"], 0.5);
+  ASSERT_EQ(slf("annotate y.slf none --metres-per-unit 0 -o y.slf --quiet").code, 0);
+  EXPECT_EQ(read("y.slf"), before) << "what goes again leaves the file that was";
+  EXPECT_EQ(slf("annotate x.slf markup.json -o z.slf").code, 4);
+  EXPECT_EQ(slf("annotate x.slf -o z.slf").code, 2);
+  EXPECT_FALSE(exists("z.slf"));
+}
+
 TEST_F(CliNotesTest, WrongOnesAreRefusedByFileAndElementAndLeaveNothing) {
   for (const char* verb : {"encode die -o y.slf --effort 1 --quiet", "html x.slf -o y.html"}) {
     const Ran markup = slf(std::string(verb) + " --notes markup.json");

@@ -16,7 +16,7 @@ from ._errors import (ArgumentError, DamagedError, Error, InputError, LimitError
                       UnsupportedError)
 from ._evaluation import eval
 from ._field import LightField, info, read
-from ._files import export, truncate
+from ._files import annotate, export, truncate
 from ._frames import Frames, frames
 from ._notebook import Turntable
 from ._page import html
@@ -25,14 +25,14 @@ from ._types import (Camera, Capture, Encoded, Evaluation, Frame, Info, PictureQ
 
 __all__ = ['ArgumentError', 'Camera', 'Capture', 'DamagedError', 'Encoded', 'Error', 'Evaluation', 'Frame',
            'Frames', 'Info', 'InputError', 'LightField', 'LimitError', 'PictureQuality', 'PointQuality',
-           'Quality', 'Turntable', 'UnsupportedError', '__version__', 'encode', 'eval', 'export', 'frames',
+           'Quality', 'Turntable', 'UnsupportedError', '__version__', 'annotate', 'encode', 'eval', 'export', 'frames',
            'html', 'info', 'pack', 'read', 'settings', 'truncate']
 
 __version__: str = _slf.version()
 
 # Where a user finds them, in messages and in help().
 for _name in ('Camera', 'Capture', 'Encoded', 'Evaluation', 'Frame', 'Frames', 'Info', 'LightField', 'PictureQuality',
-              'PointQuality', 'Quality', 'Turntable', 'encode', 'eval', 'export', 'frames', 'html', 'info', 'pack',
+              'PointQuality', 'Quality', 'Turntable', 'annotate', 'encode', 'eval', 'export', 'frames', 'html', 'info', 'pack',
               'read', 'settings', 'truncate'):
     globals()[_name].__module__ = __name__
 del _name

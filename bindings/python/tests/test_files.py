@@ -44,6 +44,15 @@ class FilesTest(unittest.TestCase):
         with self.assertRaises(slf.DamagedError):
             slf.truncate(b'no stream')
 
+    def test_notes_and_scale_are_written_into_a_file_that_is_there(self):
+        notes = {'version': 1, 'annotations': [{'at': [0, 0, 1], 'title': 'Rim'}]}
+        noted = slf.annotate(self.data, notes=notes, metres_per_unit=0.5)
+        self.assertEqual(json.loads(dict(slf.info(noted).metadata)['notes']), notes)
+        self.assertTrue(np.array_equal(slf.read(noted).components, slf.read(self.data).components))
+        self.assertEqual(slf.annotate(noted, remove_notes=True, metres_per_unit=0), self.data)
+        with self.assertRaises(slf.InputError):
+            slf.annotate(self.data, notes={'version': 2})
+
     def test_splats_are_those_of_the_format_that_is_named(self):
         for name, begins in [('ply', b'ply'), ('glb', b'glTF'), ('spz', b'\x1f\x8b'), ('spz3', b'\x1f\x8b')]:
             self.assertTrue(slf.export(self.data, name, degree=1).startswith(begins), name)
