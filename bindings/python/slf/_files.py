@@ -2,13 +2,13 @@
 """Files made of a file: a shorter one, and splats for other programs."""
 from __future__ import annotations
 
-import json
 import math
 from typing import Optional
 
 from . import _slf
 from ._arguments import whole, wrong
 from ._field import _bytes, _named, part_of, with_part
+from ._notes import Notes, notes_text
 from ._types import Box, Source
 
 FORMATS = ('ply', 'glb', 'spz', 'spz3', 'spz4', 'sog')
@@ -30,19 +30,19 @@ def truncate(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 
                          lambda data, whole_part: _slf.truncate(data, **whole_part))
 
 
-def annotate(source: Source, *, notes: Optional[object] = None, remove_notes: bool = False,
+def annotate(source: Source, *, notes: Optional[Notes] = None, remove_notes: bool = False,
              metres_per_unit: Optional[float] = None) -> bytes:
     """A file with other notes or another scale, nothing coded again: read() gives the same points and values.
 
-    notes: what docs/notes.md describes, as of json.load(), in place of those of the file. metres_per_unit:
-    0 where it is not known. What is not given stays. Raises InputError for notes that break a rule,
+    notes: what docs/notes.md describes, a file of it or as of json.load(), in place of those of the file.
+    metres_per_unit: 0 where it is not known. What is not given stays. Raises InputError for notes that break a rule,
     DamagedError, UnsupportedError, LimitError, ArgumentError; OSError.
     """
     if notes is not None and remove_notes:
         raise wrong('notes', 'notes are given, and to be removed')
     metadata: list[tuple[str, Optional[str]]] = []
     if notes is not None:
-        metadata = [('notes', _slf.checked_notes('notes', json.dumps(notes)))]
+        metadata = [('notes', notes_text(notes))]
     elif remove_notes:
         metadata = [('notes', None)]
     with _named(source):
