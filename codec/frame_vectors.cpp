@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t kUnit = 4;  // sixteenths of a voxel of a lattice's vectors, as coded
 constexpr std::uint32_t kMostVector = 1 << 16, kMostMove = 1 << 21;
-constexpr std::uint32_t kLimit = 255;
+constexpr std::uint32_t kPartLimit = 255;
 
 /// Decisions about the parts of a vector: by axis, and by how many before are not as predicted.
 struct PartContexts {
@@ -32,11 +32,11 @@ bool code_part(Coder& coder, PartContexts& contexts, std::size_t axis, std::uint
                std::size_t& busy, std::int32_t& given) {
   auto m = static_cast<std::uint32_t>(given < 0 ? -given : given);
   bool negative = given < 0;
-  if (!coder.bit(contexts.nonzero[axis][busy], kLimit, m != 0)) {
+  if (!coder.bit(contexts.nonzero[axis][busy], kPartLimit, m != 0)) {
     given = 0;
     return true;
   }
-  m = code_magnitude(coder, contexts.magnitude[axis], kLimit, m);
+  m = code_magnitude(coder, contexts.magnitude[axis], kPartLimit, m);
   if (Coder::kDecodes && (m == 0 || m > most)) return false;
   negative = coder.raw(1, negative) != 0;
   given = negative ? -static_cast<std::int32_t>(m) : static_cast<std::int32_t>(m);
@@ -112,7 +112,7 @@ bool code_moves(Coder& coder, std::vector<PointMove>& moves) {
   unsigned last = 0;                  // bits of the points before
   for (PointMove& move : moves) {
     const unsigned moves_on =
-        coder.bit(moving[(last & 1) + (last >> 1 & 1)], kLimit, move == PointMove{} ? 0 : 1);
+        coder.bit(moving[(last & 1) + (last >> 1 & 1)], kPartLimit, move == PointMove{} ? 0 : 1);
     last = last << 1 | moves_on;
     std::size_t busy = 0;
     for (std::size_t i = 0; i < 3 && moves_on != 0; ++i)

@@ -131,7 +131,6 @@ export default {
   'It ends before it should: perhaps it was not copied whole.': 'Sie endet zu früh: vielleicht wurde sie nicht ganz kopiert.',
   'Some of its bytes have changed since it was written.': 'Einige Bytes haben sich seit dem Schreiben geändert.',
   'It is not an .slf file.': 'Es ist keine .slf-Datei.',
-  'This is not an .slf file.': 'Dies ist keine .slf-Datei.',
   'It was made for another version or profile of the decoder.': 'Sie ist für eine andere Version oder ein anderes Profil des Decoders.',
   'Decoding it takes more than this page allows.': 'Das Decodieren braucht mehr, als diese Seite erlaubt.',
   'There is not enough memory to decode it.': 'Der Speicher reicht zum Decodieren nicht aus.',

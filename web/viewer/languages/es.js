@@ -130,7 +130,6 @@ export default {
   'It ends before it should: perhaps it was not copied whole.': 'Termina antes de lo debido: quizá no se copió entero.',
   'Some of its bytes have changed since it was written.': 'Algunos de sus bytes han cambiado desde que se escribió.',
   'It is not an .slf file.': 'No es un archivo .slf.',
-  'This is not an .slf file.': 'Esto no es un archivo .slf.',
   'It was made for another version or profile of the decoder.': 'Es para otra versión u otro perfil del decodificador.',
   'Decoding it takes more than this page allows.': 'Decodificarlo requiere más de lo que permite esta página.',
   'There is not enough memory to decode it.': 'No hay memoria suficiente para decodificarlo.',

@@ -130,7 +130,6 @@ export default {
   'It ends before it should: perhaps it was not copied whole.': 'Il se termine trop tôt : peut-être n’a-t-il pas été copié en entier.',
   'Some of its bytes have changed since it was written.': 'Certains de ses octets ont changé depuis son écriture.',
   'It is not an .slf file.': 'Ce n’est pas un fichier .slf.',
-  'This is not an .slf file.': 'Ceci n’est pas un fichier .slf.',
   'It was made for another version or profile of the decoder.': 'Il est fait pour une autre version ou un autre profil du décodeur.',
   'Decoding it takes more than this page allows.': 'Son décodage demande plus que cette page ne permet.',
   'There is not enough memory to decode it.': 'La mémoire ne suffit pas pour le décoder.',

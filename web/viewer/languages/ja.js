@@ -129,7 +129,6 @@ export default {
   'It ends before it should: perhaps it was not copied whole.': '途中で終わっています。コピーが不完全かもしれません。',
   'Some of its bytes have changed since it was written.': '書き込み後に一部のバイトが変わっています。',
   'It is not an .slf file.': '.slf ファイルではありません。',
-  'This is not an .slf file.': 'これは .slf ファイルではありません。',
   'It was made for another version or profile of the decoder.': '別のバージョンまたはプロファイル用です。',
   'Decoding it takes more than this page allows.': '復号にはこのページの許容以上が必要です。',
   'There is not enough memory to decode it.': '復号するメモリが足りません。',

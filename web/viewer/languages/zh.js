@@ -129,7 +129,6 @@ export default {
   'It ends before it should: perhaps it was not copied whole.': '文件提前结束:可能未完整复制。',
   'Some of its bytes have changed since it was written.': '部分字节在写入后发生了变化。',
   'It is not an .slf file.': '这不是 .slf 文件。',
-  'This is not an .slf file.': '这不是 .slf 文件。',
   'It was made for another version or profile of the decoder.': '它是为另一版本或配置的解码器制作的。',
   'Decoding it takes more than this page allows.': '解码所需超出此页面允许的范围。',
   'There is not enough memory to decode it.': '没有足够的内存来解码。',
