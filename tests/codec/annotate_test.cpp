@@ -3,9 +3,11 @@
 // ones. Spec 7.2, 7.8.
 #include "slf/annotate.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "frames_support.h"
 
@@ -28,7 +30,9 @@ Annotations notes(std::optional<std::string> value) {
 std::vector<Bytes> coded_units(const Bytes& stream) {
   std::vector<Bytes> all;
   for (std::size_t at = 0; at < stream.size();) {
-    if (std::equal(kSignature.begin(), kSignature.end(), stream.begin() + std::ptrdiff_t(at)))
+    const auto rest = std::span(stream).subspan(at);
+    if (std::equal(kSignature.begin(), kSignature.end(), rest.begin(),
+                   rest.begin() + std::ptrdiff_t(std::min(rest.size(), kSignature.size()))))
       at += kSignature.size();
     const auto unit = read_unit(stream, at);
     if (!unit) break;
