@@ -109,7 +109,7 @@ Result<std::vector<IndexLine>, InputError> read_lines(const fs::path& file) {
           std::from_chars(word.data(), word.data() + word.size(), line.number[i]);
       if (error != std::errc() || stop != word.data() + word.size() ||
           !std::isfinite(line.number[i]))
-        return invalid("'" + std::string(word.substr(0, 40)) + "' is no number");
+        return invalid(std::string("'").append(word.substr(0, 40)) + "' is no number");
     }
     const auto& n = line.number;
     if (!(std::abs(std::hypot(std::hypot(n[3], n[4]), std::hypot(n[5], n[6])) - 1) < 0.01))

@@ -175,27 +175,22 @@ std::vector<RefusedCase> refused_moves() {
   };
   add("frames-moves-too-far", "a point moves by 2^21 + 1", away((1 << 21) + 1));
   add("frames-moves-longer", "bytes behind the vectors of points", away(1 << 21), Bytes(40, 0x55));
-  Bytes plain = edited_frame(first, [](UnitList& units) {
-    edit_sequence(units, [](SequenceParameterSet& set) { set.features = kReferenceContexts; });
-  });
-  plain = of_version(plain, kVersionMajor, 1);
-  cases.push_back({"frames-moves-without-feature",
-                   "points move, and the sequence says nothing of it",
-                   {"8.12.7", "7.13"},
-                   joined({plain, writer.frames()[1]}),
-                   1});
-  Bytes cut = edited_frame(first, [](UnitList& units) {
-    edit_sequence(units, [](SequenceParameterSet& set) {
-      set.sps_cut_flag = 1;
-      set.sps_cut_levels = 4;
-    });
-  });
-  cut = of_version(cut, kVersionMajor, 3);
-  cases.push_back({"frames-moves-cut-levels",
-                   "points move, and levels were left out",
-                   {"8.12.7", "8.12.5"},
-                   joined({cut, writer.frames()[1]}),
-                   1});
+  const auto add_behind = [&](const char* id, const char* purpose, const char* clause, int minor,
+                              const auto& edit) {
+    const Bytes edited = edited_frame(first, [&](UnitList& units) { edit_sequence(units, edit); });
+    cases.push_back({id,
+                     purpose,
+                     {"8.12.7", clause},
+                     joined({of_version(edited, kVersionMajor, minor), writer.frames()[1]}),
+                     1});
+  };
+  add_behind("frames-moves-without-feature", "points move, and the sequence says nothing of it",
+             "7.13", 1, [](SequenceParameterSet& set) { set.features = kReferenceContexts; });
+  add_behind("frames-moves-cut-levels", "points move, and levels were left out", "8.12.5", 3,
+             [](SequenceParameterSet& set) {
+               set.sps_cut_flag = 1;
+               set.sps_cut_levels = 4;
+             });
   return cases;
 }
 

@@ -8,14 +8,11 @@ As random_streams.py, of light fields that move (7.13, 8.12): motions, lattices 
 that follow the motion or not. Every frame whole, in fewer levels and groups, and the stream with a bit inverted.
 Needs numpy. Exit code: 0 all agree, 1 some differ (those streams are kept), 2 usage.
 """
-import argparse
-import pathlib
 import struct
 import sys
-import tempfile
 
 from random_stream import RandomStream, text
-from random_streams import decoded_by, same
+from random_streams import compare, decoded_by
 from stream_writer import SIGNATURE, BitWriter, Chooser, unit
 
 
@@ -135,34 +132,14 @@ def decoded_by_text(data, levels, groups):
     return found
 
 
-def main():
-    """Compares the two decoders."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--decoder", required=True)
-    parser.add_argument("--seeds", nargs=2, type=int, default=[0, 20], metavar=("FIRST", "LAST"))
-    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("."), metavar="DIRECTORY",
-                        help="for streams that differ [.]")
-    arguments = parser.parse_args()
-    tried = refused = differ = 0
-    with tempfile.TemporaryDirectory() as folder:
-        for seed in range(*arguments.seeds):
-            try:
-                stream = RandomFrames(seed)
-            except text.Refused:
-                continue
-            for number, (data, levels, groups) in enumerate(stream.requests()):
-                for frame, ours in enumerate(decoded_by_text(data, levels, groups)):
-                    command = arguments.decoder.replace("{options}", f"--frame {frame} " * bool(frame) + "{options}")
-                    others, code = decoded_by(command, pathlib.Path(folder), (data, levels, groups, 0, []))
-                    tried, refused = tried + 1, refused + (ours is None)
-                    if code < 0 or not same(ours, others):
-                        differ += 1
-                        name = arguments.keep / f"random-frames-{seed}-{number}.slf"
-                        name.write_bytes(data)
-                        print(f"{name}: frame {frame}, levels, groups {levels, groups}, exit code {code}", file=sys.stderr)
-    print(f"random frames: {tried} decoded, {refused} of them refused, {differ} differ")
-    return 1 if differ or not tried else 0
+def tries_of(frames, decoder, folder):
+    """As random_streams.py has it, of every frame."""
+    for data, levels, groups in frames.requests():
+        for frame, ours in enumerate(decoded_by_text(data, levels, groups)):
+            command = decoder.replace("{options}", f"--frame {frame} " * bool(frame) + "{options}")
+            asked = f"frame {frame}, levels, groups {levels, groups}"
+            yield data, asked, ours, *decoded_by(command, folder, (data, levels, groups, 0, []))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare("frames", __doc__, RandomFrames, tries_of))

@@ -63,9 +63,16 @@ def same(ours, others):
         array.shape == others[name].shape and (array == others[name]).all() for name, array in ours.items())
 
 
-def main():
-    """Compares the two decoders."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def tries_of(stream, decoder, folder):
+    """Of every request: the stream, what was asked, what both decoders gave, and the exit code of the other."""
+    for request in stream.requests():
+        asked = f"levels, groups, layers, region {request[1:]}"
+        yield request[0], asked, decoded_by_text(request), *decoded_by(decoder, folder, request)
+
+
+def compare(what, description, make, tries):
+    """Compares the two decoders on what `make` makes of a seed; the exit code."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--decoder", required=True)
     parser.add_argument("--seeds", nargs=2, type=int, default=[0, 20], metavar=("FIRST", "LAST"))
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("."), metavar="DIRECTORY",
@@ -73,23 +80,21 @@ def main():
     arguments = parser.parse_args()
     tried = refused = differ = 0
     with tempfile.TemporaryDirectory() as folder:
-        for seed in range(arguments.seeds[0], arguments.seeds[1]):
+        for seed in range(*arguments.seeds):
             try:
-                stream = RandomStream(seed)
+                made = make(seed)
             except text.Refused:
                 continue
-            for number, request in enumerate(stream.requests()):
-                ours = decoded_by_text(request)
-                others, code = decoded_by(arguments.decoder, pathlib.Path(folder), request)
+            for number, (data, asked, ours, others, code) in enumerate(tries(made, arguments.decoder, pathlib.Path(folder))):
                 tried, refused = tried + 1, refused + (ours is None)
                 if code < 0 or not same(ours, others):
                     differ += 1
-                    name = arguments.keep / f"random-{seed}-{number}.slf"
-                    name.write_bytes(request[0])
-                    print(f"{name}: levels, groups, layers, region {request[1:]}, exit code {code}", file=sys.stderr)
-    print(f"random streams: {tried} decoded, {refused} of them refused, {differ} differ")
+                    name = arguments.keep / f"random-{what}-{seed}-{number}.slf"
+                    name.write_bytes(data)
+                    print(f"{name}: {asked}, exit code {code}", file=sys.stderr)
+    print(f"random {what}: {tried} decoded, {refused} of them refused, {differ} differ")
     return 1 if differ or not tried else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare("streams", __doc__, RandomStream, tries_of))

@@ -112,9 +112,8 @@ struct FrameEncoder::Impl {
   std::uint32_t features_of(const LightField& field) const {
     const bool used =
         parameters.reference_contexts && group_length > 1 && field.header.num_functions > 0;
-    return !used                         ? 0
-           : has_gaussians(field.header) ? kReferenceContexts | kMovedPoints
-                                         : kReferenceContexts;
+    if (!used) return 0;
+    return has_gaussians(field.header) ? kReferenceContexts | kMovedPoints : kReferenceContexts;
   }
 
   /// Is the frame more than the level of its group promised?

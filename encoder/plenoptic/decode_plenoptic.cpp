@@ -19,7 +19,7 @@ Result<Done, InputError> correct(std::span<const std::uint8_t> stream, const Lig
   if (!payload) return InputError{payload.error().code, in_words(payload.error())};
   if (field.partial || !corrects(*payload, field.num_points())) {
     if (warnings != nullptr)
-      warnings->push_back(
+      warnings->emplace_back(
           "the file is not whole: its bytes are near the exact ones, within a step");
     return Done{};
   }

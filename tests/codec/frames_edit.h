@@ -112,6 +112,19 @@ inline std::optional<Error> decode_all(const Bytes& stream, const DecodeOptions&
   return first;
 }
 
+/// A flipped bit in each byte from `first` on, behind a sound checksum, is an error that names its
+/// element, or gives light fields.
+inline void expect_flips_are_harmless(const Bytes& whole, std::size_t first) {
+  for (std::size_t at = first; at < whole.size(); ++at) {
+    Bytes damaged = whole;
+    damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ 1 << at * 5 % 8);
+    damaged = fuzz::with_sound_crcs_of_frames(damaged);
+    if (const auto error = decode_all(damaged, small_limits())) {
+      EXPECT_STRNE(error->element, "") << at;
+    }
+  }
+}
+
 inline void expect_error(const Bytes& stream, Errc code, const char* element, const char* unit) {
   const auto error = decode_all(stream);
   ASSERT_TRUE(error);

@@ -153,16 +153,8 @@ TEST(Spec_8_12_7_MovedPoints, MemoryForThemIsCountedBeforeItIsTaken) {
 }
 
 TEST(Spec_8_12_7_Hazards, EveryFlippedByteBehindASoundCrcIsAnErrorOrALightField) {
-  const Bytes whole = joined(two_frames(true));
-  const std::size_t first = two_frames(true)[0].size();
-  for (std::size_t at = first; at < whole.size(); ++at) {
-    Bytes damaged = whole;
-    damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ 1 << at * 5 % 8);
-    damaged = fuzz::with_sound_crcs_of_frames(damaged);
-    if (const auto error = decode_all(damaged, small_limits())) {
-      EXPECT_STRNE(error->element, "") << at;
-    }
-  }
+  const auto frames = two_frames(true);
+  expect_flips_are_harmless(joined(frames), frames[0].size());
 }
 
 TEST(Spec_7_13_VectorsOfPoints, ComeBack) {

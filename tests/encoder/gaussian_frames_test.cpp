@@ -133,30 +133,27 @@ Gaussians half_turned(const Gaussians& whole, double angle) {
   return out;
 }
 
+std::vector<Gaussians> half_turning(std::size_t frames, double angle, std::size_t count) {
+  std::vector<Gaussians> all;
+  for (std::size_t f = 0; f < frames; ++f)
+    all.push_back(half_turned(ball(count), angle * double(f)));
+  return all;
+}
+
+EncoderSettings by_cells() {
+  EncoderSettings settings;
+  settings.reference_contexts = false;
+  return settings;
+}
+
 TEST(Spec_8_12_Gaussians, WithAPartThatMovesTakeFewerBytesThanThoseThatAllMove) {
-  const Gaussians whole = ball(3000);
-  std::vector<Gaussians> part, all;
-  for (int f = 0; f < 3; ++f) {
-    part.push_back(half_turned(whole, 0.03 * f));
-    all.push_back(turned_about_z(whole, 0.03 * f));
-  }
-  EncoderSettings by_cells;
-  by_cells.reference_contexts = false;
-  EXPECT_LT(bytes_of(code(part, {}, by_cells), true),
-            bytes_of(code(all, {}, by_cells), true) * 3 / 4);
+  EXPECT_LT(bytes_of(code(half_turning(3, 0.03, 3000), {}, by_cells()), true),
+            bytes_of(code(turning(3, 0.03, 3000), {}, by_cells()), true) * 3 / 4);
 }
 
 TEST(Spec_8_12_7_Gaussians, ThatAreFollowedTakeTwoThirdsOfWhatTheirCellsForetell) {
-  const Gaussians whole = ball(1500);
-  std::vector<Gaussians> part, all;
-  for (int f = 0; f < 3; ++f) {
-    part.push_back(half_turned(whole, 0.03 * f));
-    all.push_back(turned_about_z(whole, 0.03 * f));
-  }
-  EncoderSettings by_cells;
-  by_cells.reference_contexts = false;
-  for (const auto& frames : {part, all})
-    EXPECT_LT(3 * bytes_of(code(frames), true), 2 * bytes_of(code(frames, {}, by_cells), true));
+  for (const auto& frames : {half_turning(3, 0.03, 1500), turning(3, 0.03, 1500)})
+    EXPECT_LT(3 * bytes_of(code(frames), true), 2 * bytes_of(code(frames, {}, by_cells()), true));
 }
 
 TEST(Spec_8_12_Gaussians, OnTheFinestGridAreForetoldWithoutALattice) {

@@ -17,6 +17,7 @@ struct Writer {
 /// Verbs with --output that write a file, and how each is called.
 const std::map<std::string, Writer>& writers() {
   static const std::map<std::string, Writer> all{
+      {"annotate", {"annotate x.slf none", ".slf"}},
       {"decode", {"decode x.slf", ".ply"}},
       {"encode", {"encode tiny --effort 1", ".slf"}},
       {"export", {"export x.slf", ".ply"}},

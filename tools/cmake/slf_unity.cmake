@@ -37,12 +37,14 @@ endif()
 function(slf_precompiled target)
   target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <numeric> <optional> <span>
     <string> <utility> <vector>)
-  # Adapters define macros before they include anything.
+  # Adapters define macros before they include anything, and some files have options of their own.
   get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX "${SLF_COMPILED_ALONE}|\\.c$")
   get_target_property(directory ${target} SOURCE_DIR)
   foreach(source ${sources})
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${directory})
-    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    get_property(options SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY COMPILE_OPTIONS)
+    if(options OR source MATCHES "${SLF_COMPILED_ALONE}|\\.c$")
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
   endforeach()
 endfunction()
