@@ -64,7 +64,7 @@ def same(ours, others):
 
 
 def tries_of(stream, decoder, folder):
-    """Of every request: the stream, what was asked, what both decoders gave, and the exit code of the other."""
+    """The stream, what was asked, what both decoders gave, and the exit code of the other."""
     for request in stream.requests():
         asked = f"levels, groups, layers, region {request[1:]}"
         yield request[0], asked, decoded_by_text(request), *decoded_by(decoder, folder, request)
