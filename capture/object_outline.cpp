@@ -12,7 +12,9 @@
 namespace slf {
 namespace {
 
-constexpr int kLikeBorder = 14;     // grey levels: noise of a background, not the object
+constexpr int kLike = 14;           // grey levels: noise of a background, not the object
+constexpr int kLeastNoise = 5;      // grey levels: as JPEG leaves a plain one
+constexpr double kQuiet = 0.95;     // of the border, with so little noise or a third of it
 constexpr double kEvenShare = 0.9;  // of the border that is alike
 constexpr double kLeastOfObject = 0.002,
                  kMostOfObject = 0.95;  // of a photograph that is the object
@@ -27,20 +29,28 @@ std::vector<std::size_t> border_of(int width, int height) {
 }
 
 /// Pixels of a colour like the border's.
-std::vector<std::uint8_t> like_border(const Image& image, const std::vector<std::size_t>& border) {
+std::vector<std::uint8_t> like_border(const Image& image, const std::vector<std::size_t>& border,
+                                      Background background) {
   std::array<int, 3> colour{};
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<std::uint8_t> values;
     for (const std::size_t pixel : border) values.push_back(image.data[3 * pixel + c]);
     colour[c] = median(std::move(values));
   }
-  std::vector<std::uint8_t> like(image.data.size() / 3);
-  for (std::size_t i = 0; i < like.size(); ++i) {
-    int apart = 0;
+  const auto apart = [&](std::size_t i) {
+    int most = 0;
     for (std::size_t c = 0; c < 3; ++c)
-      apart = std::max(apart, std::abs(int(image.data[3 * i + c]) - colour[c]));
-    like[i] = apart <= kLikeBorder;
+      most = std::max(most, std::abs(int(image.data[3 * i + c]) - colour[c]));
+    return most;
+  };
+  int limit = kLike;
+  if (background == Background::kCertain) {
+    std::vector<int> noise;
+    for (const std::size_t pixel : border) noise.push_back(apart(pixel));
+    limit = std::clamp(3 * quantile(std::move(noise), kQuiet), kLeastNoise, kLike);
   }
+  std::vector<std::uint8_t> like(image.data.size() / 3);
+  for (std::size_t i = 0; i < like.size(); ++i) like[i] = apart(i) <= limit;
   return like;
 }
 
@@ -67,14 +77,14 @@ std::vector<std::uint8_t> all_but_outside(const std::vector<std::uint8_t>& like,
 
 }  // namespace
 
-std::vector<std::uint8_t> object_outline(const Image& photograph) {
+std::vector<std::uint8_t> object_outline(const Image& photograph, Background background) {
   std::vector<std::uint8_t> object;
   if (photograph.channels == 4) {
     for (std::size_t i = 3; i < photograph.data.size(); i += 4)
       object.push_back(shows_object(photograph.data[i]));
   } else {
     const auto border = border_of(photograph.width, photograph.height);
-    const auto like = like_border(photograph, border);
+    const auto like = like_border(photograph, border, background);
     const auto even = std::count_if(border.begin(), border.end(),
                                     [&](std::size_t pixel) { return like[pixel] != 0; });
     if (double(even) < kEvenShare * double(border.size())) return {};

@@ -11,7 +11,7 @@
 #include "encoder/fit_capture.h"
 #include "encoder/measure/picture_background.h"
 #include "encoder/measure/ssim.h"
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "slf/parallel.h"
 #include "slf/render.h"
 

@@ -19,6 +19,16 @@ struct Candidate {
   MendingLattice on;
 };
 
+/// job.start inside of the object's hull, where that helps; its errors.
+/// @param given  those of job.start
+/// @errors those of observe
+Result<HeldOutErrors, InputError> carve_start(MendingJob& job, const HeldOutErrors& given);
+
+/// Mean square of held-out photographs, sampled, before another background: what is uncovered of
+/// the object counts as much as another colour.
+/// @errors those of observe
+Result<double, InputError> quick_error(const MendingJob& job, const SurfacePoints& mended);
+
 /// Mended where that helps, on the lattice of the grid; without points where nothing is left.
 /// @param before  errors at job.start
 /// @errors those of observe

@@ -19,6 +19,13 @@ constexpr double kPixelsApart = 0.5;      // of a round's photographs, between p
                                           // they say the same again
 constexpr std::size_t kFewest = 4000;     // points that a round has, where the capture has them
 constexpr double kThinned = 1.2;          // times farther apart: worth it
+constexpr double kStray = 2;              // pixels outside of an outline: blur, and photographs
+                                          // that disagree
+// Measured on middlebury_dino and `slf synth can --hull 4`: docs/decisions/063.
+constexpr int kPolishings = 4;
+constexpr double kPolishedCloser = 0.7;        // of the spacing, between points
+constexpr std::size_t kMostPolished = 100000;  // points: time
+constexpr double kLatticeOfSpacing = 0.9;
 
 /// Positions on the surface that their neighbours make, and its normals.
 void smooth(SurfacePoints& surface, double spacing, int threads) {
@@ -61,39 +68,73 @@ SurfacePoints first_surface(const MendingJob& job) {
   return surface;
 }
 
-/// One round: costs of offsets, the offsets, the surface anew.
-/// @param bound  whether outlines stay where the photographs have them
-void mend_round(const MendingJob& job, std::size_t round, bool bound, SurfacePoints& surface) {
+/// Where photographs of a level are looked at, and how far from the surface.
+struct Search {
+  int level = 0;
+  double spacing = 0;  ///< of the points
+  OffsetRange range;
+};
+
+Search near_surface(const MendingJob& job, int level, double spacing) {
+  const double pixel = job.pixel * std::pow(2.0, level);
+  return {level, spacing, {-2 * pixel, 0.25 * pixel, 17}};
+}
+
+Search search_of(const MendingJob& job, std::size_t round) {
+  Search search = near_surface(job, kMendingLevels[round], spacing_of(job, round));
+  const double pixel = pixel_of(job, round);
+  if (round == 0) search.range = {-8 * pixel, 0.5 * pixel, 21};
+  return search;
+}
+
+/// Costs of offsets, the offsets, and the surface that they make.
+void mend_once(const MendingJob& job, const Search& search, Outlines outlines,
+               SurfacePoints& surface) {
   const int threads = job.settings.threads;
-  const int level = kMendingLevels[round];
-  const double pixel = pixel_of(job, round), spacing = spacing_of(job, round);
+  const double spacing = search.spacing;
+  const double pixel = job.pixel * std::pow(2.0, search.level);
   ConsistencySettings matching;
   matching.spacing = pixel;
   matching.tolerance = 4 * spacing;
   matching.threads = threads;
-  const OffsetRange range = round == 0 ? OffsetRange{-8 * pixel, 0.5 * pixel, 21}
-                                       : OffsetRange{-2 * pixel, 0.25 * pixel, 17};
-  const auto costs = photo_costs(job.levels[std::size_t(level)], surface, spacing, range, matching);
+  const auto costs =
+      photo_costs(job.levels[std::size_t(search.level)], surface, spacing, search.range, matching);
   const SurfaceNeighbours near = find_neighbours(surface, kNearOffsets, kReach * spacing, threads);
   OffsetSettings choosing;
   choosing.threads = threads;
   std::vector<OffsetLimits> limits;
-  if (bound) limits = outline_limits(job.outlines, surface, spacing, threads);
-  move_along_normals(surface, choose_offsets(costs, range, near, choosing, limits));
+  if (outlines == Outlines::kBound)
+    limits = outline_limits(job.outlines, surface, spacing, threads);
+  move_along_normals(surface, choose_offsets(costs, search.range, near, choosing, limits));
   smooth(surface, spacing, threads);
-  surface = sampled(job, surface, spacing, round + 1);
+  carve_surface(job, kStray, surface);
 }
 
 }  // namespace
 
-SurfacePoints mended(const MendingJob& job, bool bound, const std::function<void()>& next) {
+SurfacePoints mended(const MendingJob& job, Outlines outlines, const std::function<void()>& next) {
   SurfacePoints surface = first_surface(job);
   for (std::size_t round = 0; round < kMendingLevels.size() && surface.size() >= kLeastMendedPoints;
        ++round) {
     next();
-    mend_round(job, round, bound, surface);
+    mend_once(job, search_of(job, round), outlines, surface);
+    surface = sampled(job, surface, spacing_of(job, round), round + 1);
   }
   return surface;
+}
+
+SurfacePoints polished(const MendingJob& job, const SurfacePoints& surface, Outlines outlines) {
+  const double most = std::sqrt(double(surface.size()) / double(kMostPolished));
+  const double spacing =
+      std::max(job.captured_spacing, std::max(kPolishedCloser, most) * job.spacing);
+  Lattice lattice = lattice_of(surface, job).lattice;
+  lattice.size = {};
+  lattice.step = kLatticeOfSpacing * spacing;
+  SurfacePoints fine =
+      resample(surface, lattice, sampling_of(job.spacing, lattice, job.settings.threads));
+  for (int i = 0; i < kPolishings && fine.size() >= kLeastMendedPoints; ++i)
+    mend_once(job, near_surface(job, 0, spacing), outlines, fine);
+  return fine;
 }
 
 }  // namespace slf

@@ -12,9 +12,14 @@ namespace slf {
 /// Levels of the photographs, a round each (docs/decisions/019).
 inline constexpr std::array<int, 4> kMendingLevels{2, 2, 1, 1};
 
+/// How a search goes about outlines: free, or held where the photographs have them.
+enum class Outlines { kFree, kBound };
+
 /// All rounds; with fewer points than kLeastMendedPoints it was nothing like a surface.
-/// @param bound  whether outlines stay where the photographs have them
 /// @param next  called before each round
-SurfacePoints mended(const MendingJob& job, bool bound, const std::function<void()>& next);
+SurfacePoints mended(const MendingJob& job, Outlines outlines, const std::function<void()>& next);
+
+/// The same surface of more points, and photographs of their own size: parts of a pixel.
+SurfacePoints polished(const MendingJob& job, const SurfacePoints& surface, Outlines outlines);
 
 }  // namespace slf

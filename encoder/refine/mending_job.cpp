@@ -9,19 +9,21 @@
 
 #include "capture/quantile.h"
 #include "capture/spacing.h"
+#include "encoder/refine/carve.h"
 
 namespace slf {
 namespace {
 
 // All measured on middlebury_dino: docs/decisions/019.
-constexpr double kPatchesApart = 1;     // of the finest photographs matched, between points: nearer
-                                        // ones have the same patch
-constexpr double kDenser = 1.2;         // times farther apart: worth it
-constexpr double kPixelsPerMended = 1;  // of the photographs: a free grid's voxel
-constexpr double kLatticeStep = 0.7;    // spacings: a lattice as fine as this has its points
-constexpr double kFinestStep = 0.3;     // spacings of points that were thinned: time and memory
-                                        // grow with the cube
-constexpr double kStepOfSpacing = 0.9;  // a lattice on which points are as far apart as before
+constexpr double kPatchesApart = 1;  // of the finest photographs matched, between points: nearer
+                                     // ones have the same patch
+constexpr double kDenser = 1.2;      // times farther apart: worth it
+constexpr double kPixelsPerMended = 0.75;  // of the photographs: a free grid's voxel
+constexpr double kFarthestCarved = 16;     // spacings
+constexpr double kLatticeStep = 0.7;       // spacings: a lattice as fine as this has its points
+constexpr double kFinestStep = 0.3;        // spacings of points that were thinned: time and memory
+                                           // grow with the cube
+constexpr double kStepOfSpacing = 0.9;     // a lattice on which points are as far apart as before
 
 /// Median size of a photograph's pixel on the surface that it faces; 0: nothing is in any picture.
 double middle_pixel(const SurfacePoints& points, std::span<const PhotoView> views) {
@@ -85,6 +87,18 @@ Result<Done, InputError> load_photographs(MendingJob& job, int coarsest) {
     halve();
   }
   return Done{};
+}
+
+Result<Done, InputError> find_hull(MendingJob& job) {
+  SLF_TRY(job.hull,
+          outlines_of(job.capture, job.parts.matched, job.settings.threads, Background::kCertain));
+  if (!are_outlined(job.hull.size(), job.parts.matched.size())) job.hull.clear();
+  return Done{};
+}
+
+void carve_surface(const MendingJob& job, double slack, SurfacePoints& surface) {
+  carve(surface, job.hull, slack * job.pixel, kFarthestCarved * job.captured_spacing,
+        job.settings.threads);
 }
 
 Result<std::vector<Silhouette>, InputError> silhouettes_of(const MendingJob& job,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/resample.h"
+#include "encoder/measure/outlines.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/refine/photo_views.h"
 #include "encoder/refine/refine_geometry.h"
@@ -30,6 +31,8 @@ struct MendingJob {
   std::vector<std::vector<PhotoView>> levels;
   std::vector<Silhouette> outlines;  ///< of the photographs that are matched, where they bind
   std::vector<Silhouette> judged;    ///< of those held out
+  std::vector<Outline> hull;         ///< of the photographs that are matched, where they tell one
+  double given_error = 0;  ///< mean square of held-out photographs, by the capture's points
 
   bool thinned() const { return captured.size() > 0; }
 };
@@ -44,6 +47,11 @@ void thin_start(MendingJob& job, int level);
 /// level `coarsest`; `pixel`.
 /// @errors those of load_image
 Result<Done, InputError> load_photographs(MendingJob& job, int coarsest);
+/// @errors those of load_image
+Result<Done, InputError> find_hull(MendingJob& job);
+/// Brings a surface inside of the hull, if there is one.
+/// @param slack  pixels: so near to an outline it is inside
+void carve_surface(const MendingJob& job, double slack, SurfacePoints& surface);
 /// @errors those of load_image
 Result<std::vector<Silhouette>, InputError> silhouettes_of(const MendingJob& job,
                                                            std::span<const int> cameras);

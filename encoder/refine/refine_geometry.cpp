@@ -2,7 +2,10 @@
 #include "encoder/refine/refine_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include "capture/quantile.h"
@@ -20,6 +23,9 @@ constexpr double kLeastGain = 0.15;  // of the squared error, for kAuto: less ma
 // Pixels of half-size photographs: a cloud that kAuto leaves (the can: 0), one that is wrong for
 // sure (the dino: 1.5; an exact can in photographs of 48 pixels: 0.5).
 constexpr double kExact = 0.25, kWrong = 1;
+// Of the squared error, that a free surface leaves of what the hull has: the dino 0.27, with
+// hollows; a can 0.8, a die 0.8, where outlines hold better or as well. docs/decisions/063
+constexpr double kHollow = 0.5;
 
 SurfacePoints surface_of(const Capture& capture, int threads) {
   SurfacePoints surface{capture.cloud.positions, capture.cloud.normals, {}};
@@ -85,8 +91,39 @@ double typical_miss(const MendingJob& job) {
   return median(std::move(misses));
 }
 
-/// Free, or where that tears the surface bound to the outlines of the photographs: a glossy or
-/// translucent object looks alike from all sides where its mirror images are, far inside. Without
+/// Surfaces by how outlines hold them; without points where they are not there yet.
+using Surfaces = std::array<SurfacePoints, 2>;
+
+Result<Done, InputError> mend_as(MendingJob& job, Outlines outlines,
+                                 const std::function<void()>& next, Surfaces& surfaces) {
+  if (outlines == Outlines::kBound) {
+    SLF_TRY(job.outlines, silhouettes_of(job, job.parts.matched));
+  }
+  surfaces[std::size_t(outlines)] = mended(job, outlines, next);
+  return Done{};
+}
+
+/// Whether a surface that outlines hold predicts photographs better than a free one. Where that
+/// gains much on the hull, the object has hollows that no outline shows, and none is made.
+/// @param before  mean square of held-out photographs, by job.start
+Result<bool, InputError> bound_is_better(MendingJob& job, double before,
+                                         const std::function<void()>& next, Surfaces& surfaces) {
+  const auto& [free, bound] = surfaces;
+  SLF_CHECK(mend_as(job, Outlines::kFree, next, surfaces));
+  double free_error = std::numeric_limits<double>::infinity();
+  if (free.size() >= kLeastMendedPoints) {
+    SLF_TRY(free_error, quick_error(job, free));
+  }
+  if (free_error < kHollow * before) return false;
+  SLF_CHECK(mend_as(job, Outlines::kBound, next, surfaces));
+  if (bound.size() < kLeastMendedPoints) return false;
+  SLF_TRY(const double bound_error, quick_error(job, bound));
+  return bound_error < free_error;
+}
+
+/// Free, or bound to the outlines of the photographs: a glossy or translucent object looks alike
+/// from all sides where its mirror images are, far inside. Where outlines tell a hull both are
+/// tried, and the better one is taken; elsewhere it is bound where free tears the surface. Without
 /// points where both tear it.
 Result<Candidate, InputError> mended_whole(MendingJob& job, const HeldOutErrors& before,
                                            const Progress& progress) {
@@ -94,14 +131,18 @@ Result<Candidate, InputError> mended_whole(MendingJob& job, const HeldOutErrors&
   const auto next = [&] {
     if (progress) progress("refine", done++ / double(2 * kMendingLevels.size() + 1));
   };
-  for (const bool bound : {false, true}) {
-    if (bound) {
-      SLF_TRY(job.outlines, silhouettes_of(job, job.parts.matched));
-    }
-    const SurfacePoints surface = mended(job, bound, next);
+  Surfaces surfaces;
+  std::array order{Outlines::kFree, Outlines::kBound};
+  if (!job.hull.empty()) {
+    SLF_TRY(const bool better, bound_is_better(job, before.mean(), next, surfaces));
+    if (better) std::swap(order[0], order[1]);
+  }
+  for (const Outlines outlines : order) {
+    const SurfacePoints& surface = surfaces[std::size_t(outlines)];
+    if (surface.size() == 0) SLF_CHECK(mend_as(job, outlines, next, surfaces));
     if (surface.size() < kLeastMendedPoints) continue;  // nothing like a surface
-    SLF_TRY(Candidate candidate, judge_mended(job, before, surface));
-    if (!candidate.torn) return candidate;
+    SLF_TRY(Candidate candidate, judge_mended(job, before, polished(job, surface, outlines)));
+    if (!candidate.torn && candidate.points.size() > 0) return candidate;
   }
   return Candidate{};
 }
@@ -120,12 +161,14 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
     out.report.too_dense_for_grid = miss >= kWrong && is_dense(job, finest);
   }
   SLF_TRY(job.judged, silhouettes_of(job, job.parts.held_out));
-  SLF_TRY(const HeldOutErrors before, sampled_errors(job, job.start));
+  SLF_TRY(const HeldOutErrors given, sampled_errors(job, job.start));
+  job.given_error = given.mean();
+  SLF_TRY(const HeldOutErrors before, carve_start(job, given));
   SLF_TRY(Candidate best, mended_whole(job, before, progress));
   RefineReport& report = out.report;
   report.kept_back = best.kept_back;
-  report.held_out_before = report.held_out_after = decibels(before.mean());
-  if (!(best.error < (1 - (automatic ? kLeastGain : 0)) * before.mean())) return Done{};
+  report.held_out_before = report.held_out_after = decibels(job.given_error);
+  if (!(best.error < (1 - (automatic ? kLeastGain : 0)) * job.given_error)) return Done{};
   report.outcome = RefineReport::kMended;
   report.held_out_after = decibels(best.error);
   count_moves(job.start, best.points, best.on.lattice.step, report);
@@ -155,7 +198,7 @@ Result<RefinedCloud, InputError> refine_geometry(const Capture& capture,
   out.report.points_before = out.report.points_after = capture.cloud.positions.size();
   out.report.outcome = obstacle(capture, cameras, settings.mode);
   if (out.report.outcome != RefineReport::kNoGain) return out;
-  MendingJob job{capture, cameras, settings, split_for_mending(cameras), {}, {}, 0, 0, 0,
+  MendingJob job{capture, cameras, settings, split_for_mending(cameras), {}, {}, 0, 0, 0, {},
                  {},      {},      {}};
   job.captured_spacing = job.spacing = typical_spacing(capture.cloud.positions);
   if (!(job.spacing > 0)) return out;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "capture/object_mask.h"
+#include "capture/object_outline.h"
 #include "encoder/fit/observe_camera.h"
 #include "encoder/fit/observe_depth.h"
 #include "encoder/measure/picture_background.h"
@@ -20,7 +21,7 @@ using Pixel = std::array<double, 2>;
 
 constexpr std::uint8_t kObject = 24;      // grey levels from the background: shows the object
 constexpr double kMostUnlike = 0.1;       // of the border beside the object, for a plain background
-constexpr double kSlack = 0.5;            // pixels: an outline is no sharper
+constexpr double kSlack = 2;              // pixels: what a moved point may be off the outline
 constexpr double kFarthest = 40;          // pixels: from outline to outline
 constexpr double kRim = 1;                // spacings: nothing is this far outwards at an outline
 constexpr double kLeastRimCosine = -0.2;  // of what may be an outline: a point's normal is
@@ -33,6 +34,10 @@ DepthSettings coverage_settings(double spacing) { return {1, 0.6 * spacing, 2.5}
 
 bool inside(const Camera& camera, const Pixel& at) {
   return at[0] >= 0 && at[0] < camera.width && at[1] >= 0 && at[1] < camera.height;
+}
+
+std::size_t sample_of(const Camera& camera, const Pixel& at) {
+  return std::size_t(at[1]) * std::size_t(camera.width) + std::size_t(at[0]);
 }
 
 bool covered(const DepthBuffer& buffer, const Pixel& at) { return buffer.hides(at, 1e30, 1); }
@@ -86,7 +91,16 @@ Silhouette silhouette_of(const Camera& camera, const Image& image, bool alpha_is
   if (!is_plain(silhouette, object)) silhouette.difference.clear();
   for (std::size_t i = 0; i < silhouette.difference.size(); ++i)
     if (object[i] == 0) silhouette.difference[i] = 0;
+  silhouette.object = object_outline(image, Background::kCertain);
   return silhouette;
+}
+
+/// What a pixel of the object counts there: at least `least`, if the photograph tells.
+std::uint8_t counted(const Silhouette& silhouette, const Pixel& at, std::uint8_t least) {
+  const std::uint8_t value = silhouette.at(at);
+  if (least == 0 || silhouette.object.empty() || !inside(*silhouette.camera, at)) return value;
+  const bool shown = silhouette.object[sample_of(*silhouette.camera, at)] != 0;
+  return shown ? std::max(value, least) : std::uint8_t{0};
 }
 
 /// A point at the outline of the surface, in a picture.
@@ -121,8 +135,8 @@ std::optional<RimPoint> at_rim(const Camera& camera, const DepthBuffer& buffer,
 std::optional<double> photographed_outline(const Silhouette& silhouette, const RimPoint& rim) {
   constexpr double kStep = 0.5;
   const auto shows = [&](double out) {
-    return silhouette.at({rim.at[0] + out * rim.outwards[0], rim.at[1] + out * rim.outwards[1]}) >
-           kObject;
+    const Pixel at{rim.at[0] + out * rim.outwards[0], rim.at[1] + out * rim.outwards[1]};
+    return counted(silhouette, at, 255) > kObject;
   };
   const bool here = shows(0);
   const double step = here ? kStep : -kStep;
@@ -131,20 +145,21 @@ std::optional<double> photographed_outline(const Silhouette& silhouette, const R
   return {};
 }
 
-/// The least of the differences around: 0 at the object's outline.
-float least_around(const Silhouette& silhouette, const Pixel& at, double pixels) {
-  std::uint8_t least = 255;
+/// The least of what counts around: 0 at the object's outline.
+float least_around(const Silhouette& silhouette, const Pixel& at, double pixels,
+                   std::uint8_t least) {
+  std::uint8_t found = 255;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
-      least = std::min(least, silhouette.at({at[0] + pixels * x, at[1] + pixels * y}));
-  return float(least);
+      found = std::min(found, counted(silhouette, {at[0] + pixels * x, at[1] + pixels * y}, least));
+  return float(found);
 }
 
 }  // namespace
 
 std::uint8_t Silhouette::at(const std::array<double, 2>& image) const {
   if (difference.empty() || !inside(*camera, image)) return 0;
-  return difference[std::size_t(image[1]) * std::size_t(camera->width) + std::size_t(image[0])];
+  return difference[sample_of(*camera, image)];
 }
 
 Result<std::vector<Silhouette>, InputError> load_silhouettes(const Capture& capture,
@@ -205,7 +220,8 @@ std::vector<OffsetLimits> outline_limits(std::span<const Silhouette> silhouettes
 }
 
 HeldOutErrors uncovered_errors(std::span<const Silhouette> silhouettes, const SurfacePoints& before,
-                               const SurfacePoints& after, double spacing, int threads) {
+                               const SurfacePoints& after, double spacing, int threads,
+                               std::uint8_t least) {
   struct Lost {
     std::uint32_t point;
     float cosine, square;
@@ -228,7 +244,7 @@ HeldOutErrors uncovered_errors(std::span<const Silhouette> silhouettes, const Su
         const auto at = camera.project({position[0], position[1], position[2]}, &z);
         if (!at || !inside(camera, *at) || covered(is, *at) || was.hides(*at, z, cosine)) continue;
         const float value =
-            least_around(silhouette, *at, kInside * std::max(1.0, spacing * focal / z));
+            least_around(silhouette, *at, kInside * std::max(1.0, spacing * focal / z), least);
         if (value > kObject) each[i].push_back({std::uint32_t(p), float(cosine), value * value});
       }
     }

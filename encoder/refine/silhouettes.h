@@ -20,6 +20,9 @@ struct Silhouette {
   std::vector<std::uint8_t> difference;  ///< [height][width] root mean square of R, G, B; 0 where
                                          ///< the cloud is not; empty: nothing plain is behind it
 
+  std::vector<std::uint8_t> object;  ///< [height][width] 1: the object by the photograph alone;
+                                     ///< empty: it does not tell
+
   std::uint8_t at(const std::array<double, 2>& image) const;  ///< 0 outside
 };
 
@@ -39,7 +42,10 @@ std::vector<OffsetLimits> outline_limits(std::span<const Silhouette> silhouettes
 /// [P of before] What mending uncovers of the object, in the silhouettes' cameras: there the
 /// picture shows what stands behind in place of the photograph. At the photograph's outline nothing
 /// counts.
+/// @param least  grey levels that a pixel of the object counts, where photographs tell: another
+///               background shows what an object as grey as this one hides
 HeldOutErrors uncovered_errors(std::span<const Silhouette> silhouettes, const SurfacePoints& before,
-                               const SurfacePoints& after, double spacing, int threads);
+                               const SurfacePoints& after, double spacing, int threads,
+                               std::uint8_t least = 0);
 
 }  // namespace slf

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/train/train_geometry.h"

@@ -8,7 +8,7 @@
 #include "capture/nearest.h"
 #include "capture/spacing.h"
 #include "encoder/train/changed_views.h"
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "encoder/train/starting_points.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/train/train_surfels.h"

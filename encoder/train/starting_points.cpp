@@ -13,7 +13,7 @@
 #include "capture/spacing.h"
 #include "capture/surface_points.h"
 #include "encoder/train/chance.h"
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "slf/parallel.h"
 
 namespace slf {

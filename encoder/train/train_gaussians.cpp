@@ -6,7 +6,7 @@
 
 #include "encoder/train/camera_twists.h"
 #include "encoder/train/far_surfels.h"
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_surfels.h"
 #include "encoder/train/training_start.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 #include "encoder/train/train_geometry.h"
 #include "encoder/train/train_surfels.h"
 #include "encoder/train/trained_surfel.h"
@@ -37,7 +37,7 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
 /// @param is_volume  they begin anywhere, and all as faint
 void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainSettings& training);
 
-/// Leaves out surfels outside of the object, where outlines tell (encoder/train/outlines.h): what
+/// Leaves out surfels outside of the object, where outlines tell (encoder/measure/outlines.h): what
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
 void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels);
 

@@ -204,7 +204,7 @@ TEST(Photographs, AreTurnedWhereOnlySoTheyHaveTheirCalibratedSize) {
 TEST(Photographs, AColourProfileThatIsNotSrgbIsNamed) {
   const auto profile = [](const std::string& description) {
     return segment('\xE2',
-                   std::string("ICC_PROFILE\0\1\1", 14) + std::string(128, '\1') + description);
+                   std::string("ICC_PROFILE\0\1\1", 14).append(128, '\1').append(description));
   };
   const auto p3 = with_photographs(jpeg_of(16, 12, profile("Display P3")), false);
   ASSERT_TRUE(p3) << p3.error().message;

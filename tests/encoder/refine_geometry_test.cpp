@@ -88,7 +88,7 @@ TEST_F(RefineGeometryTest, OnAFreeGridACloudDenserThanThePhotographsGetsThePoint
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->report.outcome, RefineReport::kMended);
   EXPECT_LT(distance(refined->cloud), 0.6 * distance(fat));
-  EXPECT_LT(refined->cloud.positions.size(), 40000u);
+  EXPECT_LT(refined->cloud.positions.size(), 54000u);
   EXPECT_FALSE(refined->report.too_dense_for_grid) << "it is thinned";
   ASSERT_GT(refined->voxel_size, voxel);
   const auto voxels = voxelise(refined->cloud, 9, refined->voxel_size);

@@ -69,6 +69,15 @@ TEST_F(SilhouetteTest, WhatIsUncoveredCountsAsTheBackgroundThatShowsInItsPlace) 
   EXPECT_GT(counted, 50u);
 }
 
+TEST_F(SilhouetteTest, AnObjectAsGreyAsItsBackgroundCountsWhereThatIsAsked) {
+  Capture capture = capture_;
+  for (std::uint8_t& value : capture.images[0].data) value = value == 200 ? 110 : value;
+  const auto alike = *load_silhouettes(capture, std::vector<int>{0}, sphere_, spacing_, 2);
+  const SurfacePoints smaller = of_radius(1 - 5 * spacing_);
+  EXPECT_EQ(uncovered_errors(alike, sphere_, smaller, spacing_, 2).mean(), 0);
+  EXPECT_NEAR(uncovered_errors(alike, sphere_, smaller, spacing_, 2, 64).mean(), 64 * 64, 1);
+}
+
 TEST_F(SilhouetteTest, ASmallerOutlineUncoversNothingUntilItIsAPointSpacingSmaller) {
   EXPECT_EQ(uncovered_errors(silhouettes_, sphere_, of_radius(1 - spacing_), spacing_, 2).mean(),
             0);
@@ -78,6 +87,7 @@ TEST_F(SilhouetteTest, ASmallerOutlineUncoversNothingUntilItIsAPointSpacingSmall
 
 TEST_F(SilhouetteTest, OutlinesGoWhereThePhotographHasThem) {
   const double pixel = std::sqrt(24.0) / 400;  // at the outline
+  const double slack = 3.5 * pixel;            // 2 that are granted, and what steps and discs add
   for (const double radius : {1.0, 1.08}) {
     const SurfacePoints points = of_radius(radius);
     const auto limits = outline_limits(silhouettes_, points, spacing_, 2);
@@ -86,8 +96,8 @@ TEST_F(SilhouetteTest, OutlinesGoWhereThePhotographHasThem) {
       if (limits[p].most > 1) continue;
       ++limited;
       EXPECT_LE(limits[p].least, limits[p].most);
-      EXPECT_GE(limits[p].least, 1 - radius - 2 * pixel);
-      EXPECT_LE(limits[p].most, 1 - radius + spacing_ + 2 * pixel);
+      EXPECT_GE(limits[p].least, 1 - radius - slack);
+      EXPECT_LE(limits[p].most, 1 - radius + spacing_ + slack);
       // Seen from a finite distance the outline is a little before the middle.
       EXPECT_NEAR(points.positions[p][2] / radius, -0.2, 0.25);
     }

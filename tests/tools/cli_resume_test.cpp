@@ -42,7 +42,7 @@ TEST_F(ResumeTest, AnInterruptLeavesNoHalfFileAndTheNextRunGoesOnToTheSameBytes)
 }
 
 TEST_F(ResumeTest, WithoutAWorkDirectoryItIsRefused) {
-  expect_failure(slf(std::string(kEncode) + "x.slf --resume"), 2, "--work", "--resume");
+  expect_failure(slf(std::string(kEncode).append("x.slf --resume")), 2, "--work", "--resume");
 }
 
 }  // namespace

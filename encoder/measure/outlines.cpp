@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/train/outlines.h"
+#include "encoder/measure/outlines.h"
 
 #include <algorithm>
 #include <array>
@@ -47,14 +47,16 @@ bool in_hull(const std::vector<Outline>& outlines, const Vec3& at, double half_s
 }
 
 Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
-                                                     std::span<const int> cameras, int threads) {
+                                                     std::span<const int> cameras, int threads,
+                                                     Background background) {
   std::vector<Outline> outlines(cameras.size());
   std::vector<std::optional<InputError>> failures(cameras.size());
   parallel_ranges(cameras.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       auto photograph = load_image(capture, cameras[i]);
       if (photograph)
-        outlines[i] = {&capture.cameras[std::size_t(cameras[i])], object_outline(*photograph)};
+        outlines[i] = {&capture.cameras[std::size_t(cameras[i])],
+                       object_outline(*photograph, background)};
       else
         failures[i] = photograph.error();
     }

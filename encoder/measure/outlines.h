@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/object_outline.h"
 #include "slf/capture.h"
 #include "slf/error.h"
 
@@ -20,7 +21,8 @@ struct Outline {
 /// Outlines in the photographs that tell (object_outline); cameras are the capture's own.
 /// @errors those of load_image
 Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
-                                                     std::span<const int> cameras, int threads);
+                                                     std::span<const int> cameras, int threads,
+                                                     Background background = Background::kLikely);
 
 /// Whether so many photographs tell that the object has a hull.
 bool are_outlined(std::size_t outlines, std::size_t cameras);
