@@ -208,13 +208,14 @@ def colmap():
 def seeds(program):
     """Target: name: bytes."""
     made = {target: {} for target in
-            "decode frames render truncate export part_decoder html hevc npy ply scan obj glb image cameras colmap splats igc part plan".split()}
+            "decode frames render truncate annotate export part_decoder html hevc npy ply scan obj glb image cameras colmap splats igc part plan".split()}
     for name, stream in streams():
         made["decode"][name] = made["render"][name] = stream
         if name.startswith("frames-"):
             made["frames"][name] = stream
         made["html"][name] = stream
         made["truncate"][name] = b"\x03\x01" + stream
+        made["annotate"][name] = b"\x07\x40" + stream
         made["part_decoder"][name] = b"\x03\x01" + stream
         made["part_decoder"][name + "-region"] = b"\x40\x05" + stream
         made["export"][name] = bytes([len(made["export"]) % 6, 1]) + stream

@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:?seconds of one core for all targets together}
 shift
-all=(decode frames render truncate export part_decoder html hevc npy ply scan obj glb image cameras colmap igc part plan splats)
+all=(decode frames render truncate annotate export part_decoder html hevc npy ply scan obj glb image cameras colmap igc part plan splats)
 targets=("$@")
 [[ $# -gt 0 ]] || targets=("${all[@]}")
 build=${BUILD_DIR:-build-fuzz}
