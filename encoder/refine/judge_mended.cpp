@@ -52,6 +52,10 @@ Result<HeldOutErrors, InputError> carve_start(MendingJob& job, const HeldOutErro
   if (job.hull.empty()) return given;
   SurfacePoints carved = job.start;
   carve_surface(job, kInHull, carved);
+  if (carved.size() < kLeastMendedPoints) {  // outlines of something else
+    job.hull.clear();
+    return given;
+  }
   SLF_TRY(const HeldOutErrors after, sampled_errors(job, carved));
   const HeldOutErrors lost = uncovered_by(job, job.start, job.spacing, carved, job.spacing);
   const auto keep = worse_after(job.start, given, carved, after, lost, kRegion * job.spacing);

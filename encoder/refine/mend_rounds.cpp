@@ -114,10 +114,11 @@ void mend_once(const MendingJob& job, const Search& search, Outlines outlines,
 
 SurfacePoints mended(const MendingJob& job, Outlines outlines, const std::function<void()>& next) {
   SurfacePoints surface = first_surface(job);
-  for (std::size_t round = 0; round < kMendingLevels.size() && surface.size() >= kLeastMendedPoints;
-       ++round) {
+  for (std::size_t round = 0; round < kMendingLevels.size(); ++round) {
     next();
-    mend_once(job, search_of(job, round), outlines, surface);
+    if (surface.size() >= kLeastMendedPoints)
+      mend_once(job, search_of(job, round), outlines, surface);
+    if (surface.size() < kLeastMendedPoints) return {};
     surface = sampled(job, surface, spacing_of(job, round), round + 1);
   }
   return surface;

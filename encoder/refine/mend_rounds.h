@@ -15,7 +15,7 @@ inline constexpr std::array<int, 4> kMendingLevels{2, 2, 1, 1};
 /// How a search goes about outlines: free, or held where the photographs have them.
 enum class Outlines { kFree, kBound };
 
-/// All rounds; with fewer points than kLeastMendedPoints it was nothing like a surface.
+/// All rounds; with fewer points than kLeastMendedPoints, or none, it was nothing like a surface.
 /// @param next  called before each round
 SurfacePoints mended(const MendingJob& job, Outlines outlines, const std::function<void()>& next);
 

@@ -23,8 +23,8 @@ constexpr double kLeastGain = 0.15;  // of the squared error, for kAuto: less ma
 // Pixels of half-size photographs: a cloud that kAuto leaves (the can: 0), one that is wrong for
 // sure (the dino: 1.5; an exact can in photographs of 48 pixels: 0.5).
 constexpr double kExact = 0.25, kWrong = 1;
-// What a free surface leaves of the hull's squared error: 0.33 of the dino's, with hollows; 0.8 of a
-// can's and a die's, where outlines hold better or as well. docs/decisions/063
+// What a free surface leaves of the hull's squared error: 0.33 of the dino's, with hollows; 0.8 of
+// a can's and a die's, where outlines hold better or as well. docs/decisions/063
 constexpr double kHollow = 0.5;
 
 SurfacePoints surface_of(const Capture& capture, int threads) {

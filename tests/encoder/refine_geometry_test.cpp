@@ -137,5 +137,18 @@ TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
   }
 }
 
+TEST_F(RefineGeometryTest, ACloudBesideAllOutlinesIsNotCarvedAway) {
+  PointCloud beside = traced_->exact;  // a shell around the object, which no outline reaches
+  for (std::size_t p = 0; p < beside.positions.size(); ++p)
+    for (std::size_t a = 0; a < 3; ++a)
+      beside.positions[p][a] += 40 * float(traced_->step) * beside.normals[p][a];
+  const auto refined = refine_geometry(with(beside), traced_->cameras,
+                                       {.mode = RefineGeometry::kOn, .grid_bits = 7});
+  ASSERT_TRUE(refined);
+  if (refined->report.outcome == RefineReport::kMended) {
+    EXPECT_LT(distance(refined->cloud), distance(beside));
+  }
+}
+
 }  // namespace
 }  // namespace slf::refine_geometry_test
