@@ -9,9 +9,9 @@
 
 namespace slf {
 
-/// What is background where no alpha tells: all that is about as the border is, or what is hardly
-/// told from it. The first leaves out parts of an object that are as grey as its background, the
-/// second takes soft shadows along.
+/// Which pixels are background where no alpha tells. kLikely: within 14 grey levels of the border's
+/// colour; parts of an object that are as grey are lost. kCertain: within what the border's own
+/// noise explains; soft shadows belong to the object.
 enum class Background { kLikely, kCertain };
 
 /// [height][width] 1: the object. By alpha (a mask or the photograph's own), else by a background
