@@ -322,6 +322,8 @@ export class SlfFrameStream {
   /** Bytes that have come, those that came again too. */
   readonly received: number;
   info(place?: number): SlfInfo;
+  /** As that of SlfFrames, of a frame that is here. */
+  preflight(place: number, options?: SlfOptions): SlfEstimate;
   /** Levels, groups, limits of frames that are decoded from here on. */
   setOptions(options?: SlfOptions): void;
   /** Reads until a frame is here, with its group. false: the stream ends before it. */

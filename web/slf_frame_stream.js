@@ -69,6 +69,9 @@ export class SlfFrameStream {
   /** Headers of the group of a frame that is here. */
   info(place = 0) { return this.#frames.info(place); }
 
+  /** What a decode of a frame takes and gives with these options, which is here and not predicted. */
+  preflight(place, options) { return this.#frames.preflight(place, options); }
+
   /** Levels, groups, limits of frames that are decoded from here on. */
   setOptions(options) { this.#frames.setOptions(options); }
 

@@ -88,7 +88,7 @@ export class SLFLoader extends Loader {
     const session = new DecodeSession(() => decoderOf(decoderModule(this)));
     session.append(new Uint8Array(buffer));
     try {
-      const { packed, info } = await session.decode({ ...this.part, maxMemory: this.maxMemory });
+      const { packed, info } = await session.decode({ ...this.part, budget: { maxMemory: this.maxMemory } });
       return new SurfaceLightField(packed, info);
     } catch (error) {
       throw ViewerError.from(plainError(error));
@@ -113,7 +113,7 @@ export class SLFLoader extends Loader {
       session.close();
     };
     try {
-      await frames.open(bytes, { ...this.part, maxMemory: this.maxMemory });
+      await frames.open(bytes, { ...this.part, budget: { maxMemory: this.maxMemory } });
       return SurfaceLightField.moving(await frames.decode(0), frames, end);
     } catch (error) {
       end();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a decoding worker does; apart from it so that a page without workers can do it as well.
 import { buffersOf, packField, ViewerError } from './packed_field.js';
+import { partOf, partWithin } from './part.js';
 
 /**
  * Lets `port` (a worker's scope, or one end of a MessageChannel) hold a file and decode it.
@@ -27,9 +28,6 @@ export function answer(port, create, Frames = null) {
     if (data.frame !== undefined) reply(data.id, frames.decode(data.frame));
   };
 }
-
-/** A 64th of a surface's points is left: with less there is no picture. */
-const MOST_LEVELS_LESS = 3;
 
 export class DecodeSession {
   /** @param {(wasm?: WebAssembly.Module) => Promise<object>} create  a decoder of slf.js */
@@ -66,24 +64,23 @@ export class DecodeSession {
 
   /**
    * @param {object} options  prefix: what units of the first `prefix` bytes show, or of more that were read before; 0: the
-   *   file is all here; levels, groups, layers: 0 is all, and so is more than there are; maxMemory: bytes that a decode may take;
-   *   mayBeCoarser: what takes more is decoded with fewer levels, else refused; tableSize
-   * @returns {{packed?: object, info?: object, end?: number, coarser?: number}} without `packed` where a prefix shows
-   *   nothing yet; coarser: the levels that were decoded, where those that were asked for take too much memory
+   *   file is all here; levels, groups, layers: 0 is all, and so is more than there are; budget: of part.js; tableSize
+   * @returns {{packed?: object, info?: object, coarser?: object}} without `packed` where a prefix shows nothing yet; coarser: the
+   *   levels and groups that were decoded (0: all), where what was asked for is beyond the budget
    */
-  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, maxMemory = 2 ** 31, mayBeCoarser = false, tableSize = 65 }) {
+  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, budget = {}, tableSize = 65 }) {
     const reader = this.readerOf(await this.loadDecoder(), prefix || this.length);
     if (prefix && !reader.arriving) return {};
     if (!prefix && !reader.ended) reader.finish();
     const info = (this.info = plainInfo(reader.info())),
       asked = partOf(info, { levels, groups, layers });
-    const least = mayBeCoarser ? info.levels - MOST_LEVELS_LESS : info.levels;
-    const part = partWithin(maxMemory, asked, least, info.levels, (one) => reader.preflight(0, one).memoryBytes);
+    const { maxMemory = 2 ** 31 } = budget,
+      part = partWithin(info, asked, { ...budget, maxMemory }, (one) => reader.preflight(0, one));
     checkColours(info);
     const field = this.run(reader, { ...part, maxMemory });
     try {
       if (prefix && !hasColours(field)) return {};
-      const coarser = part === asked ? undefined : part.levels;
+      const coarser = part === asked ? undefined : part;
       return { packed: packField(field, tableSize, prefix > 0), info, coarser };
     } finally {
       field.release();
@@ -122,29 +119,6 @@ export class DecodeSession {
     }
   }
 }
-
-/**
- * The part that was asked for, or one with fewer levels, down to `least`, that takes no more memory than there is.
- * @param {(part: object) => number} bytesOf  what decoding a part takes
- * @throws {ViewerError} 'too-large'
- */
-export function partWithin(maxMemory, asked, least, levels, bytesOf) {
-  const takes = (part) => bytesOf({ ...part, maxMemory: Number.MAX_SAFE_INTEGER }),
-    bytes = takes(asked);
-  if (bytes <= maxMemory) return asked;
-  for (let fewer = (asked.levels || levels) - 1; fewer >= Math.max(1, least); --fewer) {
-    const part = { ...asked, levels: fewer };
-    if (takes(part) <= maxMemory) return part;
-  }
-  throw new ViewerError('too-large', `Decoding this file takes ${Math.ceil(bytes / 2 ** 20)} MiB.`);
-}
-
-/** What of a file is decoded: more than there is, is all. */
-export const partOf = (info, { levels, groups, layers }) => ({
-  levels: Math.min(levels, info.levels),
-  groups: Math.min(groups, info.groups),
-  layers: Math.min(layers, info.layers),
-});
 
 export function checkColours(info) {
   if (info.hasBasis === false)

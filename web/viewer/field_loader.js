@@ -9,7 +9,8 @@ import { ViewerError } from './packed_field.js';
 import { aborted, openStream } from './source_stream.js';
 import { moves } from './stream_units.js';
 
-const MOST_BYTES = 2 ** 30;
+const MOST_BYTES = 2 ** 30, // of a file
+  MOST_MEMORY = 3500 * 2 ** 20;
 const FIRST_LOOK = 4096,
   GROWTH = 2; // bytes at which a prefix is decoded, and how much later the next
 const LARGE = 200_000,
@@ -19,8 +20,8 @@ const LARGE = 200_000,
 export class FieldLoader {
   /**
    * @param {object} options  worker: () => Worker that runs decode_worker.js, or a promise of one; wasm, locateFile: as
-   *   of SlfDecoder.create(); maxMemory: bytes that a decode may take; mayBeCoarser: what takes more is decoded with fewer
-   *   levels, else refused; stallMs: a server that sends nothing for so long is given up
+   *   of SlfDecoder.create(); maxMemory, mayBeCoarser: of a Budget (part.js); stallMs: a server that sends nothing for so long
+   *   is given up
    */
   constructor({ worker = null, wasm, locateFile, maxMemory = 2 ** 31, mayBeCoarser = true, stallMs = 30000 } = {}) {
     this.start = worker ?? newWorker;
@@ -29,6 +30,8 @@ export class FieldLoader {
     this.module = null; // a promise of the compiled decoder, for every worker
     this.maxMemory = maxMemory;
     this.mayBeCoarser = mayBeCoarser;
+    this.maxPoints = Infinity;
+    this.groupsFirst = false;
     this.stallMs = stallMs;
     this.waiting = new Map();
     this.next = 1;
@@ -43,12 +46,18 @@ export class FieldLoader {
     this.stopped = null; // why the worker answers no more
   }
 
+  /** @param {boolean} all  whatever it takes, as far as WebAssembly has it */
+  budget(all = false) {
+    const { maxPoints, mayBeCoarser, groupsFirst } = this;
+    return { maxMemory: all ? MOST_MEMORY : this.maxMemory, maxPoints, mayBeCoarser, groupsFirst };
+  }
+
   /**
    * Loads and decodes; a load that is going on is given up.
    * @param {string|URL|Blob|ArrayBuffer|Uint8Array} source
-   * @param {object} on  progress(received, total or 0), field(packed, info, final, coarser); moving(frames): a FrameSource, of a
+   * @param {object} on  progress(received, total or 0), field(packed, info, final, coarser): of DecodeSession.decode(); moving(frames): a FrameSource, of a
    *   light field that moves, which without it is its first frame
-   * @param {object} options  levels, groups, layers: as they are at each decode; signal; headers, credentials: of fetch
+   * @param {object} options  levels, groups, layers, all: as they are at each decode; signal; headers, credentials: of fetch
    * @returns {Promise<{packed, info, bytes, part}>} of the whole file; part: levels, groups, layers that were decoded
    * @throws {ViewerError}
    */
@@ -115,9 +124,9 @@ export class FieldLoader {
     await looking;
     if (!current()) throw aborted();
     this.whole = true;
-    const { levels = 0, groups = 0, layers = 0 } = options,
+    const { levels = 0, groups = 0, layers = 0, all } = options,
       part = { levels, groups, layers };
-    const result = await this.decode(part);
+    const result = await this.decode({ ...part, all });
     if (!current()) throw aborted();
     on.field?.(result.packed, result.info, true, result.coarser);
     return { ...result, bytes: received, part };
@@ -132,25 +141,25 @@ export class FieldLoader {
     const first = await frames.decode(0);
     if (!current()) throw aborted();
     on.moving(frames);
-    on.field?.(first.packed, first.info, true);
+    on.field?.(first.packed, first.info, true, frames.coarser);
     return { ...first, bytes: frames.ended ? frames.bytes : 0, part };
   }
 
   /** A light field that moves: the worker reads the file by itself, as far ahead as memory allows. */
-  async openFrames({ levels = 0, groups = 0, layers = 0, headers, credentials }) {
+  async openFrames({ levels = 0, groups = 0, layers = 0, all, headers, credentials }) {
     const frames = (this.frames = new FrameSource((message) => this.ask(message))),
-      { stallMs, maxMemory } = this;
-    await frames.open(this.moving, { levels, groups, layers, headers, credentials, stallMs, maxMemory });
+      { stallMs } = this;
+    await frames.open(this.moving, { levels, groups, layers, headers, credentials, stallMs, budget: this.budget(all) });
     return frames;
   }
 
   /** Decodes what is loaded once more, with other levels, groups or layers. */
-  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0 } = {}) {
-    const { turn, maxMemory, mayBeCoarser } = this;
+  async decode({ prefix = 0, levels = 0, groups = 0, layers = 0, all } = {}) {
+    const { turn } = this;
     ++this.busy;
     try {
       await this.wake();
-      return await this.ask({ decode: { prefix, levels, groups, layers, maxMemory, mayBeCoarser } });
+      return await this.ask({ decode: { prefix, levels, groups, layers, budget: this.budget(all) } });
     } finally {
       if (--this.busy === 0 && this.whole && this.worker && !this.stopped && turn === this.turn) this.rest(turn);
     }

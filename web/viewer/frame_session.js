@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a decoding worker does with a light field that moves: it reads the file by itself, in parts, and packs frames.
 import { SlfFrameStream } from '../slf_frame_stream.js';
-import { checkColours, partOf, plainInfo } from './decode_session.js';
+import { checkColours, plainInfo } from './decode_session.js';
 import { packField } from './packed_field.js';
 import { FrameFunctions } from './packed_functions.js';
+import { partOf, partWithin } from './part.js';
 
 export class FrameSession {
   #load; #tell; #stream = null; #told = 0; #ended = false; #tableSize = 65; #shared = new FrameFunctions();
@@ -19,16 +20,20 @@ export class FrameSession {
 
   /**
    * Opens in place of what was open before; reading goes on as far as memory is allowed.
-   * @param {object} options  source: address, Blob or bytes; levels, groups, layers, maxMemory, tableSize: as of
-   *   DecodeSession.decode(); keepBytes of the file; headers, credentials, stallMs: of fetch
+   * @param {object} options  source: address, Blob or bytes; levels, groups, layers, tableSize: as of
+   *   DecodeSession.decode(); budget: of part.js; keepBytes of the file; headers, credentials, stallMs: of fetch
+   * @returns {{info: object, coarser?: object}}  as of DecodeSession.decode(), by the first frame
    */
-  async open({ source, levels = 0, groups = 0, layers = 0, maxMemory, tableSize = 65, ...request }) {
+  async open({ source, levels = 0, groups = 0, layers = 0, budget = {}, tableSize = 65, ...request }) {
     const decoder = await this.#load();
     await this.close();
     const stream = await SlfFrameStream.open(source, { ...request, decoder });
-    const info = plainInfo(stream.info());
+    const info = plainInfo(stream.info()),
+      asked = partOf(info, { levels, groups, layers }); // how many there are is known now
     checkColours(info);
-    stream.setOptions({ maxMemory, ...partOf(info, { levels, groups, layers }) }); // how many there are is known now
+    const { maxMemory = 2 ** 31 } = budget,
+      part = partWithin(info, asked, { ...budget, maxMemory }, (one) => stream.preflight(0, one));
+    stream.setOptions({ ...part, maxMemory });
     this.#stream = stream;
     this.#told = 0;
     this.#ended = false;
@@ -36,7 +41,7 @@ export class FrameSession {
     this.#shared = new FrameFunctions();
     this.#say();
     this.#readAhead(stream);
-    return { info };
+    return { info, coarser: part === asked ? undefined : part };
   }
 
   /** @returns {{packed?: object, info?: object, seconds?: number}} without `packed` where the file ends before it */

@@ -10,6 +10,7 @@ export class FrameSource {
     this.list = []; // of frames that have arrived, as SlfFrames.list
     this.ended = false; // the list is complete
     this.bytes = 0; // of the frames that have arrived
+    this.coarser = undefined; // the part that is decoded, where that is not what was asked for
     this.changed = () => {}; // more have
   }
 
@@ -18,7 +19,9 @@ export class FrameSource {
     const from = typeof source === 'string' || source instanceof URL ? new URL(source, location.href).href : source;
     this.list = [];
     this.ended = false;
-    return this.#ask({ frames: { ...options, source: from } });
+    const { info, coarser } = await this.#ask({ frames: { ...options, source: from } });
+    this.coarser = coarser;
+    return { info };
   }
 
   /** @returns {Promise<{packed, info, seconds}|null>} seconds: that it took; null: there is no such frame  @throws {ViewerError} */

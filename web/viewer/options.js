@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an address, or a page that was made by `slf html`, asks of the viewer. The list is that of
 // README.md.
+import { memoryOfDevice } from './device.js';
 
 export const BACKGROUNDS = {
   paper: '#f3f1ec',
@@ -57,11 +58,6 @@ export function readOptions(query, page = {}) {
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
     memory: number('memory', 16, 3500, memoryOfDevice()) * 2 ** 20,
   };
-}
-
-/** MiB that a decode may take: a quarter of the device's memory, of which browsers tell up to 8 GiB, or nothing. */
-export function memoryOfDevice(gibibytes = globalThis.navigator?.deviceMemory) {
-  return gibibytes > 0 ? Math.min(2048, Math.max(128, 256 * gibibytes)) : 2048;
 }
 
 /** "x,y,z" or three numbers; null where it is neither. */

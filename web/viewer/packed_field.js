@@ -6,7 +6,7 @@ import { packFunctions } from './packed_functions.js';
 import { packSplats } from './packed_splats.js';
 import { toMirror, writeDisc } from './packed_texels.js';
 
-const COLUMNS = 1024;
+export const COLUMNS = 1024;
 
 /** What stands in the way of a file that is sound: too large for the device, without view maps. */
 export class ViewerError extends Error {

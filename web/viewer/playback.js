@@ -59,6 +59,7 @@ export class Playback {
       if (source !== viewer.loader.frames || !answer) return;
       this.close();
       this.open(source);
+      viewer.facts.coarser = source.coarser;
       this.player.begin(frame);
       this.show(answer, source.list[frame]);
       viewer.report.hideProblem();

@@ -25,17 +25,21 @@ export class Report {
       t = (text) => this.page.t(text);
     this.page.at('title').textContent = title;
     if (this.page.whole) document.title = title ? `${title}: ${t('surface light field')}` : t('Surface light field');
+    const shown = coarser ?? this.viewer.options,
+      fewer = (what) => coarser && coarser[what] !== this.viewer.options[what] && coarser[what] < info[what];
     const size = bytes ? sizeText(bytes) : '';
     const said = [
       t(`${this.page.grouped(field.points)} points`),
       frames > 1 && t(`${this.page.grouped(frames)} frames`),
       size,
       !final && t('coarse, more is arriving'),
-      coarser && t(`coarser, for want of memory: ${coarser} of ${info.levels} levels`),
+      fewer('levels') && t(`coarser, for want of memory: ${coarser.levels} of ${info.levels} levels`),
+      fewer('groups') && t(`fewer functions, for want of memory: ${coarser.groups} of ${info.groups} groups`),
     ];
     this.page.at('subtitle').textContent = said.filter(Boolean).join(' · ');
-    this.page.slider('levels', 1, info.bits, coarser ?? (this.viewer.options.levels || info.bits));
-    this.page.slider('groups', 1, Math.max(1, info.groups), this.viewer.options.groups || info.groups);
+    this.page.one('[data-do=all]').hidden = !coarser;
+    this.page.slider('levels', 1, info.bits, shown.levels || info.bits);
+    this.page.slider('groups', 1, Math.max(1, info.groups), shown.groups || info.groups);
     this.page.at('groups-row').hidden = !(info.groups > 1);
     this.page.slider('layers', 1, Math.max(1, info.layers), this.viewer.options.layers || info.layers);
     this.page.at('layers-row').hidden = !(info.layers > 1);

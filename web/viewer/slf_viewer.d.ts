@@ -16,7 +16,8 @@ export interface SlfView {
 export interface SlfViewerEvents {
   progress: CustomEvent<{ received: number; total: number }>;
   coarse: CustomEvent<{ points: number }>;
-  ready: CustomEvent<{ points: number }>;
+  /** coarser: levels and groups that are shown (0: all), where memory holds no more; else null. */
+  ready: CustomEvent<{ points: number; coarser: { levels: number; groups: number } | null }>;
   error: CustomEvent<ViewerError>;
   viewchange: CustomEvent<undefined>;
   annotation: CustomEvent<{ index: number; title: string }>;

@@ -7,7 +7,7 @@
 import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { missingCard, missingPart } from './missing_part.js';
-import { backgroundOf, memoryOfDevice, readOptions } from './options.js';
+import { backgroundOf, readOptions } from './options.js';
 import { Viewer } from './viewer.js';
 import { addressOf, viewOfAddress, viewParameters } from './view_link.js';
 import { Turns } from './viewer_turns.js';
@@ -220,8 +220,7 @@ export class SlfViewerElement extends HTMLElement {
     this.#elements = new Elements(this.shadowRoot, frame, words);
     const source = this.#opened,
       page = { scroll: 'polite' };
-    const memory = Number(this.getAttribute('memory')) || memoryOfDevice();
-    const loader = new FieldLoader({ ...SlfViewerElement.parts, maxMemory: memory * 2 ** 20 });
+    const loader = new FieldLoader(SlfViewerElement.parts);
     if (source) Object.assign(page, { file: source.source, name: source.name });
     this.viewer = new Viewer({ ...page, loader }, {
       elements: this.#elements,

@@ -4,7 +4,7 @@
 import { pipelineWith } from './pipelines.js';
 import { summary } from './point_pipeline.js';
 import { SurfelPipeline } from './surfel_pipeline.js';
-import { ViewerError } from './packed_field.js';
+import { COLUMNS, ViewerError } from './packed_field.js';
 import { fittedCamera, viewOf } from './view.js';
 
 const SLOW = 40,
@@ -36,6 +36,11 @@ export class Stage {
     canvas.addEventListener('webglcontextrestored', () => this.restore());
     this.observer = new ResizeObserver(() => this.redraw());
     this.observer.observe(canvas);
+  }
+
+  /** That the textures of this device hold. */
+  get mostPoints() {
+    return COLUMNS * (this.gl.getParameter(this.gl.MAX_TEXTURE_SIZE) ?? Infinity); // null: the context is lost
   }
 
   /** While the context is lost it is uploaded when that comes back. */

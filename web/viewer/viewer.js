@@ -3,6 +3,7 @@
 // FieldLoader (bytes). `slf html` makes pages of the same parts.
 import { Comparison } from './comparison.js';
 import { Controls } from './controls.js';
+import { deviceFacts, isHandheld } from './device.js';
 import { Elements, download } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { Guide } from './guide.js';
@@ -27,7 +28,8 @@ export class Viewer {
     this.link = link === undefined ? addressOfPage : link;
     this.emit = emit ?? (() => {});
     this.screen = elements.whole ? document.documentElement : elements.frame;
-    this.loader = page.loader ?? new FieldLoader({ maxMemory: this.options.memory });
+    this.loader = page.loader ?? new FieldLoader();
+    Object.assign(this.loader, { maxMemory: this.options.memory, groupsFirst: isHandheld(deviceFacts()) });
     this.report = new Report(this);
     this.comparison = new Comparison(this);
     this.guide = new Guide(this);
@@ -51,6 +53,7 @@ export class Viewer {
       this.report.fail(error);
       return;
     }
+    this.loader.maxPoints = this.stage.mostPoints;
     this.controls = new Controls(this.page.at('stage'), {
       change: () => this.moved(),
       start: () => {
@@ -79,6 +82,7 @@ export class Viewer {
     this.page.frame.classList.remove('empty');
     if (this.source && this.source.source !== source) Object.assign(this.options, OF_FIRST_FILE);
     const own = (this.source = this.loading = { source, name });
+    this.options.all = false;
     this.comparison.close();
     this.guide.close();
     this.ruler.toggle(false);
@@ -115,7 +119,7 @@ export class Viewer {
     }
   }
 
-  /** @param coarser  levels that are shown, where memory allows no more */
+  /** @param coarser  of FieldLoader.load() */
   show(packed, info, final, begin, coarser) {
     const first = !this.stage.field || !this.controls.pose;
     Object.assign(this.facts, { info, coarser });
@@ -132,7 +136,7 @@ export class Viewer {
     this.report.describe();
     this.page.frame.dataset.state = final ? 'ready' : 'coarse';
     if (final) this.rooms.offer();
-    this.emit(final ? 'ready' : 'coarse', { points: packed.points });
+    this.emit(final ? 'ready' : 'coarse', { points: packed.points, coarser: coarser ?? null });
   }
 
   /** Frees the worker, the graphics context and what listens outside. */
@@ -274,6 +278,11 @@ export class Viewer {
     const names = Object.keys(BACKGROUNDS);
     this.chosen = this.background = names[(names.indexOf(this.background) + 1) % names.length];
     this.paintBackground();
+  }
+
+  /** What the device's memory has left out, whatever it takes. */
+  openAll() {
+    return this.decodeAgain({ all: true });
   }
 
   openCoarser() {

@@ -65,7 +65,7 @@ test('a file that takes a little too much memory is shown coarser, and the page 
   });
   assert.equal(await settled(page), 'ready');
   const { coarser, levels, slider, asked } = await page.evaluate(() => ({
-    coarser: window.viewer.facts.coarser,
+    coarser: window.viewer.facts.coarser.levels,
     levels: window.viewer.facts.info.levels,
     slider: Number(document.querySelector('#levels').value),
     asked: window.viewer.options.levels,

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 import { SlfDecoder, SlfError } from '../../slf_node.js';
-import { DecodeSession, partWithin, plainError } from '../../viewer/decode_session.js';
+import { DecodeSession, plainError } from '../../viewer/decode_session.js';
 import { FieldLoader } from '../../viewer/field_loader.js';
 import { caseOf } from './support.js';
 
@@ -113,23 +113,11 @@ test('a part is refused for its own memory, and the refusal says what the file h
   const large = caseOf('layers-four').bytes, session = sessionOf(undefined, large);
   const { levels, decodeBytes } = decoder.info(large);
   const maxMemory = decoder.preflight(large, { levels: Math.max(1, levels - 3) }).memoryBytes - 1;
-  await assert.rejects(session.decode({ maxMemory, mayBeCoarser: true }), { kind: 'too-large' });
-  await assert.rejects(session.decode({ maxMemory: decodeBytes - 1 }), { kind: 'too-large' });
+  await assert.rejects(session.decode({ budget: { maxMemory, mayBeCoarser: true } }), { kind: 'too-large' });
+  await assert.rejects(session.decode({ budget: { maxMemory: decodeBytes - 1 } }), { kind: 'too-large' });
   assert.equal(session.info.levels, levels);
   // which comes after:
-  await assert.rejects(session.decode({ groups: 1, maxMemory: decodeBytes - 1 }), { kind: 'no-view-maps' });
-});
-
-test('what takes too much memory is decoded with as many levels as there is memory for', () => {
-  const takes = ({ levels }) => 4 ** levels;
-  const asked = { levels: 6, groups: 2, layers: 0 };
-  const within = (maxMemory, least) => partWithin(maxMemory, asked, least, 7, takes);
-  assert.equal(within(4 ** 6, 4), asked);
-  assert.deepEqual(within(4 ** 6 - 1, 4), { levels: 5, groups: 2, layers: 0 });
-  assert.equal(within(4 ** 4, 4).levels, 4);
-  assert.throws(() => within(4 ** 4 - 1, 4), { kind: 'too-large' });
-  assert.throws(() => within(4 ** 6 - 1, 7), { kind: 'too-large' });
-  assert.throws(() => within(3, -1), { kind: 'too-large' });
+  await assert.rejects(session.decode({ groups: 1, budget: { maxMemory: decodeBytes - 1 } }), { kind: 'no-view-maps' });
 });
 
 test('what has arrived of a file shows as soon as it has colours, and every byte is read once', async () => {
@@ -221,12 +209,6 @@ test('parse() of every loader has one decoder', { skip }, async () => {
   } finally {
     WebAssembly.compile = compile;
   }
-});
-
-test('a decode may take a quarter of what a device says that it has', async () => {
-  const { memoryOfDevice, readOptions } = await import('../../viewer/options.js');
-  assert.deepEqual([undefined, 0, 0.25, 2, 4, 8, 32].map((each) => memoryOfDevice(each)), [2048, 2048, 128, 512, 1024, 2048, 2048]);
-  assert.equal(readOptions(new URLSearchParams('memory=300'), {}).memory, 300 * 2 ** 20);
 });
 
 test('the view of a page is that of its camera, unless the address names another', async () => {
