@@ -2,6 +2,7 @@
 #include "encoder/choose_surface.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -29,7 +30,7 @@ constexpr double kPromise = 1;
 constexpr double kGoesOn = 0.5;
 // dB that splats are above points after a quick fit, where no surface is trained: a training gains
 // 2.2 of the dino's hull, and has to come as near as splats_win().
-constexpr double kBeyond = 6;
+constexpr double kBeyondMended = 6, kBeyondGiven = 6;
 constexpr int kIterations = 2500;
 constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
 
@@ -44,9 +45,12 @@ struct SurfaceChoice {
 };
 
 /// The capture's points, or mended ones where photographs gain.
-Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineGeometry mode) {
+/// @param pays  RefineSettings::pays
+Result<VoxelCloud, InputError> given_or_mended(
+    const SurfaceChoice& job, RefineGeometry mode,
+    std::function<Result<bool, InputError>()> pays = {}) {
   SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, job.settings, mode,
-                                            job.report.mended, job.progress));
+                                            std::move(pays), job.report.mended, job.progress));
   if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
   return cloud;
 }
@@ -100,13 +104,15 @@ SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
           job.settings, job.progress,     job.cache};
 }
 
-/// A file of splats, of some photographs, judged by the others.
-Result<Gaussians, InputError> tried_splats(const SurfaceChoice& job, const CameraParts& parts) {
+/// A file of splats, of some photographs, judged by the others: once a capture.
+Result<Done, InputError> try_splats_once(const SurfaceChoice& job, const CameraParts& parts) {
+  if (job.cache.tried) return Done{};
   Stopwatch watch;
   SLF_TRY(SplatTrial trial, try_splats(splat_job(job, parts)));
   job.report.as_splats = trial.file;
   job.report.seconds_train += watch.lap();
-  return std::move(trial.splats);
+  job.cache.tried = std::move(trial.splats);
+  return Done{};
 }
 
 /// Whether the file of splats that was tried is worth more than one of the best surface, which is
@@ -137,7 +143,7 @@ Result<bool, InputError> exact_yields(const SurfaceChoice& job, const VoxelCloud
   job.report.seconds_train += watch.lap();
   if (look_of(glance) < look_of(quick) - kPromise) return false;
   job.report.before_psnr = quick.psnr;
-  SLF_CHECK(tried_splats(job, parts));
+  SLF_CHECK(try_splats_once(job, parts));
   return splats_are_better(job, parts, exact, quick);
 }
 
@@ -154,13 +160,15 @@ Result<Done, InputError> find_foreign(const SurfaceChoice& job, const PointCloud
   return Done{};
 }
 
-/// Whether splats leave nothing to find out: no training brings dense points near them.
-/// @param quick  of the points before a training
+/// Whether splats leave nothing to find out: nothing brings dense points near them.
+/// @param psnr  of the points after a quick fit
+/// @param lead  dB
 Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const CameraParts& parts,
-                                           const DrawnQuality& quick) {
-  SLF_TRY(const Gaussians splats, tried_splats(job, parts));
-  if (job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
-  const auto shown = surface_of_splats(splats, job.capture, parts.matched, job.settings.threads);
+                                           double psnr, double lead) {
+  SLF_CHECK(try_splats_once(job, parts));
+  if (job.report.as_splats.psnr < psnr + lead) return false;
+  const auto shown =
+      surface_of_splats(*job.cache.tried, job.capture, parts.matched, job.settings.threads);
   if (!shown) return false;
   SLF_CHECK(find_foreign(job, *shown));
   return true;
@@ -175,7 +183,7 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   if (before_quality.psnr > kPerfect) return before;
   const bool splats_first = job.splats && is_dense(job.capture, job.cameras);
   if (splats_first) {
-    SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality));
+    SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality.psnr, kBeyondMended));
     if (beyond) return no_surface(job);
   }
   SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}, 1 - kAgain));
@@ -193,7 +201,7 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
   job.report.trained_psnr = trained_quality.psnr;
   const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
-  if (job.splats && !splats_first) SLF_CHECK(tried_splats(job, parts));
+  if (job.splats && !splats_first) SLF_CHECK(try_splats_once(job, parts));
   SLF_TRY(const bool better, splats_are_better(job, parts, pays ? *cloud : before,
                                                pays ? trained_quality : before_quality));
   if (better) return no_surface(job);
@@ -219,6 +227,15 @@ Result<VoxelCloud, InputError> only_trained(const SurfaceChoice& job) {
   return taken(job, trained);
 }
 
+/// The same before points that are not exact are mended.
+Result<bool, InputError> splats_outdo_given(const SurfaceChoice& job) {
+  const CameraParts parts = split_for_mending(job.cameras);
+  SLF_TRY(const VoxelCloud given, voxelise_capture(job.capture, job.cameras, job.settings));
+  SLF_TRY(const DrawnQuality quick, judged(job, parts, given));
+  job.report.before_psnr = quick.psnr;
+  return splats_are_beyond(job, parts, quick.psnr, kBeyondGiven);
+}
+
 /// A capture with points, its own or a mesh's.
 Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
   const Surface asked = job.cameras.empty() ? Surface::kGiven : job.settings.surface;
@@ -230,7 +247,14 @@ Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
     if (!trained.cloud.positions.empty()) return taken(job, trained);
     job.report.untrained = "photographs agree on no surface";
   }
-  SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
+  const auto mending_pays = [&job]() -> Result<bool, InputError> {
+    if (!job.splats || !job.report.untrained.empty() || !is_dense(job.capture, job.cameras))
+      return true;
+    SLF_TRY(const bool outdone, splats_outdo_given(job));
+    return !outdone;
+  };
+  SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto, mending_pays));
+  if (job.report.mended.outcome == RefineReport::kOutdone) return no_surface(job);
   if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
   if (job.report.mended.exact && is_dense(job.capture, job.cameras)) {
     SLF_TRY(const bool yields, exact_yields(job, before));

@@ -82,8 +82,10 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
 
 Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
                                                const EncoderSettings& settings, RefineGeometry mode,
+                                               std::function<Result<bool, InputError>()> pays,
                                                RefineReport& report, const Progress& progress) {
-  RefineSettings refining{mode, settings.grid_bits, settings.voxel_size, false, settings.threads};
+  RefineSettings refining{mode,  settings.grid_bits, settings.voxel_size,
+                          false, settings.threads,   std::move(pays)};
   Density density;
   if (settings.grid_bits == 0 && settings.voxel_size == 0) {
     density = choose_density(capture, cameras);

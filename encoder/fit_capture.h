@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,9 +26,11 @@ Result<VoxelCloud, InputError> voxelise_capture(const Capture& capture,
                                                 const EncoderSettings& settings);
 
 /// The same with geometry mended first, where photographs gain.
+/// @param pays  RefineSettings::pays
 /// @param report  receives what became of the points
 Result<VoxelCloud, InputError> voxelise_mended(const Capture& capture, std::span<const int> cameras,
                                                const EncoderSettings& settings, RefineGeometry mode,
+                                               std::function<Result<bool, InputError>()> pays,
                                                RefineReport& report, const Progress& progress);
 
 /// View maps in floating point.

@@ -207,6 +207,8 @@ const char* outcome_word(RefineReport::Outcome outcome) {
       return "no gain";
     case RefineReport::kMended:
       return "mended";
+    case RefineReport::kOutdone:
+      return "outdone by splats";
   }
   return "";
 }

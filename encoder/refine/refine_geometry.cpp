@@ -154,6 +154,13 @@ Result<Done, InputError> mend(MendingJob& job, RefinedCloud& out, const Progress
   const double miss = automatic ? typical_miss(job) : 0;
   out.report.exact = automatic && miss <= kExact;
   if (out.report.exact) return Done{};
+  if (automatic && job.settings.pays) {
+    SLF_TRY(const bool pays, job.settings.pays());
+    if (!pays) {
+      out.report.outcome = RefineReport::kOutdone;
+      return Done{};
+    }
+  }
   const int finest = *std::min_element(kMendingLevels.begin(), kMendingLevels.end());
   if (job.settings.free_grid) {
     thin_start(job, finest);

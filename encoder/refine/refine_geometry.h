@@ -2,6 +2,7 @@
 // Mends a capture's cloud where photographs disagree about it. Encoder only, before voxelisation.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "slf/capture.h"
@@ -17,6 +18,8 @@ struct RefineSettings {
   double voxel_size = 0;   ///< > 0: in place of grid_bits
   bool free_grid = false;  ///< a mended surface may have a coarser one than both
   int threads = 0;
+  /// Of kAuto: asked once, where points are not exact. False leaves them as they are.
+  std::function<Result<bool, InputError>()> pays = {};
 };
 
 struct RefinedCloud {

@@ -9,6 +9,7 @@
 
 #include "capture/surface_points.h"
 #include "slf/camera_trust.h"
+#include "slf/gaussians.h"
 
 namespace slf {
 
@@ -26,6 +27,7 @@ struct TrainingCache {
   bool outlined = true;  ///< of splats: photographs tell one object from its background
   /// Photographs that agree nowhere with what was trained: it is to be trained without them.
   std::vector<CameraTrust> foreign;
+  std::optional<Gaussians> tried;  ///< splats that three quarters of the photographs trained
 };
 
 }  // namespace slf

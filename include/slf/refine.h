@@ -23,6 +23,7 @@ struct RefineReport {
     kTooFewPoints,   ///< fewer than 1000
     kNoGain,         ///< tried, and the capture's points kept
     kMended,
+    kOutdone,  ///< of kAuto: splats are far ahead of the points, so mending was not tried
   };
   Outcome outcome = kNotAsked;
   std::size_t points_before = 0, points_after = 0;

@@ -128,6 +128,19 @@ TEST_F(RefineGeometryTest, NothingIsTriedWhenOffOrWithFewCamerasOrPoints) {
   EXPECT_EQ(outcome(traced_->cameras, RefineGeometry::kOn), RefineReport::kTooFewPoints);
 }
 
+TEST_F(RefineGeometryTest, WhatMendingDoesNotPayForIsLeftAsItIsAndExactPointsAreNotAskedAbout) {
+  int asked = 0;
+  RefineSettings settings{.grid_bits = 7};
+  settings.pays = [&asked]() -> Result<bool, InputError> { return ++asked == 0; };
+  const auto rough = refine_geometry(disturbed(), traced_->cameras, settings);
+  const auto exact = refine_geometry(with(traced_->exact), traced_->cameras, settings);
+  ASSERT_TRUE(rough && exact);
+  EXPECT_EQ(rough->report.outcome, RefineReport::kOutdone);
+  EXPECT_TRUE(rough->cloud.positions.empty());
+  EXPECT_EQ(exact->report.outcome, RefineReport::kNoGain);
+  EXPECT_EQ(asked, 1);
+}
+
 TEST_F(RefineGeometryTest, ACloudThatNoPhotographShowsIsLeftAlone) {
   PointCloud away = traced_->exact;
   for (Float3& p : away.positions) p[2] += 1000;
