@@ -2,7 +2,6 @@
 #include "encoder/choose_surface.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -28,9 +27,9 @@ constexpr double kPromise = 1;
 // dB of worth that splats gain more than a surface does by the photographs that a trial has not
 // seen and by the iterations that follow: a lattice 0.4, a die 0.6. docs/decisions/035
 constexpr double kGoesOn = 0.5;
-// dB that splats are above points after a quick fit, where no surface is trained: a training gains
+// dB that splats are above points after a quick fit, where nothing more is tried: a training gains
 // 2.2 of the dino's hull, and has to come as near as splats_win().
-constexpr double kBeyondMended = 6, kBeyondGiven = 6;
+constexpr double kBeyond = 6;
 constexpr int kIterations = 2500;
 constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
 
@@ -43,17 +42,6 @@ struct SurfaceChoice {
   TrainingCache& cache;
   bool splats;  // they may be chosen
 };
-
-/// The capture's points, or mended ones where photographs gain.
-/// @param pays  RefineSettings::pays
-Result<VoxelCloud, InputError> given_or_mended(
-    const SurfaceChoice& job, RefineGeometry mode,
-    std::function<Result<bool, InputError>()> pays = {}) {
-  SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, job.settings, mode,
-                                            std::move(pays), job.report.mended, job.progress));
-  if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
-  return cloud;
-}
 
 /// @param before  trained by some of the cameras, or empty
 /// @param share  of the time that may be taken
@@ -161,12 +149,12 @@ Result<Done, InputError> find_foreign(const SurfaceChoice& job, const PointCloud
 }
 
 /// Whether splats leave nothing to find out: nothing brings dense points near them.
-/// @param psnr  of the points after a quick fit
-/// @param lead  dB
+/// @param quick  of the points, after a quick fit
 Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const CameraParts& parts,
-                                           double psnr, double lead) {
+                                           const DrawnQuality& quick) {
+  job.report.before_psnr = quick.psnr;
   SLF_CHECK(try_splats_once(job, parts));
-  if (job.report.as_splats.psnr < psnr + lead) return false;
+  if (job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
   const auto shown =
       surface_of_splats(*job.cache.tried, job.capture, parts.matched, job.settings.threads);
   if (!shown) return false;
@@ -181,9 +169,8 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   SLF_TRY(const DrawnQuality before_quality, judged(job, parts, before));
   job.report.before_psnr = before_quality.psnr;
   if (before_quality.psnr > kPerfect) return before;
-  const bool splats_first = job.splats && is_dense(job.capture, job.cameras);
-  if (splats_first) {
-    SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality.psnr, kBeyondMended));
+  if (job.splats && is_dense(job.capture, job.cameras)) {
+    SLF_TRY(const bool beyond, splats_are_beyond(job, parts, before_quality));
     if (beyond) return no_surface(job);
   }
   SLF_TRY(TrainedGeometry trained, trained_by(job, parts.matched, {}, 1 - kAgain));
@@ -201,7 +188,7 @@ Result<VoxelCloud, InputError> best_of(const SurfaceChoice& job, VoxelCloud befo
   SLF_TRY(const DrawnQuality trained_quality, judged(job, parts, *cloud));
   job.report.trained_psnr = trained_quality.psnr;
   const bool pays = job.report.trained_psnr >= job.report.before_psnr + kLeastGain;
-  if (job.splats && !splats_first) SLF_CHECK(try_splats_once(job, parts));
+  if (job.splats) SLF_CHECK(try_splats_once(job, parts));
   SLF_TRY(const bool better, splats_are_better(job, parts, pays ? *cloud : before,
                                                pays ? trained_quality : before_quality));
   if (better) return no_surface(job);
@@ -227,13 +214,24 @@ Result<VoxelCloud, InputError> only_trained(const SurfaceChoice& job) {
   return taken(job, trained);
 }
 
-/// The same before points that are not exact are mended.
-Result<bool, InputError> splats_outdo_given(const SurfaceChoice& job) {
+/// Whether points that are not exact are worth mending: not where splats are beyond them.
+Result<bool, InputError> mending_pays(const SurfaceChoice& job) {
+  if (!job.splats || !job.report.untrained.empty() || !is_dense(job.capture, job.cameras))
+    return true;
   const CameraParts parts = split_for_mending(job.cameras);
   SLF_TRY(const VoxelCloud given, voxelise_capture(job.capture, job.cameras, job.settings));
   SLF_TRY(const DrawnQuality quick, judged(job, parts, given));
-  job.report.before_psnr = quick.psnr;
-  return splats_are_beyond(job, parts, quick.psnr, kBeyondGiven);
+  SLF_TRY(const bool beyond, splats_are_beyond(job, parts, quick));
+  return !beyond;
+}
+
+/// The capture's points, or mended ones where photographs gain.
+Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineGeometry mode) {
+  const auto pays = [&job] { return mending_pays(job); };
+  SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, job.settings, mode, pays,
+                                            job.report.mended, job.progress));
+  if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
+  return cloud;
 }
 
 /// A capture with points, its own or a mesh's.
@@ -247,13 +245,7 @@ Result<VoxelCloud, InputError> chosen_from_points(const SurfaceChoice& job) {
     if (!trained.cloud.positions.empty()) return taken(job, trained);
     job.report.untrained = "photographs agree on no surface";
   }
-  const auto mending_pays = [&job]() -> Result<bool, InputError> {
-    if (!job.splats || !job.report.untrained.empty() || !is_dense(job.capture, job.cameras))
-      return true;
-    SLF_TRY(const bool outdone, splats_outdo_given(job));
-    return !outdone;
-  };
-  SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto, mending_pays));
+  SLF_TRY(VoxelCloud before, given_or_mended(job, RefineGeometry::kAuto));
   if (job.report.mended.outcome == RefineReport::kOutdone) return no_surface(job);
   if (asked == Surface::kTrained || !job.report.untrained.empty()) return before;
   if (job.report.mended.exact && is_dense(job.capture, job.cameras)) {

@@ -253,9 +253,8 @@ nlohmann::ordered_json surface_json(const SurfaceReport& r) {
   json["trained"] = nullptr;
   if (r.untrained.empty() && r.surfels > 0) json["trained"] = {{"surfels", r.surfels}};
   json["untrained"] = r.untrained;
-  json["held_out_psnr_before"] = nullptr;
-  json["held_out_psnr_trained"] = nullptr;
-  json["held_out_psnr_splats"] = nullptr;
+  for (const char* judged : {"before", "trained", "splats"})
+    json[std::string("held_out_psnr_") += judged] = nullptr;
   if (r.before_psnr > 0) json["held_out_psnr_before"] = r.before_psnr;
   if (r.before_psnr > 0 && r.trained_psnr > 0) json["held_out_psnr_trained"] = r.trained_psnr;
   const auto trial = [](const TrialFile& f) {

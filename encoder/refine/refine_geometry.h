@@ -18,7 +18,7 @@ struct RefineSettings {
   double voxel_size = 0;   ///< > 0: in place of grid_bits
   bool free_grid = false;  ///< a mended surface may have a coarser one than both
   int threads = 0;
-  /// Of kAuto: asked once, where points are not exact. False leaves them as they are.
+  /// Asked once by kAuto, of points that are not exact. False leaves them as they are.
   std::function<Result<bool, InputError>()> pays = {};
 };
 
