@@ -2,16 +2,8 @@
 // GLSL of the reference reconstruction, spec annex E. Lengths are voxels, colours 0 .. 1, images have
 // their first row at the bottom, as WebGL has it. The constants are those of lightfield/render/reference_kernel.h.
 
-import { UNPACK } from './texel_shaders.js';
-
-export const HEAD = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
-precision highp sampler2DArray;
-precision highp usampler2D;
-precision highp usampler2DArray;
-`;
+import { HIDDEN } from './occluder_shaders.js';
+import { HEAD, UNPACK } from './texel_shaders.js';
 
 /** Of colours: spec 6.5. */
 export const TRANSFERS = `
@@ -123,16 +115,12 @@ uniform vec2 focal, centre, size;  // pixels; rows upwards
 uniform int first;       // of this draw
 uniform float thinning;  // every how many-th point is drawn
 uniform float largestSprite;  // pixels; 0: there are none
+uniform float nearest;   // the greatest inverse depth that there can be
 flat out vec2 at;        // of the disc's centre, pixels
 flat out vec4 ellipse;   // a, b, c of a x^2 + 2 b x y + c y^2 < 1, weight at the centre
 flat out vec4 plane;     // inverse depth, its gradient in the image, 1 / the inverse depth of the band
-${
-  blending
-    ? `flat out vec3 colour;
-flat out vec2 cover;     // squared radius that is wholly covered; share at the centre`
-    : ''
-}
-
+flat out vec2 cover;     // squared radius that is wholly covered; share at the centre
+${blending ? `flat out vec3 colour;${HIDDEN}` : ''}
 const float FLATTEST = 0.1, STEEPEST = 0.3, BAND = 0.8, FILTER = 1.0, SHARE = 0.85;
 const float LARGEST = 512.0, STEEPEST_PLANE = 0.75, MOST_SHIFT = 0.6;
 
@@ -191,19 +179,21 @@ void main() {
   float band = BAND * sqrt(square + FILTER * pixel * pixel) / max(cosine, STEEPEST);
   float inverse = 1.0 / (uu * vv - uv * uv);
   plane = vec4(near, slope, p.z * p.z / band);
+  // What of the disc and its band is nearest: all of it is hidden (m = 0) behind an occluder that is nearer.
+  float front = min(1.0, (near + min(change, STEEPEST_PLANE * near) + 1.0 / plane.w) / nearest + 1e-6);
+  ${blending ? 'if (hidden(at - reach, at + reach, front)) return;' : ''}
   ellipse = vec4(vv, -uv, uu, 0) * inverse;
   ellipse.w = radiusShare.y * max(abs(area) * sqrt(inverse), 3.2e-5);
-${
-  blending
-    ? `
-  colour = texelFetch(colours, texel, 0).rgb;
-  if (rooted) colour *= colour;
   // E.5: within this radius the disc covers pixels in every direction.
   float mean = 0.5 * (ellipse.x + ellipse.z), half_ = 0.5 * (ellipse.x - ellipse.z);
   float minor = 1.0 / (mean + sqrt(half_ * half_ + ellipse.y * ellipse.y));
   float inner = max(0.0, (SHARE * sqrt(max(0.0, minor - FILTER)) - 0.5) * inversesqrt(minor));
   cover = vec2(inner * inner,
                0.5 + SHARE * sqrt(max(0.0, 1.0 / max(ellipse.x, ellipse.z) - FILTER)));
+${
+  blending
+    ? `  colour = texelFetch(colours, texel, 0).rgb;
+  if (rooted) colour *= colour;
 `
     : ''
 }
@@ -214,22 +204,24 @@ ${
   vec2 corner = vec2(0);`
       : 'vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;'
   }
-  gl_Position = vec4((at + reach * corner) / size * 2.0 - 1.0, 0, 1);
+  gl_Position = vec4((at + reach * corner) / size * 2.0 - 1.0, 2.0 * front - 1.0, 1);
 }`;
 
 /** @param {'quads'|'sprites'} kind */
 export const depthVertex = (kind) => DISC_VERTEX(false, kind === 'sprites');
 export const blendVertex = (kind) => DISC_VERTEX(true, kind === 'sprites');
 
-/** Greatest inverse depth of cores, by the depth test. */
+/** Greatest inverse depth of cores, by the depth test; its last bit: the disc covers the pixel wholly (E.5). */
 export const DEPTH_FRAGMENT = `${HEAD}
-uniform float nearest;  // the greatest inverse depth that there can be
-flat in vec2 at;
+uniform float nearest;
+flat in vec2 at, cover;
 flat in vec4 ellipse, plane;
 void main() {
   vec2 d = gl_FragCoord.xy - at;
-  if (d.x * (ellipse.x * d.x + 2.0 * ellipse.y * d.y) + ellipse.z * d.y * d.y >= 0.4) discard;
-  gl_FragDepth = (plane.x + dot(plane.yz, d)) / nearest;
+  float r2 = d.x * (ellipse.x * d.x + 2.0 * ellipse.y * d.y) + ellipse.z * d.y * d.y;
+  if (r2 >= 0.4) discard;
+  uint depth = floatBitsToUint(clamp((plane.x + dot(plane.yz, d)) / nearest, 0.0, 1.0));
+  gl_FragDepth = uintBitsToFloat(r2 <= cover.x && dot(d, d) >= 1e-4 ? depth | 1u : depth & ~1u);
 }`;
 
 /** Weighted colours (sums), the share that a disc covers (greatest), weights (sums). */

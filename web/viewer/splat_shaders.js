@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL of Gaussian splats, spec annex E.6. Lengths are voxels, colours 0 .. 1 and more, images have their first row at
 // the bottom. The constants are those of lightfield/render/gaussian_cloud.h.
-import { HEAD, TRANSFERS } from './shaders.js';
-import { UNPACK } from './texel_shaders.js';
+import { TRANSFERS } from './shaders.js';
+import { HEAD, UNPACK } from './texel_shaders.js';
 
 export const SPLAT_VERTEX = `${HEAD}${UNPACK}
 uniform usampler2D places, tails;  // of packed_texels.js

@@ -2,10 +2,13 @@
 // The reference reconstruction (spec annex E) in WebGL2, without any framework: colours of points,
 // depths of discs, their weighted sums, the mean over what is behind.
 import { bind, image, sample, target, use } from './gl_objects.js';
+import { BLOCK, BLOCK_FRAGMENT, OCCLUDER_FRAGMENT } from './occluder_shaders.js';
 import { PointPipeline } from './point_pipeline.js';
 import * as shaders from './shaders.js';
 
 const LARGEST_SPRITE = 32; // pixels; sides of larger discs differ by more pixels than corners are worth
+
+const blocksOf = (...sides) => sides.map((side) => Math.ceil(side / BLOCK));
 
 export class SurfelPipeline extends PointPipeline {
   constructor(gl) {
@@ -14,6 +17,8 @@ export class SurfelPipeline extends PointPipeline {
       depthSprites: [shaders.depthVertex('sprites'), shaders.DEPTH_FRAGMENT],
       blend: [shaders.blendVertex('quads'), shaders.BLEND_FRAGMENT],
       blendSprites: [shaders.blendVertex('sprites'), shaders.BLEND_FRAGMENT],
+      occluders: [shaders.SCREEN_VERTEX, OCCLUDER_FRAGMENT],
+      blocks: [shaders.SCREEN_VERTEX, BLOCK_FRAGMENT],
       resolve: [shaders.SCREEN_VERTEX, shaders.RESOLVE_FRAGMENT],
     });
     const widest = gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1];
@@ -43,7 +48,7 @@ export class SurfelPipeline extends PointPipeline {
       if (this.largestSprite > 0) this.drawSprites(this.programs[`${name}Sprites`], own, set, drawn);
       if (!this.allSprites(view, eye, field.points / Math.max(1, drawn))) this.drawQuads(this.programs[name], own, set, drawn);
     };
-    const own = { places: t.places, colours: t.colours, depth: sums.depth };
+    const own = { places: t.places, colours: t.colours, depth: sums.depth, blocks: sums.blocks };
     gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.depthTarget);
     gl.enable(gl.DEPTH_TEST);
@@ -52,18 +57,36 @@ export class SurfelPipeline extends PointPipeline {
     gl.clearDepth(0);
     gl.clear(gl.DEPTH_BUFFER_BIT);
     draw('depth');
+    this.findOccluders(view);
 
+    gl.viewport(0, 0, view.width, view.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, sums.blendTarget);
-    gl.disable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.GREATER);
+    gl.depthMask(false);
     gl.enable(gl.BLEND);
     gl.blendEquationSeparate(gl.FUNC_ADD, gl.MAX);
     gl.blendFunc(gl.ONE, gl.ONE);
     gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
     gl.clearBufferfv(gl.COLOR, 1, [0, 0, 0, 0]);
     draw('blend');
+    gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
     gl.blendEquation(gl.FUNC_ADD);
     this.statistics.discs = drawn;
+  }
+
+  /** Depths of pixels, and of blocks of them, behind which nothing shows. */
+  findOccluders({ width, height }) {
+    const { gl, sums, programs } = this;
+    gl.depthFunc(gl.ALWAYS);
+    const pass = (program, target, textures, ...sides) => {
+      gl.viewport(0, 0, ...sides);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+      bind(gl, use(gl, program), textures);
+      this.drawScreen();
+    };
+    pass(programs.occluders, sums.occluderTarget, { depth: sums.depth }, width, height);
+    pass(programs.blocks, sums.blockTarget, { occluders: sums.occluders }, ...blocksOf(width, height));
   }
 
   drawSprites(program, textures, set, drawn) {
@@ -113,17 +136,19 @@ export class SurfelPipeline extends PointPipeline {
     const { gl } = this;
     if (this.sums?.width === width && this.sums.height === height) return;
     this.clearSums();
-    const depth = image(gl, gl.DEPTH_COMPONENT32F, width, height, gl.DEPTH_COMPONENT, gl.FLOAT, null);
+    const [depth, occluders, blocks] = [[width, height], [width, height], blocksOf(width, height)].map((sides) =>
+      image(gl, gl.DEPTH_COMPONENT32F, ...sides, gl.DEPTH_COMPONENT, gl.FLOAT, null),
+    );
     const weighted = image(gl, gl.RGBA16F, width, height, gl.RGBA, gl.HALF_FLOAT, null);
     const weight = image(gl, gl.R16F, width, height, gl.RED, gl.HALF_FLOAT, null);
     for (const texture of [weighted, weight]) {
       gl.bindTexture(gl.TEXTURE_2D, texture);
       sample(gl, gl.TEXTURE_2D, gl.LINEAR);
     }
-    const depthTarget = target(gl, [], depth),
-      blendTarget = target(gl, [weighted, weight], null);
-    const textures = [depth, weighted, weight],
-      targets = [depthTarget, blendTarget];
-    this.sums = { width, height, depth, weighted, weight, depthTarget, blendTarget, textures, targets };
+    const [depthTarget, occluderTarget, blockTarget] = [depth, occluders, blocks].map((each) => target(gl, [], each)),
+      blendTarget = target(gl, [weighted, weight], occluders);
+    const textures = [depth, occluders, blocks, weighted, weight],
+      targets = [depthTarget, occluderTarget, blockTarget, blendTarget];
+    this.sums = { width, height, depth, occluders, blocks, weighted, weight, depthTarget, occluderTarget, blockTarget, blendTarget, textures, targets };
   }
 }

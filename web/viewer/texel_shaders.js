@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL that reads the texels of packed_texels.js.
+// How all GLSL of the viewer begins, and how it reads the texels of packed_texels.js.
+
+export const HEAD = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler2DArray;
+precision highp usampler2D;
+precision highp usampler2DArray;
+`;
 
 /** Points as packed_texels.js writes them. */
 export const UNPACK = `
