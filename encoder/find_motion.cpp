@@ -22,6 +22,9 @@ constexpr double kWorthwhile = 0.98;
 /// How much better a motion has to foretell that has more to code.
 constexpr double kAffineCost = 1.002, kLatticeCost = 1.04, kFineCost = 1.10;
 constexpr double kAllStill = 1;  // grey levels of scattered points that nothing moves
+/// The same of those that one motion moves; one that nothing foretells counts 48 more.
+constexpr double kFollowed = 12;
+constexpr std::size_t kFewStill = 20;  // at most one point in so many
 /// Sixteenths of a voxel that a vector of a lattice may have where things stand still.
 constexpr std::int32_t kRest = 24;
 constexpr double kRoomOfLattice = 1 << 18;  // points of a lattice. Spec 7.13
@@ -52,11 +55,18 @@ class MotionSearch {
     if (scattered_ && least_ < kAllStill) return {};
     const bool goes_on = !previous.is_zero() && mismatch_.of(previous) < least_;
     if (goes_on) go_on(previous);
-    if (!goes_on || scattered_) begin();
+    if (!goes_on || (scattered_ && !is_followed())) begin();
     return std::move(best_);
   }
 
  private:
+  /// Do scattered points all move, and as the best motion says?
+  bool is_followed() {
+    if (!scattered_ || best_.is_zero() || least_ > Mismatch::kMoved + kFollowed) return false;
+    std::size_t still = 0;
+    for (std::size_t i = 0; i < here(0).codes.size(); ++i) still += mismatch_.is_still(i);
+    return still < here(0).codes.size() / kFewStill;
+  }
   int coarsest() const { return static_cast<int>(here_.size()) - 1; }
   const CoarseFrame& here(int level) const { return here_[static_cast<std::size_t>(level)]; }
   MatchedFrame& there(int level) {
@@ -109,6 +119,7 @@ class MotionSearch {
     motion_ = MotionModel(bits_);
     for (int level = coarsest(); level >= 0; --level) fit(level, kAffine);
     consider(kAffineCost);
+    if (is_followed()) return;
     if (scattered_) try_parts();
     const int first = std::max(bits_ - 6, 0);
     if (!has_room(widest_lattice()) || !try_lattice(first)) return;
@@ -128,7 +139,7 @@ class MotionSearch {
     if (previous.lattice_log2 == 0) {
       for (int level = fine; level >= 0; --level) fit(level, kAffine);
       consider(kAffineCost);
-      if (!has_room(widest_lattice()) || !try_lattice(fine)) return;
+      if (is_followed() || !has_room(widest_lattice()) || !try_lattice(fine)) return;
     }
     for (int level = fine; level >= 0; --level) fit(level, kNextFrame);
     consider(motion_.lattice_log2() == widest_lattice() ? kLatticeCost : kFineCost);

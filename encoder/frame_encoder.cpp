@@ -29,6 +29,12 @@ struct FrameColours {
 
 namespace {
 
+constexpr float kStill = 4;  // grey levels
+constexpr double kStillShare = 0.98;
+// Points that move one by one take less than this of the group's first frame: no other way is
+// tried.
+constexpr double kMuchLess = 0.9;
+
 InputError invalid_frame(const std::string& what) {
   return {Errc::kInvalidArgument, "frames: " + what};
 }
@@ -60,6 +66,20 @@ FrameColours colours_of(const LightField& field, int threads) {
     colours.colours.push_back(given[i]);
   }
   return colours;
+}
+
+/// Do all points but a few stand where they stood, in about their colours?
+bool hardly_moves(const FrameColours& now, const FrameColours& before) {
+  std::size_t still = 0;
+  for (std::size_t i = 0, j = 0; i < now.codes.size() && j < before.codes.size();) {
+    const auto [code, other] = std::pair(now.codes[i], before.codes[j]);
+    if (code == other) {
+      const auto &a = now.colours[i], &b = before.colours[j];
+      still += std::abs(a[0] + a[1] + a[2] - b[0] - b[1] - b[2]) < 3 * kStill;
+    }
+    i += code <= other, j += other <= code;
+  }
+  return double(still) > kStillShare * double(std::max(now.codes.size(), before.codes.size()));
 }
 
 /// Spec 9: the lowest level with room for frames of twice as many points, 30 of them a second.
@@ -192,17 +212,26 @@ struct FrameEncoder::Impl {
       return pack_frame(field, parameters, &frame, &group);
     }
     const FrameColours now = colours_of(field, parameters.threads);
-    const bool scattered = has_gaussians(field.header);
-    frame.motion = choose_motion(now.points(scattered), before.points(scattered),
-                                 field.header.grid.bits, motion);
-    motion = frame.motion;
-    SLF_TRY(auto bytes, pack_predicted(field, parameters, group, chain.state(), frame));
-    if (!group.set.has_moved_points()) return bytes;
+    if (!group.set.has_moved_points() || hardly_moves(now, before))
+      return code_displaced(field, now, frame);
     FrameHeader other = frame;
     SLF_TRY(auto moved, code_moved(field, now, other));
-    if (moved.size() >= bytes.size()) return bytes;
+    if (double(moved.size()) > kMuchLess * double(first.size())) {
+      SLF_TRY(auto displaced, code_displaced(field, now, frame));
+      if (displaced.size() <= moved.size()) return displaced;
+    }
     frame = std::move(other);
     return moved;
+  }
+
+  /// By the reference as it stands, at displaced places.
+  Result<std::vector<std::uint8_t>, InputError> code_displaced(const LightField& field,
+                                                               const FrameColours& now,
+                                                               FrameHeader& frame) {
+    const bool scattered = has_gaussians(field.header);
+    frame.motion = motion = choose_motion(now.points(scattered), before.points(scattered),
+                                          field.header.grid.bits, motion);
+    return pack_predicted(field, parameters, group, chain.state(), frame);
   }
 
   /// The same by points of the reference that move one by one.

@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kNear = 192;       // points around where one may be
 constexpr std::size_t kCandidates = 12;  // of these, that look most like it
 constexpr std::size_t kTelling = 12;     // planes that are looked at for that
+constexpr float kSurely = 0.4f;  // of what it costs alone: nothing farther away is more alike
 constexpr std::size_t kMatchGrain = 64;
 
 struct Pair {
@@ -98,24 +99,35 @@ class Matcher {
   /// to: [candidates()] of point p
   void find(std::size_t p, Pair* to) const {
     const std::array<float, 3> at = place(carried_to(p));
-    const std::size_t near = std::min(kNear, places_.size());
+    const std::size_t near = std::min(kNear, places_.size()), count = candidates();
     std::array<std::uint32_t, kNear> index{};
+    nearest_->nearest(at, static_cast<int>(count), index.data(), nullptr);
+    if (set_pairs(p, at, index.data(), to)) return;
     nearest_->nearest(at, static_cast<int>(near), index.data(), nullptr);
     std::array<std::pair<float, std::uint32_t>, kNear> order;
     for (std::size_t c = 0; c < near; ++c) order[c] = {cost_by_telling(p, index[c], at), index[c]};
-    std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(candidates()),
+    std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(count),
                       order.begin() + std::ptrdiff_t(near));
+    for (std::size_t c = 0; c < count; ++c) index[c] = order[c].second;
+    set_pairs(p, at, index.data(), to);
+  }
+
+ private:
+  /// @return whether one of them is surely the point
+  bool set_pairs(std::size_t p, const std::array<float, 3>& at, const std::uint32_t* index,
+                 Pair* to) const {
     const std::size_t planes = per_step_.size();
+    bool surely = false;
     for (std::size_t c = 0; c < candidates(); ++c) {
-      const std::uint32_t n = order[c].second;
+      const std::uint32_t n = index[c];
       const float cost =
           cost_of_place(n, at) +
           cost_of_values(&now_.values[n * planes], &before_.values[p * planes], per_step_);
       to[c] = {cost - alone_[n], static_cast<std::uint32_t>(p), n};
+      surely |= cost < kSurely * alone_[n];
     }
+    return surely;
   }
-
- private:
   float cost_of_place(std::uint32_t n, const std::array<float, 3>& at) const {
     float cost = 0;
     for (std::size_t k = 0; k < 3; ++k) cost += 2 * bits_of(std::abs(places_[n][k] - at[k]));

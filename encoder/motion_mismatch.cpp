@@ -11,9 +11,7 @@ namespace {
 
 constexpr std::size_t kMostSampled = 6000;
 constexpr double kMissed = 48;  // grey levels that a point counts whose place is empty there
-/// What a splat counts that moved, however well it is foretold: cells of all levels hold others
-/// beside it than they held before. One that stands still is nearly free.
-constexpr double kMoved = 48, kStill = 4;
+constexpr double kStill = 4;    // the same: a splat that differs by less has not moved
 
 }  // namespace
 

@@ -16,6 +16,10 @@ namespace slf {
 /// others than those that are matched, where there are enough.
 class Mismatch {
  public:
+  /// What a splat counts that moved, however well it is foretold: cells of all levels hold others
+  /// beside it than they held before. One that stands still is nearly free.
+  static constexpr double kMoved = 48;
+
   /// @param here, there  the same frames and their coarser ones, kept by reference
   Mismatch(const FramePoints& now, const FramePoints& before, int bits,
            const std::vector<CoarseFrame>& here, const std::vector<CoarseFrame>& there);
