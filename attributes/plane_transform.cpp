@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "attributes/plane_transform.h"
 
+#include <numeric>
+#include <vector>
+
 #include "base/multiversion.h"
 #include "slf/given_planes.h"
 #include "slf/parallel.h"
@@ -18,13 +21,12 @@ std::int32_t clamped(std::int64_t value) {
 
 /// sums[i] += component * column[i]. |component| < 2^31, |column[i]| <= 2^20, at most 2^10 columns
 /// (their product with as many rows or more is at most 2^20): below 2^61.
-SLF_MULTIVERSION
-void add_column(const std::int32_t* column, std::int32_t component, std::int64_t* sums,
-                std::size_t rows) {
+inline void add_column(const std::int32_t* __restrict column, std::int32_t component,
+                       std::int64_t* __restrict sums, std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) sums[i] += std::int64_t{column[i]} * component;
 }
 
-std::array<std::int32_t, 3> mix_channels(const PlaneTransform& t, const std::int32_t* v) {
+inline std::array<std::int32_t, 3> mix_channels(const PlaneTransform& t, const std::int32_t* v) {
   std::array<std::int32_t, 3> mixed;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& m = t.colour[i];
@@ -35,13 +37,14 @@ std::array<std::int32_t, 3> mix_channels(const PlaneTransform& t, const std::int
   return mixed;
 }
 
-}  // namespace
-
-void expand_point(const PlaneTransform& t, const std::int32_t* components, std::int32_t* planes,
-                  ExpansionScratch& scratch) {
+/// The values of the transform's functions at a point, of the components there. Spec 8.7.5.
+/// @param components  [R][3] all of the point
+/// @param planes      [K][3] receives those of the functions
+/// @param sums        room for as many
+inline void expand_point(const PlaneTransform& t, const std::int32_t* components,
+                         std::int32_t* planes, std::int64_t* sums) {
   const std::size_t rows = t.rows(), per_function = 3 / t.lanes;
-  auto& sums = scratch.sums;
-  sums.assign(t.lanes * rows, 1 << (PlaneTransform::kFractionBits - 1));
+  std::fill_n(sums, t.lanes * rows, std::int64_t{1} << (PlaneTransform::kFractionBits - 1));
   for (std::size_t r = 0; r < t.components.size(); ++r) {
     const std::int32_t* component = components + std::size_t{3} * t.components[r];
     if ((component[0] | component[1] | component[2]) == 0) continue;  // most
@@ -50,7 +53,7 @@ void expand_point(const PlaneTransform& t, const std::int32_t* components, std::
                            : mix_channels(t, component);
     for (std::size_t c = 0; c < 3; ++c)
       add_column(&t.matrix[(r * per_function + (t.lanes == 3 ? 0 : c)) * rows], mixed[c],
-                 &sums[t.lanes == 3 ? c * rows : 0], rows);
+                 sums + (t.lanes == 3 ? c * rows : 0), rows);
   }
   for (std::size_t i = 0; i < t.functions.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
@@ -58,28 +61,41 @@ void expand_point(const PlaneTransform& t, const std::int32_t* components, std::
           clamped(sums[t.lanes == 3 ? c * rows + i : 3 * i + c] >> PlaneTransform::kFractionBits);
 }
 
+/// Points of a light field, from coded functions to all.
+struct Expansion {
+  const std::vector<PlaneTransform>& transforms;
+  std::vector<std::uint16_t> coded;  // [R] function of each component, where no transform has it
+  std::size_t row;                   // planes of a point
+};
+
+/// sums: [row]
+SLF_MULTIVERSION_LANES
+void expand_points(const Expansion& of, const std::int32_t* components, std::int32_t* planes,
+                   std::size_t points, std::int64_t* sums) {
+  for (; points > 0; --points, components += 3 * of.coded.size(), planes += of.row) {
+    for (std::size_t r = 0; r < of.coded.size(); ++r)
+      std::copy_n(components + 3 * r, 3, planes + std::size_t{3} * of.coded[r]);
+    // A transform writes all of its functions, those too where its components stand.
+    for (const PlaneTransform& t : of.transforms) expand_point(t, components, planes, sums);
+  }
+}
+
+}  // namespace
+
 std::vector<std::int32_t> given_planes(const LightField& field, int threads) {
   const LightFieldHeader& header = field.header;
   if (header.coded.empty() && header.transforms.empty()) return field.components;
-  const std::size_t row = 3 * static_cast<std::size_t>(header.num_functions),
-                    coded = 3 * static_cast<std::size_t>(header.num_components());
-  std::vector<std::uint16_t> alone(static_cast<std::size_t>(header.num_components()));
-  for (std::size_t r = 0; r < alone.size(); ++r)
-    alone[r] = header.coded.empty() ? static_cast<std::uint16_t>(r) : header.coded[r];
-  std::vector<std::int32_t> planes(field.num_points() * row);
+  Expansion of{header.transforms, header.coded, 3 * static_cast<std::size_t>(header.num_functions)};
+  if (of.coded.empty()) {
+    of.coded.resize(static_cast<std::size_t>(header.num_components()));
+    std::iota(of.coded.begin(), of.coded.end(), std::uint16_t{0});
+  }
+  std::vector<std::int32_t> planes(field.num_points() * of.row);
   parallel_ranges(field.num_points(), kPointGrain, threads,
                   [&](std::size_t begin, std::size_t end) {
-                    ExpansionScratch scratch;
-                    for (std::size_t p = begin; p < end; ++p) {
-                      const std::int32_t* from = &field.components[p * coded];
-                      std::int32_t* to = &planes[p * row];
-                      for (std::size_t r = 0; r < alone.size(); ++r)
-                        std::copy_n(from + 3 * r, 3, to + std::size_t{3} * alone[r]);
-                      // A transform writes all of its functions, those too where its components
-                      // stand.
-                      for (const PlaneTransform& t : header.transforms)
-                        expand_point(t, from, to, scratch);
-                    }
+                    std::vector<std::int64_t> sums(of.row);
+                    expand_points(of, field.components.data() + begin * 3 * of.coded.size(),
+                                  planes.data() + begin * of.row, end - begin, sums.data());
                   });
   return planes;
 }

@@ -18,18 +18,6 @@
 
 namespace slf {
 
-/// What expand_point works on; only its memory is kept from point to point.
-struct ExpansionScratch {
-  std::vector<std::uint32_t> columns;
-  std::vector<std::int64_t> sums;
-};
-
-/// The values of the transform's functions at a point, of the components there. Spec 8.7.5.
-/// @param components  [R][3] all of the point
-/// @param planes      [K][3] zero on entry
-void expand_point(const PlaneTransform& transform, const std::int32_t* components,
-                  std::int32_t* planes, ExpansionScratch& scratch);
-
 /// Columns of a matrix, from `begin` to before `end`.
 struct ColumnRange {
   std::size_t begin = 0, end = 0;

@@ -42,10 +42,11 @@ SplatFunctions splat_functions(const LightFieldHeader& header) {
           first_function(header, AttributeId::kShape)};
 }
 
-double PointValues::operator()(int function, int channel) const {
-  const auto k = static_cast<std::size_t>(function);
-  const int shift = header_.shift.empty() ? 0 : header_.shift[k];
-  return std::ldexp(planes_[3 * k + static_cast<std::size_t>(channel)], -shift);
+std::vector<double> plane_units(const LightFieldHeader& header) {
+  std::vector<double> units(static_cast<std::size_t>(header.num_functions), 1);
+  for (std::size_t k = 0; k < header.shift.size(); ++k)
+    units[k] = std::ldexp(1.0, -header.shift[k]);
+  return units;
 }
 
 double logit_of(const PointValues& value, const SplatFunctions& functions) {
@@ -64,12 +65,12 @@ SplatShapes splat_shapes(const LightField& field, int threads) {
   const LightFieldHeader& header = field.header;
   const SplatFunctions functions = splat_functions(header);
   const std::vector<std::int32_t> planes = given_planes(field, threads);
+  const std::vector<double> units = plane_units(header);
   const std::size_t points = field.num_points();
   SplatShapes out{std::vector<std::array<float, 6>>(points), std::vector<float>(points)};
   parallel_ranges(points, kShapesPerRange, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const PointValues value(header,
-                              &planes[p * 3 * static_cast<std::size_t>(header.num_functions)]);
+      const PointValues value(units, &planes[p * 3 * units.size()]);
       out.covariances[p] = covariance_of(log_shape_of(value, functions));
       out.opacities[p] = static_cast<float>(1 / (1 + std::exp(-logit_of(value, functions))));
     }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lightfield/symmetric3.h"
@@ -20,16 +22,23 @@ struct SplatFunctions {
 };
 SplatFunctions splat_functions(const LightFieldHeader& header);
 
+/// What 1 is in the planes of each function. [K]
+std::vector<double> plane_units(const LightFieldHeader& header);
+
 /// Given planes of one point (slf/given_planes.h) as real numbers.
 class PointValues {
  public:
-  PointValues(const LightFieldHeader& header, const std::int32_t* planes)
-      : header_(header), planes_(planes) {}
+  /// units: plane_units(); kept by reference, as the planes are.
+  PointValues(std::span<const double> units, const std::int32_t* planes)
+      : units_(units), planes_(planes) {}
 
-  double operator()(int function, int channel) const;
+  double operator()(int function, int channel) const {
+    const auto k = static_cast<std::size_t>(function);
+    return planes_[3 * k + static_cast<std::size_t>(channel)] * units_[k];
+  }
 
  private:
-  const LightFieldHeader& header_;
+  std::span<const double> units_;
   const std::int32_t* planes_;
 };
 

@@ -64,6 +64,7 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
       return InputError{Errc::kInvalidInput, "its splats lie beyond what floats hold"};
   const SplatFunctions functions = splat_functions(header);
   const std::vector<std::int32_t> planes = given_planes(field, threads);
+  const std::vector<double> units = plane_units(header);
   const auto to_rgb = colour_matrix(header.colour);
   Gaussians out;
   out.degree = header.basis.degree;
@@ -76,8 +77,7 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
   out.harmonics.resize(points * row);
   parallel_ranges(points, kSplatsPerRange, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const PointValues value(header,
-                              &planes[p * 3 * static_cast<std::size_t>(header.num_functions)]);
+      const PointValues value(units, &planes[p * 3 * units.size()]);
       const Vec3 at = header.grid.world(field.positions[p]);
       for (std::size_t i = 0; i < 3; ++i) out.positions[p][i] = static_cast<float>(at[i]);
       out.logits[p] = static_cast<float>(logit_of(value, functions));

@@ -9,25 +9,30 @@ namespace {
 
 constexpr int kSweeps = 12;  // each squares what is left; five do
 
-/// Turns rows and columns p and q so that m[p][q] is 0.
-void rotate(Matrix3x3& m, Matrix3x3& axis, std::size_t p, std::size_t q) {
-  if (m[p][q] == 0) return;
-  const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::hypot(theta, 1.0));
-  const double c = 1 / std::hypot(t, 1.0), s = t * c;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double a = m[k][p], b = m[k][q];
-    m[k][p] = c * a - s * b;
-    m[k][q] = s * a + c * b;
+/// Turns rows and columns p and q so that m[p][q] is 0. r: the third.
+void rotate(Matrix3x3& m, Matrix3x3& axis, std::size_t p, std::size_t q, std::size_t r) {
+  const double off = m[p][q];
+  if (off == 0) return;
+  const double theta = (m[q][q] - m[p][p]) / (2 * off);
+  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+  m[p][p] -= t * off;
+  m[q][q] += t * off;
+  m[p][q] = m[q][p] = 0;
+  const double a = m[r][p], b = m[r][q];
+  m[r][p] = m[p][r] = c * a - s * b;
+  m[r][q] = m[q][r] = s * a + c * b;
+  for (auto& row : axis) {
+    const double x = row[p], y = row[q];
+    row[p] = c * x - s * y;
+    row[q] = s * x + c * y;
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double a = m[p][k], b = m[q][k];
-    m[p][k] = c * a - s * b;
-    m[q][k] = s * a + c * b;
-    const double x = axis[k][p], y = axis[k][q];
-    axis[k][p] = c * x - s * y;
-    axis[k][q] = s * x + c * y;
-  }
+}
+
+/// What is beside the diagonal is less than a double's rounding of what is on it.
+bool is_diagonal(const Matrix3x3& m) {
+  const double beside = std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]);
+  return beside <= 0x1p-60 * (std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]));
 }
 
 }  // namespace
@@ -51,10 +56,10 @@ std::array<double, 6> shape_values(const Symmetric3& m) {
 Axes3 eigen_axes(const Symmetric3& s) {
   Matrix3x3 m{{{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}}};
   Axes3 axes{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};  // turned: right-handed it stays
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    rotate(m, axes.axis, 0, 1);
-    rotate(m, axes.axis, 0, 2);
-    rotate(m, axes.axis, 1, 2);
+  for (int sweep = 0; sweep < kSweeps && !is_diagonal(m); ++sweep) {
+    rotate(m, axes.axis, 0, 1, 2);
+    rotate(m, axes.axis, 0, 2, 1);
+    rotate(m, axes.axis, 1, 2, 0);
   }
   for (std::size_t i = 0; i < 3; ++i) axes.value[i] = m[i][i];
   return axes;
