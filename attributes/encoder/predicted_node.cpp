@@ -36,8 +36,9 @@ void PredictedNode::predict(const TransformLevel& level, std::size_t n, std::spa
     predict_block(block, values, means, reference);
   const std::size_t lanes = modes_.size();
   for (std::size_t i = 0; i < plan_->children; ++i)
-    for (std::size_t j = 0; j < lanes; ++j)
-      transformed_[i * lanes + j] = corrections_[j / kPredictionLanes][i][j % kPredictionLanes];
+    for (std::size_t j = 0; j < lanes; j += kPredictionLanes)
+      std::copy_n(corrections_[j / kPredictionLanes][i].begin(),
+                  std::min(kPredictionLanes, lanes - j), &transformed_[i * lanes + j]);
   for (std::size_t m = own.size(); m-- > 0;)
     forward_rows(own[m], &transformed_[child_of(own[m].left) * lanes],
                  &transformed_[child_of(own[m].right) * lanes], lanes);
@@ -45,9 +46,13 @@ void PredictedNode::predict(const TransformLevel& level, std::size_t n, std::spa
 
 void PredictedNode::predict_block(std::size_t block, Lanes values, Lanes means,
                                   ConstLanes reference) {
-  for (auto& child : corrections_[block]) child.fill(0);
   const std::size_t begin = block * kPredictionLanes,
                     end = std::min(modes_.size(), begin + kPredictionLanes);
+  if (used_.size() == 1)  // all lanes of one mode, as where modes are tried
+    return predict_children(*plan_, {values.first + begin, values.stride},
+                            {means.first + begin, means.stride}, reference.from(begin), end - begin,
+                            corrections_[block]);
+  for (auto& child : corrections_[block]) child.fill(0);
   for (std::size_t j = begin; j < end;) {  // lanes of one mode
     const std::size_t first = j;
     while (j < end && modes_[j] == modes_[first]) ++j;
