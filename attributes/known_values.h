@@ -15,17 +15,23 @@ class KnownValues {
 
   bool refines() const { return refines_; }
 
-  /// What a value is by the layers before; 0 where there are none.
-  template <class Coder>
-  std::int32_t value(std::int32_t v) const {
-    return !refines_ ? 0 : Coder::kDecodes ? v : v / 2;
+  /// The values of a function by which the layers before are known: zeros where there are none, so
+  /// that a decoder never waits for what it only writes.
+  const std::int32_t* of(const std::int32_t* values) const {
+    static constexpr std::int32_t kNone[3] = {};
+    return refines_ ? values : kNone;
   }
 
-  /// Is a function's vector known not to be zero?
+  /// What a value is by the layers before. v: an element of of()
   template <class Coder>
-  bool any(const std::int32_t* values) const {
-    return refines_ &&
-           (value<Coder>(values[0]) | value<Coder>(values[1]) | value<Coder>(values[2])) != 0;
+  static std::int32_t value(std::int32_t v) {
+    return Coder::kDecodes ? v : v / 2;
+  }
+
+  /// Is a function's vector known not to be zero? values: of()
+  template <class Coder>
+  static bool any(const std::int32_t* values) {
+    return (value<Coder>(values[0]) | value<Coder>(values[1]) | value<Coder>(values[2])) != 0;
   }
 
   /// Behind the last of the functions that is known not to be zero; 0: none is.

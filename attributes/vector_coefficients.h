@@ -127,8 +127,9 @@ class VectorCoefficients {
   SLF_OWN_CALL bool code_vector(Coder& coder, const Around& around, std::size_t known,
                                 std::size_t i, std::int32_t* values) {
     prefetch(values + 3u * functions_.front());
-    expected_.expect(around, kept_, states_->activity);
     std::int16_t* const own = kept_.add();
+    const VectorsAround vectors = vectors_around(around, kept_);
+    expected_.expect(around, vectors, states_->activity);
     Progress progress;
     std::size_t last = 0;  // function that is not zero
     std::size_t end =
@@ -142,7 +143,7 @@ class VectorCoefficients {
         break;
       }
       if (f % kRun == 0) progress.recent = 0;
-      if (!code_function(coder, around, f, values + 3u * functions_[f], own, progress))
+      if (!code_function(coder, around, vectors, f, values + 3u * functions_[f], own, progress))
         return false;
       if (!is_zero_kept(own + 3 * f)) last = f;
     }
@@ -183,12 +184,13 @@ class VectorCoefficients {
   }
 
   template <class Coder>
-  bool code_function(Coder& coder, const Around& around, std::size_t f, std::int32_t* values,
-                     std::int16_t* own, Progress& progress) {
+  bool code_function(Coder& coder, const Around& around, const VectorsAround& vectors,
+                     std::size_t f, std::int32_t* values, std::int16_t* own, Progress& progress) {
     MagnitudeEvidence evidence{};
     evidence.functions_before = functions_before(f, own);
+    const std::int32_t* const before = known_.of(values);
     const bool known =  // the vector is not zero
-        (progress.sum == 0 && f + 1 == functions_.size()) || known_.any<Coder>(values);
+        (progress.sum == 0 && f + 1 == functions_.size()) || KnownValues::any<Coder>(before);
     if (functions_.size() > 1 && !known &&
         !code_any(coder, around, f, evidence.functions_before, progress,
                   !Coder::kDecodes && (values[0] | values[1] | values[2]) != 0)) {
@@ -200,7 +202,7 @@ class VectorCoefficients {
       return true;
     }
     ++progress.recent;
-    SignEvidence signs = signs_around(around, f, own);
+    SignEvidence signs = signs_around(around.axis, vectors, f, own);
     for (std::uint32_t c = 0; c < 3; ++c) {
       const std::size_t j = 3 * f + c;
       const auto activity = static_cast<std::uint32_t>(states_->activity[j]);
@@ -214,7 +216,9 @@ class VectorCoefficients {
             3u * functions_[f] + c, log_class(evidence.expected[c] >> 4, 47))];
       const bool nonzero =  // the function's vector is not all zero
           c == 2 && (evidence.magnitude[0] | evidence.magnitude[1]) == 0;
-      const std::uint32_t magnitude = code_magnitude(coder, evidence, nonzero, values[c]);
+      const std::int32_t by_layers = KnownValues::value<Coder>(before[c]);
+      const std::uint32_t magnitude =
+          code_magnitude(coder, evidence, nonzero, by_layers, values[c]);
       if (magnitude == CoefficientMagnitudeModel::kDamaged) return false;
       const auto kept =
           static_cast<std::int32_t>(std::min(magnitude, static_cast<std::uint32_t>(kLargest)));
@@ -224,10 +228,9 @@ class VectorCoefficients {
       if (functions_.size() > 1)
         states_->activity[j] += (std::min(kept, 7) * 4096 - states_->activity[j]) >> 6;
       if (magnitude == 0) continue;
-      const std::int32_t sign = known_.value<Coder>(values[c]);
       const bool negative =
-          sign != 0 ? sign < 0
-                    : states_->sign.code(coder, signs, !Coder::kDecodes && values[c] < 0);
+          by_layers != 0 ? by_layers < 0
+                         : states_->sign.code(coder, signs, !Coder::kDecodes && values[c] < 0);
       const std::int32_t factor = 1 - 2 * negative;  // no branch: signs are hard to foresee
       if (Coder::kDecodes) values[c] = factor * static_cast<std::int32_t>(magnitude);
       own[j] = static_cast<std::int16_t>(factor * kept);
@@ -235,16 +238,15 @@ class VectorCoefficients {
     return true;
   }
 
-  /// nonzero: the value is known to be.
+  /// nonzero: the value is known to be. known: what it is by the layers before
   template <class Coder>
   std::uint32_t code_magnitude(Coder& coder, const MagnitudeEvidence& evidence, bool nonzero,
-                               std::int32_t value) {
+                               std::int32_t known, std::int32_t value) {
     const auto whole = static_cast<std::uint32_t>(Coder::kDecodes ? 0 : std::abs(value));
     if (!known_.refines()) return states_->magnitude.code(coder, evidence, nonzero, whole);
-    const std::int32_t before = std::abs(known_.value<Coder>(value));
-    if (before >= kRefinedLimit) return CoefficientMagnitudeModel::kDamaged;
-    return states_->magnitude.refine(coder, evidence, nonzero, static_cast<std::uint32_t>(before),
-                                     whole);
+    if (std::abs(known) >= kRefinedLimit) return CoefficientMagnitudeModel::kDamaged;
+    return states_->magnitude.refine(coder, evidence, nonzero,
+                                     static_cast<std::uint32_t>(std::abs(known)), whole);
   }
 
   /// Has a function of the vector a value other than 0?
@@ -271,16 +273,13 @@ class VectorCoefficients {
     return states_->any.code(coder, contexts, set, any) != 0;
   }
 
-  SignEvidence signs_around(const Around& around, std::size_t f, const std::int16_t* own) const {
-    const auto at = [&](std::uint32_t row) { return kept_.vector(row) + 3 * f; };
-    return {own + 3 * f,
-            at(around.row[0]),
-            at(around.row[1]),
-            at(around.same_axis),
-            {at(around.row[3]), at(around.row[4]), at(around.row[5])},
-            at(around.row[6]),
-            around.axis,
-            0};
+  static SignEvidence signs_around(std::uint32_t axis, const VectorsAround& vectors, std::size_t f,
+                                   const std::int16_t* own) {
+    const auto at = [f](const std::int16_t* vector) { return vector + 3 * f; };
+    const auto& of = vectors.of;
+    return {
+        at(own),   at(of[0]), at(of[1]), at(vectors.same_axis), {at(of[3]), at(of[4]), at(of[5])},
+        at(of[6]), axis,      0};
   }
 
   std::vector<std::uint16_t> functions_;
