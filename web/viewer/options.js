@@ -56,7 +56,7 @@ export function readOptions(query, page = {}) {
     speed: number('speed', 1 / 16, 16, 1),
     lang: text('lang'),
     mode: text('mode') === 'fly' ? 'fly' : 'orbit',
-    memory: number('memory', 16, 3500, memoryOfDevice()) * 2 ** 20,
+    memory: Math.floor(number('memory', 16, 3500, memoryOfDevice()) * 2 ** 20),
   };
 }
 

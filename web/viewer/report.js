@@ -37,7 +37,7 @@ export class Report {
       fewer('groups') && t(`fewer functions, for want of memory: ${coarser.groups} of ${info.groups} groups`),
     ];
     this.page.at('subtitle').textContent = said.filter(Boolean).join(' · ');
-    this.page.one('[data-do=all]').hidden = !coarser;
+    this.page.one('#caption [data-do=all]').hidden = !coarser;
     this.page.slider('levels', 1, info.bits, shown.levels || info.bits);
     this.page.slider('groups', 1, Math.max(1, info.groups), shown.groups || info.groups);
     this.page.at('groups-row').hidden = !(info.groups > 1);
@@ -77,6 +77,8 @@ export class Report {
     }
     this.viewer.facts.info ??= error.info;
     this.page.writeProblem(error, this.viewer.source !== undefined);
+    const { loader, options } = this.viewer;
+    this.page.one('#problem [data-do=all]').hidden = !(error.kind === 'too-large' && loader.whole && !options.all);
     this.page.frame.dataset.state = `failed ${error.kind}`;
     this.viewer.emit('error', error);
     this.page.frame.classList.add('failed');

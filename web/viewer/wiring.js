@@ -120,7 +120,7 @@ export class Wiring {
         if (field) this.page.frame.dataset.state = 'ready';
         this.page.at('stage').focus();
       },
-      all: () => field && this.viewer.openAll(),
+      all: () => this.viewer.openAll(),
       coarser: () => this.viewer.openCoarser(),
     };
     if (Object.hasOwn(actions, action)) actions[action]();

@@ -84,7 +84,19 @@ test('an address says how much a phone may take, and a desk with as little memor
     await page.goto(`${here.server.page}?src=/files/groups.slf${query}`);
     assert.equal(await settled(page), 'ready');
     assert.equal((await shown(page)).facts, undefined, query);
-    assert.ok(await page.isHidden('[data-do=all]'));
+    assert.ok(await page.isHidden('#caption [data-do=all]'));
     await page.close();
   }
+});
+
+test('what a phone holds no part of is refused, and shown when asked', { skip }, async () => {
+  const page = await deviceWith(2 ** 17, PHONE);
+  await page.goto(`${here.server.page}?src=/files/groups.slf`);
+  assert.equal(await settled(page), 'failed too-large');
+  await page.locator('#problem').getByRole('button', { name: 'Show all' }).tap();
+  await page.waitForFunction(() => document.body.dataset.state === 'ready');
+  assert.equal((await shown(page)).facts, undefined);
+  assert.ok(await page.isHidden('#problem'));
+  assert.deepEqual(page.wrong, []);
+  await page.close();
 });

@@ -46,6 +46,7 @@ test('what a device says is asked of the browser, and one that says nothing is a
 
 test('an address says otherwise', () => {
   assert.equal(readOptions(new URLSearchParams('memory=300'), {}).memory, 300 * 2 ** 20);
+  assert.equal(readOptions(new URLSearchParams('memory=300.3'), {}).memory, Math.floor(300.3 * 2 ** 20)); // whole bytes
   assert.equal(readOptions(new URLSearchParams('memory=1e9'), {}).memory, 3500 * 2 ** 20);
 });
 
