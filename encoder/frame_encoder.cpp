@@ -29,7 +29,7 @@ struct FrameColours {
 
 namespace {
 
-constexpr float kStill = 4;  // grey levels
+constexpr float kAlike = 4;  // grey levels
 constexpr double kStillShare = 0.98;
 // Points that move one by one take less than this of the group's first frame: no other way is
 // tried.
@@ -75,7 +75,7 @@ bool hardly_moves(const FrameColours& now, const FrameColours& before) {
     const auto [code, other] = std::pair(now.codes[i], before.codes[j]);
     if (code == other) {
       const auto &a = now.colours[i], &b = before.colours[j];
-      still += std::abs(a[0] + a[1] + a[2] - b[0] - b[1] - b[2]) < 3 * kStill;
+      still += std::abs(a[0] + a[1] + a[2] - b[0] - b[1] - b[2]) < 3 * kAlike;
     }
     i += code <= other, j += other <= code;
   }
