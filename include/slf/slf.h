@@ -50,7 +50,7 @@ extern "C" {
 
 /* Of the library that is linked: SLF_API_VERSION_MAJOR << 16 | SLF_API_VERSION_MINOR. */
 SLF_API uint32_t slf_api_version(void);
-/* Of the project, "1.1.0". */
+/* Of the project, "1.2.0". */
 SLF_API const char* slf_version(void);
 /* The newest format that this library reads: major << 16 | minor. It reads every older one from
  * 1.0 on. */
