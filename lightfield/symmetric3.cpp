@@ -29,7 +29,7 @@ void rotate(Matrix3x3& m, Matrix3x3& axis, std::size_t p, std::size_t q, std::si
   }
 }
 
-/// What is beside the diagonal is less than a double's rounding of what is on it.
+/// Elements beside the diagonal are less than the rounding of those on it.
 bool is_diagonal(const Matrix3x3& m) {
   const double beside = std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]);
   return beside <= 0x1p-60 * (std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]));
