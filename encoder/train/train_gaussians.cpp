@@ -18,7 +18,7 @@ namespace {
 constexpr float kThickness = 1e-2f;   // of the lesser deviation: pictures see none
 constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are outliers
 constexpr float kFaint = 0.1f;        // while splats grow: docs/decisions/045
-constexpr double kCoarseShare = 0.3;  // of the iterations: of the dino 20 % less time, no dB less
+constexpr double kCoarseShare = 0.5;  // of the iterations: docs/decisions/069
 constexpr std::size_t kJudgedPerRange = 64;
 // Photographed pixels that a splat needs: with fewer it learns their noise. docs/decisions/048
 constexpr double kPixelsOfSplat = 100;

@@ -20,8 +20,8 @@ struct TrainSettings {
   int iterations = 3000;    ///< one photograph each
   double from = 0;          ///< 0 .. 1: share of the iterations that was done before
   std::size_t surfels = 0;  ///< most; 0: one for some 64 pixels of the surface
-  int levels = 3;           ///< of photographs: the whole size, and so many halves less one
-  double coarse = 0.25;     ///< share of the iterations that each of the halves has
+  int levels = 2;           ///< of photographs: the whole size, and so many halves less one
+  double coarse = 0.4;      ///< share of the iterations that each of the halves has
   float structure = 0.2f;   ///< share of SSIM in the loss
   float squared = 0;        ///< share of squared errors in what is left, else absolute ones
   float spread = 1e-3f;     ///< weight of the squared spread in depth, pixels
