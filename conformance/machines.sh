@@ -58,10 +58,19 @@ run() {  # MACHINE COMPILER EMULATOR -- CMAKE_FLAGS...: 0 agreed, 1 differs, 77 
 }
 
 machine() {  # MACHINE
+  local code
   case $1 in
     s390x | aarch64 | riscv64) run "$1" "$1-linux-gnu-g++" "qemu-$1-static" -DCMAKE_SYSTEM_NAME=Linux ;;
     i686) run i686 i686-linux-gnu-g++ qemu-i386-static -DCMAKE_SYSTEM_NAME=Linux ;;
-    windows) WINEDEBUG=-all run windows x86_64-w64-mingw32-g++-posix wine -DCMAKE_SYSTEM_NAME=Windows ;;
+    windows)
+      # A server that ends with the last program resets the connection of one that begins just then.
+      needs windows wineserver || return 77
+      export WINEDEBUG=-all
+      wineboot -i >/dev/null 2>&1 && wineserver -w && wineserver -p && wine cmd /c exit
+      run windows x86_64-w64-mingw32-g++-posix wine -DCMAKE_SYSTEM_NAME=Windows && code=0 || code=$?
+      wineserver -k || true
+      return "$code"
+      ;;
     gcc-O?) run "$1" g++ "" -DCMAKE_CXX_FLAGS_RELEASE="-${1#*-}" ;;
     clang-O?) run "$1" clang++ "" -DCMAKE_CXX_FLAGS_RELEASE="-${1#*-}" ;;
     wasm)
