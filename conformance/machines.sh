@@ -65,7 +65,9 @@ machine() {  # MACHINE
     windows)
       # A server that ends with the last program resets the connection of one that begins just then.
       needs windows wineserver || return 77
-      export WINEDEBUG=-all
+      mkdir -p "$build/wine"
+      export WINEDEBUG=-all WINEPREFIX  # its own: no other program of wine is waited for or ended
+      WINEPREFIX=$(realpath "$build/wine")
       wineboot -i >/dev/null 2>&1 && wineserver -w && wineserver -p && wine cmd /c exit
       run windows x86_64-w64-mingw32-g++-posix wine -DCMAKE_SYSTEM_NAME=Windows && code=0 || code=$?
       wineserver -k || true
