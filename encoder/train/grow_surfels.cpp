@@ -14,21 +14,15 @@ constexpr float kLonger = 0.62f, kShorter = 0.9f;  // of the radius before
 /// Without those that show nothing.
 void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
            TrainedSurfels& surfels) {
-  std::size_t kept = 0;
+  std::vector<std::uint8_t> keep(surfels.size());
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     const bool idle = surfels[i].opacity() < settings.least_opacity ||
                       (settings.all_seen && !(use.drawn[i] > 0)) ||
                       !std::isfinite(surfels[i].value[TrainedSurfel::kPosition]);
     const bool stays = !settings.moving.empty() && !settings.moving[i];
-    if (idle && !stays) continue;
-    surfels[kept] = surfels[i];
-    state.mean[kept] = state.mean[i];
-    state.square[kept] = state.square[i];
-    use.pull[kept++] = use.pull[i];
+    keep[i] = !idle || stays;
   }
-  surfels.resize(kept);
-  state.resize(kept);
-  use.pull.resize(kept);
+  keep_surfels(keep, use, state, surfels);
 }
 
 std::size_t longest_axis(const TrainedSurfel& surfel, std::size_t axes) {
@@ -69,6 +63,23 @@ void SurfelUse::add(const SurfelTiles& tiles, const std::vector<ProjectedGradien
     drawn[tiles.projected[i].surfel] += gradients[i].drawn;
     pull[tiles.projected[i].surfel] += gradients[i].pull;
   }
+}
+
+void keep_surfels(std::span<const std::uint8_t> keep, SurfelUse& use, AdamState& state,
+                  TrainedSurfels& surfels) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    if (!keep[i]) continue;
+    surfels[kept] = surfels[i];
+    state.mean[kept] = state.mean[i];
+    state.square[kept] = state.square[i];
+    use.drawn[kept] = use.drawn[i];
+    use.pull[kept++] = use.pull[i];
+  }
+  surfels.resize(kept);
+  state.resize(kept);
+  use.drawn.resize(kept);
+  use.pull.resize(kept);
 }
 
 void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,

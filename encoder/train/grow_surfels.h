@@ -33,6 +33,11 @@ struct GrowSettings {
   bool all_seen = false;  ///< every photograph was drawn since: what was not drawn goes
 };
 
+/// Leaves out others.
+/// @param keep  [surfels] 0 or 1
+void keep_surfels(std::span<const std::uint8_t> keep, SurfelUse& use, AdamState& state,
+                  TrainedSurfels& surfels);
+
 /// Splits across the longest axis those with the greatest pull, so that the two draw about what the
 /// one did; removes those that show nothing. Use is empty after.
 void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,

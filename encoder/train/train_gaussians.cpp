@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/measure/outlines.h"
 #include "encoder/train/camera_twists.h"
 #include "encoder/train/far_surfels.h"
-#include "encoder/measure/outlines.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_surfels.h"
 #include "encoder/train/training_start.h"
@@ -15,10 +15,12 @@
 namespace slf {
 namespace {
 
-constexpr float kThickness = 1e-2f;   // of the lesser deviation: pictures see none
-constexpr float kSquared = 0.5f;      // of a loss of magnitudes highlights are outliers
-constexpr float kFaint = 0.1f;        // while splats grow: docs/decisions/045
-constexpr double kCoarseShare = 0.5;  // of the iterations: docs/decisions/069
+constexpr float kThickness = 1e-2f;     // of the lesser deviation: pictures see none
+constexpr float kSquared = 0.5f;        // of a loss of magnitudes highlights are outliers
+constexpr float kFaint = 0.1f;          // while splats grow: docs/decisions/045
+constexpr double kCoarseShare = 0.5;    // of the iterations: docs/decisions/069
+constexpr float kHarmonicRate = 3e-3f;  // docs/decisions/070
+constexpr float kSparsity = 0.65f;      // over the root of the number of photographs
 constexpr std::size_t kJudgedPerRange = 64;
 // Photographed pixels that a splat needs: with fewer it learns their noise. docs/decisions/048
 constexpr double kPixelsOfSplat = 100;
@@ -36,7 +38,8 @@ double pixels_shown(const std::vector<Outline>& outlines, std::span<const Traini
 
 }  // namespace
 
-void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels) {
+std::vector<std::uint8_t> within_outlines(const std::vector<Outline>& outlines, int threads,
+                                          const TrainedSurfels& surfels) {
   std::vector<std::uint8_t> inside(surfels.size());
   parallel_ranges(
       surfels.size(), kJudgedPerRange, threads, [&](std::size_t begin, std::size_t end) {
@@ -47,6 +50,11 @@ void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfe
           inside[i] = in_hull(outlines, {at[0], at[1], at[2]}, deviation);
         }
       });
+  return inside;
+}
+
+void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels) {
+  const std::vector<std::uint8_t> inside = within_outlines(outlines, threads, surfels);
   TrainedSurfels kept;
   for (std::size_t i = 0; i < surfels.size(); ++i)
     if (inside[i]) kept.push_back(surfels[i]);
@@ -56,7 +64,7 @@ void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfe
 Gaussians gaussians_of(const TrainedSurfels& surfels) {
   const float reach = std::log(kGaussianReach) / 2;
   Gaussians out;
-  out.degree = 2;
+  out.degree = 3;
   for (const TrainedSurfel& surfel : surfels) {
     const float* v = surfel.value.data();
     out.positions.push_back(surfel.position());
@@ -83,6 +91,7 @@ void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainS
   training.squared = kSquared;
   if (!is_volume) training.least_opacity = kFaint;
   training.coarse = kCoarseShare;
+  training.harmonics = {3, kHarmonicRate, kSparsity / std::sqrt(float(views.size()))};
 }
 
 Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture,
@@ -113,6 +122,10 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
     *settings.twists = CameraTwists(start.views.size(), surfels, training_pixel(start.views));
     training.twists = settings.twists;
   }
+  if (outlined)
+    training.belong = [&](const TrainedSurfels& all) {
+      return within_outlines(outlines, settings.threads, all);
+    };
   SLF_CHECK(train_surfels(start.views, training, surfels));
   if (outlined) keep_object(outlines, settings.threads, surfels);
   return surfels;

@@ -26,12 +26,7 @@
 namespace slf {
 namespace {
 
-// Steps of Adam. Positions in pixels, from the first to the last iteration.
-constexpr double kFirstMove = 0.15, kLastMove = 0.004;
-constexpr float kTurnRate = 5e-3f, kRadiusRate = 1e-2f, kOpacityRate = 5e-2f;
-constexpr float kColourRate = 5e-3f, kHarmonicRate = 1.5e-3f;
 constexpr double kFirstTwist = 0.1, kLastTwist = 0.01;  // pixels: of cameras
-constexpr double kTail = 0.15;                          // of the iterations: rates fall to a tenth
 
 // Pulls: of the iterations.
 constexpr double kPullFirst = 0.4, kDecideFirst = 2.0 / 3;
@@ -59,20 +54,6 @@ class Order {
   std::size_t at_ = 0;
   Chance chance_{1};
 };
-
-TrainedSurfel rates_at(double done, double pixel) {
-  TrainedSurfel rates;
-  const auto tail = float(done > 1 - kTail ? std::pow(0.1, (done - (1 - kTail)) / kTail) : 1);
-  const auto move = float(pixel * kFirstMove * std::pow(kLastMove / kFirstMove, done));
-  for (std::size_t k = 0; k < TrainedSurfel::kSize; ++k)
-    rates.value[k] = k < TrainedSurfel::kTurn         ? move
-                     : k < TrainedSurfel::kLogRadius  ? tail * kTurnRate
-                     : k < TrainedSurfel::kOpacity    ? tail * kRadiusRate
-                     : k < TrainedSurfel::kColour     ? tail * kOpacityRate
-                     : k < TrainedSurfel::kColour + 3 ? tail * kColourRate
-                                                      : tail * kHarmonicRate;
-  return rates;
-}
 
 /// Which size of photographs an iteration has: 0 is the whole.
 /// @param share  of the iterations, that each smaller size has
@@ -176,10 +157,15 @@ class Training {
     pull(done);
     use_.add(tiles, projected_.sums);
     if (settings_.changed != nullptr) leave_still();
-    adam_step(gradients_, rates_at(done, pixel_ * std::pow(2.0, double(level))), space_,
-              settings_.threads, adam_, surfels_);
+    const TrainedSurfel rates =
+        training_rates(done, pixel_ * std::pow(2.0, double(level)), settings_.harmonics);
+    adam_step(gradients_, rates, space_, settings_.threads, adam_, surfels_);
+    shrink_harmonics(settings_.harmonics.sparsity, rates, moving_, surfels_);
     ++drawn_views_;
-    if (done >= kGrowFirst && done < kGrowLast && iteration_ % kGrowEvery == kGrowEvery - 1) grow();
+    if (done >= kGrowFirst && iteration_ % kGrowEvery == kGrowEvery - 1) {
+      leave_out();
+      if (done < kGrowLast) grow();
+    }
     ++iteration_;
   }
 
@@ -209,6 +195,12 @@ class Training {
     const double rate = kFirstTwist * std::pow(kLastTwist / kFirstTwist, done);
     settings_.twists->step(view, rate, surfels_, gradients_);
     if (std::size_t(iteration_ + 1) % views_.size() == 0) settings_.twists->centre();
+  }
+
+  /// Here, so that the others learn to do without.
+  void leave_out() {
+    if (!settings_.belong) return;
+    keep_surfels(settings_.belong(surfels_), use_, adam_, surfels_);
   }
 
   void grow() {

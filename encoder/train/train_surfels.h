@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "encoder/train/trained_surfel.h"
+#include "encoder/train/training_rates.h"
 #include "encoder/train/training_view.h"
 #include "slf/error.h"
 
@@ -27,10 +28,13 @@ struct TrainSettings {
   float spread = 1e-3f;     ///< weight of the squared spread in depth, pixels
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
-  float least_opacity = 0.02f;     ///< fainter ones make room for others while surfels grow
+  float least_opacity = 0.02f;  ///< fainter ones make room for others while surfels grow
+  HarmonicSettings harmonics = {};
   CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too
   /// Surfels that nothing changed shows stay as they are, to the bit; nullptr: all are trained.
   const ChangedViews* changed = nullptr;
+  /// [surfels] 0: is no part of what is trained, and goes. None: all are. Not with `changed`.
+  std::function<std::vector<std::uint8_t>(const TrainedSurfels&)> belong = {};
   double seconds = 0;  ///< > 0: the schedule is passed through in so long, if not sooner
   int threads = 0;
   /// Where the training leaves what it would need to go on; empty: nowhere. Not with `seconds`.

@@ -10,6 +10,10 @@ constexpr float kFirstThickness = 0.1f;  // of the radius: docs/decisions/051
 constexpr float kLinear = 0.4886025119029199f;
 constexpr float kProduct = 1.0925484305920792f;  // of two coordinates
 constexpr float kZonal = 0.31539156525252005f, kSectoral = 0.5462742152960396f;
+// Degree 3: of orders 3, 2, 1 and 0, and of z (x^2 - y^2).
+constexpr float kThird0 = 0.5900435899266435f, kThird1 = 2.890611442640554f,
+                kThird2 = 0.4570457994644658f, kThird3 = 0.3731763325901154f,
+                kThird4 = 1.445305721320277f;
 
 /// A quaternion of length 1, and one over the length that it had.
 struct UnitTurn {
@@ -80,16 +84,32 @@ std::array<float, kTrainedFunctions> trained_functions(const Float3& d) {
           -kProduct * y * z,
           kZonal * (2 * z * z - x * x - y * y),
           -kProduct * x * z,
-          kSectoral * (x * x - y * y)};
+          kSectoral * (x * x - y * y),
+          -kThird0 * y * (3 * x * x - y * y),
+          kThird1 * x * y * z,
+          -kThird2 * y * (4 * z * z - x * x - y * y),
+          kThird3 * z * (2 * z * z - 3 * x * x - 3 * y * y),
+          -kThird2 * x * (4 * z * z - x * x - y * y),
+          kThird4 * z * (x * x - y * y),
+          -kThird0 * x * (x * x - 3 * y * y)};
 }
 
 Float3 direction_gradient(const Float3& d, const std::array<float, kTrainedFunctions>& g) {
   const auto [x, y, z] = d;
   return {-kLinear * g[3] + kProduct * (y * g[4] - z * g[7]) - 2 * kZonal * x * g[6] +
-              2 * kSectoral * x * g[8],
+              2 * kSectoral * x * g[8] -
+              kThird0 * (6 * x * y * g[9] + 3 * (x * x - y * y) * g[15]) + kThird1 * y * z * g[10] +
+              kThird2 * (2 * x * y * g[11] - (4 * z * z - 3 * x * x - y * y) * g[13]) -
+              6 * kThird3 * x * z * g[12] + 2 * kThird4 * x * z * g[14],
           -kLinear * g[1] + kProduct * (x * g[4] - z * g[5]) - 2 * kZonal * y * g[6] -
-              2 * kSectoral * y * g[8],
-          kLinear * g[2] - kProduct * (y * g[5] + x * g[7]) + 4 * kZonal * z * g[6]};
+              2 * kSectoral * y * g[8] -
+              kThird0 * (3 * (x * x - y * y) * g[9] - 6 * x * y * g[15]) + kThird1 * x * z * g[10] -
+              kThird2 * ((4 * z * z - x * x - 3 * y * y) * g[11] - 2 * x * y * g[13]) -
+              6 * kThird3 * y * z * g[12] - 2 * kThird4 * y * z * g[14],
+          kLinear * g[2] - kProduct * (y * g[5] + x * g[7]) + 4 * kZonal * z * g[6] +
+              kThird1 * x * y * g[10] - 8 * kThird2 * z * (y * g[11] + x * g[13]) +
+              3 * kThird3 * (2 * z * z - x * x - y * y) * g[12] +
+              kThird4 * (x * x - y * y) * g[14]};
 }
 
 }  // namespace slf

@@ -13,8 +13,8 @@
 
 namespace slf {
 
-/// Harmonics to degree 2, in the order and with the signs of 3DGS.
-inline constexpr std::size_t kTrainedFunctions = 9;
+/// Harmonics to degree 3, in the order and with the signs of 3DGS.
+inline constexpr std::size_t kTrainedFunctions = 16;
 inline constexpr float kMeanFunction = 0.28209479177387814f;  ///< the first, a constant
 
 /// All that is learnt of a surfel, as one row: an optimiser does not tell its parts apart.

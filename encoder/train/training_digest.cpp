@@ -14,13 +14,23 @@ TrainingDigest digest_of_training(std::span<const TrainingView> views,
   const auto add = [&](const auto* values, std::size_t count) {
     hash.update({reinterpret_cast<const std::uint8_t*>(values), count * sizeof *values});
   };
-  const std::array numbers = {double(settings.iterations),    settings.from,
-                              double(settings.surfels),       double(settings.levels),
-                              double(settings.structure),     double(settings.squared),
-                              double(settings.spread),        double(settings.together),
-                              double(settings.decided),       settings.coarse,
-                              double(settings.least_opacity), double(views.size()),
-                              double(surfels.size()),         double(settings.twists != nullptr)};
+  const std::array numbers = {double(settings.iterations),
+                              settings.from,
+                              double(settings.surfels),
+                              double(settings.levels),
+                              double(settings.structure),
+                              double(settings.squared),
+                              double(settings.spread),
+                              double(settings.together),
+                              double(settings.decided),
+                              settings.coarse,
+                              double(settings.least_opacity),
+                              double(views.size()),
+                              double(surfels.size()),
+                              double(settings.twists != nullptr),
+                              double(settings.harmonics.degree),
+                              double(settings.harmonics.rate),
+                              double(settings.harmonics.sparsity)};
   add(numbers.data(), numbers.size());
   for (const TrainedSurfel& surfel : surfels) add(surfel.value.data(), surfel.value.size());
   for (const TrainingView& view : views) {

@@ -66,7 +66,8 @@ Scene scene(int count, float depth = 1, bool gaussian = false) {
                                                         : 0.3f * x;
     }
     surfel.value[TrainedSurfel::kLogRadius + 2] = 0.1f * float(i % 7) - 0.8f;
-    if (depth < 1) {
+    if (depth < 1) {  // and so far apart that a difference changes nobody's turn
+      surfel.value[0] = 0.15f * float(i * 5 % 12) - 0.8f;
       surfel.value[2] *= depth;
       surfel.value[TrainedSurfel::kTurn] = 1;
     }

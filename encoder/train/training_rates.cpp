@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/train/training_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slf {
+namespace {
+
+constexpr double kFirstMove = 0.15, kLastMove = 0.004;  // pixels, from the first to the last
+constexpr float kTurnRate = 5e-3f, kRadiusRate = 1e-2f, kOpacityRate = 5e-2f;
+constexpr float kColourRate = 5e-3f;
+constexpr std::size_t kHarmonics = TrainedSurfel::kColour + 3;  // after the mean colour
+
+}  // namespace
+
+TrainedSurfel training_rates(double done, double pixel, const HarmonicSettings& harmonics) {
+  const auto functions = std::size_t((harmonics.degree + 1) * (harmonics.degree + 1));
+  TrainedSurfel rates;
+  const auto tail = float(
+      done > 1 - kTrainingTail ? std::pow(0.1, (done - (1 - kTrainingTail)) / kTrainingTail) : 1);
+  const auto move = float(pixel * kFirstMove * std::pow(kLastMove / kFirstMove, done));
+  for (std::size_t k = 0; k < TrainedSurfel::kColour + 3 * functions; ++k)
+    rates.value[k] = k < TrainedSurfel::kTurn        ? move
+                     : k < TrainedSurfel::kLogRadius ? tail * kTurnRate
+                     : k < TrainedSurfel::kOpacity   ? tail * kRadiusRate
+                     : k < TrainedSurfel::kColour    ? tail * kOpacityRate
+                     : k < kHarmonics                ? tail * kColourRate
+                                                     : tail * harmonics.rate;
+  return rates;
+}
+
+void shrink_harmonics(float sparsity, const TrainedSurfel& rates,
+                      std::span<const std::uint8_t> moving, TrainedSurfels& surfels) {
+  if (sparsity <= 0) return;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    if (!moving.empty() && !moving[i]) continue;
+    for (std::size_t k = kHarmonics; k < TrainedSurfel::kSize; ++k) {
+      float& value = surfels[i].value[k];
+      value = std::copysign(std::max(std::abs(value) - sparsity * rates.value[k], 0.0f), value);
+    }
+  }
+}
+
+}  // namespace slf
