@@ -17,7 +17,7 @@ struct HarmonicSettings {
   float sparsity = 0;
 };
 
-/// Of the iterations, at the end: rates fall to a tenth.
+/// The last iterations, as a share: rates fall to a tenth.
 inline constexpr double kTrainingTail = 0.15;
 
 /// Steps of Adam.
