@@ -60,6 +60,6 @@ def surfaces(place):
         missing += [] if own else [name]
     said = f' Not measured in this run: {", ".join(missing)}.' if missing else ''
     return ['Held-out pictures. Of synthetic hulls the exact clouds are in the table above. *Splats* are by the same trainer, drawn as 3-D Gaussian '
-            f'splatting draws them: at most {SPLATS:,} of degree 2, written by @playcanvas/splat-transform; their seconds are those of the '
+            f'splatting draws them: at most {SPLATS:,} of degree 3, written by @playcanvas/splat-transform; their seconds are those of the '
             f'training. A surface without a row was not measured in this run.{said}', '',
             *table(['from', 'surface', 'bytes', 'inside dB', 'all dB', 'SSIM', 's'], rows)]
