@@ -6,8 +6,7 @@
 # Needs clang.
 # BUILD_DIR: a build with SLF_FUZZ and the sanitizers (default: build-fuzz, made here).
 # What is found stays in build-fuzz/finds/TARGET; once mended it belongs in tests/fuzz/finds/TARGET, which
-# the tests replay. What waits to be mended is in tests/fuzz/open/TARGET: nothing replays it. The corpus
-# in build-fuzz/corpus grows from call to call.
+# the tests replay. The corpus in build-fuzz/corpus grows from call to call.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:?seconds of one core for all targets together}
