@@ -36,8 +36,7 @@ double pixels_shown(const std::vector<Outline>& outlines, std::span<const Traini
   return pixels;
 }
 
-}  // namespace
-
+/// [surfels] 1: what keep_object keeps.
 std::vector<std::uint8_t> within_outlines(const std::vector<Outline>& outlines, int threads,
                                           const TrainedSurfels& surfels) {
   std::vector<std::uint8_t> inside(surfels.size());
@@ -52,6 +51,8 @@ std::vector<std::uint8_t> within_outlines(const std::vector<Outline>& outlines, 
       });
   return inside;
 }
+
+}  // namespace
 
 void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels) {
   const std::vector<std::uint8_t> inside = within_outlines(outlines, threads, surfels);

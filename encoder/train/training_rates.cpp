@@ -7,6 +7,7 @@
 namespace slf {
 namespace {
 
+constexpr double kTail = 0.15;                          // of the iterations, at the end
 constexpr double kFirstMove = 0.15, kLastMove = 0.004;  // pixels, from the first to the last
 constexpr float kTurnRate = 5e-3f, kRadiusRate = 1e-2f, kOpacityRate = 5e-2f;
 constexpr float kColourRate = 5e-3f;
@@ -17,8 +18,7 @@ constexpr std::size_t kHarmonics = TrainedSurfel::kColour + 3;  // after the mea
 TrainedSurfel training_rates(double done, double pixel, const HarmonicSettings& harmonics) {
   const auto functions = std::size_t((harmonics.degree + 1) * (harmonics.degree + 1));
   TrainedSurfel rates;
-  const auto tail = float(
-      done > 1 - kTrainingTail ? std::pow(0.1, (done - (1 - kTrainingTail)) / kTrainingTail) : 1);
+  const auto tail = float(done > 1 - kTail ? std::pow(0.1, (done - (1 - kTail)) / kTail) : 1);
   const auto move = float(pixel * kFirstMove * std::pow(kLastMove / kFirstMove, done));
   for (std::size_t k = 0; k < TrainedSurfel::kColour + 3 * functions; ++k)
     rates.value[k] = k < TrainedSurfel::kTurn        ? move

@@ -17,10 +17,7 @@ struct HarmonicSettings {
   float sparsity = 0;
 };
 
-/// The last iterations, as a share: rates fall to a tenth.
-inline constexpr double kTrainingTail = 0.15;
-
-/// Steps of Adam.
+/// Steps of Adam: in the last iterations they fall to a tenth.
 /// @param done  share of the iterations, 0 .. 1
 /// @param pixel  world units
 TrainedSurfel training_rates(double done, double pixel, const HarmonicSettings& harmonics);
