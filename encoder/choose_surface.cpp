@@ -96,10 +96,9 @@ SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
 Result<Done, InputError> try_splats_once(const SurfaceChoice& job, const CameraParts& parts) {
   if (job.cache.tried) return Done{};
   Stopwatch watch;
-  SLF_TRY(SplatTrial trial, try_splats(splat_job(job, parts)));
-  job.report.as_splats = trial.file;
+  SLF_TRY(job.cache.tried, try_splats(splat_job(job, parts)));
+  job.report.as_splats = job.cache.tried->file;
   job.report.seconds_train += watch.lap();
-  job.cache.tried = std::move(trial.splats);
   return Done{};
 }
 
@@ -156,7 +155,7 @@ Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const Camer
   SLF_CHECK(try_splats_once(job, parts));
   if (job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
   const auto shown =
-      surface_of_splats(*job.cache.tried, job.capture, parts.matched, job.settings.threads);
+      surface_of_splats(job.cache.tried->splats, job.capture, parts.matched, job.settings.threads);
   if (!shown) return false;
   SLF_CHECK(find_foreign(job, *shown));
   return true;

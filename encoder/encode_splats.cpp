@@ -11,6 +11,7 @@
 #include "encoder/gaussian_coding.h"
 #include "encoder/judge_surface.h"
 #include "encoder/middle_view.h"
+#include "encoder/refine/held_out.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/trial_file.h"
 #include "slf/encode_gaussians.h"
@@ -26,6 +27,9 @@ constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIteration
 constexpr double kSplatGain = 3.5;
 constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than splats may take
 constexpr double kSplatBytes = 13;     // at Q 7, of a die, a vase and the dino: 12 to 18
+constexpr double kMoreSplats = 1.75;   // times as many as in the trial before
+constexpr double kMoreWorth = 0.1;     // dB that these have to gain, which is chance
+constexpr double kPromising = 0.2;     // the next ones gain less than half as much
 
 TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations,
                                   TrainingCache& cache) {
@@ -37,7 +41,9 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   training.seconds = settings.surface_seconds;
   training.photograph_bytes = double(settings.surface_memory) * (1 << 20);
   training.is_volume = start == StartId::kVolume;
-  if (settings.target_bytes > 0)
+  if (settings.splats > 0)
+    training.surfels = settings.splats;
+  else if (settings.target_bytes > 0)
     training.surfels =
         std::max(std::size_t(double(settings.target_bytes) / kSplatBytes), kFewestSplats);
   training.cache = &cache;
@@ -58,14 +64,38 @@ Result<TrialFile, InputError> coded_splats(const Gaussians& splats, const Captur
   return trial_of(quality, file.stream.size());
 }
 
-Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations) {
+/// @param splats  at most; 0: as ever
+Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations, std::size_t splats = 0) {
   SplatTrial trial;
-  SLF_TRY(trial.splats, train_gaussians(job.capture, job.fitted,
-                                        training_of(job.settings, job.start, iterations, job.cache),
-                                        job.progress));
+  TrainGeometrySettings training = training_of(job.settings, job.start, iterations, job.cache);
+  if (splats > 0) training.surfels = splats;
+  SLF_TRY(trial.splats, train_gaussians(job.capture, job.fitted, training, job.progress));
   if (trial.splats.size() == 0) return trial;
   SLF_TRY(trial.file, coded_splats(trial.splats, job.capture, job.held_out, job.settings));
+  trial.file.splats = trial.splats.size();
   return trial;
+}
+
+/// How many splats are worth their bytes; 0: as many as ever, or there is nothing to judge by.
+/// @param report  receives the trials
+Result<std::size_t, InputError> splats_that_pay(const SplatJob& job, SurfaceReport& report) {
+  if (job.held_out.empty()) return std::size_t{0};
+  if (!job.cache.tried) {
+    SLF_TRY(job.cache.tried, try_splats(job));
+  }
+  TrialFile best = report.as_splats = job.cache.tried->file;
+  std::size_t number = 0;
+  for (double gain = kPromising; best.bytes > 0 && gain >= kPromising;) {
+    const auto more = static_cast<std::size_t>(kMoreSplats * double(best.splats));
+    SLF_TRY(const SplatTrial trial, tried(job, kTrialIterations, more));
+    report.more_splats.push_back(trial.file);
+    if (trial.file.bytes == 0) break;
+    gain = worth_of(trial.file) - worth_of(best);
+    if (gain < kMoreWorth) break;
+    number = more;
+    best = trial.file;
+  }
+  return number;
 }
 
 }  // namespace
@@ -124,7 +154,12 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.kept = Surface::kSplats;
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
-  const TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
+  TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
+  if (training.surfels == 0 && !(training.seconds > 0) && !has_target(settings)) {
+    const CameraParts parts = split_for_mending(cameras);
+    const SplatJob trials{capture, start, parts.matched, parts.held_out, settings, progress, cache};
+    SLF_TRY(training.surfels, splats_that_pay(trials, out.surface));
+  }
   SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, training, progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)

@@ -28,11 +28,6 @@ struct SplatJob {
   TrainingCache& cache;  ///< of the capture
 };
 
-struct SplatTrial {
-  TrialFile file;    ///< bytes 0: photographs agree on no splat
-  Gaussians splats;  ///< as they were trained
-};
-
 /// A file of splats of some cameras, for others.
 /// @errors those of train_gaussians, encode_gaussians and load_image
 Result<SplatTrial, InputError> try_splats(const SplatJob& job);
@@ -48,7 +43,9 @@ bool may_be_splats(const EncoderSettings& settings);
 /// @param points  of that surface
 bool splats_win(const SurfaceReport& report, std::size_t points);
 
-/// A target in bytes allows no more splats than it has room for at the usual step.
+/// As many splats as settings say; a target in bytes has no more than it has room for at the usual
+/// step. Else photographs say how many: trials of more and more of them are files of three quarters
+/// of the photographs, and the others judge whether more are worth their bytes.
 /// @param start  where the capture's points are from
 /// @param cache  of the capture
 /// @errors kInvalidInput: photographs train nothing; those of train_gaussians, encode_gaussians

@@ -61,6 +61,7 @@ constexpr std::string_view kAny[] = {
 constexpr std::string_view kOfSplatsInTime[] = {"target-bitrate", "reference-contexts"};
 
 constexpr std::string_view kOfPhotographs[] = {"effort",
+                                               "splats",
                                                "photograph-pixels",
                                                "quality-loss",
                                                "delta",

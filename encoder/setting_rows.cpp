@@ -40,6 +40,11 @@ const SettingScope kTrainedSurface = {"--surface auto and trained", [](const Enc
                                                s.surface != Surface::kMended;
                                       }};
 
+const SettingScope kTrainedSplats = {"--surface auto and splats", [](const EncoderSettings& s) {
+                                       return s.surface == Surface::kAuto ||
+                                              s.surface == Surface::kSplats;
+                                     }};
+
 void add_start(SettingTable& rows) {
   add(rows, SettingPart::kStart, "", nullptr,
       {flag("linear", SLF_AT(observe.transfer), Transfer::kLinear,
@@ -82,6 +87,10 @@ void add_geometry(SettingTable& rows) {
               "agree; trained: by photographs; splats: no surface but translucent points of any "
               "size, for outlines and rough geometry; auto: tries these, and keeps what shows "
               "input photographs best that it has not seen"),
+       in(kTrainedSplats,
+          number_or_nothing("splats", SLF_AT(splats), 1, 1e7,
+                            "Splats at most, where photographs train these. None: as many as "
+                            "are worth their bytes to photographs that trials have not seen")),
        in(kTrainedSurface, number("surface-seconds", SLF_AT(surface_seconds), 0, 1e6,
                                   "Train a surface for about so long, seconds; 0: as long as it "
                                   "pays. Files then differ "
@@ -217,8 +226,8 @@ SettingTable all_rows() {
   exclude(rows, {"functions", "scales"});
   exclude(rows, {"penalise-dc", "free-dc"});
   count_for_splats(rows, SettingInfo::kTrainedSplats,
-                   {"preset", "surface", "surface-seconds", "surface-memory", "photograph-pixels",
-                    "match-exposure", "refine-cameras", "check-cameras"});
+                   {"preset", "surface", "splats", "surface-seconds", "surface-memory",
+                    "photograph-pixels", "match-exposure", "refine-cameras", "check-cameras"});
   count_for_splats(rows, SettingInfo::kAnySplats,
                    {"effort", "grid-bits", "voxel-size", "metres-per-unit", "quality",
                     "target-bytes", "target-psnr", "klt", "predict", "rdo", "quality-layers",

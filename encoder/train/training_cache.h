@@ -10,6 +10,7 @@
 #include "capture/surface_points.h"
 #include "slf/camera_trust.h"
 #include "slf/gaussians.h"
+#include "slf/surface.h"
 
 namespace slf {
 
@@ -17,6 +18,12 @@ namespace slf {
 struct ViewSetting {
   std::array<std::uint8_t, 3> background{};
   float depth = 1;  ///< TrainingCamera::depth
+};
+
+/// Splats that some of the photographs trained.
+struct SplatTrial {
+  TrialFile file;    ///< bytes 0: photographs agree on no splat
+  Gaussians splats;  ///< as they were trained
 };
 
 /// For trainings of one capture, one after the other. It fills as they run and changes nothing of
@@ -27,7 +34,7 @@ struct TrainingCache {
   bool outlined = true;  ///< of splats: photographs tell one object from its background
   /// Photographs that agree nowhere with what was trained: it is to be trained without them.
   std::vector<CameraTrust> foreign;
-  std::optional<Gaussians> tried;  ///< splats that three quarters of the photographs trained
+  std::optional<SplatTrial> tried;  ///< by three quarters of the photographs
 };
 
 }  // namespace slf

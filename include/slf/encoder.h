@@ -128,6 +128,7 @@ struct EncoderSettings {
   double metres_per_unit = 0;  ///< > 0: of the capture's world, for the header; 0: not known
   DensifySettings densify{Densify::kAuto};  ///< not of meshes, nor of geometry that was mended
   Surface surface = Surface::kAuto;         ///< kGiven without cameras
+  std::size_t splats = 0;  ///< most of them that photographs train; 0: as many as pay
   /// > 0: training ends after about so long, with steps as small as at its end; files then differ
   /// from run to run
   double surface_seconds = 0;

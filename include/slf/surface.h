@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "slf/refine.h"
 
@@ -30,6 +31,7 @@ struct TrialFile {
   double psnr = 0, ssim = 0;  ///< of all pixels
   std::size_t bytes = 0;
   double inside_psnr = 0, inside_ssim = 0;  ///< of the object's pixels; 0: no outline is known
+  std::size_t splats = 0;                   ///< of a file of these
 };
 
 /// What became of the capture's points before anything else. PSNRs are of input photographs that
@@ -45,6 +47,8 @@ struct SurfaceReport {
   double trained_psnr = 0;
   TrialFile as_splats;   ///< where they may be chosen and were tried
   TrialFile as_surface;  ///< of the best surface, where splats are near it: by its whole fit
+  std::vector<TrialFile>
+      more_splats;  ///< trials of more and more of them; the last was not worth it
   double seconds_train = 0, seconds_judge = 0;
 
   double seconds() const { return mended.seconds + seconds_train + seconds_judge; }

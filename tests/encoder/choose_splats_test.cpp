@@ -139,6 +139,40 @@ TEST_F(QuickSplats, HaveTheBytesThatWereAskedFor) {
   EXPECT_GT(coded->points, 200u);
 }
 
+TEST_F(QuickSplats, AreNoMoreThanWereAskedFor) {
+  settings_.splats = 300;
+  const auto coded = encode(capture_, traced_.cameras, settings_);
+  ASSERT_TRUE(coded) << coded.error().message;
+  EXPECT_LE(coded->points, 300u);
+  EXPECT_TRUE(coded->surface.more_splats.empty()) << "a number that is given is not sought";
+}
+
+TEST(EncodeSplats, AreAsManyAsAreWorthTheirBytesToPhotographsThatTrialsHaveNotSeen) {
+  const test::TracedScene traced("can", 3, 8, 64, 3000);
+  Capture capture = traced.capture;
+  capture.cloud = traced.exact;
+  EncoderSettings settings;
+  settings.surface = Surface::kSplats;
+  const auto coded = encode(capture, traced.cameras, settings);
+  ASSERT_TRUE(coded) << coded.error().message;
+  const SurfaceReport& report = coded->surface;
+  ASSERT_GT(report.as_splats.bytes, 0u);
+  ASSERT_FALSE(report.more_splats.empty());
+  TrialFile best = report.as_splats;
+  std::size_t most = 4000;
+  for (std::size_t t = 0; t < report.more_splats.size(); ++t) {
+    const TrialFile& trial = report.more_splats[t];
+    const std::size_t more = best.splats * 7 / 4;
+    EXPECT_LE(trial.splats, more) << t;
+    const bool pays = worth_of(trial) >= worth_of(best) + 0.1;
+    EXPECT_TRUE(pays || t + 1 == report.more_splats.size()) << "nothing is tried after a loss";
+    if (!pays) break;
+    best = trial;
+    most = more;
+  }
+  EXPECT_LE(coded->points, most);
+}
+
 TEST_F(QuickSplats, HaveThePsnrOfPhotographsThatWasAskedFor) {
   const auto psnr_of = [&](const Encoded& coded) {
     const auto shown = gaussians_of(*decode(coded.stream));
