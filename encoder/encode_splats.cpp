@@ -30,6 +30,7 @@ constexpr double kSplatBytes = 13;     // at Q 7, of a die, a vase and the dino:
 constexpr double kMoreSplats = 1.75;   // times as many as in the trial before
 constexpr double kMoreWorth = 0.1;     // dB that these have to gain, which is chance
 constexpr double kPromising = 0.2;     // the next ones gain less than half as much
+constexpr double kTaught = 0.75;       // of the splats asked for: photographs teach no more
 
 TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations,
                                   TrainingCache& cache) {
@@ -94,6 +95,7 @@ Result<std::size_t, InputError> splats_that_pay(const SplatJob& job, SurfaceRepo
     if (gain < kMoreWorth) break;
     number = more;
     best = trial.file;
+    if (double(best.splats) < kTaught * double(more)) break;
   }
   return number;
 }

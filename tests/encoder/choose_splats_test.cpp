@@ -167,6 +167,8 @@ TEST(EncodeSplats, AreAsManyAsAreWorthTheirBytesToPhotographsThatTrialsHaveNotSe
     const bool pays = worth_of(trial) >= worth_of(best) + 0.1;
     EXPECT_TRUE(pays || t + 1 == report.more_splats.size()) << "nothing is tried after a loss";
     if (!pays) break;
+    EXPECT_TRUE(trial.splats > more / 2 || t + 1 == report.more_splats.size())
+        << "photographs teach no more";
     best = trial;
     most = more;
   }
