@@ -57,18 +57,25 @@ Span around(int low, int high, int side) {
   return {first, std::min(high + 1 + grown, side) - first};
 }
 
+void crop(const float* plane, int width, Span x, Span y, float* cropped) {
+  for (int row = 0; row < y.count; ++row)
+    std::copy_n(plane + std::ptrdiff_t{y.first + row} * width + x.first, x.count,
+                cropped + std::ptrdiff_t{row} * x.count);
+}
+
 /// A box of a picture, which its camera sees alone.
 TrainingView cropped(const TrainingView& view, Span x, Span y) {
+  const int width = view.picture.width;
   TrainingView out = view;
   out.camera.width = x.count, out.camera.height = y.count;
   out.camera.cx -= static_cast<float>(x.first), out.camera.cy -= static_cast<float>(y.first);
   out.picture = {x.count, y.count, {}};
   out.picture.value.resize(3 * out.picture.pixels());
   for (std::size_t c = 0; c < 3; ++c)
-    for (int row = 0; row < y.count; ++row)
-      std::copy_n(
-          view.picture.plane(c) + std::ptrdiff_t{y.first + row} * view.picture.width + x.first,
-          x.count, out.picture.plane(c) + std::ptrdiff_t{row} * x.count);
+    crop(view.picture.plane(c), width, x, y, out.picture.plane(c));
+  if (view.hiding.empty()) return out;
+  out.hiding.resize(out.picture.pixels());
+  crop(view.hiding.data(), width, x, y, out.hiding.data());
   return out;
 }
 
@@ -87,6 +94,7 @@ std::vector<Change> changes_of(const TrainingView& now, const Mask& mask) {
   if (right < 0) return {};
   const Span x = around(left, right, now.camera.width), y = around(top, bottom, now.camera.height);
   TrainingView marks = now;
+  marks.hiding.clear();
   std::fill(marks.picture.value.begin(), marks.picture.value.end(), 0.0f);
   for (std::size_t p = 0; p < mask.size(); ++p) marks.picture.value[p] = mask[p];
   return {{cropped(now, x, y), half(half(cropped(marks, x, y)))}};

@@ -67,7 +67,8 @@ void draw_surfels(const SurfelTiles& tiles, const TrainingView& view, int thread
 
 /// Gradients of a loss with a given gradient by the picture plus
 ///   spread * sum over pixels of sum_i<j w_i w_j (near_i - near_j)^2,
-/// which draws what a pixel sums up together in depth, and so planes into one another.
+/// which draws what a pixel sums up together in depth, and so planes into one another, plus
+///   sum over pixels of TrainingView::hiding * the share of the background that is hidden.
 /// @param picture  gradient by the picture, as DrawnSurfels::picture
 /// The same for any number of threads.
 void surfel_gradients(const SurfelTiles& tiles, const TrainingView& view, const DrawnSurfels& drawn,

@@ -7,8 +7,9 @@
 
 #include "capture/nearest.h"
 #include "capture/spacing.h"
-#include "encoder/train/changed_views.h"
 #include "encoder/measure/outlines.h"
+#include "encoder/train/changed_views.h"
+#include "encoder/train/empty_pixels.h"
 #include "encoder/train/starting_points.h"
 #include "encoder/train/train_gaussians.h"
 #include "encoder/train/train_surfels.h"
@@ -111,6 +112,7 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return Done{};
   train_as_gaussians(false, start.views, start.settings);
+  if (cache_.outlined) SLF_CHECK(charge_for_hiding(capture, cameras, settings.threads, start.views));
   if (before_.empty()) {
     before_ = std::move(start.views);
     return Done{};

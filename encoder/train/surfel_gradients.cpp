@@ -18,6 +18,7 @@ constexpr std::int32_t kMagnitude = 0x7fffffff;  // of a float: all but its sign
 struct BackwardBlock {
   Lanes transparency, remaining;  // remaining: sum over what follows of weight * worth
   Lanes red, green, blue;         // gradients by the picture
+  Lanes hiding;                   // by the share of the background that is hidden
   Lanes total, near, near_square, pivot;
 };
 
@@ -37,7 +38,8 @@ template <bool kGaussian>
   set_alpha<kGaussian>(s, p);
   const Lanes weight = p.alpha * block.transparency;
   // What a change of the weight is worth.
-  Lanes worth = s.colour[0] * block.red + s.colour[1] * block.green + s.colour[2] * block.blue;
+  Lanes worth =
+      s.colour[0] * block.red + s.colour[1] * block.green + s.colour[2] * block.blue + block.hiding;
   if constexpr (!kGaussian) {
     Lanes near = p.near - block.pivot;
     LaneMask within;
@@ -100,8 +102,9 @@ template <bool kGaussian>
 }
 
 [[gnu::always_inline]] inline void load_backward(const DrawnSurfels& drawn,
+                                                 const TrainingView& view,
                                                  const PlanarPicture& picture, const BlockPlace& at,
-                                                 float spread, bool gaussian, BackwardBlock& b) {
+                                                 float spread, BackwardBlock& b) {
   Lanes transparency, red, green, blue;
   load_block(picture.plane(0), at, 0, b.red);
   load_block(picture.plane(1), at, 0, b.green);
@@ -112,8 +115,11 @@ template <bool kGaussian>
   // The sum over all surfels and the background, since the picture has both.
   b.remaining = red * b.red + green * b.green + blue * b.blue;
   b.transparency = Lanes{} + 1.0f;
-  if (gaussian) return;
   load_block(drawn.transparency.data(), at, 1, transparency);
+  b.hiding = Lanes{};
+  if (!view.hiding.empty()) load_block(view.hiding.data(), at, 0, b.hiding);
+  b.remaining += b.hiding * (1 - transparency);
+  if (view.camera.gaussian) return;
   load_block(drawn.near.data(), at, 0, b.near);
   load_block(drawn.near_square.data(), at, 0, b.near_square);
   load_block(drawn.pivot.data(), at, 0, b.pivot);
@@ -131,10 +137,10 @@ SLF_MULTIVERSION_LANES void tile_gradients(const SurfelTiles& tiles, const Train
   const bool gaussian = view.camera.gaussian;
   std::array<BackwardBlock, kBlocksOfTile> blocks;
   for (std::size_t i = 0; i < kBlocksOfTile; ++i)
-    load_backward(drawn, picture,
+    load_backward(drawn, view, picture,
                   {x + kBlockColumns * int(i % kTileBlocks), y + kBlockRows * int(i / kTileBlocks),
                    view.camera.width, view.camera.height},
-                  spread, gaussian, blocks[i]);
+                  spread, blocks[i]);
   for (std::uint32_t k = tiles.first[tile]; k < tiles.first[tile + 1]; ++k) {
     const ProjectedSurfel& s = tiles.projected[tiles.list[k]];
     SurfelSums sums{};

@@ -6,6 +6,7 @@
 
 #include "encoder/measure/outlines.h"
 #include "encoder/train/camera_twists.h"
+#include "encoder/train/empty_pixels.h"
 #include "encoder/train/far_surfels.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_surfels.h"
@@ -113,6 +114,7 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
     training.surfels = std::min(
         training.surfels,
         std::max(std::size_t(pixels_shown(outlines, start.views) / kPixelsOfSplat), kFewestSplats));
+  if (outlined) SLF_CHECK(charge_for_hiding(capture, cameras, settings.threads, start.views));
   TrainedSurfels surfels = first_surfels(start, settings);
   if (!outlined) {
     const TrainedSurfels far =

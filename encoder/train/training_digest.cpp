@@ -43,6 +43,7 @@ TrainingDigest digest_of_training(std::span<const TrainingView> views,
     for (const Float3* at : {&c.translation, &c.centre, &view.background})
       add(at->data(), at->size());
     add(view.picture.value.data(), view.picture.value.size());
+    add(view.hiding.data(), view.hiding.size());
   }
   return hash.finish();
 }

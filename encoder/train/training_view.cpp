@@ -166,6 +166,13 @@ TrainingView half(const TrainingView& view) {
         const float* at = view.picture.plane(c) + 2 * y * from + 2 * x;
         out.picture.plane(c)[y * to + x] = (at[0] + at[1] + at[from] + at[from + 1]) / 4;
       }
+  if (view.hiding.empty()) return out;
+  out.hiding.resize(out.picture.pixels());
+  for (std::size_t y = 0; y < std::size_t(camera.height); ++y)
+    for (std::size_t x = 0; x < to; ++x) {
+      const float* at = view.hiding.data() + 2 * y * from + 2 * x;
+      out.hiding[y * to + x] = std::min({at[0], at[1], at[from], at[from + 1]});
+    }
   return out;
 }
 

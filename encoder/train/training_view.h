@@ -46,6 +46,8 @@ struct TrainingView {
   TrainingCamera camera;
   PlanarPicture picture;
   Float3 background{};  ///< what is seen where no surfel is
+  /// [height][width] what it costs to hide all of the background; empty: nothing anywhere.
+  std::vector<float> hiding;
 };
 
 /// Photographs with sides of a 2^log2-th, of `cameras`, in their order.

@@ -34,6 +34,7 @@ struct Scene {
 };
 
 /// A turned camera that looks at a few large overlapping discs; not a multiple of a tile in size.
+/// Hiding the background costs something in half of the pixels.
 /// @param depth  of the space that they are in and of their turns, over their usual ones
 Scene scene(int count, float depth = 1, bool gaussian = false) {
   Noise noise;
@@ -54,6 +55,8 @@ Scene scene(int count, float depth = 1, bool gaussian = false) {
   s.view.picture = {camera.width, camera.height, {}};
   s.view.picture.value.resize(3 * s.view.picture.pixels());
   for (float& x : s.view.picture.value) x = 0.5f + 0.3f * noise.next();
+  s.view.hiding.resize(s.view.picture.pixels());
+  for (std::size_t i = 0; i < s.view.hiding.size(); i += 2) s.view.hiding[i] = 0.3f;
   for (int i = 0; i < count; ++i) {
     TrainedSurfel surfel;
     for (std::size_t k = 0; k < TrainedSurfel::kSize; ++k) {
@@ -76,7 +79,8 @@ Scene scene(int count, float depth = 1, bool gaussian = false) {
   return s;
 }
 
-/// Squared error, for which differences say more than for |error|, plus the spread.
+/// Squared error, for which differences say more than for |error|, plus the spread and what hiding
+/// costs.
 double loss_of(const Scene& s, float spread, PlanarPicture* gradient, DrawnSurfels& drawn) {
   draw_surfels(tile_surfels(s.surfels, s.view.camera, 1), s.view, 1, drawn);
   double sum = 0;
@@ -86,6 +90,8 @@ double loss_of(const Scene& s, float spread, PlanarPicture* gradient, DrawnSurfe
     sum += double(error) * double(error) / 2;
     if (gradient != nullptr) gradient->value[i] = error;
   }
+  for (std::size_t i = 0; i < s.view.hiding.size(); ++i)
+    sum += double(s.view.hiding[i]) * double(1 - drawn.transparency[i]);
   for (std::size_t i = 0; i < drawn.near.size(); ++i)
     sum += double(spread) * (double(1 - drawn.transparency[i]) * double(drawn.near_square[i]) -
                              double(drawn.near[i]) * double(drawn.near[i]));
