@@ -89,7 +89,8 @@ Result<Import, InputError> import_cameras_json(const std::filesystem::path& file
   import.cloud_file = import.capture.root / "points.ply";
   if (const auto points = json.find("points")) {
     SLF_TRY(const auto name, points->string());
-    SLF_TRY(import.cloud_file, path_inside(import.capture.root, name, file.string() + ": points"));
+    import.cloud_label = file.string() + ": points";
+    SLF_TRY(import.cloud_file, path_inside(import.capture.root, name, import.cloud_label));
   }
   std::map<std::string, int> camera_of;
   bool has_masks = false;

@@ -58,8 +58,8 @@ bool is_identity(const std::array<std::array<double, 4>, 3>& m) {
 Result<Done, InputError> read_cloud(const JsonView& json, const fs::path& file, Import& import) {
   if (const auto ply = json.find("ply_file_path")) {
     SLF_TRY(const auto path, ply->string());
-    SLF_TRY(import.cloud_file,
-            path_inside(file.parent_path(), path, file.string() + ": ply_file_path"));
+    import.cloud_label = file.string() + ": ply_file_path";
+    SLF_TRY(import.cloud_file, path_inside(file.parent_path(), path, import.cloud_label));
     return Done{};
   }
   const auto applied = json.find("applied_transform");

@@ -19,6 +19,7 @@ struct Import {
   std::vector<std::string> masks;     ///< [cameras] or empty; "" where a camera has none
   std::vector<std::string> labels;    ///< [cameras] where each stands: "cameras.json: cameras[3]"
   std::filesystem::path cloud_file;   ///< the PLY the format names; or empty
+  std::string cloud_label;            ///< where it is named; empty: it need not be there
   std::filesystem::path points_file;  ///< a cloud that is taken where there is no other; or empty
   std::string cloud_name;             ///< for messages: where capture.cloud came from
   std::optional<UpAxis> up;           ///< where the format says

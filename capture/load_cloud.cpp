@@ -204,6 +204,9 @@ Result<Done, InputError> load_and_check(const CaptureOptions& options, Import& i
 Result<Done, InputError> load_geometry(const std::string& path, const CaptureOptions& options,
                                        Import& import) {
   Capture& capture = import.capture;
+  if (options.points.empty() && !import.cloud_label.empty() && !is_file(import.cloud_file))
+    return InputError{Errc::kUnreadable,
+                      import.cloud_label + ": " + import.cloud_file.string() + ": no such file"};
   if (may_lack_points(options, import)) {
     if (options.crop)
       return InputError{Errc::kInvalidInput, path + ": crop: the capture has no points"};

@@ -227,8 +227,11 @@ Result<bool, InputError> mending_pays(const SurfaceChoice& job) {
 /// The capture's points, or mended ones where photographs gain.
 Result<VoxelCloud, InputError> given_or_mended(const SurfaceChoice& job, RefineGeometry mode) {
   const auto pays = [&job] { return mending_pays(job); };
+  const double before = job.report.seconds_train + job.report.seconds_judge;
   SLF_TRY(VoxelCloud cloud, voxelise_mended(job.capture, job.cameras, job.settings, mode, pays,
                                             job.report.mended, job.progress));
+  // What it took to see whether it pays is counted where that was done.
+  job.report.mended.seconds -= job.report.seconds_train + job.report.seconds_judge - before;
   if (job.report.mended.outcome == RefineReport::kMended) job.report.kept = Surface::kMended;
   return cloud;
 }

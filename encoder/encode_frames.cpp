@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/input_error.h"
 #include "base/stopwatch.h"
 #include "bitstream/units.h"
 #include "capture/photograph_size.h"
@@ -75,7 +76,7 @@ class SharedGrid {
     return Done{};
   }
   Result<Grid, InputError> grid() const {
-    if (points_ == 0) return of_frames("none has points");
+    if (points_ == 0) return invalid_input("frames: none has points");
     return choose_grid(box_, points_, bits_, step_);
   }
 

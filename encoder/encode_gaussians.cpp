@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "codec/encoder/pack_frame.h"
@@ -17,6 +19,12 @@ namespace {
 
 constexpr double kAboveTarget = 0.05;  // dB of PSNR
 constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and down with the step
+
+std::string hundredths_of(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.2f", value);
+  return buffer;
+}
 
 double extent_of(const Gaussians& splats) {
   const auto [low, high] = bounds_of(splats);
@@ -59,11 +67,10 @@ Result<Done, InputError> code_to_bytes(const GaussianEncoder& encoder, std::uint
   const StepGoal goal{most + std::log(0.99), most};
   const auto measure = [&](double q) { return encoder.code(q, out); };
   SLF_TRY(const StepFound found, find_step(kGaussianQ, goal, measure));
-  if (!found.reached && found.value > most)
-    return InputError{Errc::kInvalidArgument,
-                      "target bytes: no step makes a file of so few; the smallest found has " +
-                          std::to_string(std::lround(std::exp(found.value)))};
   if (found.q != out.q) SLF_CHECK(encoder.code(found.q, out));
+  if (!found.reached)
+    out.warning = "no step gives " + std::to_string(bytes) + " bytes: the nearest gives " +
+                  std::to_string(out.stream.size());
   return Done{};
 }
 
@@ -77,11 +84,10 @@ Result<Done, InputError> code_to_psnr(const GaussianEncoder& encoder, const Gaus
     return pictures.psnr_of(shown);
   };
   SLF_TRY(const StepFound found, find_step(kGaussianQ, {psnr, psnr + kAboveTarget}, measure));
-  if (!found.reached && !(std::abs(found.value - psnr) <= kNearTarget))
-    return InputError{Errc::kInvalidArgument,
-                      "target PSNR: no step gives it; the nearest found gives " +
-                          std::to_string(found.value) + " dB"};
   if (found.q != out.q) SLF_CHECK(encoder.code(found.q, out));
+  if (!found.reached && !(std::abs(found.value - psnr) <= kNearTarget))
+    out.warning = "no step gives " + hundredths_of(psnr) + " dB: the nearest gives " +
+                  hundredths_of(found.value);
   return Done{};
 }
 

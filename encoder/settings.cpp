@@ -113,6 +113,11 @@ Outcome refuse(const Given& given, const char* name, const char* value, const ch
   return Done{};
 }
 
+/// By the effort alone: nobody said --surface.
+bool takes_points_as_given(const Given& given, const EncoderSettings& settings) {
+  return given.has("effort") && !given.has("surface") && settings.surface == Surface::kGiven;
+}
+
 /// What was given for another fit, basis or coder than the one in force.
 Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
                     const SettingTable& table) {
@@ -128,7 +133,10 @@ Outcome refuse_idle(const Given& given, const EncoderSettings& settings,
   }
   for (const SettingRow& row : table)
     if (row.scope != nullptr && given.has(row.info.name) && !row.scope->holds(settings))
-      return invalid_argument("--" + row.info.name + " is for " + row.scope->name);
+      return invalid_argument("--" + row.info.name + " is for " + row.scope->name +
+                              (takes_points_as_given(given, settings)
+                                   ? ", and --effort 1 to 3 takes points as they are given"
+                                   : ""));
   return Done{};
 }
 

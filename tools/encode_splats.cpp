@@ -66,6 +66,9 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
   SLF_TRY(const EncodedGaussians coded,
           from(given.capture, encode_gaussians(std::move(file.gaussians), settings)));
   const double code = watch.lap();
+  std::vector<std::string> warnings;
+  if (!coded.warning.empty()) warnings.push_back(coded.warning);
+  warn(warnings, given.common.quiet);
   SLF_CHECK(save(given.output, coded.stream.data(), coded.stream.size()));
   const double each = static_cast<double>(coded.stream.size()) / static_cast<double>(coded.splats);
   if (given.common.json)
@@ -80,7 +83,8 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
         {"grid", {{"bits", coded.grid.bits}, {"step", coded.grid.step}}},
         {"bytes_per_splat", each},
         {"seconds", {{"load", load}, {"code", code}, {"total", load + code}}},
-        {"peak_memory_mib", peak_memory_mib()}});
+        {"peak_memory_mib", peak_memory_mib()},
+        {"warnings", warnings}});
   if (given.common.quiet) return Done{};
   std::fprintf(stderr,
                "splats        %s of degree %d (%s that no pixel shows left out)\n"

@@ -45,6 +45,8 @@ Failure failure_of(const Error& error, const std::string& file) {
   if (std::string_view(error.element) == kOneLightField)
     return {exit_code_of(error.code),
             file + ": " + kOneLightField + ": this takes one light field"};
+  if (std::string_view(error.element) == kEveryLevel)
+    return {exit_code_of(error.code), file + ": " + kEveryLevel};
   return {exit_code_of(error.code), file + ": " + cause_of(error.code) + " (" + where(error) + ")"};
 }
 

@@ -63,7 +63,11 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
   if (part.frames.empty()) return run();
   SLF_TRY(const FrameRange range, from("--frames", parse_frame_range(part.frames)));
   const std::string pattern = output;
-  if (pattern.empty() || numbered(pattern, 0) == pattern)
+  if (pattern.empty())
+    return Failure{kUsage, std::string(verb) +
+                               ": --frames writes a file of each: it needs --output "
+                               "with %d in its name (--frame N is one)"};
+  if (numbered(pattern, 0) == pattern)
     return Failure{kUsage, std::string(verb) + ": --output " + pattern +
                                " has no %d for the number of a frame"};
   if (!part.source) part.source = std::make_shared<FrameSource>();

@@ -18,11 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Standard output may block for ever on its reader, and has no temporary file: no need to defer.
+/// A pipe may block for ever on its reader, and has no temporary file: no need to defer.
 template <class Write>
 Outcome written(const std::string& file, const Write& write) {
   std::optional<DeferInterrupts> defer;
-  if (file != "-") defer.emplace();
+  std::error_code ignored;
+  const bool pipe =
+      file == "-" || (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored));
+  if (!pipe) defer.emplace();
   return from(output_name(file), write());
 }
 

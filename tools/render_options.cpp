@@ -38,6 +38,8 @@ void add_view_options(CLI::App& verb, RenderOptions& o) {
   auto* fov = verb.add_option("--fov", o.fov, "Field of view of the orbit's cameras, degrees")
                   ->capture_default_str()
                   ->check(range(1, 170));
+  for (CLI::Option* of_orbit : {sheet, azimuth, elevation, fov})
+    of_orbit->excludes(camera)->excludes(capture);
   for (CLI::Option* option : {orbit, camera, capture, image, pair, sheet, azimuth, elevation, fov})
     option->group(group);
 }
@@ -89,6 +91,10 @@ Outcome check_options(const RenderOptions& given) {
   if (given.film) return check_output(given.output, "render", std::array{".avi"});
   if (given.sheet || given.pair) return check_picture(given, given.output);
   const std::string first = numbered(given.output, 0);
+  if (given.orbit > 1 && first == given.output && !given.part.frames.empty())
+    return Failure{kUsage,
+                   "render: --output of --frames and --orbit needs a %d for the frame and one for "
+                   "the view"};
   if (given.orbit > 1 && first == given.output)
     return Failure{kUsage, "render: --output " + given.output +
                                " is neither a directory nor has a %d for the view's number"};

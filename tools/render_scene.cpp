@@ -4,6 +4,15 @@
 #include <limits>
 
 namespace slf::tools {
+namespace {
+
+/// Splats have radii of their own.
+Outcome check_radius(const RenderSettings& settings, const std::string& file) {
+  if (!(settings.radius > 0)) return Done{};
+  return Failure{kUsage, "render: --radius is for surfaces, and " + file + " holds splats"};
+}
+
+}  // namespace
 
 Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::string& file,
                                                                 const RenderSettings& settings,
@@ -13,6 +22,7 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
   auto scene = std::make_unique<RenderScene>();
   Stopwatch watch;
   if (is_splat_file(file)) {
+    SLF_CHECK(check_radius(settings, file));
     SLF_TRY(scene->file_, read_splat_file("render", file, part, limits, common));
     watch.lap();
     scene->splats_ = std::make_unique<GaussianRenderer>(scene->file_.gaussians, settings);
@@ -29,6 +39,7 @@ Result<std::unique_ptr<RenderScene>, Failure> RenderScene::load(const std::strin
     if (empty) return scene;
     watch.lap();
     if (has_gaussians(scene->field_.header)) {
+      SLF_CHECK(check_radius(settings, input_name(file)));
       SLF_TRY(scene->file_.gaussians,
               from(input_name(file), gaussians_of(scene->field_, common.threads)));
       scene->splats_ = std::make_unique<GaussianRenderer>(scene->file_.gaussians, settings);

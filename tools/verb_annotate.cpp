@@ -2,6 +2,7 @@
 // slf annotate: notes and scale of a file that is there, without coding it again.
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "slf/annotate.h"
 #include "slf/notes.h"
@@ -17,14 +18,16 @@ namespace {
 
 struct AnnotateOptions {
   std::string input, notes, output;
-  double metres = -1;
+  std::optional<double> metres;
   LimitOptions limits;
   CommonOptions common;
 };
 
 Result<Annotations, Failure> annotations_of(const AnnotateOptions& given) {
   Annotations made;
-  if (given.metres >= 0) made.metres_per_unit = given.metres;
+  if (given.metres && !(*given.metres == 0 || (*given.metres >= 1e-12 && *given.metres <= 1e12)))
+    return Failure{kUsage, "annotate: --metres-per-unit: 0, or 1e-12 to 1e12"};
+  made.metres_per_unit = given.metres;
   if (given.notes.empty() && !made.metres_per_unit)
     return Failure{kUsage, "annotate: nothing to write: NOTES or --metres-per-unit"};
   if (given.notes == "none") made.metadata.emplace_back(kNotesKey, std::nullopt);
@@ -73,7 +76,6 @@ void add_annotate(CLI::App& program, Run& run) {
       ->required();
   verb->add_option("--metres-per-unit", o->metres,
                    "Metres in a unit of the world, for a bar of scale and lengths; 0: not known")
-      ->check(CLI::Range(0.0, 1e12))
       ->type_name("M");
   add_limits(*verb, o->limits);
   add_quiet(*verb, o->common);

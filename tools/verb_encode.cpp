@@ -147,10 +147,21 @@ std::string report_text(const Encoded& e, const CaptureInput& input, const FileP
 /// Points alone cannot be mended or trained.
 Outcome check_surface(const EncodeOptions& given, const CaptureInput& input) {
   if (!input.cameras.empty()) return Done{};
-  for (const auto& [name, value] : given.given)
+  constexpr std::array kOfPhotographs = {"splats", "surface-seconds", "surface-memory",
+                                         "photograph-pixels"};
+  const auto refused = [&](const std::string& option) {
+    return Failure{kUsage,
+                   "encode: " + option + " is for photographs, and " + given.capture + " has none"};
+  };
+  if (!given.images.empty()) return refused("--images");
+  for (const auto& [name, value] : given.given) {
     if (name == "surface" && value != "given" && value != "auto")
-      return Failure{kUsage, "encode: --surface " + value + " is for photographs, and " +
-                                 given.capture + " has none"};
+      return refused("--surface " + value);
+    if ((name == "match-exposure" || name == "refine-cameras") && value == "on")
+      return refused("--" + name + " on");
+    if (std::find(kOfPhotographs.begin(), kOfPhotographs.end(), name) != kOfPhotographs.end())
+      return refused("--" + name);
+  }
   return Done{};
 }
 

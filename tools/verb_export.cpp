@@ -30,7 +30,7 @@ struct ExportOptions {
   int spz_version = 0;  // 0: 2 of light fields, 3 of splats
   bool mean = false;
   SplatSettings splats;
-  bool degree_given = false;
+  bool degree_given = false, size_given = false;
   PartOptions part;
   LimitOptions limits;
   CommonOptions common;
@@ -117,9 +117,9 @@ Outcome export_points(const ExportOptions& given) {
 
 /// Splats in another format. Their turns are any, which SPZ 3 holds better.
 Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatFormat format) {
-  if (given.mean || given.axes != "auto")
-    return Failure{kUsage, "export: --mean and --axes are for light fields, and " + given.input +
-                               " holds splats"};
+  if (given.mean || given.axes != "auto" || given.size_given)
+    return Failure{kUsage, "export: --mean, --axes and --size are for light fields, and " +
+                               given.input + " holds splats"};
   if (given.degree_given) keep_degree(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
@@ -157,6 +157,11 @@ Outcome export_splats(const ExportOptions& given, SplatFormat format) {
   SLF_TRY(const DecodedFile decoded,
           decode_file(given.input, given.part, given.limits, given.common));
   SLF_CHECK(require_view_maps(decoded.field, given.input));
+  if (decoded.field.num_points() == 0 && !given.part.frames.empty()) {
+    warn(text("%s: frame %d has no points, and no file", name.c_str(), given.part.frame),
+         given.common.quiet);
+    return Done{};
+  }
   SLF_CHECK(check_work(given, decoded.field.num_points()));
   if (has_gaussians(decoded.field.header)) {
     SLF_TRY(Gaussians gaussians, from(name, gaussians_of(decoded.field, given.common.threads)));
@@ -248,6 +253,7 @@ void add_export(CLI::App& program, Run& run) {
   add_json(*verb, o->common);
   verb->callback([&run, o, verb] {
     o->degree_given = verb->count("--degree") > 0;
+    o->size_given = verb->count("--size") > 0;
     run = [o] {
       return for_each_frame("export", o->output, o->part, [&] { return run_export(*o); });
     };

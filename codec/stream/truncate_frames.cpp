@@ -33,7 +33,7 @@ class FrameCutter {
     SLF_TRY(Request request, request_of(group_->units, group_->scene, options_));
     // Every frame needs all levels of the one before: 8.12.7.
     if (request.kept_levels_only() && group_->scene.stream.set.has_moved_points())
-      return Error{Errc::kInvalidArgument, "levels"};
+      return Error{Errc::kInvalidArgument, kEveryLevel};
     request.kept = &predicted_from_;
     SLF_CHECK(check_limits(request, options_));
     asked_ = request;

@@ -126,6 +126,7 @@ Result<EncoderSettings, InputError> scene_settings(const GivenSettings& given, b
   if (settings.coefficients == CoefficientCoder::kTexture) return refused("--coefficients texture");
   for (const Surface surface : {Surface::kMended, Surface::kTrained, Surface::kSplats})
     if (settings.surface == surface) return refused(std::string("--surface ") + word_of(surface));
+  if (settings.splats > 0) return refused("--splats");
   if (settings.match_exposure == MatchExposure::kOn) return refused("--match-exposure on");
   if (settings.refine_cameras == RefineCameras::kOn) return refused("--refine-cameras on");
   if (settings.densify.mode == Densify::kOn) return refused("--densify on");

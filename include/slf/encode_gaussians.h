@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "slf/encoder.h"
@@ -19,6 +20,7 @@ struct EncodedGaussians {
   double q = 0;
   Grid grid;
   std::size_t splats = 0, left_out = 0;  ///< that were coded; that no pixel shows
+  std::string warning;                   ///< that no step meets a target; empty: one does
 };
 
 /// Splats that no pixel can show (opacity below 1 / 255) are left out. One Q says how fine all is:
@@ -27,12 +29,12 @@ struct EncodedGaussians {
 /// @param splats    move them in where they are not needed again: a copy is saved
 /// @param settings  q, or target_bytes, or target_psnr: of twelve pictures from around the splats,
 ///                  against those of the splats as they are given, where either shows something,
-///                  to 0.05 dB more, or to 0.5 dB where no step that was tried meets that;
+///                  to 0.05 dB more; the nearest file where no step meets a target;
 ///                  grid_bits or voxel_size in place of the grid; what CodingParameters are made
 ///                  of; metadata, threads. Nothing else of it counts.
 /// @param origin  world place that positions are from
-/// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of range or
-///         that no step meets; those of pack(). The same bytes for any thread count.
+/// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of
+///         range; those of pack(). The same bytes for any thread count.
 Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin = {0, 0, 0});

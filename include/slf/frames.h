@@ -19,6 +19,7 @@
 namespace slf {
 
 /// Element of the error (kUnsupported) of what takes one light field, of a stream of frames.
+inline constexpr const char* kEveryLevel = "levels: every frame needs all of the one before";
 inline constexpr const char* kOneLightField = "a stream of several frames";
 
 /// A frame of a stream, as its frame unit says.

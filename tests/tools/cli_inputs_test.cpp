@@ -89,6 +89,30 @@ TEST_F(InputsCli, AMeshAloneIsToldThatItNeedsPhotographs) {
     EXPECT_NE(slf("encode --help").out.find(name), std::string::npos) << name;
 }
 
+TEST_F(InputsCli, ACloudThatIsNamedAndMissingIsNotReplacedByAnother) {
+  auto json = parsed(read("tiny/cameras.json"));
+  json["points"] = "nope.ply";
+  write("tiny/cameras.json", json.dump());
+  for (const char* beside : {"points.ply", "none"}) {
+    expect_failure(encode(), 3, "nope.ply", "cameras.json: points");
+    EXPECT_EQ(encode("--quiet --points '" + path("p.ply").string() + "'").code, 3) << beside;
+    if (exists("tiny/points.ply")) std::filesystem::rename(path("tiny/points.ply"), path("q.ply"));
+  }
+  EXPECT_EQ(encode("--quiet --points q.ply").code, 0) << "another is named";
+}
+
+TEST_F(InputsCli, WhatIsForPhotographsIsRefusedOfACloudAlone) {
+  for (const char* option : {"--splats 300", "--surface-seconds 3", "--photograph-pixels 1",
+                             "--match-exposure on", "--images tiny/images"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    expect_failure(slf("encode tiny/points.ply -o a.slf " + std::string(option)), 2, name,
+                   "for photographs");
+  }
+  expect_failure(slf("plan tiny --splats 300 --work w -o p.json"), 2, "--splats", "at once");
+  expect_failure(slf("encode tiny -o a.slf --effort 1 --splats 300"), 2, "--splats",
+                 "--effort 1 to 3 takes points as they are given");
+}
+
 TEST_F(InputsCli, AGltfBesideTheCamerasIsFoundAsAGlbIs) {
   std::filesystem::remove(path("tiny/points.ply"));
   write("tiny/mesh.gltf", "{");

@@ -52,6 +52,15 @@ TEST_F(CliNotesTest, AnnotateWritesNotesAndScaleIntoAFileThatIsThere) {
   EXPECT_FALSE(exists("z.slf"));
 }
 
+TEST_F(CliNotesTest, AScaleThatIsNoneIsRefused) {
+  ASSERT_EQ(encode("").code, 0);
+  for (const char* metres : {"nan", "inf", "-1", "1e-300", "1e13"})
+    expect_failure(slf("annotate x.slf -o y.slf --metres-per-unit=" + std::string(metres)), 2,
+                   "--metres-per-unit", "1e-12 to 1e12");
+  EXPECT_FALSE(exists("y.slf"));
+  EXPECT_EQ(slf("annotate x.slf -o y.slf --metres-per-unit 0").code, 0);
+}
+
 TEST_F(CliNotesTest, WrongOnesAreRefusedByFileAndElementAndLeaveNothing) {
   for (const char* verb : {"encode die -o y.slf --effort 1 --quiet", "html x.slf -o y.html"}) {
     const Ran markup = slf(std::string(verb) + " --notes markup.json");

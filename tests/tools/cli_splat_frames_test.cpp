@@ -151,6 +151,18 @@ TEST_F(SplatFramesTest, WithoutSplatsAreEmptyFrames) {
   EXPECT_EQ(frames[2]["points"], 0);
   EXPECT_EQ(frames[3]["predicted"], false);
   EXPECT_EQ(slf("render x.slf --frames 0:3 -o v%d.png --size 30x30 --quiet").code, 0);
+  const Ran written = slf("export x.slf --frames 0:3 -o w%d.ply");
+  EXPECT_EQ(written.code, 0);
+  EXPECT_NE(written.err.find("x.slf: frame 1 has no points, and no file"), std::string::npos);
+  EXPECT_TRUE(exists("w0.ply") && exists("w3.ply") && !exists("w1.ply") && !exists("w2.ply"));
+}
+
+TEST_F(SplatFramesTest, AreToldWhatTheirCutsAndNamesNeed) {
+  ASSERT_EQ(slf("encode s_%d.ply -o x.slf --quiet").code, 0);
+  expect_failure(slf("truncate x.slf --levels 2 -o y.slf"), 2, "x.slf", "needs all of the one");
+  expect_failure(slf("render x.slf --frames 0:1 --orbit 2 -o v%d.png"), 2, "--output",
+                 "one for the view");
+  expect_failure(slf("decode x.slf --frames 0:1 --dump d"), 2, "--frames", "%d in its name");
 }
 
 TEST_F(SplatFramesTest, EveryFrameIsJudgedAgainstItsCapture) {

@@ -55,6 +55,8 @@ TEST_F(SplatFileTest, IsReportedAndCutToADegree) {
 TEST_F(SplatFileTest, IsRefusedWhereAnOptionMeansNothingForItAndWhenDamaged) {
   expect_failure(slf("render x.ply -o x.png --levels 2"), 2, "x.ply", "no part");
   expect_failure(slf("export x.ply -o x.spz --axes world"), 2, "x.ply", "--axes");
+  expect_failure(slf("export x.ply -o x.spz --size 2"), 2, "x.ply", "--size");
+  expect_failure(slf("render x.ply -o x.png --radius 2"), 2, "x.ply", "--radius");
   std::string text = read("x.ply");
   text.resize(text.size() - 9);
   write("cut.ply", text);
@@ -63,6 +65,29 @@ TEST_F(SplatFileTest, IsRefusedWhereAnOptionMeansNothingForItAndWhenDamaged) {
   const Ran ran = slf("render new.spz -o x.png");
   EXPECT_NE(ran.err.find("new.spz: SPZ"), std::string::npos) << ran.err;
   EXPECT_NE(ran.code, 0);
+}
+
+TEST_F(SplatFileTest, HasTheNearestFileOfATargetThatNoStepMeets) {
+  for (const char* target : {"--target-bytes 10", "--target-bytes 9000000", "--target-psnr 99"}) {
+    const Ran ran = slf("encode x.ply -o x.slf --json " + std::string(target));
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto report = parsed(ran.out);
+    ASSERT_EQ(report["warnings"].size(), 1u) << target;
+    EXPECT_NE(ran.err.find("warning: no step gives"), std::string::npos) << ran.err;
+    EXPECT_EQ(report["bytes"], read("x.slf").size());
+  }
+}
+
+TEST_F(SplatFileTest, AViewOfACameraHasNothingOfAnOrbit) {
+  for (const char* option : {"--azimuth 5", "--elevation 5", "--fov 5", "--sheet"})
+    expect_failure(slf("render x.ply -o x.png --camera cameras.json:0 " + std::string(option)), 2,
+                   "--camera", std::string(option).substr(0, std::string(option).find(' ')));
+}
+
+TEST_F(SplatFileTest, APipeThatNobodyReadsEndsWithTheProgram) {
+  ASSERT_EQ(slf("encode x.ply -o x.slf --quiet").code, 0);
+  ASSERT_EQ(shell("mkfifo pipe").code, 0);
+  EXPECT_EQ(slf("export x.slf --format ply -o pipe", "timeout -k 20 1").code, 124);
 }
 
 TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
@@ -84,7 +109,6 @@ TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
   }
   expect_failure(slf("encode x.ply -o w.slf --degree 4"), 2, "x.ply", "--degree");
   expect_failure(slf("encode x.ply -o w.slf --points x.ply"), 2, "x.ply", "--points");
-  expect_failure(slf("encode x.ply -o w.slf --target-bytes 100"), 2, "", "target bytes");
 }
 
 TEST_F(SplatFileTest, IsCodedFromStandardInputAsFromAFile) {
