@@ -57,9 +57,12 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
-    // "[json.exception…] parse error at line …: cause; last read: 'what stands there'"
+    // "[json.exception…] parse error at line …: cause; last read: 'what stands there'", or
+    // "[json.exception…] cause"
     std::string_view what = error.what();
     what = what.substr(0, what.find("; last read: "));
+    if (const std::size_t name = what.find("] "); name != std::string_view::npos)
+      what.remove_prefix(name + 2);
     const std::size_t colon = what.find(": ");
     return fail("not valid JSON at byte " + std::to_string(position) + ": " +
                 std::string(colon == std::string_view::npos ? what : what.substr(colon + 2)));

@@ -19,8 +19,9 @@
 namespace slf {
 
 /// Element of the error (kUnsupported) of what takes one light field, of a stream of frames.
-inline constexpr const char* kEveryLevel = "levels: every frame needs all of the one before";
 inline constexpr const char* kOneLightField = "a stream of several frames";
+/// Element of the error (kInvalidArgument) of fewer levels of splats that move (8.12.7).
+inline constexpr const char* kEveryLevel = "levels: every frame needs all of the one before";
 
 /// A frame of a stream, as its frame unit says.
 struct FrameInfo {

@@ -70,6 +70,8 @@ TEST(Notes, MistakesAreToldByFileAndPlace) {
       {R"({"version":1,"version":1})", "notes.json: "},
       {R"({"version":1)", "notes.json: version: not valid JSON at byte 13"},
       {"", "notes.json: not valid JSON"},
+      {R"({"version":1e999)",
+       "notes.json: version: not valid JSON at byte 16: number overflow parsing"},
       {"{\"version\":1,\"a\":\"\xff\"}", "notes.json: a: not valid JSON at byte 19"}};
   for (const auto& [json, message] : cases)
     EXPECT_EQ(error_of(json).find(message), 0u) << json << "\n" << error_of(json);
