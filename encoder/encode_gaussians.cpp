@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <utility>
 
 #include "codec/encoder/pack_frame.h"
+#include "encoder/encode_to_target.h"
 #include "encoder/gaussian_coding.h"
 #include "encoder/gaussian_planes.h"
 #include "encoder/rate_control.h"
@@ -19,12 +18,6 @@ namespace {
 
 constexpr double kAboveTarget = 0.05;  // dB of PSNR
 constexpr double kNearTarget = 0.5;    // dB: of few splats, PSNR goes up and down with the step
-
-std::string hundredths_of(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.2f", value);
-  return buffer;
-}
 
 double extent_of(const Gaussians& splats) {
   const auto [low, high] = bounds_of(splats);
@@ -68,9 +61,7 @@ Result<Done, InputError> code_to_bytes(const GaussianEncoder& encoder, std::uint
   const auto measure = [&](double q) { return encoder.code(q, out); };
   SLF_TRY(const StepFound found, find_step(kGaussianQ, goal, measure));
   if (found.q != out.q) SLF_CHECK(encoder.code(found.q, out));
-  if (!found.reached)
-    out.warning = "no step gives " + std::to_string(bytes) + " bytes: the nearest gives " +
-                  std::to_string(out.stream.size());
+  if (!found.reached) out.warning = missed_bytes(bytes, out.stream.size());
   return Done{};
 }
 
@@ -86,8 +77,7 @@ Result<Done, InputError> code_to_psnr(const GaussianEncoder& encoder, const Gaus
   SLF_TRY(const StepFound found, find_step(kGaussianQ, {psnr, psnr + kAboveTarget}, measure));
   if (found.q != out.q) SLF_CHECK(encoder.code(found.q, out));
   if (!found.reached && !(std::abs(found.value - psnr) <= kNearTarget))
-    out.warning = "no step gives " + hundredths_of(psnr) + " dB: the nearest gives " +
-                  hundredths_of(found.value);
+    out.warning = missed_psnr(psnr, found.value);
   return Done{};
 }
 

@@ -47,6 +47,15 @@ Result<double, InputError> input_psnr(std::span<const std::uint8_t> stream, cons
 
 }  // namespace
 
+std::string missed_bytes(std::size_t target, std::size_t nearest) {
+  return "no step gives " + std::to_string(target) + " bytes: the nearest gives " +
+         std::to_string(nearest);
+}
+
+std::string missed_psnr(double target, double nearest) {
+  return "no step gives " + decimals(target) + " dB: the nearest gives " + decimals(nearest);
+}
+
 bool has_target(const EncoderSettings& settings) {
   return settings.target_bytes > 0 || settings.target_psnr > 0;
 }
@@ -82,11 +91,8 @@ Result<Done, InputError> code_to_target(
   SLF_TRY(const StepFound found, find_step(settings.q, goal, measure));
   if (found.q != last) SLF_CHECK(code(found.q));
   if (found.reached) return Done{};
-  encoded.warnings.push_back(bytes ? "no step gives " + std::to_string(settings.target_bytes) +
-                                         " bytes: the nearest gives " +
-                                         std::to_string(encoded.stream.size())
-                                   : "no step gives " + decimals(target) +
-                                         " dB: the nearest gives " + decimals(found.value));
+  encoded.warnings.push_back(bytes ? missed_bytes(settings.target_bytes, encoded.stream.size())
+                                   : missed_psnr(target, found.value));
   return Done{};
 }
 
