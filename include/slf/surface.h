@@ -47,8 +47,7 @@ struct SurfaceReport {
   double trained_psnr = 0;
   TrialFile as_splats;   ///< where they may be chosen and were tried
   TrialFile as_surface;  ///< of the best surface, where splats are near it: by its whole fit
-  std::vector<TrialFile>
-      more_splats;  ///< trials of more and more of them; the last was not worth it
+  std::vector<TrialFile> more_splats;  ///< trials of more and more of them, in their order
   double seconds_train = 0, seconds_judge = 0;
 
   double seconds() const { return mended.seconds + seconds_train + seconds_judge; }
