@@ -14,9 +14,9 @@ say() { echo "demo: $*" >&2; }
 
 tools/setup.sh
 # The viewer, for the page at the end; without it the demo is whole as well.
-if [[ ! -e web/dist/one_file.html ]] && command -v npm >/dev/null && command -v clang++-19 >/dev/null; then
+if [[ ! -e web/dist/one_file.html ]]; then
   say "building the viewer (web/)"
-  web/build.sh >&2 || say "the viewer could not be built"
+  { tools/setup.sh web && web/build.sh; } >&2 || say "the viewer could not be built"
 fi
 say "building (build/)"
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
@@ -50,8 +50,7 @@ fi
 
 python3 tools/demo_table.py "$out" "$capture" $(($(date +%s) - begin))
 
-# One page to look at it and to send to somebody. It needs the viewer, which needs node and clang for
-# WebAssembly (tools/setup.sh web).
+# One page to look at it and to send to somebody.
 if "$slf" html "$out/demo.slf" -o "$out/demo.html" --quiet 2>"$out/html.txt"; then
   echo
   echo "Open it in a browser: $PWD/$out/demo.html"

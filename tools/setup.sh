@@ -3,7 +3,7 @@
 # Installs the Debian packages that building needs. An argument adds others: `web` those that
 # web/build_wasm.sh and its tests need, `lab` these and those of all tests and of the RD laboratory
 # (tools/rd), `site` those of tools/site.sh, `text` those of tools/text.sh, `machines` those of conformance/machines.sh (cross
-# compilers, qemu, wine).
+# compilers, qemu, wine) and .ci/bare.sh.
 # Quick when all are there; safe to repeat. As root, or through sudo.
 set -euo pipefail
 
@@ -34,7 +34,7 @@ if [[ "${1:-}" == text || "${1:-}" == lab ]]; then
   packages+=(pandoc weasyprint fonts-dejavu-core fonts-dejavu-extra)  # tools/text.sh
 fi
 if [[ "${1:-}" == machines ]]; then
-  packages+=(qemu-user-static g++-{s390x,aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64)
+  packages+=(qemu-user-static g++-{s390x,aarch64,riscv64,i686}-linux-gnu g++-mingw-w64-x86-64-posix wine wine64 debootstrap)
 fi
 
 missing=()
