@@ -76,8 +76,8 @@ void surfel_gradients(const SurfelTiles& tiles, const TrainingView& view, const 
                       ProjectedGradients& gradients);
 
 /// From gradients of projected surfels to those of the surfels.
-/// @param gradients  [surfels], 0 where nothing is seen
-void add_surfel_gradients(const TrainedSurfels& surfels, const TrainingCamera& camera,
+/// @param gradients  [surfels] receives them where something is seen, and else stays as it is
+void set_surfel_gradients(const TrainedSurfels& surfels, const TrainingCamera& camera,
                           const SurfelTiles& tiles, const std::vector<ProjectedGradient>& projected,
                           std::vector<TrainedSurfel>& gradients, int threads);
 

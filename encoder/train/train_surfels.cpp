@@ -152,7 +152,7 @@ class Training {
     surfel_gradients(tiles, view, drawn_, loss_.gradient, settings_.spread * focal * focal,
                      settings_.threads, projected_);
     gradients_.assign(surfels_.size(), {});
-    add_surfel_gradients(surfels_, camera, tiles, projected_.sums, gradients_, settings_.threads);
+    set_surfel_gradients(surfels_, camera, tiles, projected_.sums, gradients_, settings_.threads);
     if (settings_.twists != nullptr) move_camera(index, done);
     pull(done);
     use_.add(tiles, projected_.sums);
@@ -160,7 +160,7 @@ class Training {
     const TrainedSurfel rates =
         training_rates(done, pixel_ * std::pow(2.0, double(level)), settings_.harmonics);
     adam_step(gradients_, rates, space_, settings_.threads, adam_, surfels_);
-    shrink_harmonics(settings_.harmonics.sparsity, rates, moving_, surfels_);
+    shrink_harmonics(settings_.harmonics.sparsity, rates, moving_, settings_.threads, surfels_);
     ++drawn_views_;
     if (done >= kGrowFirst && iteration_ % kGrowEvery == kGrowEvery - 1) {
       leave_out();

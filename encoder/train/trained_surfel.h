@@ -10,12 +10,9 @@
 #include <vector>
 
 #include "capture/surface_points.h"
+#include "encoder/train/surfel_functions.h"
 
 namespace slf {
-
-/// Harmonics to degree 3, in the order and with the signs of 3DGS.
-inline constexpr std::size_t kTrainedFunctions = 16;
-inline constexpr float kMeanFunction = 0.28209479177387814f;  ///< the first, a constant
 
 /// All that is learnt of a surfel, as one row: an optimiser does not tell its parts apart.
 struct TrainedSurfel {
@@ -51,12 +48,5 @@ TrainedSurfel flat_surfel(const Float3& position, const Float3& normal, float ra
 /// @param axes  gradient with respect to them
 /// @param turn  receives what it is with respect to the quaternion
 void add_turn_gradient(const TrainedSurfel& surfel, const SurfelAxes& axes, float* turn);
-
-/// Values of the harmonics for a unit direction, from the camera to the surfel.
-std::array<float, kTrainedFunctions> trained_functions(const Float3& direction);
-/// What a change of each value means for the direction.
-/// @param weights  gradient with respect to the values
-Float3 direction_gradient(const Float3& direction,
-                          const std::array<float, kTrainedFunctions>& weights);
 
 }  // namespace slf

@@ -2,7 +2,11 @@
 #include "encoder/train/training_rates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "base/multiversion.h"
+#include "slf/parallel.h"
 
 namespace slf {
 namespace {
@@ -12,6 +16,14 @@ constexpr double kFirstMove = 0.15, kLastMove = 0.004;  // pixels, from the firs
 constexpr float kTurnRate = 5e-3f, kRadiusRate = 1e-2f, kOpacityRate = 5e-2f;
 constexpr float kColourRate = 5e-3f;
 constexpr std::size_t kHarmonics = TrainedSurfel::kColour + 3;  // after the mean colour
+
+constexpr std::size_t kHarmonicValues = TrainedSurfel::kSize - kHarmonics;
+
+SLF_MULTIVERSION_LANES void draw_to_none(const std::array<float, kHarmonicValues>& steps,
+                                         float* values) {
+  for (std::size_t k = 0; k < kHarmonicValues; ++k)
+    values[k] = std::copysign(std::max(std::abs(values[k]) - steps[k], 0.0f), values[k]);
+}
 
 }  // namespace
 
@@ -31,15 +43,14 @@ TrainedSurfel training_rates(double done, double pixel, const HarmonicSettings& 
 }
 
 void shrink_harmonics(float sparsity, const TrainedSurfel& rates,
-                      std::span<const std::uint8_t> moving, TrainedSurfels& surfels) {
+                      std::span<const std::uint8_t> moving, int threads, TrainedSurfels& surfels) {
   if (sparsity <= 0) return;
-  for (std::size_t i = 0; i < surfels.size(); ++i) {
-    if (!moving.empty() && !moving[i]) continue;
-    for (std::size_t k = kHarmonics; k < TrainedSurfel::kSize; ++k) {
-      float& value = surfels[i].value[k];
-      value = std::copysign(std::max(std::abs(value) - sparsity * rates.value[k], 0.0f), value);
-    }
-  }
+  std::array<float, kHarmonicValues> steps;
+  for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = sparsity * rates.value[kHarmonics + k];
+  parallel_ranges(surfels.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (moving.empty() || moving[i]) draw_to_none(steps, &surfels[i].value[kHarmonics]);
+  });
 }
 
 }  // namespace slf

@@ -26,6 +26,6 @@ TrainedSurfel training_rates(double done, double pixel, const HarmonicSettings& 
 /// @param rates  those of the step that was done
 /// @param moving  [surfels] 0: stays as it is; or none
 void shrink_harmonics(float sparsity, const TrainedSurfel& rates,
-                      std::span<const std::uint8_t> moving, TrainedSurfels& surfels);
+                      std::span<const std::uint8_t> moving, int threads, TrainedSurfels& surfels);
 
 }  // namespace slf

@@ -106,7 +106,7 @@ std::vector<TrainedSurfel> gradients_of(const Scene& s, float spread, int thread
   std::vector<TrainedSurfel> gradients(s.surfels.size());
   ProjectedGradients projected;
   surfel_gradients(tiles, s.view, drawn, picture, spread, threads, projected);
-  add_surfel_gradients(s.surfels, s.view.camera, tiles, projected.sums, gradients, threads);
+  set_surfel_gradients(s.surfels, s.view.camera, tiles, projected.sums, gradients, threads);
   return gradients;
 }
 

@@ -26,7 +26,7 @@ TEST(TrainingRatesTest, HarmonicsAreDrawnToNoneAndNothingElseIs) {
   rates.value.fill(0.1f);
   for (std::size_t k = 0; k < Surfel::kSize; ++k) surfel.value[k] = k % 2 ? 0.5f : -0.04f;
   TrainedSurfels surfels = {surfel, surfel};
-  shrink_harmonics(0.5f, rates, std::vector<std::uint8_t>{1, 0}, surfels);
+  shrink_harmonics(0.5f, rates, std::vector<std::uint8_t>{1, 0}, 1, surfels);
   EXPECT_EQ(surfels[1].value, surfel.value) << "it stands still";
   for (std::size_t k = 0; k < Surfel::kSize; ++k)
     EXPECT_FLOAT_EQ(surfels[0].value[k], k < kHarmonics ? surfel.value[k] : k % 2 ? 0.45f : 0.0f);
