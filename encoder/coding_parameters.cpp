@@ -23,7 +23,7 @@ CodingParameters coding_parameters(const EncoderSettings& settings) {
     parameters.transform = settings.transform;
   parameters.predict = settings.predict;
   parameters.reference_contexts = settings.reference_contexts;
-  parameters.rdo = settings.rdo;
+  parameters.rdo = std::max(settings.rdo, 0.0);
   parameters.quality_layers = settings.quality_layers;
   parameters.base_levels = settings.base_levels;
   parameters.max_slice_points = settings.max_slice_points;

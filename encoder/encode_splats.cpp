@@ -26,11 +26,13 @@ constexpr int kSplatIterations = 6000, kTrialIterations = 3000, kGlanceIteration
 // fit: of 4.0 of the dino 2.1 are left (1.3 within the object), of 3.5 of a vase 0.3 (-0.1).
 constexpr double kSplatGain = 3.5;
 constexpr double kSurfaceBytes = 0.6;  // a point of a surface, about: less than splats may take
-constexpr double kSplatBytes = 13;     // at Q 7, of a die, a vase and the dino: 12 to 18
+constexpr double kSplatBytes = 13;     // at Q 6.5, of a die, a vase and the dino: 11 to 17
 constexpr double kMoreSplats = 1.75;   // times as many as in the trial before
 constexpr double kMoreWorth = 0.1;     // dB that these have to gain, which is chance
 constexpr double kPromising = 0.2;     // the next ones gain less than half as much
 constexpr double kTaught = 0.75;       // of the splats asked for: photographs teach no more
+// Fewer are trained for longer, twice at most: docs/decisions/073.
+constexpr double kUsualSplats = 4000, kLonger = 2;
 
 TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start, int iterations,
                                   TrainingCache& cache) {
@@ -51,11 +53,17 @@ TrainGeometrySettings training_of(const EncoderSettings& settings, StartId start
   return training;
 }
 
+/// @param splats  that are asked for; 0: as many as ever
+int final_iterations(std::size_t splats) {
+  const double longer = splats > 0 ? std::clamp(kUsualSplats / double(splats), 1.0, kLonger) : 1;
+  return int(longer * kSplatIterations);
+}
+
 /// What a decoder draws of the splats.
 Result<TrialFile, InputError> coded_splats(const Gaussians& splats, const Capture& capture,
                                            std::span<const int> held_out,
                                            const EncoderSettings& settings) {
-  SLF_TRY(const EncodedGaussians file, encode_gaussians(splats, settings));
+  SLF_TRY(const EncodedGaussians file, encode_gaussians(splats, coding_of_splats(settings)));
   SLF_TRY(const Gaussians shown, decoded_gaussians(file.stream, settings.threads));
   const GaussianRenderer renderer(shown, {.background = {0, 0, 0}, .threads = 1});
   SLF_TRY(const DrawnQuality quality,
@@ -118,6 +126,12 @@ TrainGeometrySettings training_of_frames(const EncoderSettings& settings) {
   return training;
 }
 
+EncoderSettings coding_of_splats(EncoderSettings settings) {
+  if (settings.q == kAutomaticQ) settings.q = kTrainedGaussianQ;
+  if (settings.rdo == kAutomaticRdo) settings.rdo = 1;
+  return settings;
+}
+
 bool may_be_splats(const EncoderSettings& settings) {
   const EncoderSettings plain;
   return settings.surface == Surface::kAuto && settings.preset == plain.preset &&
@@ -162,21 +176,19 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
     const SplatJob trials{capture, start, parts.matched, parts.held_out, settings, progress, cache};
     SLF_TRY(training.surfels, splats_that_pay(trials, out.surface));
   }
+  training.iterations = final_iterations(training.surfels);
   SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, training, progress));
   out.surface.seconds_train = watch.lap();
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "photographs agree on nothing: no splat was left"};
-  EncoderSettings coding = settings;
+  EncoderSettings coding = coding_of_splats(settings);
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
   if (!cache.outlined) coding.metadata.emplace_back("view", middle_view(capture, cameras, cache));
   if (progress) progress("code", 0);
   coding.target_bytes = 0;
   coding.target_psnr = 0;
-  if (coding.q == kAutomaticQ) {
-    coding.q = kGaussianQ;
-    if (!has_target(settings)) out.step.origin = ChosenStep::kSplats;
-  }
+  if (settings.q == kAutomaticQ && !has_target(settings)) out.step.origin = ChosenStep::kSplats;
   const auto code = [&](double q) -> Result<Done, InputError> {
     EncoderSettings with = coding;
     with.q = q;

@@ -18,6 +18,10 @@ TrainGeometrySettings pose_training_of(const EncoderSettings& settings, StartId 
 /// The training of the first of several frames.
 TrainGeometrySettings training_of_frames(const EncoderSettings& settings);
 
+/// With the step and the share of rate that splats have which photographs train, where no other is
+/// given.
+EncoderSettings coding_of_splats(EncoderSettings settings);
+
 /// What splats are tried with.
 struct SplatJob {
   const Capture& capture;

@@ -123,7 +123,7 @@ Result<EncodedFrames, InputError> encode_trained_frames(std::size_t frames, cons
                                                         const TakeFrame& take,
                                                         const Progress& progress) {
   SLF_TRY(TrainedFrames trained, trained_frames(frames, load, settings, progress));
-  EncoderSettings coding = settings;
+  EncoderSettings coding = coding_of_splats(settings);
   coding.metadata.insert(coding.metadata.begin(), trained.metadata.begin(), trained.metadata.end());
   SLF_TRY(
       EncodedFrames encoded,

@@ -162,8 +162,9 @@ void add_coding(SettingTable& rows) {
 
 void add_layers_and_slices(SettingTable& rows) {
   add(rows, SettingPart::kCoding, "Coding", nullptr,
-      {number("rdo", SLF_AT(rdo), 0, 1,
-              "Quantise by distortion and rate, 0 to 1; 0: to the nearest (paper)"),
+      {number_or("auto", kAutomaticRdo, "rdo", SLF_AT(rdo), 0, 1,
+                 "Quantise by distortion and rate, 0 to 1; 0: to the nearest (paper); auto: 1 of "
+                 "splats that photographs train, else 0"),
        number("quality-layers", SLF_AT(quality_layers), 1, 4,
               "Layers in which coefficients are coded, each at half of the step of the one before: "
               "quality is a cut of the file (--layers), for some 1 % more bytes"),

@@ -14,6 +14,8 @@ namespace slf {
 /// Where EncoderSettings::q is kAutomaticQ. It costs about 0.25 dB of pictures
 /// (docs/decisions/024).
 inline constexpr double kGaussianQ = 7;
+/// The same of splats that photographs train: with kAutomaticRdo, docs/decisions/073.
+inline constexpr double kTrainedGaussianQ = 6.5;
 
 struct EncodedGaussians {
   std::vector<std::uint8_t> stream;

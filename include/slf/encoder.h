@@ -118,6 +118,7 @@ enum class Preset { kDefault, kPaper };
 
 /// EncoderSettings::q: chosen from held-out input pictures, kPlainQ at the least.
 inline constexpr double kAutomaticQ = 0;
+inline constexpr double kAutomaticRdo = -1;
 /// The step of preset paper, and where none can be chosen.
 inline constexpr double kPlainQ = 16;
 
@@ -169,9 +170,9 @@ struct EncoderSettings {
   TextureSettings texture;         ///< where coefficients is kTexture: its qp takes the place of q
   bool predict = true;             ///< CodingParameters
   bool reference_contexts = true;  ///< the same
-  double rdo = 0;                  ///< CodingParameters
-  int quality_layers = 1;          ///< CodingParameters
-  int normal_bits = 0;             ///< 0: normals are not coded; 4 .. 12
+  double rdo = kAutomaticRdo;  ///< CodingParameters; or 1 of splats that photographs train, else 0
+  int quality_layers = 1;      ///< CodingParameters
+  int normal_bits = 0;         ///< 0: normals are not coded; 4 .. 12
   int base_levels = kAutomaticBase;                      ///< CodingParameters
   std::uint32_t max_slice_points = kDefaultSlicePoints;  ///< CodingParameters
   SliceStart slice_start = SliceStart::kShared;          ///< CodingParameters

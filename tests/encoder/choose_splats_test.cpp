@@ -7,12 +7,14 @@
 
 #include "capture/surface_points.h"
 #include "encoder/choose_surface.h"
+#include "encoder/coding_parameters.h"
 #include "encoder/encode_splats.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/trial_file.h"
 #include "slf/decoder.h"
+#include "slf/encode_gaussians.h"
 #include "slf/evaluate.h"
 #include "slf/gaussian_renderer.h"
 #include "traced_scene.h"
@@ -145,6 +147,19 @@ TEST_F(QuickSplats, AreNoMoreThanWereAskedFor) {
   ASSERT_TRUE(coded) << coded.error().message;
   EXPECT_LE(coded->points, 300u);
   EXPECT_TRUE(coded->surface.more_splats.empty()) << "a number that is given is not sought";
+}
+
+TEST(EncodeSplats, CountRateUnlessSettingsSayOtherwise) {
+  const EncoderSettings plain;
+  EXPECT_EQ(coding_parameters(plain).rdo, 0) << "of surfaces and of splats of others";
+  const EncoderSettings splats = coding_of_splats(plain);
+  EXPECT_EQ(splats.rdo, 1);
+  EXPECT_EQ(splats.q, kTrainedGaussianQ);
+  EncoderSettings given;
+  given.rdo = 0;
+  given.q = 9;
+  EXPECT_EQ(coding_of_splats(given).rdo, 0);
+  EXPECT_EQ(coding_of_splats(given).q, 9);
 }
 
 TEST(EncodeSplats, AreAsManyAsAreWorthTheirBytesToPhotographsThatTrialsHaveNotSeen) {
