@@ -25,6 +25,23 @@ void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
   keep_surfels(keep, use, state, surfels);
 }
 
+/// Room for others where there is none: without those that say the least.
+void make_room(const GrowSettings& settings, SurfelUse& use, AdamState& state,
+               TrainedSurfels& surfels) {
+  const auto room = std::size_t(settings.replaced * double(settings.most));
+  if (surfels.size() + room <= settings.most || room == 0 || !settings.moving.empty()) return;
+  const std::size_t count = std::min(surfels.size() + room - settings.most, surfels.size());
+  std::vector<std::uint32_t> order(surfels.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(count), order.end(),
+                    [&](std::uint32_t a, std::uint32_t b) {
+                      return use.pull[a] != use.pull[b] ? use.pull[a] < use.pull[b] : a < b;
+                    });
+  std::vector<std::uint8_t> keep(surfels.size(), 1);
+  for (std::size_t i = 0; i < count; ++i) keep[order[i]] = 0;
+  keep_surfels(keep, use, state, surfels);
+}
+
 std::size_t longest_axis(const TrainedSurfel& surfel, std::size_t axes) {
   const float* radius = &surfel.value[TrainedSurfel::kLogRadius];
   return std::size_t(std::max_element(radius, radius + axes) - radius);
@@ -85,6 +102,7 @@ void keep_surfels(std::span<const std::uint8_t> keep, SurfelUse& use, AdamState&
 void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,
                   TrainedSurfels& surfels) {
   prune(settings, use, state, surfels);
+  make_room(settings, use, state, surfels);
   const std::size_t room = settings.most > surfels.size() ? settings.most - surfels.size() : 0;
   std::size_t count = std::min(room, std::size_t(settings.share * double(surfels.size())));
   std::vector<std::uint32_t> order;

@@ -26,6 +26,7 @@ struct GrowSettings {
   std::size_t most = 0;     ///< surfels
   double share = 0.1;       ///< of the surfels: at most so many are added
   float least_opacity = 0;  ///< fainter ones go
+  double replaced = 0;      ///< of `most`: those with the least pull make room for so many
   std::size_t axes = 2;     ///< that are split: 3 of ellipsoids
   float smallest = 0;       ///< world radius: no smaller ones split; far away larger
   ViewedSpace space = {};   ///< where a pixel is larger
@@ -39,7 +40,7 @@ void keep_surfels(std::span<const std::uint8_t> keep, SurfelUse& use, AdamState&
                   TrainedSurfels& surfels);
 
 /// Splits across the longest axis those with the greatest pull, so that the two draw about what the
-/// one did; removes those that show nothing. Use is empty after.
+/// one did; removes those that show nothing, and the share that is replaced. Use is empty after.
 void grow_surfels(const GrowSettings& settings, SurfelUse& use, AdamState& state,
                   TrainedSurfels& surfels);
 

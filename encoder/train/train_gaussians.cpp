@@ -19,6 +19,7 @@ namespace {
 constexpr float kThickness = 1e-2f;     // of the lesser deviation: pictures see none
 constexpr float kSquared = 0.5f;        // of a loss of magnitudes highlights are outliers
 constexpr float kFaint = 0.1f;          // while splats grow: docs/decisions/045
+constexpr double kReplaced = 0.03;      // docs/decisions/073
 constexpr double kCoarseShare = 0.5;    // of the iterations: docs/decisions/069
 constexpr float kHarmonicRate = 3e-3f;  // docs/decisions/070
 constexpr float kSparsity = 0.65f;      // over the root of the number of photographs
@@ -92,6 +93,7 @@ void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainS
   training.spread = training.together = training.decided = 0;
   training.squared = kSquared;
   if (!is_volume) training.least_opacity = kFaint;
+  training.replaced = kReplaced;
   training.coarse = kCoarseShare;
   training.harmonics = {3, kHarmonicRate, kSparsity / std::sqrt(float(views.size()))};
 }

@@ -210,6 +210,7 @@ class Training {
     grow.smallest = float(kSmallest * pixel_);
     grow.space = space_;
     grow.least_opacity = settings_.least_opacity;
+    grow.replaced = settings_.replaced;
     grow.moving = moving_;
     grow.all_seen = drawn_views_ >= views_.size();
     grow_surfels(grow, use_, adam_, surfels_);

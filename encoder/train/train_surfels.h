@@ -29,6 +29,9 @@ struct TrainSettings {
   float together = 0.03f;   ///< weight of neighbours' distances from each other's planes, pixels
   float decided = 0.02f;    ///< pull of opacities to 0 or 1 in the last third
   float least_opacity = 0.02f;  ///< fainter ones make room for others while surfels grow
+  /// Share of the surfels that others take the place of, while surfels grow, where there is no
+  /// room.
+  double replaced = 0;
   HarmonicSettings harmonics = {};
   CameraTwists* twists = nullptr;  ///< of the views: cameras are learnt, too
   /// Surfels that nothing changed shows stay as they are, to the bit; nullptr: all are trained.

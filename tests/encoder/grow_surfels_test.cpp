@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace slf {
@@ -25,6 +27,28 @@ TEST(GrowSurfels, ASurfelThatIsPulledBecomesTwoAndOneThatShowsNothingGoes) {
   EXPECT_NEAR((surfels[1].position()[0] + surfels[2].position()[0]) / 2, 9, 1e-5);
   EXPECT_EQ(state.mean.size(), 3u);
   EXPECT_EQ(use.pull, (std::vector<float>{0, 0, 0}));
+}
+
+TEST(GrowSurfels, WhereThereIsNoRoomTheOneThatIsPulledLeastMakesIt) {
+  for (const bool still : {false, true}) {
+    TrainedSurfels surfels;
+    for (const float x : {0.0f, 5.0f, 9.0f, 12.0f})
+      surfels.push_back(flat_surfel({x, 0, 0}, {0, 0, 1}, 1, 0.9f));
+    AdamState state;
+    state.resize(4);
+    SurfelUse use;
+    use.resize(4);
+    use.drawn = {1, 1, 1, 1};
+    use.pull = {3, 1, 2, 4};
+    const std::vector<std::uint8_t> moving(still ? 4 : 0, 1);
+    grow_surfels({.most = 4, .share = 1, .replaced = 0.25, .moving = moving}, use, state, surfels);
+    ASSERT_EQ(surfels.size(), 4u);
+    const bool stays = std::any_of(surfels.begin(), surfels.end(),
+                                   [](const TrainedSurfel& s) { return s.position()[0] == 5; });
+    EXPECT_EQ(stays, still) << "of a scene that stands still in part none is moved";
+    EXPECT_EQ(state.mean.size(), 4u);
+    EXPECT_EQ(use.pull.size(), 4u);
+  }
 }
 
 TEST(GrowSurfels, AnEllipsoidIsSplitAcrossItsLongestAxisAndADiscInItsPlane) {
