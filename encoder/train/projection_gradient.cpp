@@ -136,7 +136,7 @@ SLF_MULTIVERSION_LANES void set_gradients(
     GradientLanes g;
     std::memcpy(&g, &columns, sizeof g);
     Projections p;
-    set_place(rows, camera, p);
+    set_centres(rows, camera, p);
     set_ellipse(camera, p);
     set_colour(camera, p);
     set_plane(camera, p);

@@ -17,13 +17,11 @@ namespace slf {
 
 inline constexpr auto kFilterSquare =
     float(kReferenceKernel.filter_pixels * kReferenceKernel.filter_pixels);
-inline constexpr float kGaussianFilter =
-    GaussianKernel::filter * kGaussianReach;  // in squared radii
+inline constexpr float kGaussianFilter = GaussianKernel::filter * kGaussianReach;  // squared radii
 inline constexpr float kNearest = 0.02f;      // of the camera's depth: nearer, a disc is no ellipse
 inline constexpr float kLeastCosine = 0.15f;  // a flatter plane's depth says nothing
 inline constexpr float kLeastOpacity = 1.0f / 255;
-inline constexpr float kMostSlope =
-    1.3f;  // times the picture: beyond, the picture is not linear at all
+inline constexpr float kMostSlope = 1.3f;  // times the picture: beyond, nothing is linear
 
 using Lanes3 = Three<Lanes>;
 using SurfelRows = std::array<const float*, kLaneCount>;
@@ -50,10 +48,8 @@ struct Projections {
   Lanes near{}, near_du{}, near_dv{};
 };
 
-[[gnu::always_inline]] inline void set_dot(const Float3& a, const Lanes3& b, Lanes& product) {
-  product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-[[gnu::always_inline]] inline void set_dot(const Lanes3& a, const Lanes3& b, Lanes& product) {
+template <class T>
+[[gnu::always_inline]] inline void set_dot(const Three<T>& a, const Lanes3& b, Lanes& product) {
   product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -92,9 +88,9 @@ template <class Function>
   clamped = slope != at;
 }
 
-/// @return those that may be seen
-[[gnu::always_inline]] inline LaneMask set_place(const SurfelRows& rows,
-                                                 const TrainingCamera& camera, Projections& p) {
+/// @return those that are before the camera, and not faint
+[[gnu::always_inline]] inline LaneMask set_centres(const SurfelRows& rows,
+                                                   const TrainingCamera& camera, Projections& p) {
   load_rows(rows, p.value);
   const Lanes3 position = {p.value[0], p.value[1], p.value[2]};
   set_turned(camera.rotation, position, p.at);

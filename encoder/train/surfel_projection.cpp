@@ -16,14 +16,14 @@ static_assert(sizeof(ProjectedSurfel) == sizeof(ProjectedColumns) / kLaneCount);
 [[gnu::always_inline]] inline void store(const Projections& p, const LaneMask& seen,
                                          std::size_t first, std::span<ProjectedSurfel> to) {
   const LaneMask index = std::int32_t(first) + LaneMask{0, 1, 2, 3, 4, 5, 6, 7};
-  Lanes as_floats;
-  std::memcpy(&as_floats, &index, sizeof index);
+  Lanes surfel;  // bits of an integer
+  std::memcpy(&surfel, &index, sizeof index);
   const ProjectedColumns columns = {p.u,          p.v,           p.a,
                                     p.b,          p.c,           p.reach,
                                     p.half_width, p.half_height, seen ? p.opacity : Lanes{},
                                     p.colour[0],  p.colour[1],   p.colour[2],
                                     p.near,       p.near_du,     p.near_dv,
-                                    as_floats};
+                                    surfel};
   std::array<float*, kLaneCount> rows{};
   for (std::size_t i = 0; i < to.size(); ++i) rows[i] = reinterpret_cast<float*>(&to[i]);
   store_rows(columns, rows, to.size());
@@ -38,7 +38,7 @@ SLF_MULTIVERSION_LANES void project_range(const TrainedSurfel* surfels, std::siz
     for (std::size_t k = 0; k < kLaneCount; ++k)
       rows[k] = surfels[i + std::min(k, count - 1)].value.data();
     Projections p;
-    LaneMask seen = set_place(rows, camera, p);
+    LaneMask seen = set_centres(rows, camera, p);
     if (any(seen)) seen &= set_ellipse(camera, p);
     if (any(seen)) {
       set_colour(camera, p);
