@@ -16,13 +16,13 @@ debootstrap --variant=minbase bookworm "$root" >"$root.log" 2>&1 || { tail -3 "$
 rm "$root.log"
 mount --bind /proc "$root/proc" && mount --bind /dev "$root/dev" || skipped "nothing can be mounted"
 cp -L /etc/resolv.conf "$root/etc/"
-mkdir -p "$root/root/slf"
-git archive HEAD | tar x -C "$root/root/slf"
+mkdir -p "$root/srv/slf"
+git archive HEAD | tar x -C "$root/srv/slf"
 # Certificates that this machine's network asks for.
-[[ -z ${NODE_EXTRA_CA_CERTS:-} ]] || cp -L "$NODE_EXTRA_CA_CERTS" "$root/root/certificates"
-chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C NODE_EXTRA_CA_CERTS=/root/certificates \
-  /root/slf/tools/demo.sh | tee "$root/root/printed"
+[[ -z ${NODE_EXTRA_CA_CERTS:-} ]] || cp -L "$NODE_EXTRA_CA_CERTS" "$root/srv/certificates"
+chroot "$root" env -i HOME=/srv PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C NODE_EXTRA_CA_CERTS=/srv/certificates \
+  /srv/slf/tools/demo.sh | tee "$root/srv/printed"
 for made in demo.html demo.slf contact_sheet.png; do
-  [[ -s $root/root/slf/build/demo/$made ]] || { echo ".ci/bare.sh: the demo left no $made"; exit 1; }
+  [[ -s $root/srv/slf/build/demo/$made ]] || { echo ".ci/bare.sh: the demo left no $made"; exit 1; }
 done
-grep -q "held-out image PSNR" "$root/root/printed"
+grep -q "held-out image PSNR" "$root/srv/printed"
