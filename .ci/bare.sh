@@ -10,10 +10,9 @@ skipped() { echo ".ci/bare.sh: skipped, $*"; exit 77; }
 command -v debootstrap >/dev/null || skipped "there is no debootstrap (tools/setup.sh machines)"
 root=$(mktemp -d "${TMPDIR:-/var/tmp}/slf_bare.XXXXXX")
 # Nothing is removed through a mount that is still there.
-trap 'umount "$root/proc" "$root/dev" 2>/dev/null; rm -rf --one-file-system "$root"' EXIT
+trap 'umount "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root" "$root.log"' EXIT
 
 debootstrap --variant=minbase bookworm "$root" >"$root.log" 2>&1 || { tail -3 "$root.log"; skipped "no Debian to be had"; }
-rm "$root.log"
 mount --bind /proc "$root/proc" && mount --bind /dev "$root/dev" || skipped "nothing can be mounted"
 cp -L /etc/resolv.conf "$root/etc/"
 mkdir -p "$root/srv/slf"
