@@ -76,6 +76,7 @@ void make_coarser(LightFieldHeader& header, int levels) {
   for (auto& coordinate : grid.origin) coordinate += grid.step * (cells - 1) / 2;
   grid.step *= cells;
   grid.bits = levels;
+  header.levels_left_out += left_out;
   header.normal_cell_log2 = std::max(header.normal_cell_log2 - left_out, 0);
 }
 

@@ -39,7 +39,9 @@ class GaussianEncoder {
                            settings_.threads));
     for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
     field.header.metres_per_unit = settings_.metres_per_unit;
-    CodingParameters parameters = gaussian_parameters(field.header, steps_of(q), settings_);
+    CodingParameters parameters =
+        gaussian_parameters(field.header, steps_of(q),
+                            splat_level_ends(field.positions, field.header.grid.bits), settings_);
     parameters.metadata = metadata_of_gaussians(q, settings_);
     out.q = q;
     out.grid = field.header.grid;

@@ -2,12 +2,15 @@
 #include "encoder/gaussian_coding.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "encoder/component_planes.h"
+#include "geometry/morton.h"
 #include "lightfield/keep_splats.h"
 
 namespace slf {
@@ -16,6 +19,8 @@ namespace {
 // Shares of Q at which the last byte of each buys the same in pictures: slopes of blender_can and
 // middlebury_dino, 4,000 and 6,000 splats. docs/decisions/024
 constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
+
+constexpr std::array kLevelShares{1.0 / 6, 1.0 / 3, 3.0 / 4};
 
 /// What the reference rasteriser never draws.
 const double kLeastLogit = -std::log(254.0);
@@ -51,7 +56,30 @@ Metadata metadata_of_gaussians(double q, const EncoderSettings& settings) {
   return metadata;
 }
 
+std::vector<int> splat_level_ends(std::span<const Voxel> positions, int bits) {
+  std::vector<std::size_t> begun(static_cast<std::size_t>(bits) + 1);  // nodes, by coarsest level
+  ++begun[0];
+  for (std::size_t p = 1; p < positions.size(); ++p) {
+    const std::uint64_t differs = morton(positions[p - 1]) ^ morton(positions[p]);
+    const auto below = (static_cast<int>(std::bit_width(differs)) + 2) / 3;  // the common node
+    ++begun[static_cast<std::size_t>(bits - below + 1)];
+  }
+  std::vector<int> ends;
+  std::size_t nodes = begun[0];
+  auto share = kLevelShares.begin();
+  for (int level = 1; level < bits && share != kLevelShares.end(); ++level) {
+    nodes += begun[static_cast<std::size_t>(level)];
+    const double here = static_cast<double>(nodes) / static_cast<double>(positions.size());
+    if (here < *share) continue;
+    ends.push_back(level);
+    while (share != kLevelShares.end() && *share <= here) ++share;
+  }
+  ends.push_back(bits);
+  return ends;
+}
+
 CodingParameters gaussian_parameters(const LightFieldHeader& header, const GaussianSteps& steps,
+                                     const std::vector<int>& ends,
                                      const EncoderSettings& settings) {
   CodingParameters parameters = coding_parameters(settings);
   for (const int group : scale_groups(header.basis)) parameters.group.push_back(group + 1);
@@ -66,7 +94,7 @@ CodingParameters gaussian_parameters(const LightFieldHeader& header, const Gauss
     const auto rounded = static_cast<std::uint32_t>(std::lround(std::clamp(units, 1.0, kMostStep)));
     parameters.step.push_back({rounded, rounded, rounded});
   }
-  parameters.coefficient_level_ends = parameters.geometry_level_ends = level_ends(header.grid.bits);
+  parameters.coefficient_level_ends = parameters.geometry_level_ends = ends;
   return parameters;
 }
 

@@ -32,9 +32,16 @@ double grid_step_of(double q, double deviation, double extent, const EncoderSett
 /// The quality, behind what settings have.
 Metadata metadata_of_gaussians(double q, const EncoderSettings& settings);
 
+/// Level ends for splats that stand alone long before the finest level: at the levels where they are
+/// a sixth, a third and three quarters of their number. O(P).
+/// @param positions  in Morton order
+std::vector<int> splat_level_ends(std::span<const Voxel> positions, int bits);
+
 /// Attributes are group 0, so that every cut by groups has them; then harmonics by degree.
 /// @param header  of header_of_splats()
+/// @param ends    of levels, of both geometry and coefficients
 CodingParameters gaussian_parameters(const LightFieldHeader& header, const GaussianSteps& steps,
+                                     const std::vector<int>& ends,
                                      const EncoderSettings& settings);
 
 /// What a decoder gets, in the order of the file.

@@ -64,7 +64,8 @@ GaussianFrameEncoder::GaussianFrameEncoder(LightFieldHeader header, const Grid& 
       threads_(settings.threads),
       encoder_(
           [&] {
-            CodingParameters parameters = gaussian_parameters(header_, steps_of(q), settings);
+            CodingParameters parameters =
+                gaussian_parameters(header_, steps_of(q), level_ends(header_.grid.bits), settings);
             parameters.metadata = metadata_of_gaussians(q, settings);
             return parameters;
           }(),

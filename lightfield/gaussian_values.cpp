@@ -13,9 +13,12 @@ namespace {
 
 constexpr std::size_t kShapesPerRange = 1024;
 
+/// The variance of what is spread over a voxel is 1/12; half of it blurs as few as it fills gaps.
+/// docs/decisions/074
+constexpr double kVoxelVariance = 1.0 / 24;
+
 /// e^(2 L), in the order of rows.
-std::array<float, 6> covariance_of(const Symmetric3& log_shape) {
-  Axes3 axes = eigen_axes(log_shape);
+std::array<float, 6> covariance_of(Axes3 axes) {
   for (double& value : axes.value) value = std::exp(2 * value);
   const Symmetric3 m = matrix_of(axes);
   std::array<float, 6> rows;
@@ -61,6 +64,15 @@ Symmetric3 log_shape_of(const PointValues& value, const SplatFunctions& function
   return from_shape_values(v);
 }
 
+Axes3 shape_axes(const LightFieldHeader& header, const PointValues& value,
+                 const SplatFunctions& functions) {
+  Axes3 axes = eigen_axes(log_shape_of(value, functions));
+  if (header.levels_left_out == 0) return axes;
+  const double blur = kVoxelVariance * header.grid.step * header.grid.step;
+  for (double& deviation : axes.value) deviation = 0.5 * std::log(std::exp(2 * deviation) + blur);
+  return axes;
+}
+
 SplatShapes splat_shapes(const LightField& field, int threads) {
   const LightFieldHeader& header = field.header;
   const SplatFunctions functions = splat_functions(header);
@@ -71,7 +83,7 @@ SplatShapes splat_shapes(const LightField& field, int threads) {
   parallel_ranges(points, kShapesPerRange, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const PointValues value(units, &planes[p * 3 * units.size()]);
-      out.covariances[p] = covariance_of(log_shape_of(value, functions));
+      out.covariances[p] = covariance_of(shape_axes(header, value, functions));
       out.opacities[p] = static_cast<float>(1 / (1 + std::exp(-logit_of(value, functions))));
     }
   });

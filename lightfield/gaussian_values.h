@@ -47,6 +47,11 @@ double logit_of(const PointValues& value, const SplatFunctions& functions);
 /// The matrix L: logarithms of deviations along axes.
 Symmetric3 log_shape_of(const PointValues& value, const SplatFunctions& functions);
 
+/// A splat's axes, and logarithms of its deviations along them. Where levels were left out, a splat
+/// stands for those of its voxel, and is blurred by half of what the voxel spans. Spec E.6
+Axes3 shape_axes(const LightFieldHeader& header, const PointValues& value,
+                 const SplatFunctions& functions);
+
 /// Splats as a page draws them.
 struct SplatShapes {
   std::vector<std::array<float, 6>> covariances;  ///< xx, xy, xz, yy, yz, zz; world units squared

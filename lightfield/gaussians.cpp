@@ -81,7 +81,7 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
       const Vec3 at = header.grid.world(field.positions[p]);
       for (std::size_t i = 0; i < 3; ++i) out.positions[p][i] = static_cast<float>(at[i]);
       out.logits[p] = static_cast<float>(logit_of(value, functions));
-      const Axes3 axes = eigen_axes(log_shape_of(value, functions));
+      const Axes3 axes = shape_axes(header, value, functions);
       for (std::size_t i = 0; i < 3; ++i)
         out.log_deviations[p][i] = static_cast<float>(axes.value[i]);
       const auto turn = quaternion_of(axes.axis);

@@ -102,6 +102,7 @@ struct Attribute {
 /// Everything about a light field but its points. Coded in the sequence unit.
 struct LightFieldHeader {
   Grid grid;
+  int levels_left_out = 0;  ///< of the file's octree, below those of the grid
   Basis basis;
   Directions directions = Directions::kWorld;
   int normal_cell_log2 = 0;  ///< kReflected: normals are of cells of 2^n voxels, 0 .. bits - 1

@@ -141,6 +141,43 @@ TEST(Spec_6_8_Shape, EigenvectorsAreARotationWhateverTheMatrix) {
   }
 }
 
+TEST(Spec_E_6_Gaussians, AreBlurredByTheirVoxelWhereLevelsAreLeftOut) {
+  const auto encoded = encode_gaussians(some_splats(300, 1), {});
+  ASSERT_TRUE(encoded) << encoded.error().message;
+  for (const int left_out : {0, 1, 4}) {
+    DecodeOptions options;
+    options.levels = encoded->grid.bits - left_out;
+    const auto field = decode(encoded->stream, options);
+    ASSERT_TRUE(field);
+    EXPECT_EQ(field->header.levels_left_out, left_out);
+    LightField unblurred = *field;
+    unblurred.header.levels_left_out = 0;
+    const Gaussians splats = *gaussians_of(*field), before = *gaussians_of(unblurred);
+    const double step = field->header.grid.step, blur = left_out == 0 ? 0 : step * step / 24;
+    for (std::size_t p = 0; p < splats.size(); ++p)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double variance = std::exp(2.0 * double{before.log_deviations[p][i]}) + blur;
+        EXPECT_NEAR(splats.log_deviations[p][i], 0.5 * std::log(variance), 1e-5);
+      }
+  }
+}
+
+TEST(SplatLevelEnds, AreWhereSplatsComeApart) {
+  EXPECT_EQ(splat_level_ends(std::vector<Voxel>{{3, 4, 5}}, 1), (std::vector{1}));
+  EXPECT_EQ(splat_level_ends(std::vector<Voxel>{{0, 0, 0}, {1023, 0, 0}}, 10),
+            (std::vector{1, 10}));
+  // Two clumps of eight far from each other, one of them in steps of 16 and the other of one voxel.
+  std::vector<Voxel> clumps;
+  for (const std::int32_t apart : {16, 1})
+    for (int i = 0; i < 8; ++i) {
+      const std::int32_t corner = apart == 16 ? 0 : 512;
+      clumps.push_back(
+          {corner + apart * (i & 1), corner + apart * (i >> 1 & 1), corner + apart * (i >> 2)});
+    }
+  // Nodes: 1, then 2 from level 1 on, 9 from level 6 on, 16 at level 10.
+  EXPECT_EQ(splat_level_ends(clumps, 10), (std::vector{6, 10}));
+}
+
 TEST(EncodeGaussians, FilesOfACoarserQualityAreSmaller) {
   const Gaussians given = some_splats(2000, 2);
   EncoderSettings settings;
