@@ -54,11 +54,12 @@ Result<std::vector<Outline>, InputError> outlines_of(const Capture& capture,
   parallel_ranges(cameras.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       auto photograph = load_image(capture, cameras[i]);
-      if (photograph)
-        outlines[i] = {&capture.cameras[std::size_t(cameras[i])],
-                       object_outline(*photograph, background)};
-      else
+      if (!photograph) {
         failures[i] = photograph.error();
+        continue;
+      }
+      const auto object = object_outline(*photograph, background);
+      outlines[i] = {&capture.cameras[std::size_t(cameras[i])], {object.begin(), object.end()}};
     }
   });
   for (const auto& failure : failures)

@@ -15,7 +15,7 @@ namespace slf {
 
 struct Outline {
   const Camera* camera = nullptr;
-  std::vector<std::uint8_t> object;  ///< [height][width] 1: the object
+  std::vector<bool> object;  ///< [height][width]; a bit each, since all photographs' are held
 };
 
 /// Outlines in the photographs that tell (object_outline); cameras are the capture's own.

@@ -104,12 +104,10 @@ std::vector<Change> changes_of(const TrainingView& now, const Mask& mask) {
 
 ChangedViews::ChangedViews(std::vector<TrainingView>& before, std::vector<TrainingView> now,
                            int threads) {
-  const bool comparable = before.size() == now.size();
-  if (!comparable) before = now;
   std::vector<std::vector<Change>> changes(now.size());
   parallel_ranges(now.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Mask mask = comparable ? mask_of(before[i], now[i]) : Mask(now[i].picture.pixels(), 1);
+      const Mask mask = mask_of(before[i], now[i]);
       changes[i] = changes_of(now[i], mask);
       if (is_same_camera(before[i].camera, now[i].camera))
         keep_changed(mask, now[i], before[i]);

@@ -15,7 +15,7 @@ namespace slf {
 class ChangedViews {
  public:
   /// @param before  each pixel as it was when it last changed; becomes `now` where that differs
-  /// @param now     of the same cameras in the same order, or all of it has changed
+  /// @param now     as many; where the camera is another one, all of it has changed
   ChangedViews(std::vector<TrainingView>& before, std::vector<TrainingView> now, int threads);
 
   /// Boxes around what changed, of the photographs that show a change.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/train/cover_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -27,9 +28,11 @@ struct NodeHash {
 };
 
 NodeKey node_of(const Lattice& lattice, const Float3& at) {
+  constexpr double kBound = 1e9;  // beyond there are no blocks
   NodeKey key{};
   for (std::size_t a = 0; a < 3; ++a)
-    key[a] = std::int32_t(std::lround((double(at[a]) - lattice.origin[a]) / lattice.step));
+    key[a] = std::int32_t(std::lround(
+        std::clamp((double(at[a]) - lattice.origin[a]) / lattice.step, -kBound, kBound)));
   return key;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "encoder/measure/outlines.h"
@@ -68,18 +69,20 @@ void charge(const Outline& outline, TrainingView& view) {
 
 }  // namespace
 
-Result<Done, InputError> charge_for_hiding(const Capture& capture, std::span<const int> cameras,
-                                           int threads, std::span<TrainingView> views) {
-  SLF_TRY(const std::vector<Outline> outlines,
-          outlines_of(capture, cameras, threads, Background::kCertain));
+Result<Done, InputError> charge_for_hiding(const Capture& capture, int threads,
+                                           std::span<TrainingView> views) {
+  std::vector<std::optional<InputError>> failures(views.size());
   parallel_ranges(views.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Camera* camera = &capture.cameras[std::size_t(views[i].index)];
-      const auto own = std::find_if(outlines.begin(), outlines.end(),
-                                    [&](const Outline& o) { return o.camera == camera; });
-      if (own != outlines.end()) charge(*own, views[i]);
+      const auto own = outlines_of(capture, {&views[i].index, 1}, 1, Background::kCertain);
+      if (!own)
+        failures[i] = own.error();
+      else if (!own->empty())
+        charge(own->front(), views[i]);
     }
   });
+  for (const auto& failure : failures)
+    if (failure) return *failure;
   return Done{};
 }
 

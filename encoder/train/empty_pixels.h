@@ -13,7 +13,7 @@ namespace slf {
 /// Sets TrainingView::hiding where the view's photograph has an outline, a certain one: what is
 /// about as grey as the background may be the object.
 /// @errors those of load_image. The same for any number of threads. O(pixels)
-Result<Done, InputError> charge_for_hiding(const Capture& capture, std::span<const int> cameras,
-                                           int threads, std::span<TrainingView> views);
+Result<Done, InputError> charge_for_hiding(const Capture& capture, int threads,
+                                           std::span<TrainingView> views);
 
 }  // namespace slf

@@ -20,6 +20,7 @@ constexpr int kLeastSide = 4;       // pixels of a square
 constexpr float kOpenShare = 0.7f;  // of a square through which one sees
 constexpr float kFarReach = 2.2f;   // sides: radius, of which a disc shows a third or so
 constexpr float kFarOpacity = 0.6f;
+constexpr float kCoarser = 1.4f;
 
 struct OpenSquare {
   Float3 position{}, colour{};
@@ -131,7 +132,10 @@ TrainedSurfels far_surfels(std::span<const TrainingView> views, const TrainedSur
   if (squares.empty() || most == 0) return {};
   float cell = median(std::move(sides));
   std::vector<OpenSquare> some = merged_by_cell(squares, cell);
-  while (some.size() > most) some = merged_by_cell(squares, cell *= 1.4f);
+  // Cells of half of the sphere are joined no further: those of its octants meet in its middle.
+  while (some.size() > most && cell < kFarRadii * space.radius)
+    some = merged_by_cell(squares, cell *= kCoarser);
+  some.resize(std::min(some.size(), most));
   TrainedSurfels surfels;
   for (const OpenSquare& square : some) {
     TrainedSurfel surfel =

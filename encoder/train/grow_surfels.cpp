@@ -11,14 +11,18 @@ namespace {
 constexpr float kApart = 0.3f;  // radii: of the centres of the two from the middle
 constexpr float kLonger = 0.62f, kShorter = 0.9f;  // of the radius before
 
+bool is_finite(const TrainedSurfel& surfel) {
+  return std::all_of(surfel.value.begin(), surfel.value.end(),
+                     [](float value) { return std::isfinite(value); });
+}
+
 /// Without those that show nothing.
 void prune(const GrowSettings& settings, SurfelUse& use, AdamState& state,
            TrainedSurfels& surfels) {
   std::vector<std::uint8_t> keep(surfels.size());
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     const bool idle = surfels[i].opacity() < settings.least_opacity ||
-                      (settings.all_seen && !(use.drawn[i] > 0)) ||
-                      !std::isfinite(surfels[i].value[TrainedSurfel::kPosition]);
+                      (settings.all_seen && !(use.drawn[i] > 0)) || !is_finite(surfels[i]);
     const bool stays = !settings.moving.empty() && !settings.moving[i];
     keep[i] = !idle || stays;
   }

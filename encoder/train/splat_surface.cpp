@@ -46,12 +46,18 @@ TrainedSurfel surfel_of(const Gaussians& splats, std::size_t p, const Vec3& orig
 
 Result<PointCloud, InputError> surface_of_splats(const Gaussians& splats, const Capture& capture,
                                                  std::span<const int> cameras, int threads) {
+  return surface_of_splats_from(capture.origin, splats, capture, cameras, threads);
+}
+
+Result<PointCloud, InputError> surface_of_splats_from(const Vec3& origin, const Gaussians& splats,
+                                                      const Capture& capture,
+                                                      std::span<const int> cameras, int threads) {
   TrainedSurfels surfels(splats.size());
   Capture looked_at = capture;
   looked_at.mesh = {};
   looked_at.cloud = {};
   for (std::size_t p = 0; p < surfels.size(); ++p) {
-    surfels[p] = surfel_of(splats, p, capture.origin);
+    surfels[p] = surfel_of(splats, p, origin);
     looked_at.cloud.positions.push_back(surfels[p].position());
   }
   const auto refuse = [](const std::string& why) {

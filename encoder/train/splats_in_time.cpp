@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "capture/nearest.h"
 #include "capture/spacing.h"
@@ -109,15 +111,21 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   settings.iterations = kIterationsOfChange;
   settings.is_volume = false;
   cache_.normals.clear();  // those of the points of the first
+  cache_.views.clear();    // the light may have changed, cameras may have moved
   SLF_TRY(TrainingStart start, training_start(capture, cameras, settings, progress));
   if (start.views.empty()) return Done{};
   train_as_gaussians(false, start.views, start.settings);
-  if (cache_.outlined) SLF_CHECK(charge_for_hiding(capture, cameras, settings.threads, start.views));
-  if (before_.empty()) {
-    before_ = std::move(start.views);
-    return Done{};
+  if (cache_.outlined) SLF_CHECK(charge_for_hiding(capture, settings.threads, start.views));
+  const bool first = before_.empty();
+  std::vector<std::string> names;
+  std::vector<TrainingView> before;
+  for (const TrainingView& view : start.views) {
+    names.push_back(capture.cameras[std::size_t(view.index)].name);
+    before.push_back(std::move(before_[names.back()]));
   }
-  const ChangedViews changed(before_, std::move(start.views), settings.threads);
+  const ChangedViews changed(before, std::move(start.views), settings.threads);
+  for (std::size_t i = 0; i < names.size(); ++i) before_[names[i]] = std::move(before[i]);
+  if (first) return Done{};
   if (changed.views().empty()) return Done{};
   SLF_CHECK(add_what_appears(capture, cameras, changed));
   start.settings.surfels = std::max(first_, surfels_.size());

@@ -2,8 +2,9 @@
 // Splats of one instant after another: what stands still stays as it was.
 #pragma once
 
+#include <map>
 #include <span>
-#include <vector>
+#include <string>
 
 #include "encoder/train/train_geometry.h"
 #include "encoder/train/trained_surfel.h"
@@ -53,7 +54,7 @@ class SplatsInTime {
   Vec3 origin_{};
   std::size_t first_ = 0;  // surfels of the first
   TrainedSurfels surfels_;
-  std::vector<TrainingView> before_;  // photographs, as they were when they last changed
+  std::map<std::string, TrainingView> before_;  // photographs, as they were when they last changed
 };
 
 }  // namespace slf

@@ -48,12 +48,13 @@ SurfacePoints thinned(const SurfacePoints& points, double cell) {
   return out;
 }
 
-/// About `most` of them, by cells that are halved as long as those hold fewer: the spacing of a
-/// cloud with points far away says little.
+/// Half of `most` to twice as many, by cells that shrink or grow: the spacing of a cloud with
+/// points far away, or along the lines of a scanner, says little.
 SurfacePoints thinned_to(const SurfacePoints& points, double spacing, std::size_t most) {
   double cell = spacing * std::sqrt(double(points.size()) / double(most));
   SurfacePoints some = thinned(points, cell);
   for (int i = 0; i < 8 && some.size() < most / 2; ++i) some = thinned(points, cell *= kFiner);
+  while (some.size() > 2 * most) some = thinned(points, cell /= kFiner);
   return some;
 }
 

@@ -28,14 +28,15 @@ constexpr std::size_t kJudgedPerRange = 64;
 constexpr double kPixelsOfSplat = 100;
 constexpr std::size_t kFarShare = 6;  // at first one in so many may be for what is far away
 
-/// Pixels that show the object, or all where nothing tells it from its background.
+/// Pixels of the views that show the object, or all where nothing tells it from its background.
 double pixels_shown(const std::vector<Outline>& outlines, std::span<const TrainingView> views) {
-  double pixels = 0;
-  for (const Outline& outline : outlines)
-    pixels += double(std::count(outline.object.begin(), outline.object.end(), 1));
-  if (outlines.empty())
-    for (const TrainingView& view : views) pixels += double(view.picture.pixels());
-  return pixels;
+  double shown = 0, whole = 0, pixels = 0;
+  for (const TrainingView& view : views) pixels += double(view.picture.pixels());
+  for (const Outline& outline : outlines) {
+    shown += double(std::count(outline.object.begin(), outline.object.end(), true));
+    whole += double(outline.object.size());
+  }
+  return whole > 0 ? pixels * shown / whole : pixels;
 }
 
 /// [surfels] 1: what keep_object keeps.
@@ -116,7 +117,7 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
     training.surfels = std::min(
         training.surfels,
         std::max(std::size_t(pixels_shown(outlines, start.views) / kPixelsOfSplat), kFewestSplats));
-  if (outlined) SLF_CHECK(charge_for_hiding(capture, cameras, settings.threads, start.views));
+  if (outlined) SLF_CHECK(charge_for_hiding(capture, settings.threads, start.views));
   TrainedSurfels surfels = first_surfels(start, settings);
   if (!outlined) {
     const TrainedSurfels far =

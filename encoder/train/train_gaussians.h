@@ -41,6 +41,11 @@ void train_as_gaussians(bool is_volume, std::vector<TrainingView>& views, TrainS
 /// photographs show of a background (shades of a stand, of a cloth) is smoke before any other.
 void keep_object(const std::vector<Outline>& outlines, int threads, TrainedSurfels& surfels);
 
+/// surface_of_splats (slf/splat_surface.h) of places that are the capture's plus `origin`.
+Result<PointCloud, InputError> surface_of_splats_from(const Vec3& origin, const Gaussians& splats,
+                                                      const Capture& capture,
+                                                      std::span<const int> cameras, int threads);
+
 /// Surfels that were trained as Gaussians.
 Gaussians gaussians_of(const TrainedSurfels& surfels);
 

@@ -21,6 +21,7 @@ constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the 
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
 constexpr std::size_t kLeastFused = 500;                    // fewer are nothing like a surface
 constexpr std::size_t kMostFused = 1'000'000;               // points, about
+constexpr double kFinest = 0.5;  // automatic steps: a finer grid gets points no closer than that
 
 /// Largest side of the box of most surfels: some may be anywhere.
 /// @param outside  share of them at either end of an axis
@@ -38,13 +39,16 @@ double extent_of(const TrainedSurfels& surfels, double outside) {
   return extent;
 }
 
-double lattice_step(const TrainGeometrySettings& settings, const TrainedSurfels& surfels,
-                    double pixel) {
-  if (settings.voxel_size > 0) return settings.voxel_size;
-  if (settings.grid_bits > 0)
-    return 1.02 * extent_of(surfels, kFewOutside) / (std::pow(2.0, settings.grid_bits) - 1);
+/// What photographs resolve, and the memory of a surface of about so many points.
+double automatic_step(const TrainedSurfels& surfels, double pixel) {
   return std::max(kPixelsPerVoxel * pixel,
                   extent_of(surfels, kManyOutside) / std::sqrt(double(kMostFused)));
+}
+
+/// 0: none is given
+double given_step(const TrainGeometrySettings& settings, const TrainedSurfels& surfels) {
+  if (settings.voxel_size > 0 || settings.grid_bits == 0) return settings.voxel_size;
+  return 1.02 * extent_of(surfels, kFewOutside) / (std::pow(2.0, settings.grid_bits) - 1);
 }
 
 double sharpest_pixel(const Capture& capture, std::span<const int> cameras,
@@ -83,7 +87,9 @@ TrainedGeometry geometry_of(TrainedSurfels surfels, const Capture& capture,
   if (out.surfels.size() < kLeastPoints) return out;
   Lattice lattice;
   out.pixel = sharpest_pixel(capture, cameras, out.surfels);
-  lattice.step = lattice_step(settings, out.surfels, out.pixel);
+  const double given = given_step(settings, out.surfels);
+  const double automatic = automatic_step(out.surfels, out.pixel);
+  lattice.step = given > 0 ? std::max(given, kFinest * automatic) : automatic;
   if (!(lattice.step > 0) || !std::isfinite(lattice.step)) return out;
   FuseSettings fusing;
   fusing.threads = settings.threads;
@@ -91,7 +97,7 @@ TrainedGeometry geometry_of(TrainedSurfels surfels, const Capture& capture,
   if (fused.size() < kLeastFused) return out;
   out.cloud.positions = std::move(fused.positions);
   out.cloud.normals = std::move(fused.normals);
-  out.voxel_size = lattice.step;
+  out.voxel_size = given > 0 ? given : lattice.step;
   return out;
 }
 

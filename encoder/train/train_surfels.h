@@ -20,7 +20,7 @@ class ChangedViews;
 struct TrainSettings {
   int iterations = 3000;    ///< one photograph each
   double from = 0;          ///< 0 .. 1: share of the iterations that was done before
-  std::size_t surfels = 0;  ///< most; 0: one for some 64 pixels of the surface
+  std::size_t surfels = 0;  ///< most
   int levels = 2;           ///< of photographs: the whole size, and so many halves less one
   double coarse = 0.4;      ///< share of the iterations that each of the halves has
   float structure = 0.2f;   ///< share of SSIM in the loss

@@ -29,7 +29,7 @@ TrainingCamera pinhole(const Camera& camera) {
   return out;
 }
 
-/// Median depth of the points in front of the camera; 1 without any.
+/// Median depth of the points in the picture; 0 without any.
 float depth_of(const Camera& camera, const SurfacePoints& points) {
   constexpr std::size_t kLooked = 2000;
   std::vector<float> depths;
@@ -42,7 +42,17 @@ float depth_of(const Camera& camera, const SurfacePoints& points) {
         (*image)[1] < camera.height)
       depths.push_back(float(z));
   }
-  return depths.empty() ? 1.0f : median(std::move(depths));
+  return depths.empty() ? 0.0f : median(std::move(depths));
+}
+
+/// Those of photographs that show no point: the median of the others, else 1.
+void guess_depths(std::vector<TrainingView>& views) {
+  std::vector<float> known;
+  for (const TrainingView& view : views)
+    if (view.camera.depth > 0) known.push_back(view.camera.depth);
+  const float guess = known.empty() ? 1.0f : median(std::move(known));
+  for (TrainingView& view : views)
+    if (!(view.camera.depth > 0)) view.camera.depth = guess;
 }
 
 std::vector<std::uint8_t> object_of(const Camera& camera, const SurfacePoints& points,
@@ -149,6 +159,7 @@ Result<std::vector<TrainingView>, InputError> load_training_views(
   });
   for (const auto& failure : failures)
     if (failure) return *failure;
+  guess_depths(views);
   return views;
 }
 

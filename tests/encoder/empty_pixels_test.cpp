@@ -21,7 +21,7 @@ class EmptyPixelsTest : public testing::Test {
     auto views = load_training_views(capture_, traced_.cameras, points, traced_.step, 0, 0);
     ASSERT_TRUE(views) << views.error().message;
     views_ = *std::move(views);
-    const auto charged = charge_for_hiding(capture_, traced_.cameras, 0, views_);
+    const auto charged = charge_for_hiding(capture_, 0, views_);
     ASSERT_TRUE(charged) << charged.error().message;
   }
 

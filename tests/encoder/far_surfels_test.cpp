@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "encoder/train/train_gaussians.h"
@@ -63,6 +64,23 @@ TEST(FarSurfels, AreFiniteOrNoneWhereCamerasAreTooFarAway) {
     const std::vector<TrainingView> views = {view_from(-x), view_from(x)};
     for (const TrainedSurfel& surfel : far_surfels(views, {}, 1000, 1))
       for (const float value : surfel.value) EXPECT_TRUE(std::isfinite(value)) << x;
+  }
+}
+
+TEST(FarSurfels, AreFewAndNoLargerThanTheSceneAroundWhereFewAreAskedFor) {
+  std::vector<TrainingView> views(4, view_from(0));
+  const std::array<Float3, 4> forward = {Float3{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Float3& z = forward[i];
+    views[i].camera.rotation = {Float3{z[2], 0, -z[0]}, Float3{0, 1, 0}, z};
+  }
+  const float radius = viewed_space(views).radius;
+  for (const std::size_t most : {1u, 3u, 7u, 30u}) {
+    const TrainedSurfels far = far_surfels(views, {}, most, 1);
+    EXPECT_LE(far.size(), most);
+    ASSERT_FALSE(far.empty());
+    for (const TrainedSurfel& surfel : far)
+      EXPECT_LT(surfel.radius(0), 20 * radius) << "of " << most;
   }
 }
 

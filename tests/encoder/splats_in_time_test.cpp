@@ -119,6 +119,34 @@ TEST_F(SplatsInTimeTest, AnOriginOfEachFrameIsTakenIntoAccount) {
   EXPECT_TRUE(is_same(*first, *second));
 }
 
+TEST_F(SplatsInTimeTest, PhotographsAreComparedCameraByCameraWhereverTheyAreInTheList) {
+  SplatsInTime training(quick());
+  const auto first = training.next(frame(1), traced_.cameras);
+  Capture turned_round = frame(101);
+  std::reverse(turned_round.cameras.begin(), turned_round.cameras.end());
+  std::reverse(turned_round.images.begin(), turned_round.images.end());
+  const auto second = training.next(turned_round, traced_.cameras);
+  const std::vector<int> fewer(traced_.cameras.begin() + 1, traced_.cameras.end());
+  const auto third = training.next(frame(201), fewer);  // one that shows nothing is left out
+  const auto fourth = training.next(frame(301), traced_.cameras);
+  ASSERT_TRUE(first && second && third && fourth);
+  EXPECT_TRUE(is_same(*first, *second));
+  EXPECT_TRUE(is_same(*first, *third));
+  EXPECT_TRUE(is_same(*first, *fourth));
+}
+
+TEST_F(SplatsInTimeTest, EveryFrameHasItsOwnDepthsAndBackgrounds) {
+  SplatsInTime training(quick());
+  ASSERT_TRUE(training.next(frame(1), traced_.cameras));
+  const ViewSetting before = *training.cache().views[0];
+  Capture farther = frame(101);
+  for (Camera& camera : farther.cameras) camera.translation[2] *= 4;
+  for (Image& image : farther.images) std::fill(image.data.begin(), image.data.end(), 200);
+  ASSERT_TRUE(training.next(farther, traced_.cameras));
+  EXPECT_GT(training.cache().views[0]->depth, 3 * before.depth);
+  EXPECT_EQ(training.cache().views[0]->background[0], 200);
+}
+
 Result<EncodedFrames, InputError> coded(const std::vector<LoadedFrame>& frames,
                                         const EncoderSettings& settings,
                                         const FrameSettings& frame_settings) {

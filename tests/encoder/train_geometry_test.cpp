@@ -125,6 +125,16 @@ TEST_F(TrainGeometryTest, PhotographsThatWouldTakeTooMuchMemoryAreHalved) {
   EXPECT_NE(halved->cloud.positions, any->cloud.positions);
 }
 
+TEST_F(TrainGeometryTest, AGridThatIsFinerThanPhotographsResolveGetsNoMorePointsThanTheyTell) {
+  const Capture capture = with(sparse(20));
+  const auto any = train_geometry(capture, traced_->cameras, {.iterations = 40});
+  const auto fine = train_geometry(capture, traced_->cameras, {.grid_bits = 18, .iterations = 40});
+  ASSERT_TRUE(any && fine);
+  EXPECT_LT(fine->voxel_size, 0.01 * any->voxel_size);
+  EXPECT_GT(fine->cloud.positions.size(), any->cloud.positions.size() / 2);
+  EXPECT_LT(fine->cloud.positions.size(), 8 * any->cloud.positions.size());
+}
+
 TEST_F(TrainGeometryTest, SplatsAreTheSameForAnyNumberOfThreads) {
   const Capture capture = with(sparse(20));
   const auto one = train_gaussians(capture, traced_->cameras, {.iterations = 60, .threads = 1});

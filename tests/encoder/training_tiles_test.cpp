@@ -2,12 +2,14 @@
 // Blocks of a tile that a surfel may touch, sums over their lanes, and what trainings share.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
 #include "encoder/train/chance.h"
 #include "encoder/train/tile_pixels.h"
+#include "encoder/train/train_surfels.h"
 #include "encoder/train/training_view.h"
 #include "traced_scene.h"
 
@@ -93,6 +95,35 @@ TEST(TrainingCache, GivesTheViewsThatATrainingWouldFind) {
   }
   cache.views[std::size_t(traced.cameras[0])]->depth = 7;
   EXPECT_EQ(load(&cache)[0].camera.depth, 7) << "it is not looked for again";
+}
+
+TEST(TrainingViews, APhotographThatShowsNoPointIsAsFarAsTheOthers) {
+  test::TracedScene traced("vase", 2, 4, 48, 1000);
+  const SurfacePoints points{traced.exact.positions, traced.exact.normals, {}};
+  Camera& away = traced.capture.cameras[std::size_t(traced.cameras[0])];
+  for (std::size_t axis : {0u, 2u}) {  // it looks the other way
+    for (double& value : away.rotation[axis]) value = -value;
+    away.translation[axis] = -away.translation[axis];
+  }
+  const auto views =
+      *load_training_views(traced.capture, traced.cameras, points, traced.step, 0, 1);
+  std::vector<float> depths;
+  for (std::size_t i = 1; i < views.size(); ++i) depths.push_back(views[i].camera.depth);
+  const auto [low, high] = std::minmax_element(depths.begin(), depths.end());
+  EXPECT_GE(views[0].camera.depth, *low);
+  EXPECT_LE(views[0].camera.depth, *high);
+}
+
+TEST(StartSurfels, AreNoMoreThanTwiceWhatIsAskedForOfPointsAlongLines) {
+  SurfacePoints lines;
+  for (int line = 0; line < 40; ++line)
+    for (int i = 0; i < 1000; ++i) {
+      lines.positions.push_back({float(i) * 1e-3f, float(line) * 0.5f, 5});
+      lines.normals.push_back({0, 0, -1});
+    }
+  const std::size_t some = start_surfels(lines, 1e-3, {}, 250, 0.9f, 1).size();
+  EXPECT_LE(some, 500u);
+  EXPECT_GE(some, 60u);
 }
 
 }  // namespace
