@@ -5,43 +5,21 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "encoder/encode_splats.h"
-#include "encoder/fit/sampled_sight.h"
+#include "encoder/compare_splats.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
 #include "encoder/other_start.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/refine/refine_geometry.h"
 #include "encoder/train/train_geometry.h"
-#include "encoder/trial_file.h"
-#include "slf/splat_surface.h"
 
 namespace slf {
 namespace {
 
 constexpr double kLeastGain = 0.1;  // dB, for which a trained surface takes the place of another
 constexpr double kPerfect = 48;     // dB: errors of a grey level; what is gained there is nothing
-// dB of look_of: what a glance at splats may be below a quick fit. blender_can has -2.0, a lattice
-// of rods 0.0, a translucent die +1.0.
-constexpr double kPromise = 1;
-// dB of worth that splats gain more than a surface does by the photographs that a trial has not
-// seen and by the iterations that follow: a lattice 0.4, a die 0.6. docs/decisions/035
-constexpr double kGoesOn = 0.5;
-// dB that splats are above points after a quick fit, where nothing more is tried: a training gains
-// 2.2 of the dino's hull, and has to come as near as splats_win().
-constexpr double kBeyond = 6;
 constexpr int kIterations = 2500;
 constexpr double kAgain = 1.0 / 6;  // of the time: with all photographs, after some of them
-
-struct SurfaceChoice {
-  const Capture& capture;
-  std::span<const int> cameras;
-  const EncoderSettings& settings;
-  SurfaceReport& report;
-  const Progress& progress;
-  TrainingCache& cache;
-  bool splats;  // they may be chosen
-};
 
 /// @param before  trained by some of the cameras, or empty
 /// @param share  of the time that may be taken
@@ -66,15 +44,6 @@ Result<TrainedGeometry, InputError> trained_by(const SurfaceChoice& job,
   return trained;
 }
 
-Result<DrawnQuality, InputError> judged(const SurfaceChoice& job, const CameraParts& parts,
-                                        const VoxelCloud& cloud) {
-  Stopwatch watch;
-  auto quality =
-      quick_quality(job.capture, parts.matched, parts.held_out, cloud, job.settings.threads);
-  job.report.seconds_judge += watch.lap();
-  return quality;
-}
-
 Result<VoxelCloud, InputError> on_grid(const TrainedGeometry& trained) {
   SLF_TRY(VoxelCloud cloud, voxelise(trained.cloud, 0, trained.voxel_size));
   cloud.density.pixel = trained.pixel;
@@ -87,78 +56,9 @@ Result<VoxelCloud, InputError> taken(const SurfaceChoice& job, const TrainedGeom
   return on_grid(trained);
 }
 
-SplatJob splat_job(const SurfaceChoice& job, const CameraParts& parts) {
-  return {job.capture,  job.report.start, parts.matched, parts.held_out,
-          job.settings, job.progress,     job.cache};
-}
-
-/// A file of splats, of some photographs, judged by the others: once a capture.
-Result<Done, InputError> try_splats_once(const SurfaceChoice& job, const CameraParts& parts) {
-  if (job.cache.tried) return Done{};
-  Stopwatch watch;
-  SLF_TRY(job.cache.tried, try_splats(splat_job(job, parts)));
-  job.report.as_splats = job.cache.tried->file;
-  job.report.seconds_train += watch.lap();
-  return Done{};
-}
-
-/// Whether the file of splats that was tried is worth more than one of the best surface, which is
-/// made as well, unless a quick fit says so already.
-/// @param quick  of the surface, after a quick fit
-Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const CameraParts& parts,
-                                           const VoxelCloud& surface, const DrawnQuality& quick) {
-  SurfaceReport& report = job.report;
-  if (report.as_splats.bytes == 0) return false;
-  Stopwatch watch;
-  if (splats_win(report, surface.positions.size())) return true;
-  if (look_of(report.as_splats) < look_of(quick)) return false;
-  SLF_TRY(report.as_surface, try_surface(job.capture, parts.matched, parts.held_out, surface,
-                                         job.settings, job.progress));
-  report.seconds_judge += watch.lap();
-  return worth_of(report.as_splats) + kGoesOn > worth_of(report.as_surface);
-}
-
-/// Points that lie where photographs agree are left alone, but for things that are thin or let
-/// light through: there splats that are trained for a moment draw photographs almost as well as a
-/// quick fit, or better.
-Result<bool, InputError> exact_yields(const SurfaceChoice& job, const VoxelCloud& exact) {
-  if (!job.splats) return false;
-  const CameraParts parts = split_for_mending(job.cameras);
-  SLF_TRY(const DrawnQuality quick, judged(job, parts, exact));
-  Stopwatch watch;
-  SLF_TRY(const TrialFile glance, glance_at_splats(splat_job(job, parts)));
-  job.report.seconds_train += watch.lap();
-  if (look_of(glance) < look_of(quick) - kPromise) return false;
-  job.report.before_psnr = quick.psnr;
-  SLF_CHECK(try_splats_once(job, parts));
-  return splats_are_better(job, parts, exact, quick);
-}
-
 VoxelCloud no_surface(const SurfaceChoice& job) {
   job.report.kept = Surface::kSplats;
   return {};
-}
-
-/// Photographs that agree nowhere with a surface that was trained.
-Result<Done, InputError> find_foreign(const SurfaceChoice& job, const PointCloud& trained) {
-  if (!job.settings.check_cameras) return Done{};
-  SLF_TRY(job.cache.foreign,
-          foreign_photographs(job.capture, trained, job.cameras, job.settings.threads));
-  return Done{};
-}
-
-/// Whether splats leave nothing to find out: nothing brings dense points near them.
-/// @param quick  of the points, after a quick fit
-Result<bool, InputError> splats_are_beyond(const SurfaceChoice& job, const CameraParts& parts,
-                                           const DrawnQuality& quick) {
-  job.report.before_psnr = quick.psnr;
-  SLF_CHECK(try_splats_once(job, parts));
-  if (job.report.as_splats.psnr < quick.psnr + kBeyond) return false;
-  const auto shown =
-      surface_of_splats(job.cache.tried->splats, job.capture, parts.matched, job.settings.threads);
-  if (!shown) return false;
-  SLF_CHECK(find_foreign(job, *shown));
-  return true;
 }
 
 /// A surface that three quarters of the photographs train; where the others say that it pays, all.

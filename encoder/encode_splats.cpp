@@ -85,27 +85,22 @@ Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations, std::s
   return trial;
 }
 
-/// How many splats are worth their bytes; 0: as many as ever, or there is nothing to judge by.
-/// @param report  receives the trials
-Result<std::size_t, InputError> splats_that_pay(const SplatJob& job, SurfaceReport& report) {
-  if (job.held_out.empty()) return std::size_t{0};
-  if (!job.cache.tried) {
-    SLF_TRY(job.cache.tried, try_splats(job));
-  }
-  TrialFile best = report.as_splats = job.cache.tried->file;
-  std::size_t number = 0;
-  for (double gain = kPromising; best.bytes > 0 && gain >= kPromising;) {
-    const auto more = static_cast<std::size_t>(kMoreSplats * double(best.splats));
+/// @param tried_first  of as many as ever
+Result<SplatsThatPay, InputError> more_and_more(const SplatJob& job, const TrialFile& tried_first) {
+  SplatsThatPay out;
+  out.best = tried_first;
+  for (double gain = kPromising; out.best.bytes > 0 && gain >= kPromising;) {
+    const auto more = static_cast<std::size_t>(kMoreSplats * double(out.best.splats));
     SLF_TRY(const SplatTrial trial, tried(job, kTrialIterations, more));
-    report.more_splats.push_back(trial.file);
+    out.trials.push_back(trial.file);
     if (trial.file.bytes == 0) break;
-    gain = worth_of(trial.file) - worth_of(best);
+    gain = worth_of(trial.file) - worth_of(out.best);
     if (gain < kMoreWorth) break;
-    number = more;
-    best = trial.file;
-    if (double(best.splats) < kTaught * double(more)) break;
+    out.number = more;
+    out.best = trial.file;
+    if (double(out.best.splats) < kTaught * double(more)) break;
   }
-  return number;
+  return out;
 }
 
 }  // namespace
@@ -151,6 +146,20 @@ Result<SplatTrial, InputError> try_splats(const SplatJob& job) {
   return tried(job, kTrialIterations);
 }
 
+bool is_number_open(const EncoderSettings& settings) {
+  return settings.splats == 0 && !(settings.surface_seconds > 0) && !has_target(settings);
+}
+
+Result<Done, InputError> find_splats_that_pay(const SplatJob& job) {
+  TrainingCache& cache = job.cache;
+  if (cache.that_pay) return Done{};
+  if (!cache.tried) {
+    SLF_TRY(cache.tried, try_splats(job));
+  }
+  SLF_TRY(cache.that_pay, more_and_more(job, cache.tried->file));
+  return Done{};
+}
+
 Result<TrialFile, InputError> glance_at_splats(const SplatJob& job) {
   SLF_TRY(const SplatTrial trial, tried(job, kGlanceIterations));
   return trial.file;
@@ -171,10 +180,13 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   out.surface.points_before = capture.cloud.positions.size();
   Stopwatch watch;
   TrainGeometrySettings training = training_of(settings, start, kSplatIterations, cache);
-  if (training.surfels == 0 && !(training.seconds > 0) && !has_target(settings)) {
-    const CameraParts parts = split_for_mending(cameras);
-    const SplatJob trials{capture, start, parts.matched, parts.held_out, settings, progress, cache};
-    SLF_TRY(training.surfels, splats_that_pay(trials, out.surface));
+  const CameraParts parts = split_for_mending(cameras);
+  if (is_number_open(settings) && !parts.held_out.empty()) {
+    SLF_CHECK(find_splats_that_pay(
+        {capture, start, parts.matched, parts.held_out, settings, progress, cache}));
+    training.surfels = cache.that_pay->number;
+    out.surface.as_splats = cache.tried->file;
+    out.surface.more_splats = cache.that_pay->trials;
   }
   training.iterations = final_iterations(training.surfels);
   SLF_TRY(const Gaussians splats, train_gaussians(capture, cameras, training, progress));

@@ -39,6 +39,14 @@ Result<SplatTrial, InputError> try_splats(const SplatJob& job);
 /// The same after few iterations.
 Result<TrialFile, InputError> glance_at_splats(const SplatJob& job);
 
+/// Whether photographs may say how many there are: no setting does.
+bool is_number_open(const EncoderSettings& settings);
+
+/// How many splats are worth their bytes, found once a capture: trials of more and more of them go
+/// on as long as photographs that they have not seen gain.
+/// @errors those of try_splats
+Result<Done, InputError> find_splats_that_pay(const SplatJob& job);
+
 /// Whether no setting asks for what only a surface has, or for bytes that splats take another way.
 bool may_be_splats(const EncoderSettings& settings);
 

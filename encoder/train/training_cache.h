@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,6 +27,13 @@ struct SplatTrial {
   Gaussians splats;  ///< as they were trained
 };
 
+/// Trials of more and more splats.
+struct SplatsThatPay {
+  std::size_t number = 0;  ///< that are worth their bytes; 0: as many as ever
+  TrialFile best;          ///< of so many
+  std::vector<TrialFile> trials;
+};
+
 /// For trainings of one capture, one after the other. It fills as they run and changes nothing of
 /// them but their time.
 struct TrainingCache {
@@ -35,6 +43,7 @@ struct TrainingCache {
   /// Photographs that agree nowhere with what was trained: it is to be trained without them.
   std::vector<CameraTrust> foreign;
   std::optional<SplatTrial> tried;  ///< by three quarters of the photographs
+  std::optional<SplatsThatPay> that_pay;
 };
 
 }  // namespace slf
