@@ -45,18 +45,10 @@ constexpr std::array kForeign = {
     Foreign{".csv", "#name,x,y",
             "cameras of RealityScan, which are not read: export its registration for COLMAP or as "
             "Bundler"},
-    Foreign{".splat", "",
-            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
-            "their PLY"},
-    Foreign{".ksplat", "",
-            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
-            "their PLY"},
-    Foreign{".spz", "",
-            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
-            "their PLY"},
-    Foreign{".sog", "",
-            "Gaussian splats: slf encode codes them by themselves; as points of a capture give "
-            "their PLY"},
+    Foreign{".splat", "", "by its content no file of Gaussian splats, as its name says"},
+    Foreign{".ksplat", "", "by its content no file of Gaussian splats, as its name says"},
+    Foreign{".spz", "", "by its content no file of Gaussian splats, as its name says"},
+    Foreign{".sog", "", "by its content no file of Gaussian splats, as its name says"},
     Foreign{".pcd", "", "a cloud of PCL: save it as PLY (pcl_pcd2ply, CloudCompare)"},
     Foreign{".xyz", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
     Foreign{".pts", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},

@@ -27,7 +27,7 @@ struct Candidate {
   FrameKind kind;
 };
 
-/// Splats in other files than PLY are candidates where nothing else is.
+/// Splats in other files than PLY are candidates where there are no captures.
 std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
                                       const std::optional<FramePattern>& wanted, bool splats) {
   std::error_code ignored;
@@ -53,10 +53,14 @@ Result<std::vector<Candidate>, InputError> candidates_in(
   std::error_code error;
   fs::directory_iterator entry(directory, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (auto candidate = candidate_of(*entry, wanted, false)) found.push_back(*candidate);
-    if (auto candidate = candidate_of(*entry, wanted, true)) splats.push_back(*candidate);
+    if (auto candidate = candidate_of(*entry, wanted, false))
+      found.push_back(*candidate);
+    else if (auto other = candidate_of(*entry, wanted, true))
+      splats.push_back(*other);
   }
-  if (found.empty()) found = std::move(splats);
+  const auto is_directory = [](const Candidate& c) { return c.kind == FrameKind::kCaptures; };
+  if (!wanted && std::none_of(found.begin(), found.end(), is_directory))
+    found.insert(found.end(), splats.begin(), splats.end());
   if (error) return InputError{Errc::kUnreadable, directory.string() + ": " + error.message()};
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.frame.number, a.frame.path) < std::tie(b.frame.number, b.frame.path);
@@ -201,14 +205,22 @@ bool is_capture(const fs::path& directory) {
   return false;
 }
 
+/// A cameras.json whose images are numbered stands for the folder that it is in.
+fs::path folder_of_numbered(const fs::path& input) {
+  if (input.filename() != "cameras.json") return input;
+  const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
+  return has_numbered_images(folder) ? folder : input;
+}
+
 }  // namespace
 
 std::string FrameInput::name() const {
   return of_all ? FramePattern{kCapturePrefix, "", 4}.name_of(number) : path.filename().string();
 }
 
-bool holds_frames(const fs::path& input) {
+bool holds_frames(const fs::path& given) {
   std::error_code ignored;
+  const fs::path input = folder_of_numbered(given);
   if (parse_pattern(input.filename().string())) return !fs::exists(input, ignored);
   if (!fs::is_directory(input, ignored)) return false;
   if (is_capture(input)) return has_numbered_images(input);
@@ -216,8 +228,9 @@ bool holds_frames(const fs::path& input) {
   return found && !found->empty();
 }
 
-Result<FrameInputs, InputError> list_frames(const fs::path& input,
+Result<FrameInputs, InputError> list_frames(const fs::path& given,
                                             std::optional<FrameRange> range) {
+  const fs::path input = folder_of_numbered(given);
   if (range && (range->first > range->last || range->last > kMostFrameNumber))
     return InputError{Errc::kInvalidArgument, "frames " + std::to_string(range->first) + ":" +
                                                   std::to_string(range->last) +

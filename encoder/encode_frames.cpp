@@ -76,7 +76,10 @@ class SharedGrid {
     return Done{};
   }
   Result<Grid, InputError> grid() const {
-    if (points_ == 0) return invalid_input("frames: none has points");
+    if (points_ == 0)
+      return invalid_input(
+          "frames: none has points; photographs train splats of them by --surface splats, or by "
+          "themselves from --effort 4 on");
     return choose_grid(box_, points_, bits_, step_);
   }
 

@@ -35,10 +35,10 @@ const SettingScope kPlanes = {
     [](const EncoderSettings& s) { return s.coefficients != CoefficientCoder::kTexture; }};
 const SettingScope kChosenStep = {"--quality auto",
                                   [](const EncoderSettings& s) { return s.q == kAutomaticQ; }};
-const SettingScope kTrainedSurface = {"--surface auto and trained", [](const EncoderSettings& s) {
-                                        return s.surface != Surface::kGiven &&
-                                               s.surface != Surface::kMended;
-                                      }};
+const SettingScope kTrainedSurface = {
+    "--surface auto, trained and splats", [](const EncoderSettings& s) {
+      return s.surface != Surface::kGiven && s.surface != Surface::kMended;
+    }};
 
 const SettingScope kTrainedSplats = {"--surface auto and splats", [](const EncoderSettings& s) {
                                        return s.surface == Surface::kAuto ||
@@ -226,9 +226,10 @@ SettingTable all_rows() {
   exclude(rows, {"quality-loss", "target-psnr"});
   exclude(rows, {"functions", "scales"});
   exclude(rows, {"penalise-dc", "free-dc"});
-  count_for_splats(rows, SettingInfo::kTrainedSplats,
-                   {"preset", "surface", "splats", "surface-seconds", "surface-memory",
-                    "photograph-pixels", "match-exposure", "refine-cameras", "check-cameras"});
+  count_for_splats(
+      rows, SettingInfo::kTrainedSplats,
+      {"preset", "surface", "splats", "surface-seconds", "surface-memory", "photograph-pixels",
+       "match-exposure", "refine-cameras", "check-cameras", "target-bitrate"});
   count_for_splats(rows, SettingInfo::kAnySplats,
                    {"effort", "grid-bits", "voxel-size", "metres-per-unit", "quality",
                     "target-bytes", "target-psnr", "klt", "predict", "rdo", "quality-layers",

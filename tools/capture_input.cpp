@@ -51,6 +51,7 @@ Outcome take_splats(const EncodeOptions& given, CaptureInput& input) {
   LimitOptions limits;
   limits.limits.max_stream_bytes = limits.limits.max_memory = kMostSplatBytes;
   SLF_TRY(GaussianFile file, read_splat_file(given.verb, given.points, {}, limits, given.common));
+  if (given.world) change_world(*given.world, file.gaussians);
   if (const auto& c = given.crop; !c.empty())
     SLF_CHECK(
         from(given.points, crop(file.gaussians, WorldBox{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}})));

@@ -63,6 +63,10 @@ Outcome encode_splats(const EncodeOptions& given, EncoderSettings settings) {
   const double load = watch.lap();
   const int degree = file.gaussians.degree;
   settings.metadata.insert(settings.metadata.begin(), {"source", file.format});
+  if (!given.crs.empty()) {
+    SLF_TRY(std::string crs, from(given.crs, read_crs(given.crs)));
+    settings.metadata.emplace_back("crs", std::move(crs));
+  }
   SLF_TRY(const EncodedGaussians coded,
           from(given.capture, encode_gaussians(std::move(file.gaussians), settings)));
   const double code = watch.lap();

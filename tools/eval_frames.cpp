@@ -248,11 +248,8 @@ Outcome eval_frames(const EvalOptions& options) {
     return Failure{kUsage, input_name(given.input) + ": was made of plenoptic clouds, and " +
                                given.capture + " has none"};
   if (given.frame >= 0) {
-    if (static_cast<std::size_t>(given.frame) >= count)
-      return Failure{kUsage, input_name(given.input) + ": frame " + std::to_string(given.frame) +
-                                 " is asked for, but it has " + std::to_string(count) +
-                                 ", from 0 on"};
     const auto place = static_cast<std::size_t>(given.frame);
+    if (place >= count) return no_such_frame(input_name(given.input), place, count);
     if (of_views) return eval_plenoptic_frames(given, {inputs.kind, {inputs.frames[place]}});
     SLF_TRY(const EvalOptions own, options_of(given, inputs.frames[place], place));
     return eval_capture(own);

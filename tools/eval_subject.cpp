@@ -32,15 +32,17 @@ nlohmann::ordered_json seconds_json(const CommonOptions& common, const DecodeSec
           {"total", total}};
 }
 
+/// What takes the bytes is told of a file of one frame alone.
 Subject subject_of(const StreamFile& stream, LightField field, std::uint64_t bytes,
                    nlohmann::ordered_json seconds) {
+  const bool alone = stream.frames <= 1;
   return Subject{std::move(field),
                  bytes,
                  stream.info.metadata,
-                 bytes_by_type_json(stream.info),
+                 alone ? bytes_by_type_json(stream.info) : nlohmann::ordered_json(),
                  settings_json(stream.info),
                  std::move(seconds),
-                 bytes_by_type_text(stream.info, stream.bytes.size())};
+                 alone ? bytes_by_type_text(stream.info, stream.bytes.size()) : ""};
 }
 
 /// In place, since the decoder refers to it.
@@ -58,10 +60,7 @@ Result<Subject, Failure> decode_frame_of(FrameStream& frames, const SubjectOptio
                                          const std::string& input) {
   const auto place = static_cast<std::size_t>(given.frame);
   const std::size_t count = frames.decoder->frames().size();
-  if (place >= count)
-    return Failure{kUsage, input_name(input) + ": frame " + std::to_string(place) +
-                               " is asked for, but it has " + std::to_string(count) +
-                               ", from 0 on"};
+  if (place >= count) return no_such_frame(input_name(input), place, count);
   frames.seconds = {};
   Stopwatch watch;
   auto field = frames.decoder->decode(place);

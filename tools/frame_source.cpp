@@ -40,11 +40,13 @@ Result<DecodedFile, Failure> decode_frame(const std::string& file, const PartOpt
   const std::size_t count = source->decoder->frames().size(),
                     frame = static_cast<std::size_t>(part.frame);
   if (const std::size_t last = std::max(frame, source->last); last >= count)
-    return Failure{kUsage, name + ": frame " + std::to_string(last) + " is asked for, but it has " +
-                               std::to_string(count) + ", from 0 on"};
+    return no_such_frame(name, last, count);
   Stopwatch watch;
-  SLF_TRY(LightField field, from(name, source->decoder->decode(frame)));
-  DecodedFile decoded{std::move(field), source->stream.bytes.size(), watch.lap(),
+  auto field = source->decoder->decode(frame);
+  if (!field)
+    return decode_failure(file, field.error(), source->stream,
+                          decode_options(source->stream.info, part, given, common));
+  DecodedFile decoded{*std::move(field), source->stream.bytes.size(), watch.lap(),
                       source->stream.info.metadata};
   if (is_plenoptic(decoded.metadata))
     decoded.stream = bytes_of(source->decoder->frames()[frame], source->stream.bytes);
@@ -58,8 +60,8 @@ Result<std::string, Failure> all_frames(const std::string& file, PartOptions& pa
   return "0:" + std::to_string(part.source->decoder->frames().size() - 1);
 }
 
-Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
-                       const std::function<Outcome()>& run) {
+Outcome for_each_frame(const char* verb, const std::string& extension, std::string& output,
+                       PartOptions& part, const std::function<Outcome()>& run) {
   if (part.frames.empty()) return run();
   SLF_TRY(const FrameRange range, from("--frames", parse_frame_range(part.frames)));
   const std::string pattern = output;
@@ -67,14 +69,14 @@ Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
     return Failure{kUsage, std::string(verb) +
                                ": --frames writes a file of each: it needs --output "
                                "with %d in its name (--frame N is one)"};
-  if (numbered(pattern, 0) == pattern)
+  if (numbered(pattern, 0, extension) == pattern)
     return Failure{kUsage, std::string(verb) + ": --output " + pattern +
                                " has no %d for the number of a frame"};
   if (!part.source) part.source = std::make_shared<FrameSource>();
   part.source->last = range.last;
   for (std::uint32_t f = range.first; f <= range.last; ++f) {
     part.frame = static_cast<int>(f);
-    output = numbered(pattern, part.frame);
+    output = numbered(pattern, part.frame, extension);
     SLF_CHECK(run());
   }
   return Done{};

@@ -32,9 +32,10 @@ Result<std::string, Failure> all_frames(const std::string& file, PartOptions& pa
                                         const LimitOptions& given, const CommonOptions& common);
 
 /// Runs a verb, or with --frames once for each of them: part.frame and output are set for it.
-/// @param output  whose %d becomes the frame's number
-Outcome for_each_frame(const char* verb, std::string& output, PartOptions& part,
-                       const std::function<Outcome()>& run);
+/// @param extension  of files within a directory
+/// @param output     whose %d becomes the frame's number
+Outcome for_each_frame(const char* verb, const std::string& extension, std::string& output,
+                       PartOptions& part, const std::function<Outcome()>& run);
 
 /// How fast the last `count` frames are to be shown that a verb has run for, by their times; 30
 /// where these do not tell.

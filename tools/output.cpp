@@ -133,11 +133,11 @@ std::string inside(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
 }
 
-std::string numbered(const std::string& pattern, int i) {
+std::string numbered(const std::string& pattern, int i, const std::string& extension) {
   if (pattern == "-") return pattern;  // standard output, though a directory may have the name
   std::error_code ignored;
   if (std::filesystem::is_directory(pattern, ignored) || pattern.ends_with('/'))
-    return inside(pattern, text("%03d.png", i));
+    return inside(pattern, text("%03d", i) + extension);
   const std::size_t percent = pattern.find('%');
   if (percent == std::string::npos) return pattern;
   std::size_t d = percent + 1;

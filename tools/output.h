@@ -45,8 +45,8 @@ inline constexpr int kJpegQuality = 95;  ///< as libjpeg has it
 Outcome save(const std::string& file, const Image& image, const std::string& format = {});
 Outcome save(const std::string& file, const PointCloud& cloud);
 
-/// "%03d" or "%d" of a name replaced by a number; within a directory NUMBER.png; else the name.
-std::string numbered(const std::string& pattern, int i);
+/// "%03d" or "%d" of a name replaced by a number; within a directory NUMBER.extension; else the name.
+std::string numbered(const std::string& pattern, int i, const std::string& extension = ".png");
 
 /// Path of `name` within `directory`.
 std::string inside(const std::string& directory, const std::string& name);

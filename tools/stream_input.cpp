@@ -52,6 +52,12 @@ std::string mebibytes(std::uint64_t bytes) { return grouped((bytes + (1 << 20) -
 
 }  // namespace
 
+Failure no_such_frame(const std::string& name, std::size_t frame, std::size_t count) {
+  return Failure{kUsage, name + ": frame " + std::to_string(frame) + " is asked for, but it has " +
+                             std::to_string(count) +
+                             ", counted from 0 whatever number the first one has"};
+}
+
 void add_limits(CLI::App& verb, LimitOptions& options) {
   const char* group = "Limits (a file beyond them is refused by its headers, exit code 5)";
   DecodeLimits& limits = options.limits;

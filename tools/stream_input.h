@@ -30,6 +30,9 @@ struct StreamFile {
   std::size_t frames = 1;  ///< warned of where there are several
 };
 
+/// A place beyond the last one.
+Failure no_such_frame(const std::string& name, std::size_t frame, std::size_t count);
+
 /// Warns of what is missing, unless quiet. "-" is standard input.
 Result<StreamFile, Failure> read_stream(const std::string& file, const LimitOptions& given,
                                         const CommonOptions& common,

@@ -108,7 +108,7 @@ void add_decode(CLI::App& program, Run& run) {
   add_json(*verb, o->common);
   verb->callback([&run, o] {
     run = [o] {
-      return for_each_frame("decode", o->output, o->part, [&] { return run_decode(*o); });
+      return for_each_frame("decode", ".ply", o->output, o->part, [&] { return run_decode(*o); });
     };
   });
 }

@@ -179,6 +179,10 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
   if (given.common.json && given.output == "-")
     return Failure{kUsage, "encode: --json and --output - both want standard output"};
   SLF_TRY(EncoderSettings settings, resolved(given));
+  if (scene.resume && settings.surface_seconds > 0)
+    return Failure{kUsage,
+                   "encode: --resume: a training of --surface-seconds keeps nothing to go "
+                   "on with"};
   settings.work = scene.work;
   settings.resume = scene.resume;
   SLF_CHECK(check_output(given.output, "encode", std::array{".slf"}));

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "slf/frame_inputs.h"
 #include "tools/interrupt.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"
@@ -21,6 +22,10 @@ Outcome run_plan(const PlanOptions& o) {
   const EncodeOptions& given = o.encode;
   if (o.scene.work.empty()) return Failure{kUsage, "plan: --work DIR is missing"};
   SLF_CHECK(check_output(given.output, "plan", std::array{".json"}));
+  if (holds_frames(given.capture))
+    return Failure{kUsage, "plan: " + given.capture +
+                               " holds frames in time, whose parts need no plan (slf encode "
+                               "--part)"};
   SLF_TRY(const EncoderSettings settings, resolved(given));
   ProgressLine line(given.common.quiet);
   SLF_TRY(const auto log, SceneLog::open(o.scene.log, line));

@@ -173,7 +173,8 @@ Outcome run_film(RenderOptions& given) {
     SLF_TRY(given.part.frames, all_frames(given.input, given.part, given.limits, given.common));
   }
   std::string number = "%d";  // of a frame: no file has it
-  SLF_CHECK(for_each_frame("render", number, given.part, [&] { return run_render(given); }));
+  SLF_CHECK(
+      for_each_frame("render", ".png", number, given.part, [&] { return run_render(given); }));
   const double rate = pictures_a_second(given.part, given.film->size());
   const std::vector<std::uint8_t> bytes = given.film->avi(rate);
   return save(given.output, bytes.data(), bytes.size());
@@ -191,7 +192,7 @@ void add_render(CLI::App& program, Run& run) {
                   0;
     run = [o] {
       if (Film::is_named(o->output)) return run_film(*o);
-      return for_each_frame("render", o->output, o->part, [&] { return run_render(*o); });
+      return for_each_frame("render", ".png", o->output, o->part, [&] { return run_render(*o); });
     };
   });
 }

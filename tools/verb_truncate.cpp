@@ -30,10 +30,7 @@ Result<std::vector<std::uint8_t>, Failure> cut(const TruncateOptions& given,
   FrameRange range{0, UINT32_MAX};
   if (!given.part.frames.empty()) {
     SLF_TRY(range, from("--frames", parse_frame_range(given.part.frames)));
-    if (range.last >= stream.frames)
-      return Failure{kUsage, name + ": frame " + std::to_string(range.last) +
-                                 " is asked for, but it has " + std::to_string(stream.frames) +
-                                 ", from 0 on"};
+    if (range.last >= stream.frames) return no_such_frame(name, range.last, stream.frames);
   }
   if (stream.frames > 1 && options.region)
     return Failure{kUsage, name +

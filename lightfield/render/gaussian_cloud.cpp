@@ -11,6 +11,7 @@ namespace slf {
 namespace {
 
 constexpr std::size_t kShapesPerRange = 4096;
+constexpr double kShownDeviations = 3;
 constexpr double kNearestShare = 0.02;  // of the radius of a scene that is smaller than usual
 
 /// R S S R^T of a unit quaternion and deviations.
@@ -49,6 +50,11 @@ GaussianCloud gaussian_cloud(const Gaussians& gaussians, int threads) {
   cloud.ball = framed_ball(gaussians.positions);
   if (cloud.ball.radius > 0)
     cloud.nearest = std::min(cloud.nearest, kNearestShare * cloud.ball.radius);
+  else  // in one place: as far as the greatest reaches
+    for (const std::array<float, 3>& log : gaussians.log_deviations)
+      cloud.ball.radius =
+          std::max(cloud.ball.radius,
+                   kShownDeviations * std::exp(double{std::max({log[0], log[1], log[2]})}));
   return cloud;
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "capture/crop.h"
 #include "capture/quantile.h"
 #include "lightfield/keep_splats.h"
+#include "lightfield/splats/turn_gaussians.h"
 
 namespace slf {
 namespace {
@@ -51,6 +53,13 @@ Result<Done, InputError> crop(Gaussians& splats, const WorldBox& box) {
   if (splats.size() == 0)
     return InputError{Errc::kInvalidInput, "no splat is inside the box to crop to"};
   return Done{};
+}
+
+void change_world(const WorldChange& change, Gaussians& splats) {
+  AxisRows rows{};
+  for (std::size_t i = 0; i < 3; ++i)
+    rows[i][static_cast<std::size_t>(std::abs(change.axes[i]) - 1)] = change.axes[i] < 0 ? -1 : 1;
+  move_gaussians(splats, 0, rows, change.scale, change.shift);
 }
 
 std::string far_splats_warning(const Gaussians& splats) {

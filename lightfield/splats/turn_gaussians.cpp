@@ -42,6 +42,14 @@ std::array<float, 4> product(const std::array<double, 4>& a, const std::array<fl
           static_cast<float>(a[0] * z + a[1] * y - a[2] * x + a[3] * w)};
 }
 
+/// A splat is the same seen in a point's mirror, and a rotation is left of rows that mirror.
+AxisRows without_mirror(AxisRows rows) {
+  if (dot(cross(rows[0], rows[1]), rows[2]) < 0)
+    for (Vec3& row : rows)
+      for (double& x : row) x = -x;
+  return rows;
+}
+
 /// Rows: the axes that a file wants.
 AxisRows rows_to(const Gaussians& gaussians, SplatAxes axes) {
   LightFieldHeader header;
@@ -95,7 +103,7 @@ void HarmonicTurn::apply(float* coefficients) const {
 void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
                     const Vec3& offset) {
   const HarmonicTurn turn(rows, gaussians.degree);
-  const auto q = quaternion_of(rows);
+  const auto q = quaternion_of(without_mirror(rows));
   const auto log_scale = static_cast<float>(std::log(scale));
   const std::size_t row = 3 * gaussians.num_harmonics();
   for (std::size_t p = first; p < gaussians.size(); ++p) {

@@ -12,7 +12,7 @@ namespace slf {
 /// How coefficients of harmonics change when what they describe is turned.
 class HarmonicTurn {
  public:
-  /// @param rows    a rotation: the new coordinates of a vector are turned(rows, v)
+  /// @param rows    orthonormal: the new coordinates of a vector are turned(rows, v)
   /// @param degree  0 .. 4
   HarmonicTurn(const AxisRows& rows, int degree);
 
@@ -24,7 +24,7 @@ class HarmonicTurn {
 };
 
 /// Turns, scales and moves splats from the one of number `first` on: v becomes
-/// scale * turned(rows, v) + offset.
+/// scale * turned(rows, v) + offset. Rows may mirror, too.
 void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
                     const Vec3& offset);
 

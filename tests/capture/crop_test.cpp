@@ -6,9 +6,12 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
+#include "base/quaternion.h"
 #include "capture_support.h"
+#include "tests/lightfield/gaussian_support.h"
 
 namespace slf::crop_test {
 namespace {
@@ -133,6 +136,45 @@ TEST(Crop, IsPartOfLoadingACaptureWhichElseWarns) {
   ASSERT_TRUE(cropped);
   EXPECT_EQ(cropped->cloud.positions.size(), 1000u);
   EXPECT_TRUE(cropped->warnings.empty());
+}
+
+Matrix3x3 covariance_of(const Gaussians& splats, std::size_t p) {
+  Matrix3x3 m = rotation_of(splats.rotations[p]), out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k)
+        out[i][j] += m[i][k] * m[j][k] * std::exp(2 * double{splats.log_deviations[p][k]});
+  return out;
+}
+
+TEST(GaussiansInAnotherWorld, LieAndStretchWhereTheirPointsGo) {
+  for (const char* text : {"x,-z,y,2,1,0,-3", "-x,y,z", "z,y,x,0.5"}) {
+    const WorldChange change = *parse_world_change(text);
+    const Gaussians before = test::random_gaussians(20, 2);
+    Gaussians after = before;
+    change_world(change, after);
+    const auto point = [](const std::array<float, 3>& v) {
+      return Vec3{double{v[0]}, double{v[1]}, double{v[2]}};
+    };
+    const Vec3 zero = change.apply({0, 0, 0});
+    for (std::size_t p = 0; p < before.size(); ++p) {
+      const Vec3 expected = change.apply(point(before.positions[p]));
+      const Matrix3x3 own = covariance_of(before, p), got = covariance_of(after, p);
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(after.positions[p][i], expected[i], 1e-4) << text;
+        for (std::size_t j = 0; j < 3; ++j) {
+          double moved = 0;  // of the axes that become i and j
+          for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t b = 0; b < 3; ++b) {
+              Vec3 x{}, y{};
+              x[a] = y[b] = 1;
+              moved += (change.apply(x)[i] - zero[i]) * (change.apply(y)[j] - zero[j]) * own[a][b];
+            }
+          EXPECT_NEAR(got[i][j], moved, 1e-4 * (own[0][0] + own[1][1] + own[2][2])) << text;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

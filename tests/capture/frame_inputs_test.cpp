@@ -112,6 +112,28 @@ TEST_F(FrameInputsTest, OneNumberTwiceAndTwoNamesAreRefused) {
   EXPECT_EQ(listed(list_frames(root_ / "b_%d.ply")), "clouds 2=b_2.ply");
 }
 
+TEST_F(FrameInputsTest, SplatsOfOtherFormatsBesideACloudAreNotLostWithoutAWord) {
+  for (const char* name : {"a_0001.spz", "a_0002.spz"}) std::ofstream(root_ / name) << "splats";
+  cloud("a_0003.ply");
+  EXPECT_EQ(refusal(root_),
+            "a_0003.ply: another name than a_0001.spz; a pattern as a_%04d.spz says which frames "
+            "are meant");
+  cloud("z_1.ply");
+  EXPECT_NE(refusal(root_), "accepted");
+}
+
+TEST_F(FrameInputsTest, CamerasOfNumberedImagesStandForTheirFolder) {
+  capture("moving", {{"%04d.png", 20}});
+  for (const char* name : {"0001.png", "0002.png"})
+    ASSERT_TRUE(
+        write_png(root_ / "moving" / name, Image{20, 20, 3, std::vector<std::uint8_t>(1200)}));
+  EXPECT_TRUE(holds_frames(root_ / "moving/cameras.json"));
+  EXPECT_EQ(listed(list_frames(root_ / "moving/cameras.json")),
+            listed(list_frames(root_ / "moving")));
+  capture("still", {{"one.png", 20}});
+  EXPECT_FALSE(holds_frames(root_ / "still/cameras.json"));
+}
+
 TEST_F(FrameInputsTest, ACloudMayHaveNoPointsAndAFileMayNotBeEmpty) {
   cloud("a_1.ply", 0);
   cloud("a_2.ply");

@@ -120,7 +120,7 @@ TEST(Settings, WhatSplatsDoNotHaveIsRefusedWithThem) {
               "--" + info.name + " is for a surface, not --surface splats");
     ++refused;
   }
-  EXPECT_GE(refused, 40);
+  EXPECT_GE(refused, 39);
   EXPECT_EQ(error_of({{"surface", "splats"}, {"effort", "3"}, {"klt", "joint"}, {"quality", "9"}}),
             "accepted");
 }

@@ -280,5 +280,15 @@ TEST(GaussianRenderer, AnOrbitShowsTheWholeSceneWithoutAFewSplatsFarAway) {
   }
 }
 
+TEST(GaussianRenderer, AnOrbitShowsSplatsThatAreAllInOnePlace) {
+  Gaussians g;
+  g.degree = 0;
+  for (int i = 0; i < 2; ++i) add_ball(g, {5, 6, 7}, 10, 0.8f);
+  const GaussianRenderer renderer(g);
+  const Rendering out = renderer.render(renderer.orbit(0.3, 20, 60, 60));
+  EXPECT_GT(out.coverage[30 * 60 + 30], 200);
+  EXPECT_LT(out.coverage[0], 20) << "all of it";
+}
+
 }  // namespace
 }  // namespace slf::gaussian_render_test

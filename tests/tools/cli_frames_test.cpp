@@ -53,6 +53,12 @@ TEST_F(CliFramesTest, DecodeTakesTheFirstOrTheOneAskedFor) {
   EXPECT_FALSE(exists("y.ply"));
 }
 
+TEST_F(CliFramesTest, FilesWithinADirectoryHaveTheExtensionOfWhatTheyAre) {
+  std::filesystem::create_directory(path("all"));
+  EXPECT_EQ(slf("decode x.slf --frames 0:1 -o all").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("all/001.ply")));
+}
+
 TEST_F(CliFramesTest, TruncateKeepsFramesThatWereAskedForAndThoseTheyNeed) {
   const Ran ran = slf("truncate x.slf -o y.slf --frames 1:1 --levels 4 --json --quiet");
   ASSERT_EQ(ran.code, 0) << ran.err;

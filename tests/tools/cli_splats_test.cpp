@@ -67,6 +67,13 @@ TEST_F(SplatFileTest, IsRefusedWhereAnOptionMeansNothingForItAndWhenDamaged) {
   EXPECT_NE(ran.code, 0);
 }
 
+TEST_F(SplatFileTest, KeepsTheReferenceSystemThatItIsGiven) {
+  write("a.prj", "GEOGCRS[\"some place\"]");
+  ASSERT_EQ(slf("encode x.ply --crs a.prj -o x.slf").code, 0);
+  EXPECT_NE(slf("info x.slf").out.find("some place"), std::string::npos);
+  expect_failure(slf("encode x.ply --crs none.prj -o x.slf"), 3, "none.prj", "");
+}
+
 TEST_F(SplatFileTest, HasTheNearestFileOfATargetThatNoStepMeets) {
   for (const char* target : {"--target-bytes 10", "--target-bytes 9000000", "--target-psnr 99"}) {
     const Ran ran = slf("encode x.ply -o x.slf --json " + std::string(target));

@@ -58,7 +58,7 @@ export function packField(field, tableSize = 65, arriving = false, shared = null
     levels: field.grid.bits,
     step: field.grid.step,
     middle: ball.centre,
-    radius: ball.radius * field.grid.step,
+    radius: (field.hasSplats && !ball.radius ? farthestOf(box) : ball.radius) * field.grid.step, // splats in one place
     reach: (field.hasSplats ? farthestOf(box) : ball.reach) * field.grid.step,
     size: ball.size.map((v) => v * field.grid.step),
     centre: ball.centre.map((c, k) => field.grid.origin[k] + field.grid.step * c),

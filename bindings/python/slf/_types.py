@@ -59,7 +59,7 @@ class Frame:
     bytes: int
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Camera:
     """A pinhole camera with OpenCV axes: x_cam = R x + t, x right, y down, z forward.
 
@@ -104,7 +104,7 @@ class Camera:
                                    K=scale @ np.asarray(self.K, float))
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Capture:
     """Photographs and points in memory; a directory of files needs none of this (encode).
 
