@@ -86,7 +86,7 @@ export class Instance {
           throw new SlfError('OUT_OF_MEMORY', 'OUT_OF_MEMORY: more than WebAssembly has');
         },
       },
-      Math, // sines of directions, exponentials of shapes
+      Math, // sines of directions, exponentials and logarithms of shapes
       // What the C library links: a clock for figures nobody asks for, and output nobody reads.
       wasi_snapshot_preview1: { clock_time_get: nothing, fd_close: nothing, fd_seek: nothing, fd_write: nothing },
     });

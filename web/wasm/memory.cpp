@@ -37,12 +37,14 @@ SLF_IMPORT(sin)(double);
 SLF_IMPORT(cos)(double);
 SLF_IMPORT(acos)(double);
 SLF_IMPORT(exp)(double);
+SLF_IMPORT(log)(double);
 SLF_IMPORT(atan2)(double, double);
 SLF_IMPORT(hypot)(double, double);
 double sin(double x) { return js_sin(x); }
 double cos(double x) { return js_cos(x); }
 double acos(double x) { return js_acos(x); }
 double exp(double x) { return js_exp(x); }
+double log(double x) { return js_log(x); }
 double hypot(double x, double y) { return js_hypot(x, y); }
 double atan2(double y, double x) { return js_atan2(y, x); }
 }
