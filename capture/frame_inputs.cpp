@@ -123,9 +123,8 @@ Result<FrameInputs, InputError> frames_of_images(const fs::path& directory,
   SLF_TRY(const auto files, numbered_images(directory));
   SLF_TRY(const auto found, candidates_in(files.front().directory, files.front().pattern));
   if (found.empty())
-    return bad_frame(files.front().directory, "no file has a name as " +
-                                                  files.front().pattern.before + "%d" +
-                                                  files.front().pattern.behind);
+    return bad_frame(files.front().directory,
+                     "no file has a name as " + files.front().pattern.text());
   const FrameRange all{found.front().frame.number, found.back().frame.number};
   FrameInputs inputs{FrameKind::kCaptures, {}};
   SLF_TRY(inputs.frames, without_gaps(found, files.front().directory, range.value_or(all)));

@@ -19,6 +19,12 @@ std::string FramePattern::name_of(std::uint32_t number) const {
          behind;
 }
 
+std::string FramePattern::text() const {
+  std::string out = before + '%';
+  if (width > 1) out.append("0").append(std::to_string(width));
+  return out + 'd' + behind;
+}
+
 std::optional<std::uint32_t> FramePattern::number_of(std::string_view name) const {
   if (name.size() <= before.size() + behind.size() || !name.starts_with(before) ||
       !name.ends_with(behind))

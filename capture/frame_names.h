@@ -17,6 +17,8 @@ struct FramePattern {
   std::size_t width = 1;  ///< digits, at least
 
   std::string name_of(std::uint32_t number) const;
+  /// What parse_pattern reads: "frame_%04d.ply".
+  std::string text() const;
   /// The number of a name that fits; more digits than the width do, without zeros in front.
   std::optional<std::uint32_t> number_of(std::string_view name) const;
 };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kShapesPerRange = 1024;
 
-/// The variance of what is spread over a voxel is 1/12; half of it blurs as few as it fills gaps.
-/// docs/decisions/074
+/// What is spread evenly over a voxel has 1/12. Half of it closes gaps, and blurs little of what
+/// stood alone: docs/decisions/074.
 constexpr double kVoxelVariance = 1.0 / 24;
 
 /// e^(2 L), in the order of rows.

@@ -116,16 +116,19 @@ Result<Done, InputError> SplatsInTime::go_on(const Capture& capture, std::span<c
   if (start.views.empty()) return Done{};
   train_as_gaussians(false, start.views, start.settings);
   if (cache_.outlined) SLF_CHECK(charge_for_hiding(capture, settings.threads, start.views));
-  const bool first = before_.empty();
+  const auto name = [&](int camera) { return capture.cameras[std::size_t(camera)].name; };
+  if (before_.empty()) {
+    for (TrainingView& view : start.views) before_[name(view.index)] = std::move(view);
+    return Done{};
+  }
   std::vector<std::string> names;
-  std::vector<TrainingView> before;
+  std::vector<TrainingView> before;  // none of a camera that shows its first photograph
   for (const TrainingView& view : start.views) {
-    names.push_back(capture.cameras[std::size_t(view.index)].name);
+    names.push_back(name(view.index));
     before.push_back(std::move(before_[names.back()]));
   }
   const ChangedViews changed(before, std::move(start.views), settings.threads);
   for (std::size_t i = 0; i < names.size(); ++i) before_[names[i]] = std::move(before[i]);
-  if (first) return Done{};
   if (changed.views().empty()) return Done{};
   SLF_CHECK(add_what_appears(capture, cameras, changed));
   start.settings.surfels = std::max(first_, surfels_.size());

@@ -130,6 +130,8 @@ TEST_F(FrameInputsTest, CamerasOfNumberedImagesStandForTheirFolder) {
   EXPECT_TRUE(holds_frames(root_ / "moving/cameras.json"));
   EXPECT_EQ(listed(list_frames(root_ / "moving/cameras.json")),
             listed(list_frames(root_ / "moving")));
+  capture("wide", {{"%05d.png", 20}});
+  EXPECT_EQ(refusal(root_ / "wide"), "wide: no file has a name as %05d.png");
   capture("still", {{"one.png", 20}});
   EXPECT_FALSE(holds_frames(root_ / "still/cameras.json"));
 }
