@@ -132,6 +132,7 @@ export class SlfFrameStream {
 
   async #arrive(place) {
     const frames = this.#frames;
+    if (!Number.isInteger(place) || place < 0) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: a frame is a whole number from 0 on');
     await this.#goBack(place);
     while (!(place < frames.list.length && (frames.list[place].lost || frames.holds(place)))) {
       if (frames.ended) return false;

@@ -69,7 +69,7 @@ export class SlfFrames {
   }
 
   /** Whether the bytes of a frame are here. */
-  holds(place) { return place < this.#list.length && this.#about(place).held; }
+  holds(place) { return Object.hasOwn(this.#list, place) && this.#about(place).held; }
 
   /** The frame that the group of `place` begins with. */
   groupOf(place) {

@@ -13,10 +13,13 @@ export class Comparison {
   }
 
   async open(capture) {
+    const { source } = this.viewer;
     try {
-      this.cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
+      const cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
+      if (source !== this.viewer.source) return; // another file was opened
+      this.cameras = cameras;
     } catch (error) {
-      return this.viewer.report.fail(error);
+      return source === this.viewer.source ? this.viewer.report.fail(error) : undefined;
     }
     this.page.at('cameras').replaceChildren(new Option(this.page.t('Free view'), ''), ...this.cameras.map((c, i) => new Option(c.name, i)));
     this.page.at('photographs').hidden = false;

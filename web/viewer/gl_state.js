@@ -54,7 +54,7 @@ export function withState(gl, draw) {
 }
 
 function restore(gl, s) {
-  gl.useProgram(s.CURRENT_PROGRAM);
+  gl.useProgram(gl.isProgram(s.CURRENT_PROGRAM) ? s.CURRENT_PROGRAM : null); // it may be deleted since
   gl.bindVertexArray(s.VERTEX_ARRAY_BINDING);
   gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, s.DRAW_FRAMEBUFFER_BINDING);
   gl.bindFramebuffer(gl.READ_FRAMEBUFFER, s.READ_FRAMEBUFFER_BINDING);

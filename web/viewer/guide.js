@@ -34,6 +34,7 @@ export class Guide {
       if (file !== this.viewer.source) return; // another was opened
       this.notes = notes;
     } catch (error) {
+      if (file !== this.viewer.source) return;
       console.warn(error.message);
       this.viewer.report.say(error.words ?? error.message);
       this.viewer.report.hint(error.words ?? error.message);
@@ -49,6 +50,7 @@ export class Guide {
   close() {
     this.notes = { annotations: [], tracks: [] };
     this.marks = [];
+    this.shown = undefined;
     this.asked = 0; // the mark that is asked next whether it is hidden
     this.stop();
     this.page.at('marks').replaceChildren();

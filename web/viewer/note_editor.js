@@ -98,7 +98,12 @@ export class NoteEditor {
   async change(edit, shown = this.viewer.guide.shown) {
     const root = this.root;
     edit(root);
-    const notes = readNotes(root);
+    let notes;
+    try {
+      notes = readNotes(root);
+    } catch (error) {
+      return this.viewer.report.hint(error.words ?? error.message);
+    }
     await this.viewer.guide.take(() => notes);
     if (root.annotations[shown]) this.viewer.guide.show(shown, false);
     this.fill();
@@ -118,8 +123,8 @@ export class NoteEditor {
   /** The view that shows, as notes have it. */
   view() {
     const { azimuth, elevation, fov, zoom, target } = viewParameters(this.viewer);
-    const turned = ((((Number(azimuth) + 180) % 360) + 360) % 360) - 180;
-    return { azimuth: turned, elevation: Number(elevation), fov: Number(fov), zoom: Number(zoom), target: target.split(',').map(Number) };
+    const within = Math.min(50, Math.max(0.05, Number(zoom))); // of notes
+    return { azimuth: Number(azimuth), elevation: Number(elevation), fov: Number(fov), zoom: within, target: target.split(',').map(Number) };
   }
 
   place() {

@@ -14,12 +14,14 @@ export const BACKGROUNDS = {
 /** What is said of the first file and of no other that is opened after it. */
 export const OF_FIRST_FILE = { title: null, poster: null, notes: null, metres: 0, capture: null, camera: null, view: null };
 
+const isBlank = (given) => given === null || String(given).trim() === '';
+
 /** @param {URLSearchParams} query  @param {object} page  the defaults of a page */
 export function readOptions(query, page = {}) {
   const text = (name) => query.get(name) ?? (Object.hasOwn(page, name) ? page[name] : null) ?? null;
   const number = (name, low, high, fallback) => {
     const given = text(name),
-      value = given === null || given === '' ? NaN : Number(given);
+      value = isBlank(given) ? NaN : Number(given);
     return Number.isFinite(value) ? Math.min(high, Math.max(low, value)) : fallback;
   };
   const flag = (name) => {
@@ -38,7 +40,7 @@ export function readOptions(query, page = {}) {
     background: backgroundOf(text('background')),
     exposure: number('exposure', -3, 3, 0),
     mean: flag('mean'),
-    autorotate: flag('autorotate') ? number('autorotate', -90, 90, 12) || 12 : 0,
+    autorotate: !flag('autorotate') ? 0 : ['', 'true', 'yes'].includes(String(text('autorotate')).trim()) ? 12 : number('autorotate', -90, 90, 0),
     azimuth: number('azimuth', -360, 360, null),
     elevation: number('elevation', -90, 90, null),
     fov: number('fov', 1, 170, 30),
@@ -46,9 +48,9 @@ export function readOptions(query, page = {}) {
     camera: text('camera'),
     view: query.get('azimuth') === null ? (page.view ?? null) : null, // the address comes first
     points: number('points', 1, 100, 100),
-    levels: number('levels', 0, 21, 0),
-    groups: number('groups', 0, 4096, 0),
-    layers: number('layers', 0, 4, 0),
+    levels: Math.round(number('levels', 0, 21, 0)),
+    groups: Math.round(number('groups', 0, 4096, 0)),
+    layers: Math.round(number('layers', 0, 4, 0)),
     target: triple(text('target')),
     scroll: ['polite', 'own'].includes(text('scroll')) ? text('scroll') : flag('embed') ? 'polite' : 'own',
     loop: text('loop') === null || flag('loop'),
@@ -62,7 +64,7 @@ export function readOptions(query, page = {}) {
 
 /** "x,y,z" or three numbers; null where it is neither. */
 function triple(given) {
-  const numbers = (Array.isArray(given) ? given : String(given ?? '').split(',')).map((v) => (v === '' ? NaN : Number(v)));
+  const numbers = (Array.isArray(given) ? given : String(given ?? '').split(',')).map((v) => (isBlank(v) ? NaN : Number(v)));
   return numbers.length === 3 && numbers.every(Number.isFinite) ? numbers : null;
 }
 

@@ -6,6 +6,7 @@ const SPEEDS = [0.25, 0.5, 1, 2];
 
 export class Playback {
   #shownAt = -1; // place that the bar says
+  #goesOn = false; // what plays is decoded anew, once or several times, and plays on
 
   /** @param {import('./viewer.js').Viewer} viewer */
   constructor(viewer) {
@@ -44,13 +45,15 @@ export class Playback {
 
   /** By itself, unless the reader or the page would rather not. */
   start() {
+    this.#goesOn = false;
     if (this.viewer.controls.smooth && !this.viewer.options.paused) this.play();
   }
 
   /** The same frames with other levels, groups or layers, from where it is. */
   async again() {
     const { viewer } = this,
-      { playing, frame } = this.player;
+      { frame } = this.player;
+    this.#goesOn ||= this.player.playing;
     this.player.pause();
     viewer.report.say('Decoding …');
     try {
@@ -66,7 +69,7 @@ export class Playback {
       this.page.frame.dataset.state = 'ready';
       viewer.report.describe();
       viewer.report.say('Decoded.');
-      if (playing) this.play();
+      if (this.#goesOn) this.play();
     } catch (error) {
       if (error.name !== 'AbortError') viewer.report.fail(error);
     }
@@ -85,6 +88,7 @@ export class Playback {
   tick(seconds) { return this.player?.tick(seconds) ?? false; }
 
   play() {
+    this.#goesOn = false;
     if (!this.moves || this.player.playing) return;
     this.player.play();
     this.viewer.emit('play');
@@ -92,6 +96,7 @@ export class Playback {
   }
 
   pause() {
+    this.#goesOn = false;
     if (!this.player?.playing) return;
     this.player.pause();
     this.viewer.emit('pause');

@@ -47,7 +47,7 @@ export class FramePlayer {
   /** Seconds of the frame that shows from the first. */
   get time() { return this.source.list.length ? this.#timeOf(this.frame) : 0; }
 
-  setSpeed(speed) { this.speed = Math.min(16, Math.max(1 / 16, Number(speed) || 1)); }
+  setSpeed(speed) { this.speed = Math.min(16, Math.max(1 / 16, Number.isFinite(Number(speed)) ? Number(speed) : 1)); }
 
   setLoop(loop) {
     this.loop = loop;
@@ -74,7 +74,7 @@ export class FramePlayer {
   /** Shows a frame that has arrived, and goes on from there. */
   seek(place) {
     const { list } = this.source;
-    if (!list.length) return;
+    if (!list.length || !Number.isFinite(place)) return;
     this.#wanted = Math.max(0, Math.min(list.length - 1, Math.round(place)));
     this.#position = this.#timeOf(this.#wanted);
     this.#queue = [];

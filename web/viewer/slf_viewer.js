@@ -4,6 +4,7 @@
 //
 //     <script type="module">import 'slf-decoder/viewer/slf_viewer.js'</script>
 //     <slf-viewer src="can.slf" poster="can.jpg" azimuth="40"></slf-viewer>
+import { frameIn } from './element_frame.js';
 import { Elements } from './elements.js';
 import { FieldLoader } from './field_loader.js';
 import { missingCard, missingPart } from './missing_part.js';
@@ -15,7 +16,6 @@ import { wordsOf } from './words.js';
 
 const LIVE = ['background', 'exposure', 'mean', 'points', 'autorotate', 'loop', 'speed']; // that change what is shown at once
 const turns = new Turns();
-let sheet = null;
 
 // web/build.sh makes it. Where a page lacks it, a static import would leave every viewer empty, without a word.
 let made; // markup and style; null: they did not arrive
@@ -56,6 +56,7 @@ export class SlfViewerElement extends HTMLElement {
 
   attributeChangedCallback(name, before, value) {
     if (before === value || !this.isConnected) return;
+    this.#view?.delete(name);
     if (name === 'src') this.#reopen();
     else if (this.viewer?.stage) this.#look(name);
   }
@@ -64,12 +65,14 @@ export class SlfViewerElement extends HTMLElement {
 
   /** Loads and shows. @returns {Promise<Viewer|null>} */
   wake() {
-    this.#starting ??= this.#start().catch((error) => {
-      this.#starting = null;
-      this.#emit('error', error);
-      return null;
+    if (this.#starting) return this.#starting;
+    const begun = this.#start().catch((error) => error).then((result) => {
+      const viewer = result instanceof Error ? null : result;
+      if (!viewer && this.#starting === begun) this.#starting = null; // it can be begun again
+      if (result instanceof Error) this.#emit('error', result);
+      return viewer;
     });
-    return this.#starting;
+    return (this.#starting = begun);
   }
 
   /** Lets go of the worker, the memory and the context; its last picture stays. */
@@ -111,8 +114,11 @@ export class SlfViewerElement extends HTMLElement {
   set view(parameters) {
     this.#view = new URLSearchParams(parameters ?? {});
     if (!this.viewer?.controls?.pose) return;
-    Object.assign(this.viewer.options, this.#options().view);
+    const { view, mode } = this.#options();
+    Object.assign(this.viewer.options, view);
     this.viewer.reset();
+    if (mode !== this.viewer.controls.mode) this.viewer.setMode(mode);
+    this.#look('view');
   }
 
   /** The place of the object under a point of the window (`clientX`, `clientY`); null beside it. */
@@ -155,20 +161,22 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   get loop() {
-    return this.#options().loop;
+    return this.#playback?.player?.loop ?? this.#options().loop;
   }
 
   set loop(on) {
     this.setAttribute('loop', on ? '1' : '0');
+    this.#playback?.setLoop(Boolean(on)); // also where the attribute says so already, and a hand has changed it
   }
 
   /** 1: as the file has it. */
   get speed() {
-    return this.#options().speed;
+    return this.#playback?.player?.speed ?? this.#options().speed;
   }
 
   set speed(speed) {
     this.setAttribute('speed', speed);
+    this.#playback?.setSpeed(this.#options().speed);
   }
 
   get #playback() {
@@ -210,7 +218,7 @@ export class SlfViewerElement extends HTMLElement {
   async #start() {
     await arriving;
     if (!made) throw missingPart();
-    if (!this.isConnected) return null;
+    if (!this.isConnected || this.viewer) return this.viewer;
     this.#markUp(this.#still ?? undefined);
     const words = await this.#words();
     if (!this.isConnected || this.viewer) return this.viewer;
@@ -218,8 +226,7 @@ export class SlfViewerElement extends HTMLElement {
     frame.classList.remove('asleep');
     frame.classList.toggle('empty', !this.#opened && !this.getAttribute('src'));
     this.#elements = new Elements(this.shadowRoot, frame, words);
-    const source = this.#opened,
-      page = { scroll: 'polite' };
+    const source = this.#opened, page = { scroll: 'polite' };
     const loader = new FieldLoader(SlfViewerElement.parts);
     if (source) Object.assign(page, { file: source.source, name: source.name });
     this.viewer = new Viewer({ ...page, loader }, {
@@ -251,7 +258,9 @@ export class SlfViewerElement extends HTMLElement {
   async #reopen() {
     this.#opened = this.#view = null;
     await this.sleep();
-    this.#still = null; // of the file before
+    URL.revokeObjectURL(this.#still); // of the file before
+    this.#still = null;
+    if (!this.isConnected) return; // connectedCallback() goes on
     this.#markUp();
     turns.forget(this);
     turns.watch(this);
@@ -267,11 +276,11 @@ export class SlfViewerElement extends HTMLElement {
     if (changed === 'loop') return viewer.playback.setLoop(loop);
     if (changed === 'speed') return viewer.playback.setSpeed(speed);
     Object.assign(viewer.options, { background, exposure, mean, points, autorotate });
-    viewer.chosen = backgroundOf(this.getAttribute('background'));
+    viewer.chosen = backgroundOf(this.#query.get('background'));
     if (viewer.chosen) viewer.background = viewer.chosen;
     viewer.followPage();
     viewer.applyLook();
-    if (changed === 'autorotate') viewer.spin(autorotate);
+    if (changed === 'autorotate') viewer.spin(viewer.controls?.smooth ? autorotate : 0);
     viewer.stage.redraw();
   }
 
@@ -279,16 +288,7 @@ export class SlfViewerElement extends HTMLElement {
   #markUp(still = this.getAttribute('poster')) {
     if (made === undefined) return void arriving.then(() => this.isConnected && !this.#elements && this.#markUp());
     if (made === null) return void this.#words().then((words) => missingCard(this.shadowRoot, words));
-    if (!sheet) {
-      sheet = new CSSStyleSheet();
-      sheet.replaceSync(made.style);
-    }
-    this.shadowRoot.adoptedStyleSheets = [sheet];
-    const frame = document.createElement('div');
-    frame.className = 'frame asleep';
-    frame.innerHTML = made.markup;
-    this.shadowRoot.replaceChildren(frame);
-    this.#elements = new Elements(this.shadowRoot, frame);
+    this.#elements = new Elements(this.shadowRoot, frameIn(this.shadowRoot, made));
     if (still) this.#elements.writePoster(still);
   }
 

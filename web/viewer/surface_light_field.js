@@ -200,9 +200,9 @@ export class SurfaceLightField extends Mesh {
     const { pipelines, packed } = this.shared;
     let own = pipelines.get(gl);
     if (!own || own.lost) {
-      own = { pipeline: null, packed: null, failure: null, lost: false };
+      own = { pipeline: null, packed: null, failure: null, lost: false, listening: new AbortController() };
       pipelines.set(gl, own);
-      gl.canvas.addEventListener('webglcontextlost', markLost(own), { once: true });
+      gl.canvas.addEventListener('webglcontextlost', markLost(own), { once: true, signal: own.listening.signal });
     }
     if (own.packed !== packed) withState(gl, () => fill(gl, own, packed));
     if (own.failure) throw own.failure;
@@ -230,7 +230,11 @@ export class SurfaceLightField extends Mesh {
     if (shared.users > 0) return;
     shared.geometry.dispose();
     shared.motion?.dispose();
-    for (const own of shared.pipelines.values()) if (!own.lost) own.pipeline?.dispose();
+    for (const own of shared.pipelines.values()) {
+      if (!own.lost) own.pipeline?.dispose();
+      own.listening.abort();
+      own.pipeline = own.packed = null;
+    }
     shared.pipelines.clear();
   }
 }

@@ -2,23 +2,28 @@
 // Addresses that lead to a view, and the lines that put it into another page.
 import { fittingPose } from './view.js';
 
+// What a link may say of another page's viewer: who links to a page chooses neither its file nor its words.
+const OF_A_VIEW = ['azimuth', 'elevation', 'fov', 'zoom', 'target', 'mode', 'exposure', 'mean', 'background'];
+
 const short = (value) => String(Number(value.toPrecision(6)));
+const turned = (degrees) => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
 /** The parameters of README.md that lead to what is shown. */
 export function viewParameters({ controls, stage, options, background, chosen }) {
   const { pose } = controls,
     whole = fittingPose(stage.field, pose);
   const parameters = {
-    azimuth: short(pose.azimuth),
+    azimuth: short(turned(pose.azimuth)),
     elevation: short(pose.elevation),
     fov: short(pose.fov),
     zoom: short(whole.distance / pose.distance),
     target: pose.target.map(short).join(','),
   };
-  if (controls.mode !== options.mode) parameters.mode = controls.mode;
-  if (stage.look.exposure !== options.exposure) parameters.exposure = short(stage.look.exposure);
-  if (stage.look.meanOnly !== options.mean) parameters.mean = stage.look.meanOnly ? '1' : '0';
-  if (chosen !== null && background !== options.background) parameters.background = background.replace('#', '');
+  // Options may be of an address before, and not those that the next one meets.
+  if ([controls.mode, options.mode].includes('fly')) parameters.mode = controls.mode;
+  if (stage.look.exposure || options.exposure) parameters.exposure = short(stage.look.exposure);
+  if (stage.look.meanOnly || options.mean) parameters.mean = stage.look.meanOnly ? '1' : '0';
+  if (chosen !== null) parameters.background = background.replace('#', '');
   return parameters;
 }
 
@@ -51,12 +56,13 @@ async function copy(viewer, text) {
 /** `#can?azimuth=30`: a view of the viewer with that id. */
 export function addressOf(id, parameters) {
   const address = new URL(location.href);
-  address.hash = `${id}?${new URLSearchParams(parameters)}`;
+  address.hash = `${encodeURIComponent(id)}?${new URLSearchParams(parameters)}`;
   return address.href;
 }
 
-/** The parameters of the page's own address for a viewer; null where it names none. */
+/** The view that the page's own address has for a viewer; null where it names none. */
 export function viewOfAddress(id) {
-  const [name, view] = decodeURIComponent(location.hash.slice(1)).split('?');
-  return id && name === id && view ? new URLSearchParams(view) : null;
+  const [, name, view] = /^#([^?]*)\?(.+)$/.exec(location.hash) ?? [];
+  if (!id || !view || (name !== id && name !== encodeURIComponent(id))) return null;
+  return new URLSearchParams([...new URLSearchParams(view)].filter(([key]) => OF_A_VIEW.includes(key)));
 }

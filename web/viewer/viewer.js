@@ -141,6 +141,7 @@ export class Viewer {
 
   /** Frees the worker, the graphics context and what listens outside. */
   dispose() {
+    this.source = null; // what is on its way finds another
     this.rooms.end();
     this.loader.dispose();
     this.controls?.dispose();

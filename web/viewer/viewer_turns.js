@@ -19,6 +19,7 @@ export class Turns {
     this.#observer.unobserve(viewer);
     for (const type of ['ready', 'error']) viewer.addEventListener(type, this.#next);
     viewer.addEventListener('click', this.#clicked);
+    viewer.addEventListener('keydown', this.#pressed);
     const loading = viewer.getAttribute('loading');
     if (now || loading === 'eager') this.#wake(viewer);
     if (now || loading !== 'click') this.#observer.observe(viewer);
@@ -27,6 +28,7 @@ export class Turns {
   forget(viewer) {
     for (const type of ['ready', 'error']) viewer.removeEventListener(type, this.#next);
     viewer.removeEventListener('click', this.#clicked);
+    viewer.removeEventListener('keydown', this.#pressed);
     this.#observer?.unobserve(viewer);
     this.#seen.delete(viewer);
     this.#awake = this.#awake.filter((each) => each !== viewer);
@@ -34,6 +36,11 @@ export class Turns {
   }
 
   #clicked = ({ currentTarget }) => this.#wake(currentTarget);
+  #pressed = (event) => {
+    if (!['Enter', ' '].includes(event.key) || this.#awake.includes(event.currentTarget)) return;
+    event.preventDefault();
+    this.#wake(event.currentTarget);
+  };
   #next = () => this.#queue.length > 0 && this.#wake(this.#queue.shift());
 
   #moved(entries) {

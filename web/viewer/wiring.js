@@ -111,7 +111,7 @@ export class Wiring {
         this.page.at('mean').checked = !this.page.at('mean').checked;
         this.page.at('mean').dispatchEvent(new Event('input', { bubbles: true }));
       },
-      mode: () => this.viewer.setMode(this.viewer.controls.mode === 'fly' ? 'orbit' : 'fly'),
+      mode: () => field && this.viewer.setMode(this.viewer.controls.mode === 'fly' ? 'orbit' : 'fly'),
       background: () => this.viewer.nextBackground(),
       before: () => this.viewer.comparison.step(-1),
       after: () => this.viewer.comparison.step(1),
@@ -148,7 +148,7 @@ export class Wiring {
       dragging(true);
     });
     this.onRoot('dragleave', (event) => {
-      if (!event.relatedTarget) dragging(false);
+      if (!this.page.frame.contains(event.relatedTarget)) dragging(false);
     });
     this.onRoot('drop', (event) => {
       event.preventDefault();

@@ -146,6 +146,12 @@ class EncodedTest(unittest.TestCase):
         self.assertLess(len(repr(encoded)), 300)
         self.assertIn('q=1', repr(encoded))
 
+    def test_cameras_can_be_looked_for_in_lists(self):
+        one, other = (slf.Camera.look_at((3, 0, z), (0, 0, 0)) for z in (0, 1))
+        self.assertEqual(one, one)
+        self.assertNotIn(one, [other])
+        self.assertIn(one, [other, one])
+
 
 if __name__ == '__main__':
     unittest.main()

@@ -135,6 +135,15 @@ test('it plays while it streams', { skip }, async () => {
   await page.close();
 });
 
+test('what plays goes on where levels are changed twice in a row', { skip }, async () => {
+  const page = await here.open('src=/files/tube.slf');
+  await page.waitForFunction(() => window.viewer.playback.player?.playing);
+  await page.evaluate(() => Promise.all([window.viewer.decodeAgain({ levels: 5 }), window.viewer.decodeAgain({ levels: 4 })]));
+  await page.waitForFunction(() => window.viewer.playback.player?.playing);
+  assert.equal(await page.evaluate(() => window.viewer.stage.field.levels), 4);
+  await page.close();
+});
+
 test('fewer levels hold for every frame, from where it stands', { skip }, async () => {
   const page = await here.open('src=/files/tube.slf&paused=1');
   await page.evaluate(() => window.viewer.playback.seek(6));

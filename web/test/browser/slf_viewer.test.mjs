@@ -2,37 +2,16 @@
 // <slf-viewer>: several on a page, lazily; gestures that leave the page its scrolling; views in addresses; policies.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { FAR, elementPages, state, viewOf, viewer } from './element_support.mjs';
 import { newPage, settled, skip as lacking, web } from './support.mjs';
 import { viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
+const pageOf = elementPages(here);
 const skip = lacking || (!existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)');
 const axe = join(web, 'node_modules/axe-core/axe.min.js');
-
-/** A page of its own with these viewers in it. */
-async function pageOf(name, body, options) {
-  mkdirSync(join(here.can.dir, 'pages'), { recursive: true });
-  writeFileSync(
-    join(here.can.dir, `pages/${name}.html`),
-    `<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>Cans</title>
-<style>slf-viewer { height: 300px; margin: 10px }</style><main><h1>Cans</h1>${body}</main>
-<script type="module" src="/some/path/web/viewer/slf_viewer.js"></script>`,
-  );
-  const page = await newPage(here.chrome, options);
-  page.address = `${here.server.url}/files/pages/${name}.html`;
-  await page.goto(page.address);
-  return page;
-}
-
-const state = (page, id, wanted = /^(ready|failed)/) =>
-  page
-    .waitForFunction(([name, source]) => new RegExp(source).test(document.getElementById(name).state), [id, wanted.source])
-    .then(() => page.evaluate((name) => document.getElementById(name).state, id));
-const viewOf = (page, id = 'a') => page.evaluate((name) => document.getElementById(name).view, id);
-const viewer = (id, more = '') => `<slf-viewer id="${id}" src="/files/can.slf" ${more}></slf-viewer>`;
-const FAR = '<div style="height: 4000px"></div>';
 
 test('two viewers have their own view and state, one far away waits, and events tell', { skip }, async () => {
   const page = await pageOf('two', viewer('a', 'azimuth="10"') + viewer('b', 'src="/files/none.slf" background="black"') + FAR + viewer('c'));

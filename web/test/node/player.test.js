@@ -163,6 +163,7 @@ test('a jump shows its frame as soon as it is decoded, and a later jump comes be
   assert.equal(player.frame, 13);
   player.seek(1e9);
   assert.equal(player.frame, 49);
+  player.seek(NaN);
   player.seek(-3);
   assert.equal(player.frame, 0);
 });

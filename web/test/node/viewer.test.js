@@ -218,5 +218,9 @@ test('the view of a page is that of its camera, unless the address names another
   assert.equal(view('azimuth=12'), null);
   assert.equal(readOptions(new URLSearchParams('background=constructor&target=1,2&mode=__proto__')).background, null);
   assert.deepEqual(readOptions(new URLSearchParams('target=1,-2,3.5')).target, [1, -2, 3.5]);
+  const odd = readOptions(new URLSearchParams('levels=4.4&points=%20&zoom=%20&target=1,%20,3&autorotate=abc'));
+  assert.deepEqual([odd.levels, odd.points, odd.zoom, odd.target, odd.autorotate], [4, 100, 1, null, 0]);
+  const turning = (text) => readOptions(new URLSearchParams(text)).autorotate;
+  assert.deepEqual(['autorotate=', 'autorotate=true', 'autorotate=0.0', 'autorotate=30'].map(turning), [12, 12, 0, 30]);
   assert.deepEqual(['1,2', '1,2,', 'a,b,c', ''].map((each) => readOptions(new URLSearchParams({ target: each })).target), [null, null, null, null]);
 });
