@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws a capture of a building before a sky, as somebody with a camera would take it, with Blender.
+"""Draws a capture of a building before a sky, or of a room, as somebody with a camera would take it, with Blender.
 
-    blender -b --factory-startup -P tools/captures/draw_building.py -- OUT castle|temple [--samples N] ...
+    blender -b --factory-startup -P tools/captures/draw_building.py -- OUT castle|temple|room [--samples N] ...
 
-castle: 13 photographs along an arc of 60 degrees, 3 of them held out. temple: 26 along 200 degrees, 5 held out. OUT receives
+castle: 13 photographs along an arc of 60 degrees, 3 of them held out. temple: 26 along 200 degrees, 5 held out. room: 56 from
+among the furniture across to the other side, 8 held out. OUT receives
 cameras.json, images/, points.ply (a noisy cloud of what two input photographs see, but for what is far away) and
 sparse_points.ply (3,500 of them, without normals).
 """
@@ -12,6 +13,7 @@ import json
 import math
 import pathlib
 import sys
+from typing import Callable, NamedTuple
 
 import bpy
 import numpy as np
@@ -19,13 +21,33 @@ from mathutils import Matrix
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # Blender does not
 import buildings  # noqa: E402
+import rooms  # noqa: E402
 import surface  # noqa: E402
 from capture_files import centre_of, run, write_ply, write_whole  # noqa: E402
 
-# The scene; its cameras: how many, degrees from .. to about the building, metres from it, lowest and highest, which are held out.
+
+class Walk(NamedTuple):
+    """Cameras about the origin: degrees from .. to; metres, give or take; heights; what camera i looks at; which are held out."""
+    count: int
+    degrees: tuple
+    metres: tuple
+    heights: tuple
+    target: Callable
+    held_out: tuple
+
+
+def front(i):
+    return [0.6 * math.sin(1.1 * i), 0.5, 2.6]
+
+
+def middle(i):
+    return [0.3 * math.sin(1.1 * i), 0.3 * math.cos(1.9 * i), 0.8 + 0.4 * math.sin(0.7 * i)]
+
+
 SCENES = {
-    "castle": (buildings.castle, 13, (-120, -60), 14.5, (1.2, 2.2), (3, 6, 9)),
-    "temple": (buildings.temple, 26, (-190, 10), 13.0, (1.6, 2.8), (3, 8, 13, 18, 23)),
+    "castle": (buildings.castle, Walk(13, (-120, -60), (14.5, 0.8), (1.2, 2.2), front, (3, 6, 9))),
+    "temple": (buildings.temple, Walk(26, (-190, 10), (13.0, 0.8), (1.6, 2.8), front, (3, 8, 13, 18, 23))),
+    "room": (rooms.living_room, Walk(56, (0, 360), (1.6, 0.4), (1.1, 1.7), middle, tuple(range(3, 56, 7)))),
 }
 SPARSE = 3500
 NOISE, DEPTH_NOISE, OUTLIERS, NORMAL_NOISE = 0.5, 1.5, 0.01, 0.15  # pixels across and along the view, a share, of a unit normal
@@ -47,14 +69,15 @@ def options():
 
 
 def camera_rows(given):
-    _, count, (first, last), distance, (low, high), _ = SCENES[given.scene]
+    walk = SCENES[given.scene][1]
+    (first, last), (low, high) = walk.degrees, walk.heights
     width, height = given.width, given.width * 2 // 3
     rows = []
-    for i in range(count):
-        angle = math.radians(first + (last - first) * i / (count - 1))
-        reach = distance + 0.8 * math.sin(1.7 * i)
+    for i in range(walk.count):
+        angle = math.radians(first + (last - first) * i / (walk.count - 1))
+        reach = walk.metres[0] + walk.metres[1] * math.sin(1.7 * i)
         eye = np.array([reach * math.cos(angle), reach * math.sin(angle), (low + high) / 2 + (high - low) / 2 * math.sin(2.3 * i)])
-        forward = np.array([0.6 * math.sin(1.1 * i), 0.5, 2.6]) - eye
+        forward = np.array(walk.target(i)) - eye
         forward /= np.linalg.norm(forward)
         right = np.cross(forward, [0, 0, 1])
         right /= np.linalg.norm(right)
@@ -120,9 +143,9 @@ def main():
     (given.out / "images").mkdir(parents=True, exist_ok=True)
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
-    make, *_, held_out = SCENES[given.scene]
+    make, walk = SCENES[given.scene]
     far = make()
-    rows = camera_rows(given)
+    rows, held_out = camera_rows(given), walk.held_out
     inputs = [row for i, row in enumerate(rows) if i not in held_out]
     write_whole(given.out / "cameras.json", json.dumps(
         {"name": given.scene, "pixel_centres": "+0.5", "up": "+z", "cameras": rows,

@@ -56,7 +56,7 @@ class Surface:
         to_eye = Vector(eye - point)
         if to_eye.dot(normal) <= 0:
             return False
-        return self.tree.ray_cast(Vector(point + LIFT * normal), to_eye.normalized())[0] is None
+        return self.tree.ray_cast(Vector(point + LIFT * normal), to_eye.normalized(), to_eye.length)[0] is None
 
 
 def array_of(collection, name, width, kind=np.float32):
