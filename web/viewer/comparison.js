@@ -79,7 +79,7 @@ export class Comparison {
     this.viewer.facts.psnr = value;
     this.page.at('psnr').textContent = Number.isNaN(value)
       ? this.page.t('The object is not in this picture.')
-      : this.page.t(`PSNR within the object: ${value.toFixed(2)} dB`);
+      : this.page.t(`PSNR within the object: ${this.page.decimal(value, 2)} dB`);
   }
 
   show(shown) {

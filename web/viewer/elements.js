@@ -22,11 +22,6 @@ function element(name, text) {
   return made;
 }
 
-export function sizeText(bytes) {
-  const [value, unit] = bytes < 1e6 ? [bytes / 1e3, 'kB'] : [bytes / 1e6, 'MB'];
-  return `${value.toFixed(value < 10 ? 2 : value < 100 ? 1 : 0)} ${unit}`;
-}
-
 export class Elements {
   /**
    * @param {Document|ShadowRoot} root  that has the elements of viewer.html
@@ -59,6 +54,15 @@ export class Elements {
     return this.words.grouped(number);
   }
 
+  decimal(value, digits) {
+    return this.words.decimal(value, digits);
+  }
+
+  size(bytes) {
+    const [value, unit] = bytes < 1e6 ? [bytes / 1e3, 'kB'] : [bytes / 1e6, 'MB'];
+    return `${this.decimal(value, value < 10 ? 2 : value < 100 ? 1 : 0)} ${unit}`;
+  }
+
   /** Whether a button's action goes on. */
   press(action, on) {
     this.one(`[data-do=${action}]`)?.setAttribute('aria-pressed', String(on));
@@ -74,7 +78,7 @@ export class Elements {
     const set = (id, text) => {
       this.one(`output[for=${id}]`).textContent = this.t(text);
     };
-    set('exposure', `${value('exposure') > 0 ? '+' : ''}${value('exposure').toFixed(1)} stops`);
+    set('exposure', `${value('exposure') > 0 ? '+' : ''}${this.decimal(value('exposure'), 1)} stops`);
     set('points', `${value('points')} %`);
     set('levels', `${value('levels')} of ${this.at('levels').max}`);
     set('groups', `${value('groups')} of ${this.at('groups').max}`);
@@ -99,19 +103,19 @@ export class Elements {
     const { info, bytes, first, loaded, frames = 1 } = facts;
     const rows = {
       Name: facts.name,
-      Size: bytes && sizeText(bytes),
+      Size: bytes && this.size(bytes),
       Points: this.grouped(field.points),
-      'Bits per point': bytes ? ((8 * bytes) / (field.points * frames)).toFixed(2) : '',
+      'Bits per point': bytes ? this.decimal((8 * bytes) / (field.points * frames), 2) : '',
       Functions: info.functions,
       Components: field.components,
       Grid: `${info.bits} bits`,
       Frame: info.frame,
       Transfer: field.linear ? 'linear' : 'display',
       'Colour fetches a point': 4 * field.layers + 2,
-      'Graphics memory': sizeText(field.bytes),
-      'First picture': first && `${(first / 1000).toFixed(2)} s`,
-      Loaded: loaded && `${(loaded / 1000).toFixed(2)} s`,
-      'Frame in motion': frameTime && `${frameTime.toFixed(frameTime < 10 ? 1 : 0)} ms`,
+      'Graphics memory': this.size(field.bytes),
+      'First picture': first && `${this.decimal(first / 1000, 2)} s`,
+      Loaded: loaded && `${this.decimal(loaded / 1000, 2)} s`,
+      'Frame in motion': frameTime && `${this.decimal(frameTime, frameTime < 10 ? 1 : 0)} ms`,
       Format: info.version,
       Encoder: info.metadata?.encoder,
     };

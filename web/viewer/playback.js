@@ -174,7 +174,7 @@ export class Playback {
     if (this.#shownAt === frame && page.at('played').dataset.last === String(last)) return;
     this.#shownAt = frame;
     scrub.value = String(frame);
-    const seconds = (value) => value.toFixed(1);
+    const seconds = (value) => page.decimal(value, 1);
     page.at('played').dataset.last = String(last);
     page.at('played').textContent = `${seconds(player.time)} / ${seconds(player.duration)} s`;
     scrub.setAttribute('aria-valuetext', page.t(`Frame ${frame + 1} of ${last + 1}`));

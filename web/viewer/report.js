@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a viewer says: of the file that is shown, on its way, or cannot be.
-import { sizeText } from './elements.js';
 import { ViewerError } from './packed_field.js';
 
 const HINT = 1600; // ms
@@ -27,7 +26,7 @@ export class Report {
     if (this.page.whole) document.title = title ? `${title}: ${t('surface light field')}` : t('Surface light field');
     const shown = coarser ?? this.viewer.options,
       fewer = (what) => coarser && coarser[what] !== this.viewer.options[what] && coarser[what] < info[what];
-    const size = bytes ? sizeText(bytes) : '';
+    const size = bytes ? this.page.size(bytes) : '';
     const said = [
       t(`${this.page.grouped(field.points)} points`),
       frames > 1 && t(`${this.page.grouped(frames)} frames`),

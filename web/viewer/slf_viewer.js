@@ -103,7 +103,7 @@ export class SlfViewerElement extends HTMLElement {
   /** idle, loading, coarse, ready, or failed and the kind of the error. */
   get state() {
     if (made === null) return 'failed network';
-    return this.#elements?.frame.dataset.state ?? (this.viewer ? 'loading' : 'idle');
+    return this.#elements?.frame.dataset.state ?? (this.viewer && (this.#opened || this.getAttribute('src')) ? 'loading' : 'idle');
   }
 
   /** Azimuth, elevation, fov, zoom and target as attributes have them; null before it shows. */

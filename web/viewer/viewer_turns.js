@@ -5,6 +5,7 @@
 const MOST = 8; // contexts; browsers end the oldest of 16
 const NEAR = '50%'; // of the window, from its edge
 const SETTLED = /^(ready|failed)/;
+const isSettled = ({ state, viewer }) => SETTLED.test(state) || (viewer !== null && state === 'idle'); // it has no file
 
 export class Turns {
   #seen = new Map(); // viewer: whether it is near
@@ -56,7 +57,7 @@ export class Turns {
     if (this.#awake.includes(viewer)) return;
     if (this.#awake.length >= MOST) {
       const away = this.#awake.findIndex((each) => !this.#seen.get(each));
-      const rests = away >= 0 ? away : this.#awake.findIndex((each) => SETTLED.test(each.state)); // its picture stays
+      const rests = away >= 0 ? away : this.#awake.findIndex((each) => isSettled(each)); // its picture stays
       if (rests < 0) return void (this.#queue.includes(viewer) || this.#queue.push(viewer));
       this.#awake.splice(rests, 1)[0].sleep();
     }

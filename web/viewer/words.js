@@ -19,6 +19,12 @@ export class Words {
     this.grouped = new Intl.NumberFormat(language).format;
   }
 
+  /** With so many digits behind the point, or what the language has there. */
+  decimal(value, digits) {
+    const style = { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false };
+    return new Intl.NumberFormat(this.language, style).format(value);
+  }
+
   /** A text that is unknown stays English. */
   t(text) {
     if (Object.hasOwn(this.texts, text)) return this.texts[text];

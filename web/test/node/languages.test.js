@@ -50,7 +50,8 @@ test('a number in a text, a language that is none, and a region', async () => {
   const words = await wordsOf(['tlh', 'de-CH', 'fr']);
   assert.equal(words.language, 'de');
   assert.equal(words.t('1,607 points'), '1,607 Punkte');
-  assert.equal(words.t('+0.5 stops'), '+0.5 Blenden');
+  assert.equal(words.t(`+${words.decimal(0.5, 1)} stops`), '+0,5 Blenden');
+  assert.deepEqual([7.4444, 1234].map((each) => ENGLISH.decimal(each, 2)), ['7.44', '1234.00']);
   assert.equal(words.t('constructor'), 'constructor');
   assert.equal(new Words('en', {}).t('Help'), 'Help');
   assert.equal(await wordsOf(['constructor', '__proto__']), ENGLISH);
