@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kShapesPerRange = 1024;
 
-/// What is spread evenly over a voxel has 1/12. Half of it closes gaps, and blurs little of what
-/// stood alone: docs/decisions/074.
+/// Points that are spread evenly over a voxel have 1/12. Half of it closes gaps, and blurs little
+/// of what stood alone: docs/decisions/074.
 constexpr double kVoxelVariance = 1.0 / 24;
 
 /// e^(2 L), in the order of rows.
