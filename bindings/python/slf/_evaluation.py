@@ -23,6 +23,7 @@ def eval(source: Source, capture: Union[str, 'os.PathLike[str]', Capture], *, sp
     angles to the normal within which points are judged, degrees, 0 to 90. images: pictures too, which
     takes longer. match_exposure: each picture is multiplied by what brings it nearest to its
     photograph. align_cameras: each picture is first moved by up to 4 pixels. progress: as of encode().
+    Of frames in time the first is measured; the program measures all.
     Raises what read() raises, InputError of a capture, ArgumentError.
     """
     angles = [float(delta) for delta in deltas]
