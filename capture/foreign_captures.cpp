@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "capture/file_names.h"
+#include "capture/frame_files.h"
 #include "capture/input_file.h"
+#include "slf/gaussian_files.h"
 
 namespace slf {
 
@@ -45,10 +47,6 @@ constexpr std::array kForeign = {
     Foreign{".csv", "#name,x,y",
             "cameras of RealityScan, which are not read: export its registration for COLMAP or as "
             "Bundler"},
-    Foreign{".splat", "", "by its content no file of Gaussian splats, as its name says"},
-    Foreign{".ksplat", "", "by its content no file of Gaussian splats, as its name says"},
-    Foreign{".spz", "", "by its content no file of Gaussian splats, as its name says"},
-    Foreign{".sog", "", "by its content no file of Gaussian splats, as its name says"},
     Foreign{".pcd", "", "a cloud of PCL: save it as PLY (pcl_pcd2ply, CloudCompare)"},
     Foreign{".xyz", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
     Foreign{".pts", "", "a cloud as text: save it as PLY (CloudCompare, MeshLab)"},
@@ -74,6 +72,11 @@ std::string foreign_file(const fs::path& file) {
     if ((*foreign.extension == '\0' || extension == foreign.extension) &&
         text.find(foreign.text) != text.npos)
       return foreign.sentence;
+  if (is_splat_name(file))
+    return looks_like_gaussians(file)
+               ? "Gaussian splats, which slf encode takes by themselves, or as "
+                 "points of a capture (--points)"
+               : kNoSplats;
   if (extension == ".jpg" || extension == ".jpeg" || extension == ".png")
     return "a photograph, not a capture, which is a folder of photographs with their cameras";
   if (extension == ".txt" || extension == ".csv" || extension == ".asc")

@@ -30,7 +30,7 @@ Result<FrameKind, InputError> kind_of_file(FrameInput& frame) {
   if (size == 0) return bad_frame(file, "the frame is empty");
   const bool splats = looks_like_gaussians(file);
   if (splats && extension_of(file) != ".ply") return FrameKind::kSplats;
-  if (is_splat_name(file)) return bad_frame(file, "by its content no file of Gaussian splats");
+  if (is_splat_name(file)) return bad_frame(file, kNoSplats);
   SLF_TRY(const std::uint64_t points, ply_vertices(file));
   frame.is_empty = points == 0;
   return splats ? FrameKind::kSplats : FrameKind::kClouds;

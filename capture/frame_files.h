@@ -12,6 +12,8 @@ namespace slf {
 /// An error of a frame, which names its file.
 InputError bad_frame(const std::filesystem::path& path, const std::string& cause);
 
+/// What is wrong with a file of such a name that looks_like_gaussians() does not know.
+inline constexpr const char* kNoSplats = "by its content no file of Gaussian splats";
 /// A name of splats that are no PLY.
 bool is_splat_name(const std::filesystem::path& path);
 

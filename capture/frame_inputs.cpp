@@ -27,16 +27,15 @@ struct Candidate {
   FrameKind kind;
 };
 
-/// Splats in other files than PLY are candidates where there are no captures.
 std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
-                                      const std::optional<FramePattern>& wanted, bool splats) {
+                                      const std::optional<FramePattern>& wanted) {
   std::error_code ignored;
   const bool directory = entry.is_directory(ignored);
   const fs::path& path = entry.path();
   const std::string name = path.filename().string();
   auto pattern = wanted;
   if (!wanted && directory && name.starts_with(kCapturePrefix)) pattern = pattern_of(name, "");
-  if (!wanted && !directory && (splats ? is_splat_name(path) : extension_of(path) == ".ply"))
+  if (!wanted && !directory && (extension_of(path) == ".ply" || is_splat_name(path)))
     pattern = pattern_of(path.stem().string(), path.extension().string());
   if (!pattern) return std::nullopt;
   const auto number = pattern->number_of(name);
@@ -46,21 +45,20 @@ std::optional<Candidate> candidate_of(const fs::directory_entry& entry,
       *pattern, {*number, path}, directory ? FrameKind::kCaptures : FrameKind::kClouds};
 }
 
-/// By number, then by name.
+/// By number, then by name. Beside captures, splats in other files than PLY are none.
 Result<std::vector<Candidate>, InputError> candidates_in(
     const fs::path& directory, const std::optional<FramePattern>& wanted) {
-  std::vector<Candidate> found, splats;
+  std::vector<Candidate> found;
   std::error_code error;
   fs::directory_iterator entry(directory, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (auto candidate = candidate_of(*entry, wanted, false))
-      found.push_back(*candidate);
-    else if (auto other = candidate_of(*entry, wanted, true))
-      splats.push_back(*other);
+    if (auto candidate = candidate_of(*entry, wanted)) found.push_back(*candidate);
   }
-  const auto is_directory = [](const Candidate& c) { return c.kind == FrameKind::kCaptures; };
-  if (!wanted && std::none_of(found.begin(), found.end(), is_directory))
-    found.insert(found.end(), splats.begin(), splats.end());
+  const auto is_of_captures = [](const Candidate& c) { return c.kind == FrameKind::kCaptures; };
+  if (!wanted && std::any_of(found.begin(), found.end(), is_of_captures))
+    std::erase_if(found, [&](const Candidate& c) {
+      return !is_of_captures(c) && extension_of(c.frame.path) != ".ply";
+    });
   if (error) return InputError{Errc::kUnreadable, directory.string() + ": " + error.message()};
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.frame.number, a.frame.path) < std::tie(b.frame.number, b.frame.path);

@@ -58,6 +58,7 @@ Result<bool, InputError> splats_are_better(const SurfaceChoice& job, const Camer
     if (look_of(splats) < look_of(quick) - kWithinReach || !is_number_open(job.settings))
       return false;
     SLF_CHECK(find_splats_that_pay(splat_job(job, parts)));
+    report.seconds_train += watch.lap();
     splats = job.cache.that_pay->best;
     report.more_splats = job.cache.that_pay->trials;
     if (look_of(splats) < look_of(quick)) return false;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "capture_formats.h"
+#include "slf/gaussian_files.h"
+#include "tests/lightfield/gaussian_support.h"
 
 namespace slf::foreign_captures_test {
 namespace {
@@ -21,7 +23,9 @@ TEST(ForeignCaptures, FilesAreNamedWithTheWayToACapture) {
               AllOf(HasSubstr("bundle.txt"), HasSubstr("Bundler"), HasSubstr("list.txt")));
   EXPECT_THAT(refusal("a.psx", "x"), AllOf(HasSubstr("Metashape"), HasSubstr("cameras.xml")));
   EXPECT_THAT(refusal("a.rsproj", "x"), AllOf(HasSubstr("RealityScan"), HasSubstr("COLMAP")));
-  EXPECT_THAT(refusal("a.splat", "x"), HasSubstr("Gaussian splats"));
+  EXPECT_THAT(refusal("a.splat", "x"), HasSubstr("by its content no file of Gaussian splats"));
+  const auto splats = gaussian_file(random_gaussians(5, 0), SplatFormat::kSpz3);
+  EXPECT_THAT(refusal("b.spz", {splats->begin(), splats->end()}), HasSubstr("by themselves"));
   EXPECT_THAT(refusal("a.pcd", "x"), HasSubstr("PLY"));
   EXPECT_THAT(refusal("a.mp4", "x"), HasSubstr("ffmpeg"));
   EXPECT_THAT(refusal("a.json", "{}"), HasSubstr("neither 'cameras' nor 'frames'"));

@@ -8,11 +8,13 @@
 #include "capture/surface_points.h"
 #include "encoder/choose_surface.h"
 #include "encoder/coding_parameters.h"
+#include "encoder/compare_splats.h"
 #include "encoder/encode_splats.h"
 #include "encoder/fit_capture.h"
 #include "encoder/judge_surface.h"
 #include "encoder/refine/held_out.h"
 #include "encoder/trial_file.h"
+#include "lightfield/splats/splat_axes.h"
 #include "slf/decoder.h"
 #include "slf/encode_gaussians.h"
 #include "slf/evaluate.h"
@@ -27,7 +29,6 @@ TEST(EncodeSplats, TranslucentThingsAreCodedAsSplatsAndNoSurfaceIsTrainedOfThem)
   Gaussians smoke;
   Capture capture = traced.capture;
   capture.cloud.positions = traced.exact.positions;
-  capture.origin = {500'000, -20, 4'000'000};
   for (std::size_t p = 0; p < traced.exact.positions.size(); p += 120) {
     const Float3 at = traced.exact.positions[p];
     const auto size = std::log(20 * float(traced.step));
@@ -58,6 +59,35 @@ TEST(EncodeSplats, TranslucentThingsAreCodedAsSplatsAndNoSurfaceIsTrainedOfThem)
   settings = {};
   settings.target_psnr = 30;
   EXPECT_FALSE(may_be_splats(settings));
+}
+
+TEST(EncodeSplats, ThatAreFarAboveThePointsShowTheirSurfaceWhereverTheOriginIs) {
+  const test::TracedScene traced("vase", 5, 10, 112, 6000);
+  Capture capture = traced.capture;
+  capture.origin = {500'000, -20, 4'000'000};
+  SplatTrial tried;
+  tried.file.psnr = 40;
+  tried.splats.degree = 0;
+  const auto wide = float(std::log(2 * traced.step)), flat = float(std::log(0.1 * traced.step));
+  for (std::size_t p = 0; p < traced.exact.positions.size(); ++p) {
+    tried.splats.positions.push_back(traced.exact.positions[p]);
+    tried.splats.log_deviations.push_back({wide, wide, flat});
+    tried.splats.rotations.push_back(disc_rotation(traced.exact.normals[p]));
+    tried.splats.logits.push_back(4);
+    tried.splats.harmonics.insert(tried.splats.harmonics.end(), 3, 0.5f);
+  }
+  TrainingCache cache;
+  SurfaceReport report;
+  report.as_splats = tried.file;
+  cache.tried = std::move(tried);
+  EncoderSettings settings;
+  settings.check_cameras = false;
+  const Progress none;
+  const auto beyond =
+      splats_are_beyond({capture, traced.cameras, settings, report, none, cache, true},
+                        split_for_mending(traced.cameras), {.psnr = 20});
+  ASSERT_TRUE(beyond) << beyond.error().message;
+  EXPECT_TRUE(*beyond);
 }
 
 TEST(EncodeSplats, TrialFilesHaveTheBytesOfATarget) {

@@ -43,6 +43,8 @@ TEST_F(ResumeTest, AnInterruptLeavesNoHalfFileAndTheNextRunGoesOnToTheSameBytes)
 
 TEST_F(ResumeTest, WithoutAWorkDirectoryItIsRefused) {
   expect_failure(slf(std::string(kEncode).append("x.slf --resume")), 2, "--work", "--resume");
+  expect_failure(slf(std::string(kEncode).append("x.slf --work w --resume --surface-seconds 1")), 2,
+                 "--resume", "--surface-seconds");
 }
 
 }  // namespace

@@ -14,13 +14,15 @@ export class Comparison {
 
   async open(capture) {
     const { source } = this.viewer;
+    let cameras, failure;
     try {
-      const cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
-      if (source !== this.viewer.source) return; // another file was opened
-      this.cameras = cameras;
+      cameras = typeof capture === 'string' ? await fetchCapture(capture) : capture;
     } catch (error) {
-      return source === this.viewer.source ? this.viewer.report.fail(error) : undefined;
+      failure = error;
     }
+    if (source !== this.viewer.source) return; // another file was opened
+    if (failure) return this.viewer.report.fail(failure);
+    this.cameras = cameras;
     this.page.at('cameras').replaceChildren(new Option(this.page.t('Free view'), ''), ...this.cameras.map((c, i) => new Option(c.name, i)));
     this.page.at('photographs').hidden = false;
     this.page.one('[data-do=compare]').hidden = false;

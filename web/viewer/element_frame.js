@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in the shadow of <slf-viewer> before anything shows.
+// The frame of <slf-viewer>: its elements and its style.
 
 let sheet = null; // one for all of a page
 

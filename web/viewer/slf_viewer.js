@@ -55,7 +55,7 @@ export class SlfViewerElement extends HTMLElement {
   }
 
   attributeChangedCallback(name, before, value) {
-    if (before === value || !this.isConnected) return;
+    if (!this.isConnected || (name === 'src' && before === value)) return; // a hand may have changed the others
     this.#view?.delete(name);
     if (name === 'src') this.#reopen();
     else if (this.viewer?.stage) this.#look(name);
@@ -166,7 +166,6 @@ export class SlfViewerElement extends HTMLElement {
 
   set loop(on) {
     this.setAttribute('loop', on ? '1' : '0');
-    this.#playback?.setLoop(Boolean(on)); // also where the attribute says so already, and a hand has changed it
   }
 
   /** 1: as the file has it. */
@@ -176,7 +175,6 @@ export class SlfViewerElement extends HTMLElement {
 
   set speed(speed) {
     this.setAttribute('speed', speed);
-    this.#playback?.setSpeed(this.#options().speed);
   }
 
   get #playback() {

@@ -2,15 +2,11 @@
 // <slf-viewer>: what addresses may say of it, and what becomes of it in and out of the page.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { existsSync } from 'node:fs';
-import { join } from 'node:path';
-import { elementPages, state, viewer } from './element_support.mjs';
-import { skip as lacking, web } from './support.mjs';
+import { elementPages, skip, state, viewer } from './element_support.mjs';
 import { viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
 const pageOf = elementPages(here);
-const skip = lacking || (!existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)');
 
 test('an address chooses a view and nothing else, and one that is none harms nothing', { skip }, async () => {
   const page = await pageOf('chosen', viewer('a', 'title="Ours" azimuth="10"'));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pages with <slf-viewer> in them.
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { newPage } from './support.mjs';
+import { newPage, skip as lacking, web } from './support.mjs';
+
+export const skip = lacking || (!existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)');
 
 /** @param here  viewerUnderTest()  @returns pageOf(name, body, options): a page of its own with these viewers in it */
 export const elementPages = (here) => async (name, body, options) => {

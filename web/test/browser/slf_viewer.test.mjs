@@ -4,13 +4,12 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { FAR, elementPages, state, viewOf, viewer } from './element_support.mjs';
-import { newPage, settled, skip as lacking, web } from './support.mjs';
+import { FAR, elementPages, skip, state, viewOf, viewer } from './element_support.mjs';
+import { newPage, settled, web } from './support.mjs';
 import { viewerUnderTest } from './viewer_support.mjs';
 
 const here = viewerUnderTest();
 const pageOf = elementPages(here);
-const skip = lacking || (!existsSync(join(web, 'made/viewer_markup.js')) && 'skipped: there is no made/ (web/build.sh)');
 const axe = join(web, 'node_modules/axe-core/axe.min.js');
 
 test('two viewers have their own view and state, one far away waits, and events tell', { skip }, async () => {
