@@ -25,6 +25,11 @@ void add_motions(std::vector<Case>& cases) {
     louder.components[i] += static_cast<std::int32_t>(i % 90);
   add("frames-identity", "two frames, nothing moves", louder, {}, {"7.13", "8.12.3", "8.12.4"});
   add("frames-affine", "an affine motion", frame_field(turned), turn(), {"7.13", "8.12.1"});
+  Motion gentle;
+  gentle.matrix = {{{-10, 1144, 37}, {-1144, -10, 611}, {-37, -611, -3}}};
+  gentle.shift = {3, -5, 7};
+  add("frames-gentle-turn", "a turn by a degree: products that are rounded", still(), gentle,
+      {"8.12.1"});
   Motion far = turn();
   far.shift = {Motion::kMostShift, -Motion::kMostShift, 400};
   far.matrix[2] = {Motion::kMostEntry, -Motion::kMostEntry, Motion::kMostEntry};

@@ -36,7 +36,7 @@ class Refused {
 
   void add_order() {
     add("frames-number-skipped", "a frame is missing", joined({f_[0], f_[2]}));
-    add("frames-number-twice", "a frame stands twice", joined({f_[0], f_[1], f_[1]}));
+    add("frames-number-twice", "a frame stands twice", joined({f_[0], f_[1], f_[1]}), 2);
     add("frames-time", "a time that is not later",
         with(nothing, [](FrameHeader& h) { h.frame_time = 0; }));
     add("frames-intra-without-signature", "no frame that is not predicted begins so",
@@ -130,8 +130,8 @@ class Refused {
   }
   Bytes raw(const UnitEdit& edit) { return joined({f_[0], unit_edited(f_[1], edit)}); }
 
-  void add(const std::string& id, const char* purpose, Bytes stream) {
-    cases_.push_back({id, purpose, {"7.13", "8.12.5"}, std::move(stream), 1});
+  void add(const std::string& id, const char* purpose, Bytes stream, int place = 1) {
+    cases_.push_back({id, purpose, {"7.13", "8.12.5"}, std::move(stream), place});
   }
 
   std::vector<RefusedCase>& cases_;
