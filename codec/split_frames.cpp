@@ -8,6 +8,7 @@ namespace {
 
 /// What no frame begins with, cut short or not.
 Result<Done> check_first_byte(std::span<const std::uint8_t> rest, std::size_t at) {
+  if (rest.empty()) return Error{Errc::kTruncated, "signature", 8 * at};
   const auto type = static_cast<UnitType>(rest[0]);
   if (rest[0] == kSignature[0]) {
     const auto end = std::min(rest.size(), kSignature.size());

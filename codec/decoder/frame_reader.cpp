@@ -53,7 +53,7 @@ Result<LightField> FrameReader::decode(std::size_t frame) {
 }
 
 std::size_t FrameReader::group_of(std::size_t frame) const {
-  return slf::group_of(frames(), frame);
+  return frame < frames().size() ? slf::group_of(frames(), frame) : frames().size();
 }
 
 void FrameReader::drop_before(std::size_t frame) {
@@ -75,6 +75,7 @@ Result<Done> FrameReader::seek(std::size_t frame) {
 const std::vector<FrameInfo>& FrameReader::frames() const { return impl_->arriving.infos(); }
 std::uint64_t FrameReader::held_bytes() const { return impl_->arriving.held_bytes(); }
 std::span<const std::uint8_t> FrameReader::bytes_of(std::size_t frame) const {
+  if (frame >= frames().size()) return {};
   const std::span bytes(impl_->arriving.frames()[frame].bytes);
   return bytes.first(std::min<std::uint64_t>(bytes.size(), frames()[frame].bytes));
 }

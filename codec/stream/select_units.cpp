@@ -9,6 +9,13 @@ bool is_written_anew(UnitType type) {
          type == UnitType::kEnd;
 }
 
+/// Corrections are of what the whole stream decodes to.
+void leave_out_corrections(std::vector<UnitView>& units) {
+  std::erase_if(units, [](const UnitView& unit) {
+    return is_of_application({unit.type, unit.payload}, kPlenopticCorrections);
+  });
+}
+
 }  // namespace
 
 Result<SelectedUnits> select_units(const Units& units, const Request& request,
@@ -27,6 +34,7 @@ Result<SelectedUnits> select_units(const Units& units, const Request& request,
     }
     kept.units.push_back({unit.type, unit.payload});
   }
+  if (!kept.all) leave_out_corrections(kept.units);
   return kept;
 }
 

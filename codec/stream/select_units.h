@@ -12,7 +12,7 @@ namespace slf {
 /// Those to keep, in the order of the stream and in its memory.
 struct SelectedUnits {
   /// Without those that are written anew (sequence, index, frame, end), and without fillers, which
-  /// have no meaning.
+  /// have no meaning; where not all is kept, without corrections of what the whole decodes to.
   std::vector<UnitView> units;
   bool all = true;  ///< none was left out that has one
 };

@@ -9,11 +9,6 @@
 #include "encoder/plenoptic/corrections.h"
 
 namespace slf {
-namespace {
-
-constexpr ApplicationId kCorrections = {'S', 'L', 'F', 'p'};
-
-}  // namespace
 
 Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t> stream,
                                                    std::span<const std::uint8_t> payload) {
@@ -35,18 +30,18 @@ Result<std::vector<std::uint8_t>> with_corrections(std::span<const std::uint8_t>
     }
     kept.push_back({unit.type, {unit.payload.begin(), unit.payload.end()}, std::move(ids)});
   }
-  kept.push_back({kApplicationUnit, with_identifier(kCorrections, payload), {}});
+  kept.push_back({kApplicationUnit, with_identifier(kPlenopticCorrections, payload), {}});
   return of_what_was_read(assemble(set, kept, boxes));
 }
 
 std::vector<std::uint8_t> corrections_of_frame(std::span<const std::uint8_t> payload) {
-  return with_identifier(kCorrections, payload);
+  return with_identifier(kPlenopticCorrections, payload);
 }
 
 Result<std::span<const std::uint8_t>> find_corrections(std::span<const std::uint8_t> stream) {
   SLF_TRY(const Units units, units_alone(stream));
   for (const Unit& unit : units.units)
-    if (is_of_application(unit, kCorrections)) return application_payload(unit);
+    if (is_of_application(unit, kPlenopticCorrections)) return application_payload(unit);
   return std::span<const std::uint8_t>{};
 }
 

@@ -15,9 +15,10 @@ Result<Done, InputError> correct(std::span<const std::uint8_t> stream, const Lig
                                  int threads, std::vector<std::uint8_t>& bytes,
                                  std::vector<std::string>* warnings) {
   if (field.num_points() == 0) return Done{};
-  const auto payload = find_corrections(stream);
+  Result<std::span<const std::uint8_t>> payload = std::span<const std::uint8_t>{};
+  if (!field.partial) payload = find_corrections(stream);
   if (!payload) return InputError{payload.error().code, in_words(payload.error())};
-  if (field.partial || !corrects(*payload, field.num_points())) {
+  if (!corrects(*payload, field.num_points())) {
     if (warnings != nullptr)
       warnings->emplace_back(
           "the file is not whole: its bytes are near the exact ones, within a step");

@@ -48,10 +48,11 @@ class FrameReader {
   const std::vector<FrameInfo>& frames() const;
   /// Bytes of memory that frames and what is not yet one take.
   std::uint64_t held_bytes() const;
-  /// Bytes of a frame, until the next call that is not const; empty where they were dropped, or no
-  /// frame was found. Of one that is arriving: units that are whole.
+  /// Bytes of a frame, until the next call that is not const; empty where they were dropped, no
+  /// frame was found, or `frame` is not in frames(). Of one that is arriving: units that are whole.
   std::span<const std::uint8_t> bytes_of(std::size_t frame) const;
-  /// The intra frame that the group of `frame` begins with.
+  /// The intra frame that the group of `frame` begins with; frames().size() of a place that is
+  /// not in frames().
   std::size_t group_of(std::size_t frame) const;
 
   /// A predicted frame costs the decode of those before it, back to its intra frame or to the one

@@ -25,11 +25,13 @@ struct StreamSource {
 /// What stands before the first geometry of a stream that has an index and is as long as that says.
 struct StreamBeginning {
   std::vector<std::uint8_t> bytes;
-  StreamInfo info;  ///< units, bytes of slices and metadata are those of the beginning alone
+  StreamInfo info;  ///< units and bytes of slices are those of the beginning alone; metadata those
+                    ///< of the stream
 };
 
 /// @return nullopt: there is no such beginning, the stream is to be read whole
-/// @errors those of read_info. kUnreadable. kLimitExceeded: longer than limits.max_memory
+/// @errors those of read_info, of the unit of metadata too, wherever it lies. kUnreadable.
+///         kLimitExceeded: longer than limits.max_memory
 /// Thread-safe as far as the source is.
 Result<std::optional<StreamBeginning>> read_beginning(const StreamSource& source,
                                                       const DecodeLimits& limits = {});

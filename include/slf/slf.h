@@ -172,7 +172,8 @@ typedef struct slf_info {
   uint32_t transfer;           /* SLF_TRANSFER_... */
   double gamma_min, gamma_max; /* directions are clamped to these, -1 .. 1 */
   uint32_t complete;           /* 0: cut short, the end is missing */
-  uint32_t metadata_pairs;     /* slf_get_metadata */
+  uint32_t metadata_pairs;     /* slf_get_metadata; of slf_open_reader those before the geometry:
+                                  most files have theirs at the end, and slf_open sees these */
   uint32_t profile;            /* 0 main, 1 Draco geometry, 2 texture */
   uint32_t has_index;          /* parts can be read without the rest */
   uint32_t layers;             /* of the group that has most: what slf_options.layers counts */

@@ -108,6 +108,27 @@ TEST(Spec_8_9_PartDecoder, GivesWhatADecodeOfTheWholeGivesInEveryStream) {
   EXPECT_GT(less, 1000);
 }
 
+TEST(Spec_8_9_PartDecoder, ABeginningHasTheMetadataOfTheStreamsEnd) {
+  int behind = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(streams())) {
+    SCOPED_TRACE(folder.path().filename().string());
+    Counted counted(folder.path());
+    const auto whole = read_info(counted.stream);
+    if (!whole) continue;
+    const auto beginning = read_beginning(counted.source());
+    ASSERT_TRUE(beginning) << to_string(beginning.error());
+    if (!*beginning) continue;
+    EXPECT_EQ((*beginning)->info.metadata, whole->metadata);
+    behind += !whole->metadata.empty();
+    const auto unit = std::find_if(whole->units.begin(), whole->units.end(),
+                                   [](const UnitInfo& u) { return u.type == "metadata"; });
+    if (unit == whole->units.end()) continue;
+    counted.stream[unit->offset + unit->bytes - 1] ^= 1;  // its checksum
+    EXPECT_FALSE(read_beginning(counted.source()));
+  }
+  EXPECT_GT(behind, 0);
+}
+
 TEST(Spec_8_9_PartDecoder, LeavesToDecodeWhatIsNoPart) {
   Counted counted(streams() / "scene-shared");
   const StreamSource source = counted.source();

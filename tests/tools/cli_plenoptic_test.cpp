@@ -41,6 +41,22 @@ TEST_F(PlenopticCli, APlyComesBackExactAsAFileOfTheSameProperties) {
   EXPECT_EQ(read("c.ply"), read("b.ply"));
 }
 
+TEST_F(PlenopticCli, APartOfAFileHasTheColoursThatACutFileHas) {
+  for (const std::string as : {"planes", "viewmaps"}) {
+    ASSERT_EQ(slf("encode a.ply -o a.slf --quiet --as " + as).code, 0);
+    for (const std::string part : {"--levels 5", "--groups 1"}) {
+      ASSERT_EQ(slf("decode a.slf -o part.ply --quiet " + part).code, 0);
+      ASSERT_EQ(slf("truncate a.slf -o cut.slf --quiet " + part).code, 0);
+      ASSERT_EQ(slf("decode cut.slf -o cut.ply --quiet").code, 0);
+      EXPECT_NE(read("part.ply").find("_8"), std::string::npos);
+      EXPECT_EQ(read("part.ply"), read("cut.ply")) << as << " " << part;
+      const auto info = parsed(slf("info cut.slf --json").out);
+      const bool corrected = info["units"].dump().find("type 192") != std::string::npos;
+      EXPECT_FALSE(corrected && info["partial"].get<bool>()) << "corrections are of the whole";
+    }
+  }
+}
+
 TEST_F(PlenopticCli, HeldOutViewsAreJudgedByThemselves) {
   ASSERT_EQ(slf("encode a.ply -o a.slf --hold-out 3,7 --degree 3 -q 8 --quiet").code, 0);
   const auto quality = parsed(slf("eval a.slf a.ply --json").out);
